@@ -1,0 +1,23 @@
+// base/alloc.h - the one allocator; a test ends with dp_bytes_live() == 0.
+#pragma once
+#include <stddef.h>
+
+// Zeroed memory for count * size bytes, 64-byte aligned; NULL when there is none or count is 0.
+void* dp_alloc(size_t count, size_t size);
+
+// Grow or shrink to count * size bytes, keeping what fits; new bytes are zero.
+// NULL when there is no memory: the old block then still stands.
+void* dp_realloc(void* block, size_t count, size_t size);
+
+// Give back what dp_alloc or dp_realloc lent. NULL is fine.
+void dp_free(void* block);
+
+// Bytes lent and not yet given back, over all threads.
+size_t dp_bytes_live(void);
+
+// The most that was ever lent at once since the last dp_bytes_peak_reset().
+size_t dp_bytes_peak(void);
+void   dp_bytes_peak_reset(void);
+
+// For tests: let the next `successes` allocations pass and fail every later one; < 0 = never fail.
+void dp_alloc_fail_after(long successes);

@@ -1,0 +1,119 @@
+// base/types.h - the nouns that travel between rooms.
+//
+//   DpGait -> DpFootContact -> DpFootForce -> DpSoilPatch -> (tiles changed) -> maps
+//
+// The frame, said once: SI units, radians, right-handed, +Z up, gravity (0, 0, -9.81) m/s^2.
+// Recordings are double, grids are float, sums are double. Grids are row-major with +x along a row
+// and +y from row to row; cell (i, j) sits at j * row + i. Forces are those of the foot on the
+// ground. Compression counts downward and is positive.
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define DP_GRAVITY 9.81  // g [m/s^2]
+#define DP_TILE 64       // cells along one side of a terrain tile and of a playback tile
+
+typedef struct DpVec3
+{
+    double x, y, z;
+} DpVec3;
+
+typedef struct DpQuat
+{
+    double w, x, y, z;
+} DpQuat;
+
+// Where a part is: a point of its frame goes to  at + turn * point.
+typedef struct DpPose
+{
+    DpVec3 at;    // [m]
+    DpQuat turn;  // unit quaternion
+} DpPose;
+
+// A triangle mesh in its own frame. Owned by whoever made it.
+typedef struct DpMesh
+{
+    int            vertex_count;
+    int            triangle_count;
+    const float*   vertex;    // [m] (vertex_count, 3)
+    const int32_t* triangle;  // indices into vertex (triangle_count, 3)
+} DpMesh;
+
+// What a contact point is, since toes stay down longer than heels. TRAIL (4).
+typedef enum DpPointRole
+{
+    DP_POINT_HEEL = 0,
+    DP_POINT_BALL = 1,
+    DP_POINT_TIP = 2
+} DpPointRole;
+
+// What the walkers did. W walkers own L limbs, L limbs own P parts, P parts own K contact points.
+// A part is a rigid piece that touches the ground: heel, toe, hoof, paw, wheel, box.
+typedef struct DpGait
+{
+    int times, walkers, limbs, parts, points;  // T, W, L, P, K
+
+    const double*  time;          // strictly increasing                         [s]    (T)
+    const double*  com;           // centre of mass of each walker               [m]    (W, T, 3)
+    const double*  mass;          // > 0                                         [kg]   (W)
+    const double*  pose;          // at (x, y, z), unit quaternion (w, x, y, z)  [m, -] (P, T, 7)
+    const int32_t* limb_walker;   // walker of each limb                         [-]    (L)
+    const int32_t* part_limb;     // limb of each part                           [-]    (P)
+    const DpMesh*  sole;          // what presses the ground, in the part's frame       (P)
+    const double*  point;         // contact points, in the part's frame         [m]    (K, 3)
+    const int32_t* point_part;    // part of each contact point                  [-]    (K)
+    const int32_t* point_role;    // DpPointRole of each contact point           [-]    (K)
+} DpGait;
+
+// One kind of ground. Start from dp_soil_default() and change what you know.
+typedef struct DpSoil
+{
+    float layer_depth;     // L0, loose layer over rigid ground          [m]    > 0
+    float young_modulus;   // E_g, without roots                         [Pa]   > 0
+    float poisson_ratio;   // nu, share pushed sideways, SOFT22 (12)     [-]    0..0.5
+    float settle_time;     // tau, time to yield fully, SOFT22 (11)      [s]    > 0
+    float rest_angle;      // gamma_r, steepest slope that stays         [rad]  0 < .. < pi/2
+    float push_threshold;  // F_threshold, TRAIL (13); 0 = half the walker's weight [N] >= 0
+} DpSoil;
+
+// A dense window of ground, lent by the terrain to the kernels and handed back changed.
+// All grids are (ny, nx) with `row` cells from one row to the next.
+typedef struct DpSoilPatch
+{
+    int    nx, ny, row;
+    double cell;    // side of a cell                                    [m]
+    double x0, y0;  // world position of the centre of cell (0, 0)       [m]
+
+    const float*   rest;           // h0, ground before any walker; NaN = no ground here [m]
+    float*         compression;    // h_c, pressed below h0              [m]  >= 0
+    float*         heap;           // h_a, loose soil piled on top       [m]  >= 0
+    float*         pressure_time;  // sigma_acc, TRAIL (17)              [Pa s] >= 0
+    const float*   modulus;        // E = E_g + E_v, TRAIL (9)           [Pa] > 0
+    const float*   rest_slope;     // tan(gamma_r)                       [-]  > 0
+    const uint8_t* kind;           // index into the table of soils      [-]
+
+    const DpSoil* soils;  // the table of soils
+    int           soil_count;
+} DpSoilPatch;
+
+// A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.
+// Grids have the patch's shape and row. imprint/imprint.h fills it, soil/soil.h reads it.
+typedef struct DpImprint
+{
+    float*   bottom;  // height of the sole's underside, +inf where there is none     [m]
+    float*   cover;   // share of the cell the sole covers                            [-] 0..1
+    int32_t* ring;    // 0 = touched, 1 = border, 2.. outward, DP_RING_FAR beyond     [-]
+
+    int i0, i1, j0, j1;  // columns with cover > 0: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+} DpImprint;
+
+#define DP_RING_FAR 32767
+
+// The force one limb puts on the ground at one time.
+typedef struct DpFootForce
+{
+    DpVec3 force;   // of the foot on the ground: z < 0 presses  [N]
+    DpVec3 point;   // centre of pressure                        [m]
+    DpVec3 normal;  // of the smoothed rest ground, unit         [-]
+} DpFootForce;

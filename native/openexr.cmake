@@ -1,0 +1,1 @@
+add_library(dp_openexr INTERFACE)

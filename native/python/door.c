@@ -1,0 +1,87 @@
+#include "python/door.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char* type_name(char type)
+{
+    return type == 'f' ? "float32" : type == 'd' ? "float64" : type == 'i' ? "int32" : "uint8";
+}
+
+static bool is_type(const Py_buffer* view, char type)
+{
+    const char* format = view->format ? view->format : "B";
+    if (*format == '<' || *format == '=' || *format == '@') ++format;
+    if (strlen(format) != 1) return false;
+    if (type == 'i') return view->itemsize == 4 && (*format == 'i' || *format == 'l');
+    if (type == 'B') return view->itemsize == 1 && (*format == 'B' || *format == '?');
+    return *format == type;
+}
+
+void* dp_door_open(DpDoor* door, PyObject* object, const char* name, char type, DpShape* shape,
+                   bool write)
+{
+    if (door->count == DP_DOOR_MOST) {
+        PyErr_SetString(PyExc_SystemError, "too many arrays in one call");
+        return NULL;
+    }
+    Py_buffer* view = &door->view[door->count];
+    const int  flags = PyBUF_ND | PyBUF_FORMAT | PyBUF_C_CONTIGUOUS | (write ? PyBUF_WRITABLE : 0);
+    if (PyObject_GetBuffer(object, view, flags) < 0) {
+        PyErr_Format(PyExc_TypeError, "%s: expected %s%s array in C order", name,
+                     write ? "a writable " : "a ", type_name(type));
+        return NULL;
+    }
+    ++door->count;
+    if (!is_type(view, type)) {
+        PyErr_Format(PyExc_TypeError, "%s: expected %s, got format '%s'", name, type_name(type),
+                     view->format ? view->format : "B");
+        return NULL;
+    }
+    if (view->ndim != shape->ndim) {
+        PyErr_Format(PyExc_ValueError, "%s: expected %d dimensions, got %d", name, shape->ndim,
+                     view->ndim);
+        return NULL;
+    }
+    for (int d = 0; d < shape->ndim; ++d) {
+        if (shape->n[d] >= 0 && shape->n[d] != view->shape[d]) {
+            PyErr_Format(PyExc_ValueError, "%s: expected %zd along dimension %d, got %zd", name,
+                         shape->n[d], d, view->shape[d]);
+            return NULL;
+        }
+        shape->n[d] = view->shape[d];
+    }
+    return view->buf ? view->buf : (void*)"";
+}
+
+void dp_door_close(DpDoor* door)
+{
+    while (door->count > 0) PyBuffer_Release(&door->view[--door->count]);
+}
+
+int dp_door_finite(const double* value, Py_ssize_t count, const char* name)
+{
+    for (Py_ssize_t k = 0; k < count; ++k) {
+        if (isfinite(value[k])) continue;
+        PyErr_Format(PyExc_ValueError, "%s: element %zd is not a finite number", name, k);
+        return -1;
+    }
+    return 0;
+}
+
+PyObject* dp_door_result(DpStatus status, const char* what)
+{
+    PyObject* kind = PyExc_ValueError;
+    switch (status) {
+        case DP_OK: Py_RETURN_NONE;
+        case DP_NO_MEMORY: kind = PyExc_MemoryError; break;
+        case DP_CANNOT_OPEN:
+        case DP_CANNOT_WRITE:
+        case DP_DISK_FULL: kind = PyExc_OSError; break;
+        case DP_BAD_ARGUMENT:
+        case DP_NO_GROUND:
+        case DP_BAD_FILE: break;
+    }
+    PyErr_Format(kind, "%s: %s", what, dp_status_text(status));
+    return NULL;
+}

@@ -1,0 +1,50 @@
+// python/door.h - buffers and errors at the seam between Python and the core.
+#pragma once
+#define PY_SSIZE_T_CLEAN
+#include <Python.h>
+#include <stdbool.h>
+
+#include "base/status.h"
+
+// Arrays opened from Python objects. Zero it, open into it, close it: everything is released.
+#define DP_DOOR_MOST 64
+typedef struct DpDoor
+{
+    Py_buffer view[DP_DOOR_MOST];
+    int       count;
+} DpDoor;
+
+// What an array must be. Shape entries < 0 match any length and are filled in with what is there.
+typedef struct DpShape
+{
+    int        ndim;
+    Py_ssize_t n[4];
+} DpShape;
+
+#define DP_SHAPE1(a) (&(DpShape){1, {a}})
+#define DP_SHAPE2(a, b) (&(DpShape){2, {a, b}})
+#define DP_SHAPE3(a, b, c) (&(DpShape){3, {a, b, c}})
+
+// Pointer to the array's first element, or NULL with a TypeError or ValueError set that names it.
+// @param type   'f' float32, 'd' float64, 'i' int32, 'B' uint8
+// @param write  the core changes it
+// C order always. Keep `shape` to read the lengths; the macros above are for lengths known before.
+void* dp_door_open(DpDoor* door, PyObject* object, const char* name, char type, DpShape* shape,
+                   bool write);
+void  dp_door_close(DpDoor* door);
+
+// 0 if every double is finite, else -1 with a ValueError naming `name` and the first bad index.
+int dp_door_finite(const double* value, Py_ssize_t count, const char* name);
+
+// Set the Python exception for a status (`what` is a lower-case clause: "writing maps") and return
+// NULL. DP_OK: return None.
+PyObject* dp_door_result(DpStatus status, const char* what);
+
+// Each py_<room>.c has one of these tables; module.c adds them all.
+extern PyMethodDef dp_py_walker_methods[];
+extern PyMethodDef dp_py_imprint_methods[];
+extern PyMethodDef dp_py_soil_methods[];
+extern PyMethodDef dp_py_terrain_methods[];
+extern PyMethodDef dp_py_maps_methods[];
+// py_sim.c: adds the types of the simulation to the module; 0 or -1 with an exception.
+int dp_py_sim_types(PyObject* module);

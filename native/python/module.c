@@ -1,0 +1,26 @@
+// python/module.c - desire_path._native: a table of contents. Everything is in py_<room>.c.
+#include "python/door.h"
+
+static int fill(PyObject* module)
+{
+    PyMethodDef* const tables[] = {dp_py_walker_methods, dp_py_imprint_methods, dp_py_soil_methods,
+                                   dp_py_terrain_methods, dp_py_maps_methods};
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t)
+        if (PyModule_AddFunctions(module, tables[t]) < 0) return -1;
+    return dp_py_sim_types(module);
+}
+
+static PyModuleDef_Slot slots[] = {{Py_mod_exec, (void*)fill}, {0, NULL}};
+
+static PyModuleDef definition = {
+    .m_base = PyModuleDef_HEAD_INIT,
+    .m_name = "desire_path._native",
+    .m_doc = "The core of Desire Path: what a walking body does to the ground.",
+    .m_size = 0,
+    .m_slots = slots,
+};
+
+PyMODINIT_FUNC PyInit__native(void)
+{
+    return PyModuleDef_Init(&definition);
+}

@@ -1,0 +1,59 @@
+// sim/sim.h - one step, in the paper's order; the only place where rooms meet.
+//
+//   contact, force ---> imprint ---> compress ---> accumulate ---> stabilize ---> tiles changed
+//
+// A simulation holds a terrain and one recording at an even rate. Each limb that touches presses
+// its sole; a limb that has let go lets its rim come to rest. Limbs whose patches do not overlap are
+// worked on at once; the result is the same for any number of workers.
+#pragma once
+#include "soil/soil.h"
+#include "terrain/terrain.h"
+#include "walker/walker.h"
+
+typedef struct DpSim DpSim;
+
+typedef struct DpSimOptions
+{
+    DpContactLaw law;            // how a sole presses            design 6.2
+    DpHeapLaw    heap_law;       // how displaced soil is laid    design 6.3
+    double       rim_width;      // `paper` heaps [m] > 0
+    double       tolerance;      // slopes rest within gamma_r + this [rad] > 0
+    int          most_sweeps;    // sweeps of one settling, baking: large [-] > 0
+    double       normal_radius;  // the rest ground is smoothed over this for N and placement [m] > 0
+    int          workers;        // threads, >= 1
+} DpSimOptions;
+
+DpSimOptions dp_sim_options_default(void);
+
+// What has happened since the start.
+typedef struct DpSimReport
+{
+    int    contacts;      // stances begun by any part's limb          [-]
+    int    off_ground;    // limb-steps with load where no ground was  [-]
+    double deepest;       // deepest compression                       [m]
+    double pressed;       // V_c, pressed out of firm ground           [m^3]
+    double pressed_heap;  // V_b, pressed out of loose heaps           [m^3]
+    double displaced;     // 2 nu (V_c + V_b), what the ledger laid down [m^3]
+    double heaped;        // sum of heap * cell^2                      [m^3]
+} DpSimReport;
+
+// The simulation borrows terrain (must outlive it) and copies the rest.
+DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
+void     dp_sim_destroy(DpSim* sim);
+
+// Take a recording, evenly sampled, with what its parts touch and press (walker/walker.h). Copied.
+// Pressed prints stay: recordings may follow each other on the same ground.
+DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
+                     const double* pressure_point);
+
+// Cells the loaded recording can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
+// empty (i0 >= i1) when nothing touches.
+void dp_sim_reach(const DpSim* sim, long reach[4]);
+
+// Step over samples up to but not including `sample` (0..T). Steps already taken are not repeated.
+DpStatus dp_sim_run(DpSim* sim, int sample);
+
+// Let everything that is still loose come to rest.
+DpStatus dp_sim_settle(DpSim* sim);
+
+DpSimReport dp_sim_report(const DpSim* sim);

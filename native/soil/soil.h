@@ -1,0 +1,94 @@
+// soil/soil.h - loose ground that is pressed, pushed aside, and comes to rest.
+//
+//   compress ---volume---> accumulate ---heaps---> stabilize
+//   TRAIL (9)(10)          TRAIL (11)-(13)         TRAIL (14)-(16)
+//   SOFT22 (9)-(11)        SOFT22 (12)-(14)
+//
+// Nothing here owns or remembers: a patch goes in and comes back changed. Scratch memory is the
+// caller's DpSoilScratch.
+#pragma once
+#include "base/status.h"
+#include "base/types.h"
+
+// Firm enough for a walk on a beach; DpSoil in base/types.h has the meaning and range of each.
+DpSoil dp_soil_default(void);
+
+// DP_OK if every number of the soil is in its range.
+DpStatus dp_soil_check(const DpSoil* soil);
+
+// Scratch memory of one thread; it grows and is kept.
+typedef struct DpSoilScratch DpSoilScratch;
+DpSoilScratch*               dp_soil_scratch_create(void);
+void                         dp_soil_scratch_destroy(DpSoilScratch* scratch);
+
+// ---- TRAIL (9) (10): pressed down -------------------------------------------------------------
+
+typedef enum DpContactLaw
+{
+    DP_CONTACT_SOLE = 0,    // a rigid sole on springs, one sink for the limb (ours; design 6.2)
+    DP_CONTACT_UNIFORM = 1  // one stress for all touched cells, as in the papers
+} DpContactLaw;
+
+// What one step of pressing did.
+typedef struct DpPressed
+{
+    double firm;       // V_c, volume pressed out of firm ground                [m^3] >= 0
+    double loose;      // V_b, volume pressed out of loose heaps                [m^3] >= 0
+    double displaced;  // 2 nu (V_c + V_b), to be laid down around, SOFT22 (12) [m^3] >= 0
+    double area;       // A_contact, TRAIL (10)                                 [m^2] >= 0
+    double sink;       // s: how far the sole was lowered (> 0) from imprint->bottom [m]
+    double deepest;    // largest compression of a touched cell                 [m]   >= 0
+} DpPressed;
+
+// Press the sole into the patch for dt seconds with the force's part along -normal.
+// Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap
+// and pressure_time of touched cells only. Loose heap is used up before firm ground yields.
+// With no load, or no ground under the sole: nothing touched, all zero, DP_OK.
+DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
+                          DpContactLaw law, double dt, DpPressed* pressed);
+
+// ---- TRAIL (11)-(13): pushed aside ------------------------------------------------------------
+
+// How one-sided the heap is, TRAIL (13): 0 = even all round, 1 = only along the push.
+// @param push       tangential part of the foot's force  [N]
+// @param threshold  F_threshold                           [N] > 0
+double dp_soil_anisotropy(DpVec3 push, double threshold);
+
+typedef enum DpHeapLaw
+{
+    DP_HEAP_REST = 0,  // laid at once in its resting shape (ours; design 6.3)
+    DP_HEAP_PAPER = 1  // laid on a rim of fixed width, to be relaxed, TRAIL (12)
+} DpHeapLaw;
+
+typedef struct DpHeapOptions
+{
+    DpHeapLaw law;
+    double    rim_width;  // `paper`: reach of the rim, at least one cell [m] > 0
+    double    threshold;  // F_threshold, TRAIL (13)                      [N] > 0
+} DpHeapOptions;
+
+// Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,
+// at least 1). Adds to patch->heap only, never on touched cells; the heaps' sum grows by
+// volume / cell^2 up to rounding. `height` is T of the rest law, kept by the caller from step to
+// step of one stance as the first guess; 0 at touch-down.
+// Without a border cell: DP_NO_GROUND, patch untouched.
+DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const DpFootForce* foot,
+                            double volume, const DpHeapOptions* options, double* height,
+                            DpSoilScratch* scratch);
+
+// ---- TRAIL (14)-(16): comes to rest -----------------------------------------------------------
+
+typedef struct DpSettled
+{
+    int  sweeps;                // sweeps made                                            [-]
+    bool at_rest;               // no loose slope exceeds the rest angle by more than the tolerance
+    bool at_edge;               // loose soil wants to leave the patch: lend a larger one
+    int  i0, i1, j0, j1;        // cells that changed: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+} DpSettled;
+
+// Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or `most` sweeps.
+// Nothing slides onto or off the cells with ring == 0 of `imprint` (a sole stands there);
+// imprint may be NULL. Volume is conserved and the order of cells does not matter.
+// Only cells of the rectangle `within` {i0, i1, j0, j1} are looked at first; NULL = the whole patch.
+DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
+                           double tolerance, int most, DpSoilScratch* scratch, DpSettled* settled);

@@ -1,0 +1,116 @@
+// terrain/terrain.h - ground without end: sparse tiles inside, dense patches lent out.
+//
+//   ground (flat | heights | mesh) ---first touch---> tile of DP_TILE x DP_TILE cells
+//   tiles ---lend---> DpSoilPatch ---kernels---> give back ---> tiles changed
+//
+// Cell (i, j) of the world has its centre at (origin_x + (i + 0.5) cell, origin_y + (j + 0.5) cell)
+// and may be negative; tile (tx, ty) holds cells tx * DP_TILE .. + DP_TILE - 1. A tile nobody
+// touched takes no memory. Asking for a height allocates nothing.
+#pragma once
+#include "base/status.h"
+#include "base/types.h"
+
+typedef struct DpTerrain DpTerrain;
+
+// Where the rest ground is. Arrays are copied.
+typedef enum DpGroundKind
+{
+    DP_GROUND_FLAT = 0,
+    DP_GROUND_HEIGHTS = 1,  // a regular grid of heights, bilinear between samples
+    DP_GROUND_MESH = 2      // triangles; the upper envelope counts
+} DpGroundKind;
+
+typedef struct DpGround
+{
+    DpGroundKind kind;
+    double       height;  // flat: its height [m]
+
+    int          nx, ny;            // heights: samples
+    double       x0, y0, spacing;   // heights: position of sample (0, 0), step        [m]
+    const float* heights;           // heights: NaN = no ground                        [m] (ny, nx)
+
+    int            vertex_count;    // mesh
+    int            triangle_count;
+    const double*  vertex;          // mesh, world frame                               [m] (n, 3)
+    const int32_t* triangle;        // mesh                                            (m, 3)
+
+    int          kind_count;   // soils the ground is painted with, 0 = all of it is soil 0
+    const float* kind_weight;  // weight of each soil per mesh vertex or height sample
+                               //   [-] >= 0 (kind_count, n); the heaviest wins, the first of equals
+} DpGround;
+
+typedef struct DpTerrainOptions
+{
+    double        cell;                // side of a cell [m] > 0
+    double        origin_x, origin_y;  // corner of cell (0, 0) [m]
+    const DpSoil* soils;               // copied; kinds index it
+    int           soil_count;          // 1..255
+    int           workers;             // threads for filling tiles, >= 1
+} DpTerrainOptions;
+
+DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
+                           const DpGround* ground);
+void     dp_terrain_destroy(DpTerrain* terrain);
+
+double dp_terrain_cell(const DpTerrain* terrain);
+int    dp_terrain_soil_count(const DpTerrain* terrain);
+const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
+// World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
+void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4]);
+
+// Height of the rest ground at `count` points xy (count, 2) [m]; NaN where there is none.
+void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, double* height);
+
+// Normal of the plane that fits the rest ground best in a disc of `radius` [m] about (x, y);
+// +Z where there is no ground.
+DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius);
+
+// Allocate the tiles of a rectangle of cells (i0 <= i < i1, j0 <= j < j1), in parallel, before
+// many lends. Tiles that are there stay as they are.
+DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1);
+
+// A window on the terrain, with its own memory; make one per thread and reuse it.
+typedef struct DpLoan DpLoan;
+DpLoan*               dp_loan_create(void);
+void                  dp_loan_destroy(DpLoan* loan);
+
+// Copy cells i0 <= i < i1, j0 <= j < j1 into the loan and allocate tiles that are missing.
+// The patch is valid until the next lend of this loan. Loans that do not overlap may be out at once
+// if their tiles were touched before (dp_terrain_touch) -- this is what sim does.
+DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, long j0, long j1,
+                         DpSoilPatch** patch);
+
+// Copy compression, heap and pressure_time of patch cells di0 <= i < di1, dj0 <= j < dj1 (patch
+// indices) back into the tiles and mark those tiles changed.
+void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1);
+
+// ---- reading ---------------------------------------------------------------------------------
+
+typedef enum DpField
+{
+    DP_FIELD_COMPRESSION = 0,    // [m]
+    DP_FIELD_HEAP = 1,           // [m]
+    DP_FIELD_PRESSURE_TIME = 2,  // [Pa s]
+    DP_FIELD_REST = 3,           // [m], NaN = no ground
+    DP_FIELD_MODULUS = 4,        // E_g of the cell's soil [Pa]
+    DP_FIELD_KIND = 5,           // soil index
+    DP_FIELD_PLANT_STRENGTH = 6  // alpha_veg, TRAIL (7) [-]; 0 without plants
+} DpField;
+
+// Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
+// (rest, modulus and kind are computed from the ground).
+DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
+                         float* out);
+
+// Tiles changed since the last call: calls visit(context, tx, ty) in ascending (ty, tx) order and
+// clears the marks.
+typedef void (*DpTileVisit)(void* context, long tx, long ty);
+void         dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
+
+// Playback pixels of one tile: R height change (heap - compression), G plant strength,
+// B compression, A pressure_time; rgba (DP_TILE, DP_TILE, 4), row 0 = lowest y. Zero if untouched.
+void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba);
+
+// Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
+void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest);
+size_t dp_terrain_tile_count(const DpTerrain* terrain);

@@ -1,0 +1,78 @@
+// walker/walker.h - from what a walker did to the forces its limbs put on the ground.
+//
+//   gait_resample ---Gait at one rate---> foot_contact ---touching---> foot_force
+//   design 3                              TRAIL (4)                    TRAIL (3), SOFT22 (3)-(8)
+//
+// These are whole-clip functions: forces are filtered without phase, so they need what comes after.
+// They know no terrain; the height of the ground below each contact point is given.
+#pragma once
+#include "base/status.h"
+#include "base/types.h"
+
+// ---- design 3: a recording at another rate ---------------------------------------------------
+
+// How many samples a recording from first to last [s] has at `rate` [1/s]: every k / rate that fits.
+int dp_gait_resample_count(double first, double last, double rate);
+
+// Fill com (W, count, 3) and pose (P, count, 7) at times first + k / rate (written to time (count)):
+// cubic in time for positions, slerp for rotations. One sample in: copied to all. Needs memory for
+// nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
+DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* time, double* com,
+                          double* pose);
+
+// ---- TRAIL (4): which part touches when ---------------------------------------------------------
+
+// When a contact point touches and lets go. Start from dp_contact_limits_default().
+typedef struct DpContactLimits
+{
+    double touch_height;        // d below which it may touch                          [m]   > 0
+    double release_height;      // d above which a heel lets go                        [m]   > 0
+    double release_height_toe;  // d above which a ball or tip lets go                 [m]   > 0
+    double touch_speed;         // |v| below which it may touch: this + share * |v_com| [m/s] > 0
+    double touch_speed_share;   //                                                     [-]   >= 0
+    double release_speed;       // |v| above which it lets go                          [m/s] > 0
+    double slow_speed;          // calibration looks at samples slower than this       [m/s] > 0
+    double shortest;            // ticks and gaps below this are closed                [s]   >= 0
+    double point_cutoff;        // low-pass of a point's speed                         [Hz]  > 0
+    double com_cutoff;          // low-pass of the centre's speed                      [Hz]  > 0
+} DpContactLimits;
+
+DpContactLimits dp_contact_limits_default(void);
+
+// Which part touches the ground at which time. TRAIL (4), with the clip's own resting clearance.
+// @param gait       evenly sampled (see dp_gait_resample)
+// @param ground     height of the rest ground below each contact point [m] (K, T); NaN = no ground
+// @param touching   out, 1 where the part touches                      [-] (P, T)
+// @param clearance  out, resting height of each point over the ground  [m] (K)
+DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpContactLimits* limits,
+                         uint8_t* touching, double* clearance);
+
+// ---- TRAIL (3): how hard ------------------------------------------------------------------------
+
+typedef enum DpLoadModel
+{
+    DP_LOAD_INERTIA = 0,  // Newton on the recorded centre of mass (ours; design 4.3)
+    DP_LOAD_IMPULSE = 1   // weight shares and a landing impulse over tau, as in the papers
+} DpLoadModel;
+
+typedef struct DpLoadOptions
+{
+    DpLoadModel model;
+    double      settle_time;  // tau of `impulse`, TRAIL (3)                     [s] > 0
+    bool        half_sine;    // `impulse`: spread J as a half-sine, else evenly [-]
+} DpLoadOptions;
+
+DpLoadOptions dp_load_options_default(void);
+
+// Force of every part on the ground and its centre of pressure. TRAIL (3), SOFT22 (3)-(8).
+// @param touching  from dp_foot_contact                         [-] (P, T)
+// @param ground    as for dp_foot_contact                       [m] (K, T)
+// @param force     out, of the part on the ground; 0 in the air [N] (P, T, 3)
+// @param pressure_point  out, on the ground; NaN in the air     [m] (P, T, 3)
+DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double* ground,
+                       const DpLoadOptions* options, double* force, double* pressure_point);
+
+// SOFT22 (5): share of the weight on the right foot, from the centre of mass projected on the line
+// between the feet, 0..1; feet on one spot share evenly.
+// Departures: as printed it is a cosine and always 1; the denominator is |p_R - p_L|^2.
+double dp_foot_share(DpVec3 com, DpVec3 left, DpVec3 right);
