@@ -1,1 +1,111 @@
+# OpenEXRCore, the C library of OpenEXR, as part of our own binary: static, hidden, pure C.
+# Offers the target dp_openexr.
+#
+# The sources are those of the Python package `openexr` (its source archive holds the whole tree),
+# fetched once into a cache folder and checked. From the system come half.h of Imath and
+# libdeflate.a: on Debian `apt-get install libimath-dev libdeflate-dev`.
+#   -DDP_OPENEXR_ARCHIVE=/path/openexr-3.3.14.tar.gz   an archive that is already here
+#   -DDP_CACHE=/path                                   where fetched archives are kept
+set(DP_OPENEXR_VERSION 3.3.14)
+set(DP_OPENEXR_SHA256 de0c6a441fca71c869b3f00b55d1a33f5cf93ee49cb2a77fa0006dc06934f50a)
+set(DP_OPENEXR_ARCHIVE "" CACHE FILEPATH "openexr-${DP_OPENEXR_VERSION}.tar.gz, if it is here already")
+
+if(DEFINED ENV{XDG_CACHE_HOME})
+  set(dp_cache_default "$ENV{XDG_CACHE_HOME}/desire_path")
+elseif(DEFINED ENV{HOME})
+  set(dp_cache_default "$ENV{HOME}/.cache/desire_path")
+else()
+  set(dp_cache_default "${CMAKE_BINARY_DIR}/cache")
+endif()
+set(DP_CACHE "${dp_cache_default}" CACHE PATH "Where fetched archives are kept")
+
+# Put the checked archive's path into `result`, fetching it when it is not here. One configure run at
+# a time does so; it appears under its name only when whole.
+function(dp_fetch_openexr result)
+  set(name openexr-${DP_OPENEXR_VERSION}.tar.gz)
+  if(DP_OPENEXR_ARCHIVE)
+    set(archive ${DP_OPENEXR_ARCHIVE})
+  else()
+    set(archive ${DP_CACHE}/${name})
+    file(MAKE_DIRECTORY ${DP_CACHE})
+    file(LOCK ${DP_CACHE}/openexr.lock GUARD FUNCTION TIMEOUT 600)
+    if(NOT EXISTS ${archive})
+      find_package(Python3 COMPONENTS Interpreter QUIET)
+      set(part ${DP_CACHE}/openexr.part)
+      message(STATUS "Fetching OpenEXR ${DP_OPENEXR_VERSION} into ${DP_CACHE}")
+      set(fetched 1)
+      foreach(pip "${Python3_EXECUTABLE};-m;pip" "python3;-m;pip" "pip3" "pip")
+        if(NOT fetched EQUAL 0)
+          file(REMOVE_RECURSE ${part})
+          execute_process(
+            COMMAND ${pip} download --quiet --disable-pip-version-check --no-deps
+                    --no-binary openexr --dest ${part} openexr==${DP_OPENEXR_VERSION}
+            RESULT_VARIABLE fetched OUTPUT_VARIABLE words ERROR_VARIABLE words)
+        endif()
+      endforeach()
+      if(NOT fetched EQUAL 0 OR NOT EXISTS ${part}/${name})
+        message(FATAL_ERROR "OpenEXR could not be fetched with pip. Give the archive by "
+                            "-DDP_OPENEXR_ARCHIVE=.../${name}.\n${words}")
+      endif()
+      file(RENAME ${part}/${name} ${archive})
+      file(REMOVE_RECURSE ${part})
+    endif()
+  endif()
+  file(SHA256 ${archive} seen)
+  if(NOT seen STREQUAL DP_OPENEXR_SHA256)
+    message(FATAL_ERROR "${archive} is not the archive that was expected: delete it and try again")
+  endif()
+  set(${result} ${archive} PARENT_SCOPE)
+endfunction()
+
+set(dp_openexr_tree ${CMAKE_BINARY_DIR}/openexr-${DP_OPENEXR_VERSION})
+if(NOT EXISTS ${dp_openexr_tree}/whole)
+  dp_fetch_openexr(dp_openexr_archive)
+  file(ARCHIVE_EXTRACT INPUT ${dp_openexr_archive} DESTINATION ${CMAKE_BINARY_DIR}
+       PATTERNS "*/src/lib/OpenEXRCore/*" "*/cmake/*.in" "*/LICENSE.md")
+  file(TOUCH ${dp_openexr_tree}/whole)
+endif()
+
+find_path(DP_HALF_DIR half.h PATH_SUFFIXES Imath)
+find_path(DP_DEFLATE_DIR libdeflate.h)
+find_library(DP_DEFLATE_LIBRARY NAMES libdeflate.a)
+if(NOT DP_HALF_DIR OR NOT DP_DEFLATE_DIR OR NOT DP_DEFLATE_LIBRARY)
+  message(FATAL_ERROR "half.h, libdeflate.h or libdeflate.a is missing. "
+                      "On Debian: apt-get install libimath-dev libdeflate-dev")
+endif()
+
+# the headers that OpenEXR's own configuration would write, as it would on Linux
+string(REPLACE "." ";" dp_openexr_numbers ${DP_OPENEXR_VERSION})
+list(GET dp_openexr_numbers 0 OPENEXR_VERSION_MAJOR)
+list(GET dp_openexr_numbers 1 OPENEXR_VERSION_MINOR)
+list(GET dp_openexr_numbers 2 OPENEXR_VERSION_PATCH)
+set(OPENEXR_VERSION ${DP_OPENEXR_VERSION})
+set(OPENEXR_PACKAGE_NAME "OpenEXR ${DP_OPENEXR_VERSION}")
+set(OPENEXR_NAMESPACE_CUSTOM 0)
+set(OPENEXR_IMF_NAMESPACE Imf)
+set(OPENEXR_INTERNAL_IMF_NAMESPACE Imf_desire_path)
+set(OPENEXR_HAVE_LARGE_STACK ON)
+set(OPENEXR_IMF_HAVE_LINUX_PROCFS ON)
+set(OPENEXR_IMF_HAVE_SYSCONF_NPROCESSORS_ONLN ON)
+set(ILMTHREAD_THREADING_ENABLED ON)
+set(ILMTHREAD_HAVE_POSIX_SEMAPHORES ON)
+set(ILMTHREAD_NAMESPACE_CUSTOM 0)
+set(ILMTHREAD_NAMESPACE IlmThread)
+set(ILMTHREAD_INTERNAL_NAMESPACE IlmThread_desire_path)
+foreach(header OpenEXRConfig OpenEXRConfigInternal IlmThreadConfig)
+  configure_file(${dp_openexr_tree}/cmake/${header}.h.in ${CMAKE_BINARY_DIR}/openexr/${header}.h)
+endforeach()
+
+file(GLOB dp_openexr_sources ${dp_openexr_tree}/src/lib/OpenEXRCore/*.c)
+add_library(OpenEXRCore STATIC EXCLUDE_FROM_ALL ${dp_openexr_sources})
+target_include_directories(OpenEXRCore SYSTEM PRIVATE ${DP_DEFLATE_DIR})
+target_include_directories(OpenEXRCore SYSTEM PUBLIC
+  ${dp_openexr_tree}/src/lib/OpenEXRCore ${CMAKE_BINARY_DIR}/openexr ${DP_HALF_DIR})
+target_compile_options(OpenEXRCore PRIVATE -w)
+set_target_properties(OpenEXRCore PROPERTIES C_EXTENSIONS ON)
+if(DP_SANITIZE)  # damaged files must not get past its borders either
+  target_compile_options(OpenEXRCore PRIVATE -fsanitize=address -g -O1)
+endif()
+
 add_library(dp_openexr INTERFACE)
+target_link_libraries(dp_openexr INTERFACE OpenEXRCore ${DP_DEFLATE_LIBRARY} Threads::Threads m)
