@@ -53,6 +53,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
 void     dp_terrain_destroy(DpTerrain* terrain);
 
 double dp_terrain_cell(const DpTerrain* terrain);
+void   dp_terrain_origin(const DpTerrain* terrain, double origin[2]);
 int    dp_terrain_soil_count(const DpTerrain* terrain);
 const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.

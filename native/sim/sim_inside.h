@@ -1,0 +1,105 @@
+// sim/sim_inside.h - what a simulation keeps between steps; for the files of this room only.
+#pragma once
+#include "imprint/imprint.h"
+#include "sim/sim.h"
+
+// A rectangle of cells: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1.
+typedef struct Cells
+{
+    long i0, i1, j0, j1;
+} Cells;
+
+// One limb and the stance it is in.
+typedef struct Limb
+{
+    int    walker;
+    int    part_count;
+    int*   part;          // its parts, in the order of the recording (part_count)
+    bool   stands;        // in a stance
+    double heap_height;   // T of the rest heap, from step to step of a stance          [m]
+    double unlaid;        // displaced volume that found no border cell yet             [m^3]
+    Cells  trodden;       // cells its patches covered during this stance
+
+    // this step's work and what came of it
+    Cells  patch;         // cells this step's patch covers
+    bool   active;        // presses or settles in this step
+    bool   lifts;         // has let go: its rim comes to rest
+    bool   spills;        // loose soil wants to leave the patch: settle again in a larger one
+    double firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
+    bool   off_ground;    // pressed where there is no ground
+} Limb;
+
+// What one thread needs for itself.
+typedef struct Bench
+{
+    DpLoan*           loan;
+    DpImprintScratch* imprint_scratch;
+    DpSoilScratch*    soil_scratch;
+    DpImprint         imprint;
+    size_t            imprint_cells;  // room in the imprint's grids
+    DpMesh*           sole;           // of the limb at hand (most parts of a limb)
+    DpPose*           pose;
+    DpStatus          status;
+} Bench;
+
+struct DpSim
+{
+    DpTerrain*   terrain;
+    DpSimOptions options;
+    double       cell, origin_x, origin_y;  // of the terrain                            [m]
+    int          samples;  // imprint samples a side
+
+    DpGait   gait;  // copies of all arrays, below
+    double*  time;
+    double*  pose;
+    double*  mass;
+    DpMesh*  sole;
+    float*   sole_vertex;
+    int32_t* sole_triangle;
+    uint8_t* touching;
+    double*  force;
+    double*  pressure_point;
+    int*     part_of_limb;
+
+    Limb* limb;
+    int   next;  // first interval not yet stepped: from sample `next` to `next + 1`
+
+    Bench* bench;  // one per worker (options.workers)
+    int    bench_count;
+    int*   group;  // limbs in groups that touch each other: group k holds order[start[k]..]
+    int*   order;
+    int*   start;
+
+    DpSimReport report;
+};
+
+static inline bool dp_cells_empty(Cells cells)
+{
+    return cells.i0 >= cells.i1 || cells.j0 >= cells.j1;
+}
+
+// the smallest rectangle that holds both
+static inline Cells dp_cells_join(Cells a, Cells b)
+{
+    if (dp_cells_empty(a)) return b;
+    if (dp_cells_empty(b)) return a;
+    const Cells both = {a.i0 < b.i0 ? a.i0 : b.i0, a.i1 > b.i1 ? a.i1 : b.i1,
+                        a.j0 < b.j0 ? a.j0 : b.j0, a.j1 > b.j1 ? a.j1 : b.j1};
+    return both;
+}
+
+static inline bool dp_cells_meet(Cells a, Cells b)
+{
+    return a.i0 < b.i1 && b.i0 < a.i1 && a.j0 < b.j1 && b.j0 < a.j1;
+}
+
+// sim_limb.c: where a limb is and what it does at fraction `w` between samples k and k + 1
+bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
+DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
+DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
+Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
+int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
+
+// sim_press.c: one limb's step, and its settling
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench);
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench);

@@ -1,0 +1,102 @@
+// sim/sim_limb.c - where a limb is between two samples, and how hard it presses.
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define MOST_SUBSTEPS 64
+#define PROBED 96        // vertices of a sole looked at to tell how fast it slides
+#define LOADED_BAND 0.02 // [m] above the lowest of them: may be loaded
+
+bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
+{
+    for (int p = 0; p < limb->part_count; ++p)
+        if (sim->touching[(size_t)limb->part[p] * (size_t)sim->gait.times + (size_t)sample])
+            return true;
+    return false;
+}
+
+static DpPose pose_at(const DpSim* sim, int part, int sample)
+{
+    const double* p =
+        sim->pose + 7 * ((size_t)part * (size_t)sim->gait.times + (size_t)sample);
+    const DpPose pose = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+    return pose;
+}
+
+DpPose dp_limb_pose(const DpSim* sim, int part, int sample, double w)
+{
+    const DpPose a = pose_at(sim, part, sample);
+    if (w <= 0.0 || sample + 1 >= sim->gait.times) return a;
+    const DpPose b = pose_at(sim, part, sample + 1);
+    const DpPose pose = {dp_add(dp_scale(a.at, 1.0 - w), dp_scale(b.at, w)),
+                         dp_slerp(a.turn, b.turn, w)};
+    return pose;
+}
+
+// The parts of one limb are one sole: their forces add, their centres of pressure are weighed.
+DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w)
+{
+    const size_t times = (size_t)sim->gait.times;
+    DpFootForce  foot = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    double       weight = 0.0;
+    for (int p = 0; p < limb->part_count; ++p) {
+        for (int end = 0; end < 2; ++end) {
+            const int    at = sample + end < sim->gait.times ? sample + end : sample;
+            const double share = end ? w : 1.0 - w;
+            const size_t k = 3 * ((size_t)limb->part[p] * times + (size_t)at);
+            const double* f = sim->force + k;
+            const double* c = sim->pressure_point + k;
+            const double  load = share * fmax(0.0, -f[2]);
+            foot.force = dp_add(foot.force, dp_scale(dp_vec3(f[0], f[1], f[2]), share));
+            if (load <= 0.0 || !isfinite(c[0] + c[1] + c[2])) continue;
+            foot.point = dp_add(foot.point, dp_scale(dp_vec3(c[0], c[1], c[2]), load));
+            weight += load;
+        }
+    }
+    if (weight > 0.0) foot.point = dp_scale(foot.point, 1.0 / weight);
+    return foot;
+}
+
+// Cells under the limb's soles at sample and sample + 1, with `margin` [m] around.
+Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin)
+{
+    const double cell = sim->cell, ox = sim->origin_x, oy = sim->origin_y;
+    Cells        cells = {0, 0, 0, 0};
+    for (int p = 0; p < limb->part_count; ++p) {
+        for (int end = 0; end < 2; ++end) {
+            const DpBox box = dp_imprint_box(&sim->sole[limb->part[p]],
+                                             dp_limb_pose(sim, limb->part[p], sample, end));
+            const Cells under = {(long)floor((box.x0 - margin - ox) / cell),
+                                 (long)ceil((box.x1 + margin - ox) / cell),
+                                 (long)floor((box.y0 - margin - oy) / cell),
+                                 (long)ceil((box.y1 + margin - oy) / cell)};
+            cells = dp_cells_join(cells, under);
+        }
+    }
+    return cells;
+}
+
+// So many sub-steps that no column which may be loaded moves by more than half a cell in one.
+int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
+{
+    double lowest = INFINITY, farthest = 0.0;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int p = 0; p < limb->part_count; ++p) {
+            const DpMesh* sole = &sim->sole[limb->part[p]];
+            const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
+            const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
+            const int     stride = sole->vertex_count / PROBED + 1;
+            for (int v = 0; v < sole->vertex_count; v += stride) {
+                const float* at = sole->vertex + 3 * v;
+                const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
+                const DpVec3 from = dp_place(a, point);
+                if (pass == 0) lowest = fmin(lowest, from.z);
+                else if (from.z < lowest + LOADED_BAND) {
+                    const DpVec3 way = dp_sub(dp_place(b, point), from);
+                    farthest = fmax(farthest, hypot(way.x, way.y));
+                }
+            }
+        }
+    }
+    const double steps = ceil(farthest / (0.5 * sim->cell));
+    return (int)dp_clamp(steps, 1.0, MOST_SUBSTEPS);
+}

@@ -1,0 +1,133 @@
+// sim/sim_press.c - one limb's step in the paper's order: imprint, compress, accumulate, stabilize.
+#include "base/alloc.h"
+#include "base/assert.h"
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define BORDER_RINGS 1
+#define SETTLE_MARGIN 8  // cells around trodden ground when loose soil comes to rest
+#define SETTLE_GROWTH 32 // cells more on each side when it wants to go further
+
+// Room for the imprint of a patch in the bench's grids.
+static DpStatus fit_imprint(Bench* bench, const DpSoilPatch* patch)
+{
+    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
+    if (cells > bench->imprint_cells) {
+        dp_free(bench->imprint.bottom);
+        dp_free(bench->imprint.cover);
+        dp_free(bench->imprint.ring);
+        bench->imprint.bottom = dp_alloc(cells, sizeof(float));
+        bench->imprint.cover = dp_alloc(cells, sizeof(float));
+        bench->imprint.ring = dp_alloc(cells, sizeof(int32_t));
+        bench->imprint_cells = cells;
+        if (!bench->imprint.bottom || !bench->imprint.cover || !bench->imprint.ring) {
+            bench->imprint_cells = 0;
+            return DP_NO_MEMORY;
+        }
+    }
+    return DP_OK;
+}
+
+// The soil under a point of the patch; the first soil where the point lies outside.
+static const DpSoil* soil_under(const DpSoilPatch* patch, DpVec3 point)
+{
+    const long i = lround((point.x - patch->x0) / patch->cell);
+    const long j = lround((point.y - patch->y0) / patch->cell);
+    const bool inside = i >= 0 && i < patch->nx && j >= 0 && j < patch->ny;
+    return &patch->soils[inside ? patch->kind[j * patch->row + i] : 0];
+}
+
+// One sub-step: the sole as it stands at fraction w of the interval presses for dt.
+static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, int sample, double w,
+                      double dt)
+{
+    DpFootForce foot = dp_limb_force(sim, limb, sample, w);
+    if (foot.force.z >= 0.0) return DP_OK;
+    foot.normal =
+        dp_terrain_normal(sim->terrain, foot.point.x, foot.point.y, sim->options.normal_radius);
+
+    for (int p = 0; p < limb->part_count; ++p) {
+        bench->sole[p] = sim->sole[limb->part[p]];
+        bench->pose[p] = dp_limb_pose(sim, limb->part[p], sample, w);
+    }
+    DpStatus status = dp_imprint_foot(&bench->imprint, patch, bench->sole, bench->pose,
+                                      limb->part_count, sim->samples, bench->imprint_scratch);
+    if (status != DP_OK) return status;
+
+    DpPressed pressed;
+    status = dp_soil_compress(patch, &bench->imprint, &foot, sim->options.law, dt, &pressed);
+    if (status != DP_OK) return status;
+    if (pressed.area <= 0.0) {
+        limb->off_ground = true;
+        return DP_OK;
+    }
+    limb->firm += pressed.firm;
+    limb->loose += pressed.loose;
+    limb->deepest = fmax(limb->deepest, pressed.deepest);
+
+    const double volume = pressed.displaced + limb->unlaid;
+    if (volume <= 0.0) return DP_OK;
+    const DpSoil* soil = soil_under(patch, foot.point);
+    const double  half_weight = 0.5 * sim->mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
+    const DpHeapOptions heap = {sim->options.heap_law, sim->options.rim_width,
+                                soil->push_threshold > 0.0f ? (double)soil->push_threshold
+                                                            : half_weight};
+    dp_imprint_rings(&bench->imprint, patch, BORDER_RINGS);
+    status = dp_soil_accumulate(patch, &bench->imprint, &foot, volume, &heap, &limb->heap_height,
+                                bench->soil_scratch);
+    const bool laid = status == DP_OK;
+    limb->unlaid = laid ? 0.0 : volume;  // no border cell in reach: it waits for one
+    if (laid) limb->laid += volume;
+    return status == DP_NO_GROUND ? DP_OK : status;
+}
+
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
+{
+    DpSoilPatch* patch = NULL;
+    const Cells  at = limb->patch;
+    DpStatus status = dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+    if (status == DP_OK) status = fit_imprint(bench, patch);
+    if (status != DP_OK) return status;
+
+    const int    substeps = dp_limb_substeps(sim, limb, sample);
+    const double dt = (sim->time[sample + 1] - sim->time[sample]) / substeps;
+    bench->imprint.i0 = bench->imprint.i1 = 0;
+    for (int u = 0; u < substeps && status == DP_OK; ++u)
+        status = press(sim, limb, patch, bench, sample, (u + 0.5) / substeps, dt);
+    if (status != DP_OK) return status;
+
+    DpSettled  settled;
+    const bool stands_here = bench->imprint.i0 < bench->imprint.i1;
+    status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
+                               sim->options.tolerance, sim->options.most_sweeps,
+                               bench->soil_scratch, &settled);
+    if (status != DP_OK) return status;
+    dp_terrain_give_back(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
+    limb->spills = settled.at_edge;
+    limb->trodden = dp_cells_join(limb->trodden, at);
+    return DP_OK;
+}
+
+// Let the rim slide that the sole held, in ever larger patches until nothing wants to leave.
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench)
+{
+    Cells at = limb->trodden;
+    if (dp_cells_empty(at)) return DP_OK;
+    at = (Cells){at.i0 - SETTLE_MARGIN, at.i1 + SETTLE_MARGIN, at.j0 - SETTLE_MARGIN,
+                 at.j1 + SETTLE_MARGIN};
+    for (;;) {
+        DpSoilPatch* patch = NULL;
+        DpStatus     status =
+            dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+        if (status != DP_OK) return status;
+        DpSettled settled;
+        status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance,
+                                   sim->options.most_sweeps, bench->soil_scratch, &settled);
+        if (status != DP_OK) return status;
+        dp_terrain_give_back(sim->terrain, bench->loan, settled.i0, settled.i1, settled.j0,
+                             settled.j1);
+        if (!settled.at_edge) return DP_OK;
+        at = (Cells){at.i0 - SETTLE_GROWTH, at.i1 + SETTLE_GROWTH, at.j0 - SETTLE_GROWTH,
+                     at.j1 + SETTLE_GROWTH};
+    }
+}

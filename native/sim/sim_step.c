@@ -1,0 +1,183 @@
+// sim/sim_step.c - all limbs, interval by interval. TRAIL 4.2: where the rooms meet.
+//
+// Limbs whose patches meet form a group and are worked on in the recording's order by one thread;
+// groups do not touch each other, so they may run at once and the result stays the same.
+#include "base/parallel.h"
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
+#define HEAP_SPARE 4      // cells beyond the foot of the heap
+#define FEW_GROUPS 4      // with fewer, starting threads costs more than it gives
+
+// What a limb does in the interval from `sample` to the next, and on which cells.
+static void plan_limb(DpSim* sim, Limb* limb, int sample)
+{
+    const bool now = dp_limb_touches(sim, limb, sample);
+    const bool then = dp_limb_touches(sim, limb, sample + 1);
+    const bool presses = now || then;
+    limb->lifts = limb->stands && !presses;
+    limb->active = presses || limb->lifts;
+    limb->spills = limb->off_ground = false;
+    limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
+    if (presses && !limb->stands) {
+        limb->heap_height = 0.0;
+        limb->trodden = (Cells){0, 0, 0, 0};
+        ++sim->report.contacts;
+    }
+    limb->stands = presses;
+    if (presses) {
+        double slope = INFINITY;  // the flattest heap reaches farthest
+        for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+            slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
+        const double reach = 1.25 * limb->heap_height / slope + HEAP_SPARE * sim->cell;
+        limb->patch = dp_limb_cells(sim, limb, sample, fmax(HEAP_MARGIN, reach));
+    } else {
+        limb->patch = limb->trodden;
+    }
+}
+
+static int root(const int* group, int l)
+{
+    while (group[l] != l) l = group[l];
+    return l;
+}
+
+// Limbs that meet get one group: start[k] .. start[k + 1] are the places of group k in `order`.
+static int make_groups(DpSim* sim)
+{
+    const int limbs = sim->gait.limbs;
+    for (int l = 0; l < limbs; ++l) sim->group[l] = l;
+    for (int a = 0; a < limbs; ++a) {
+        if (!sim->limb[a].active) continue;
+        for (int b = a + 1; b < limbs; ++b) {
+            if (!sim->limb[b].active || !dp_cells_meet(sim->limb[a].patch, sim->limb[b].patch))
+                continue;
+            const int ra = root(sim->group, a), rb = root(sim->group, b);
+            sim->group[ra > rb ? ra : rb] = ra > rb ? rb : ra;
+        }
+    }
+    int groups = 0, placed = 0;
+    for (int l = 0; l < limbs; ++l) {
+        if (!sim->limb[l].active || sim->group[l] != l) continue;
+        sim->start[groups++] = placed;
+        for (int m = l; m < limbs; ++m)
+            if (sim->limb[m].active && root(sim->group, m) == l) sim->order[placed++] = m;
+    }
+    sim->start[groups] = placed;
+    return groups;
+}
+
+typedef struct Step
+{
+    DpSim* sim;
+    int    sample;
+} Step;
+
+static void work_group(void* context, int group, int worker)
+{
+    const Step* step = context;
+    DpSim*      sim = step->sim;
+    Bench*      bench = &sim->bench[worker];
+    for (int k = sim->start[group]; k < sim->start[group + 1]; ++k) {
+        Limb* limb = &sim->limb[sim->order[k]];
+        if (limb->lifts || bench->status != DP_OK) continue;
+        bench->status = dp_limb_press(sim, limb, step->sample, bench);
+    }
+}
+
+// Limbs that let go, or whose soil wants to leave its patch, come to rest one after the other:
+// their patches grow as far as they need.
+static DpStatus settle_limbs(DpSim* sim)
+{
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        Limb* limb = &sim->limb[l];
+        if (!limb->active || !(limb->lifts || limb->spills)) continue;
+        if (limb->spills && !limb->lifts) continue;  // its sole holds part of it: at lift-off
+        const DpStatus status = dp_limb_settle(sim, limb, &sim->bench[0]);
+        if (status != DP_OK) return status;
+    }
+    return DP_OK;
+}
+
+static void count(DpSim* sim)
+{
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        const Limb* limb = &sim->limb[l];
+        if (!limb->active) continue;
+        sim->report.pressed += limb->firm;
+        sim->report.pressed_heap += limb->loose;
+        sim->report.displaced += limb->laid;
+        sim->report.deepest = fmax(sim->report.deepest, limb->deepest);
+        sim->report.off_ground += limb->off_ground;
+    }
+}
+
+static DpStatus step_once(DpSim* sim, int sample)
+{
+    bool any = false;
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        plan_limb(sim, &sim->limb[l], sample);
+        any = any || sim->limb[l].active;
+    }
+    if (!any) return DP_OK;
+    const int groups = make_groups(sim);
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        const Limb* limb = &sim->limb[l];
+        if (!limb->active || dp_cells_empty(limb->patch)) continue;
+        const DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
+                                                 limb->patch.j0, limb->patch.j1);
+        if (status != DP_OK) return status;
+    }
+    Step step = {sim, sample};
+    for (int b = 0; b < sim->bench_count; ++b) sim->bench[b].status = DP_OK;
+    dp_parallel_for(groups, groups < FEW_GROUPS ? 1 : sim->bench_count, work_group, &step);
+    for (int b = 0; b < sim->bench_count; ++b)
+        if (sim->bench[b].status != DP_OK) return sim->bench[b].status;
+    const DpStatus status = settle_limbs(sim);
+    count(sim);
+    return status;
+}
+
+DpStatus dp_sim_run(DpSim* sim, int sample)
+{
+    if (!sim->limb) return DP_BAD_ARGUMENT;
+    if (sample > sim->gait.times - 1) sample = sim->gait.times - 1;
+    while (sim->next < sample) {
+        const DpStatus status = step_once(sim, sim->next);
+        if (status != DP_OK) return status;
+        ++sim->next;
+    }
+    return DP_OK;
+}
+
+DpStatus dp_sim_settle(DpSim* sim)
+{
+    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l) {
+        Limb* limb = &sim->limb[l];
+        if (!limb->stands) continue;
+        limb->stands = false;
+        const DpStatus status = dp_limb_settle(sim, limb, &sim->bench[0]);
+        if (status != DP_OK) return status;
+    }
+    return DP_OK;
+}
+
+void dp_sim_reach(const DpSim* sim, long reach[4])
+{
+    Cells cells = {0, 0, 0, 0};
+    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
+        for (int k = 0; k + 1 < sim->gait.times; ++k)
+            if (dp_limb_touches(sim, &sim->limb[l], k) ||
+                dp_limb_touches(sim, &sim->limb[l], k + 1))
+                cells = dp_cells_join(cells, dp_limb_cells(sim, &sim->limb[l], k, 3 * HEAP_MARGIN));
+    reach[0] = cells.i0, reach[1] = cells.i1, reach[2] = cells.j0, reach[3] = cells.j1;
+}
+
+DpSimReport dp_sim_report(const DpSim* sim)
+{
+    DpSimReport report = sim->report;
+    double      pressed;
+    dp_terrain_totals(sim->terrain, &report.heaped, &pressed, &report.deepest);
+    return report;
+}
