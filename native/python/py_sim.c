@@ -1,7 +1,563 @@
+// python/py_sim.c - desire_path._native.Simulation: a terrain, what presses it, and its frames.
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "maps/maps.h"
 #include "python/door.h"
+#include "sim/sim.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct Simulation
+{
+    PyObject_HEAD
+    DpTerrain* terrain;
+    DpSim*     sim;
+    DpFrames*  frames;
+    long       tile_x, tile_y;    // lowest tile of the frames
+    int        tiles_x, tiles_y;  // 0 = no frames opened
+    int        workers;
+    bool       busy;              // a call without the GIL is under way
+} Simulation;
+
+// One call at a time: others get a sentence, not a crash.
+static bool enter(Simulation* self)
+{
+    if (self->busy) {
+        PyErr_SetString(PyExc_RuntimeError, "this simulation is already running in another thread");
+        return false;
+    }
+    self->busy = true;
+    return true;
+}
+
+static void simulation_dealloc(PyObject* object)
+{
+    Simulation*   self = (Simulation*)object;
+    PyTypeObject* type = Py_TYPE(object);
+    dp_frames_destroy(self->frames);
+    dp_sim_destroy(self->sim);
+    dp_terrain_destroy(self->terrain);
+    freefunc release = (freefunc)PyType_GetSlot(type, Py_tp_free);
+    release(object);
+    Py_DECREF(type);
+}
+
+// Soils as rows of six floats in the order of DpSoil.
+static DpSoil* read_soils(DpDoor* door, PyObject* object, int* count)
+{
+    DpShape shape = {2, {-1, 6}};
+    float*  row = dp_door_open(door, object, "soils", 'f', &shape, false);
+    if (!row) return NULL;
+    if (shape.n[0] < 1 || shape.n[0] > 255) {
+        PyErr_SetString(PyExc_ValueError, "soils: give 1 to 255 soils");
+        return NULL;
+    }
+    *count = (int)shape.n[0];
+    DpSoil* soils = dp_alloc((size_t)*count, sizeof *soils);
+    if (!soils) {
+        PyErr_NoMemory();
+        return NULL;
+    }
+    for (int s = 0; s < *count; ++s, row += 6) {
+        soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5]};
+        if (dp_soil_check(&soils[s]) == DP_OK) continue;
+        PyErr_Format(PyExc_ValueError, "soils: a number of soil %d is out of its range", s);
+        dp_free(soils);
+        return NULL;
+    }
+    return soils;
+}
+
+// The weights of painted soils, (kinds, n); None = all of it is soil 0.
+static bool read_kinds(DpDoor* door, PyObject* object, Py_ssize_t n, DpGround* ground)
+{
+    if (object == Py_None) return true;
+    DpShape shape = {2, {-1, n}};
+    ground->kind_weight = dp_door_open(door, object, "kind_weight", 'f', &shape, false);
+    ground->kind_count = ground->kind_weight ? (int)shape.n[0] : 0;
+    return ground->kind_weight != NULL;
+}
+
+// ("flat", z) | ("heights", array, spacing, x0, y0, kinds) | ("mesh", vertices, triangles, kinds)
+static bool read_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
+{
+    const char* kind = NULL;
+    PyObject *  a = NULL, *b = NULL, *kinds = Py_None;
+    memset(ground, 0, sizeof *ground);
+    PyObject* first = PyTuple_Check(tuple) ? PyTuple_GetItem(tuple, 0) : NULL;
+    kind = first ? PyUnicode_AsUTF8AndSize(first, NULL) : NULL;
+    if (!kind) {
+        PyErr_SetString(PyExc_TypeError, "ground: expected a tuple that begins with its kind");
+        return false;
+    }
+    if (strcmp(kind, "flat") == 0) {
+        ground->kind = DP_GROUND_FLAT;
+        return PyArg_ParseTuple(tuple, "sd;ground", &kind, &ground->height);
+    }
+    if (strcmp(kind, "heights") == 0) {
+        ground->kind = DP_GROUND_HEIGHTS;
+        if (!PyArg_ParseTuple(tuple, "sOdddO;ground", &kind, &a, &ground->spacing, &ground->x0,
+                              &ground->y0, &kinds))
+            return false;
+        DpShape shape = {2, {-1, -1}};
+        ground->heights = dp_door_open(door, a, "heights", 'f', &shape, false);
+        if (!ground->heights) return false;
+        if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX) {
+            PyErr_SetString(PyExc_ValueError, "heights: too many samples");
+            return false;
+        }
+        ground->ny = (int)shape.n[0], ground->nx = (int)shape.n[1];
+        return read_kinds(door, kinds, shape.n[0] * shape.n[1], ground);
+    }
+    if (strcmp(kind, "mesh") == 0) {
+        ground->kind = DP_GROUND_MESH;
+        if (!PyArg_ParseTuple(tuple, "sOOO;ground", &kind, &a, &b, &kinds)) return false;
+        DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
+        ground->vertex = dp_door_open(door, a, "vertices", 'd', &vertices, false);
+        if (!ground->vertex) return false;
+        ground->triangle = dp_door_open(door, b, "triangles", 'i', &triangles, false);
+        if (!ground->triangle) return false;
+        if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
+            PyErr_SetString(PyExc_ValueError, "ground: too many vertices or triangles");
+            return false;
+        }
+        ground->vertex_count = (int)vertices.n[0];
+        ground->triangle_count = (int)triangles.n[0];
+        return read_kinds(door, kinds, vertices.n[0], ground);
+    }
+    PyErr_Format(PyExc_ValueError, "ground: '%s' is not flat, heights or mesh", kind);
+    return false;
+}
+
+static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
+{
+    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law",    "heap",
+                            "rim_width", "most_sweeps", "normal_radius", "workers", NULL};
+    PyObject *   ground_tuple, *soils_object;
+    DpSimOptions options = dp_sim_options_default();
+    double       cell, origin[2] = {0.0, 0.0};
+    int          law = 0, heap = 0;
+    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!Od|(dd)iididi:Simulation", words, &PyTuple_Type,
+                                     &ground_tuple, &soils_object, &cell, &origin[0], &origin[1],
+                                     &law, &heap, &options.rim_width, &options.most_sweeps,
+                                     &options.normal_radius, &options.workers))
+        return NULL;
+    options.law = law ? DP_CONTACT_UNIFORM : DP_CONTACT_SOLE;
+    options.heap_law = heap ? DP_HEAP_PAPER : DP_HEAP_REST;
+    if (options.workers == 0) options.workers = dp_parallel_width();
+
+    allocfunc   allocate = (allocfunc)PyType_GetSlot(type, Py_tp_alloc);
+    Simulation* self = (Simulation*)allocate(type, 0);
+    if (!self) return NULL;
+    self->workers = options.workers;
+
+    DpDoor    door = {.count = 0};
+    DpGround  ground;
+    int       soil_count = 0;
+    PyObject* made = NULL;
+    DpSoil*   soils = read_soils(&door, soils_object, &soil_count);
+    if (soils && read_ground(&door, ground_tuple, &ground)) {
+        const DpTerrainOptions terrain = {cell, origin[0], origin[1], soils, soil_count,
+                                          options.workers};
+        DpStatus               status;
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_terrain_create(&self->terrain, &terrain, &ground);
+        if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);
+        Py_END_ALLOW_THREADS
+        made = dp_door_result(status, "making the ground");
+    }
+    dp_free(soils);
+    dp_door_close(&door);
+    if (!made) {
+        Py_DECREF(self);
+        return NULL;
+    }
+    Py_DECREF(made);
+    return (PyObject*)self;
+}
+
+static PyObject* simulation_rest(Simulation* self, PyObject* args)
+{
+    PyObject *xy_object, *out_object;
+    if (!PyArg_ParseTuple(args, "OO:rest", &xy_object, &out_object)) return NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   shape = {2, {-1, 2}};
+    PyObject* result = NULL;
+    double*   xy = dp_door_open(&door, xy_object, "xy", 'd', &shape, false);
+    double*   out = xy ? dp_door_open(&door, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
+    if (out && shape.n[0] <= INT32_MAX && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 &&
+        enter(self)) {
+        Py_BEGIN_ALLOW_THREADS
+        dp_terrain_rest(self->terrain, (int)shape.n[0], xy, out);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_door_result(DP_OK, "");
+    }
+    dp_door_close(&door);
+    return result;
+}
+
+static PyObject* simulation_normal(Simulation* self, PyObject* args)
+{
+    double x, y, radius;
+    if (!PyArg_ParseTuple(args, "ddd:normal", &x, &y, &radius)) return NULL;
+    if (!isfinite(x) || !isfinite(y) || !(radius > 0.0) || !isfinite(radius)) {
+        PyErr_SetString(PyExc_ValueError, "normal: expected a finite point and a radius > 0");
+        return NULL;
+    }
+    const DpVec3 n = dp_terrain_normal(self->terrain, x, y, radius);
+    return Py_BuildValue("(ddd)", n.x, n.y, n.z);
+}
+
+static PyObject* simulation_bounds(Simulation* self, PyObject* unused)
+{
+    (void)unused;
+    double b[4];
+    dp_terrain_bounds(self->terrain, b);
+    return Py_BuildValue("(dddd)", b[0], b[1], b[2], b[3]);
+}
+
+// Cut concatenated sole arrays into one mesh a part.
+static DpMesh* cut_soles(const float* vertex, Py_ssize_t vertices, const int32_t* vertex_count,
+                         const int32_t* triangle, Py_ssize_t triangles,
+                         const int32_t* triangle_count, int parts)
+{
+    DpMesh* sole = dp_alloc((size_t)parts, sizeof *sole);
+    if (!sole) {
+        PyErr_NoMemory();
+        return NULL;
+    }
+    for (int p = 0; p < parts; ++p) {
+        if (vertex_count[p] < 0 || triangle_count[p] < 0 || vertex_count[p] > vertices ||
+            triangle_count[p] > triangles) {
+            PyErr_Format(PyExc_ValueError, "soles: the counts of part %d go past the arrays", p);
+            dp_free(sole);
+            return NULL;
+        }
+        sole[p] = (DpMesh){vertex_count[p], triangle_count[p], vertex, triangle};
+        vertex += 3 * vertex_count[p], vertices -= vertex_count[p];
+        triangle += 3 * triangle_count[p], triangles -= triangle_count[p];
+    }
+    return sole;
+}
+
+static PyObject* simulation_load(Simulation* self, PyObject* args)
+{
+    PyObject *o_time, *o_mass, *o_pose, *o_limb_walker, *o_part_limb, *o_vertex, *o_vertex_count,
+        *o_triangle, *o_triangle_count, *o_touching, *o_force, *o_point;
+    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO:load", &o_time, &o_mass, &o_pose, &o_limb_walker,
+                          &o_part_limb, &o_vertex, &o_vertex_count, &o_triangle, &o_triangle_count,
+                          &o_touching, &o_force, &o_point))
+        return NULL;
+    DpDoor  door = {.count = 0};
+    DpShape times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
+    DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
+    DpMesh* sole = NULL;
+    PyObject* result = NULL;
+
+    double*  time = dp_door_open(&door, o_time, "time", 'd', &times, false);
+    double*  mass = time ? dp_door_open(&door, o_mass, "mass", 'd', &walkers, false) : NULL;
+    int32_t* limb_walker =
+        mass ? dp_door_open(&door, o_limb_walker, "limb_walker", 'i', &limbs, false) : NULL;
+    int32_t* part_limb =
+        limb_walker ? dp_door_open(&door, o_part_limb, "part_limb", 'i', &parts, false) : NULL;
+    if (!part_limb) goto done;
+    const Py_ssize_t T = times.n[0], P = parts.n[0];
+    if (T > INT32_MAX / 8 || P > 100000 || limbs.n[0] > P || walkers.n[0] > 100000) {
+        PyErr_SetString(PyExc_ValueError, "load: too many samples, parts or walkers");
+        goto done;
+    }
+    double* pose = dp_door_open(&door, o_pose, "pose", 'd', DP_SHAPE3(P, T, 7), false);
+    if (!pose) goto done;
+    float* vertex = dp_door_open(&door, o_vertex, "sole_vertex", 'f', &vertices, false);
+    if (!vertex) goto done;
+    int32_t* vertex_count =
+        dp_door_open(&door, o_vertex_count, "sole_vertex_count", 'i', DP_SHAPE1(P), false);
+    if (!vertex_count) goto done;
+    int32_t* triangle = dp_door_open(&door, o_triangle, "sole_triangle", 'i', &triangles, false);
+    if (!triangle) goto done;
+    int32_t* triangle_count =
+        dp_door_open(&door, o_triangle_count, "sole_triangle_count", 'i', DP_SHAPE1(P), false);
+    if (!triangle_count) goto done;
+    uint8_t* touching = dp_door_open(&door, o_touching, "touching", 'B', DP_SHAPE2(P, T), false);
+    if (!touching) goto done;
+    double* force = dp_door_open(&door, o_force, "force", 'd', DP_SHAPE3(P, T, 3), false);
+    if (!force) goto done;
+    double* point = dp_door_open(&door, o_point, "point", 'd', DP_SHAPE3(P, T, 3), false);
+    if (!point) goto done;
+    sole = cut_soles(vertex, vertices.n[0], vertex_count, triangle, triangles.n[0], triangle_count,
+                     (int)P);
+    if (!sole || !enter(self)) goto done;
+    const DpGait gait = {.times = (int)T,
+                         .walkers = (int)walkers.n[0],
+                         .limbs = (int)limbs.n[0],
+                         .parts = (int)P,
+                         .time = time,
+                         .mass = mass,
+                         .pose = pose,
+                         .limb_walker = limb_walker,
+                         .part_limb = part_limb,
+                         .sole = sole};
+    DpStatus     status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_sim_load(self->sim, &gait, touching, force, point);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    result = dp_door_result(status, "loading the recording");
+done:
+    dp_free(sole);
+    dp_door_close(&door);
+    return result;
+}
+
+static PyObject* simulation_reach(Simulation* self, PyObject* unused)
+{
+    (void)unused;
+    long reach[4];
+    dp_sim_reach(self->sim, reach);
+    return Py_BuildValue("(llll)", reach[0], reach[1], reach[2], reach[3]);
+}
+
+static PyObject* simulation_run(Simulation* self, PyObject* args)
+{
+    int sample;
+    if (!PyArg_ParseTuple(args, "i:run", &sample) || !enter(self)) return NULL;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_sim_run(self->sim, sample);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return dp_door_result(status, "stepping the ground");
+}
+
+static PyObject* simulation_settle(Simulation* self, PyObject* unused)
+{
+    (void)unused;
+    if (!enter(self)) return NULL;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_sim_settle(self->sim);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return dp_door_result(status, "letting the ground settle");
+}
+
+static PyObject* simulation_report(Simulation* self, PyObject* unused)
+{
+    (void)unused;
+    const DpSimReport r = dp_sim_report(self->sim);
+    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:n}", "contacts", r.contacts, "off_ground",
+                         r.off_ground, "deepest_m", r.deepest, "pressed_m3", r.pressed,
+                         "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced, "heaped_m3",
+                         r.heaped, "tiles", (Py_ssize_t)dp_terrain_tile_count(self->terrain));
+}
+
+static PyObject* simulation_read(Simulation* self, PyObject* args)
+{
+    int       field;
+    long      i0, j0;
+    PyObject* out_object;
+    if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
+    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_PLANT_STRENGTH) {
+        PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
+        return NULL;
+    }
+    DpDoor    door = {.count = 0};
+    DpShape   shape = {2, {-1, -1}};
+    PyObject* result = NULL;
+    float*    out = dp_door_open(&door, out_object, "out", 'f', &shape, true);
+    if (out && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX && enter(self)) {
+        DpStatus status;
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_terrain_read(self->terrain, (DpField)field, i0, j0, (int)shape.n[1],
+                                 (int)shape.n[0], out);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_door_result(status, "reading a map");
+    }
+    dp_door_close(&door);
+    return result;
+}
+
+static PyObject* simulation_open_frames(Simulation* self, PyObject* args)
+{
+    long        tx, ty;
+    int         nx, ny;
+    const char* version;
+    if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &version) || !enter(self))
+        return NULL;
+    double origin[2];
+    dp_terrain_origin(self->terrain, origin);
+    const double cell = dp_terrain_cell(self->terrain);
+    const DpNote notes[] = {
+        {"software", version, 0.0},
+        {"cell", NULL, cell},
+        {"originX", NULL, origin[0] + cell * DP_TILE * (double)tx},
+        {"originY", NULL, origin[1] + cell * DP_TILE * (double)ty},
+        {"channelR", "height change [m]", 0.0},
+        {"channelG", "plant strength [-]", 0.0},
+        {"channelB", "compression [m]", 0.0},
+        {"channelA", "pressure_time [Pa s]", 0.0},
+    };
+    DpFrames*      frames = NULL;
+    const DpStatus status =
+        dp_frames_create(&frames, nx, ny, notes, (int)(sizeof notes / sizeof *notes));
+    if (status == DP_OK) {
+        dp_frames_destroy(self->frames);
+        self->frames = frames;
+        self->tile_x = tx, self->tile_y = ty;
+        self->tiles_x = nx, self->tiles_y = ny;
+    }
+    self->busy = false;
+    return dp_door_result(status, "opening the frames");
+}
+
+// The tiles that changed since the last frame, and what encoding them came to.
+typedef struct Changed
+{
+    Simulation* self;
+    long*       tile;  // (count, 2)
+    float*      rgba;  // one tile a worker
+    DpStatus*   status;
+    int         count, room;
+    bool        no_memory;
+} Changed;
+
+static void note_changed(void* context, long tx, long ty)
+{
+    Changed* changed = context;
+    Simulation* self = changed->self;
+    const bool  inside = tx >= self->tile_x && tx < self->tile_x + self->tiles_x &&
+                        ty >= self->tile_y && ty < self->tile_y + self->tiles_y;
+    if (!inside || changed->no_memory) return;
+    if (changed->count == changed->room) {
+        const int room = changed->room ? 2 * changed->room : 64;
+        long*     tile = dp_realloc(changed->tile, 2 * (size_t)room, sizeof *tile);
+        if (!tile) {
+            changed->no_memory = true;
+            return;
+        }
+        changed->tile = tile;
+        changed->room = room;
+    }
+    changed->tile[2 * changed->count] = tx;
+    changed->tile[2 * changed->count + 1] = ty;
+    ++changed->count;
+}
+
+static void encode(void* context, int index, int worker)
+{
+    Changed*    changed = context;
+    Simulation* self = changed->self;
+    float*      rgba = changed->rgba + (size_t)worker * DP_TILE * DP_TILE * 4;
+    const long  tx = changed->tile[2 * index], ty = changed->tile[2 * index + 1];
+    dp_terrain_tile_rgba(self->terrain, tx, ty, rgba);
+    const DpStatus status = dp_frames_set_tile(self->frames, (int)(tx - self->tile_x),
+                                               (int)(ty - self->tile_y), rgba, worker);
+    if (status != DP_OK) changed->status[worker] = status;
+}
+
+static DpStatus write_frame(Simulation* self, const char* path, double time)
+{
+    Changed changed = {.self = self};
+    dp_terrain_changed(self->terrain, note_changed, &changed);
+    DpStatus status = changed.no_memory ? DP_NO_MEMORY : DP_OK;
+    if (status == DP_OK && changed.count > 0) {
+        const int workers = changed.count < 4 ? 1 : self->workers;
+        changed.rgba = dp_alloc((size_t)workers * DP_TILE * DP_TILE * 4, sizeof *changed.rgba);
+        changed.status = dp_alloc((size_t)workers, sizeof *changed.status);
+        if (!changed.rgba || !changed.status) status = DP_NO_MEMORY;
+        else dp_parallel_for(changed.count, workers, encode, &changed);
+        for (int w = 0; status == DP_OK && w < workers; ++w) status = changed.status[w];
+    }
+    dp_free(changed.tile);
+    dp_free(changed.rgba);
+    dp_free(changed.status);
+    return status == DP_OK && path ? dp_frames_write(self->frames, path, time) : status;
+}
+
+static PyObject* simulation_write_frame(Simulation* self, PyObject* args)
+{
+    const char* path;  // None: take the changes in, write nothing
+    double      time;
+    if (!PyArg_ParseTuple(args, "zd:write_frame", &path, &time)) return NULL;
+    if (!self->frames) {
+        PyErr_SetString(PyExc_ValueError, "write_frame: call open_frames first");
+        return NULL;
+    }
+    if (!enter(self)) return NULL;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = write_frame(self, path, time);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return dp_door_result(status, path ? path : "encoding a frame");
+}
+
+static PyMethodDef methods[] = {
+    {"rest", (PyCFunction)simulation_rest, METH_VARARGS,
+     "rest(xy (n, 2) f8, out (n,) f8): height of the rest ground [m], NaN where there is none."},
+    {"normal", (PyCFunction)simulation_normal, METH_VARARGS,
+     "normal(x, y, radius) -> (x, y, z): normal of the rest ground, smoothed over radius [m]."},
+    {"bounds", (PyCFunction)simulation_bounds, METH_NOARGS,
+     "bounds() -> (x0, y0, x1, y1): world box of the ground [m]; infinite for flat ground."},
+    {"load", (PyCFunction)simulation_load, METH_VARARGS,
+     "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
+     " sole_triangle_count, touching, force, point): take an evenly sampled recording with loads."},
+    {"reach", (PyCFunction)simulation_reach, METH_NOARGS,
+     "reach() -> (i0, i1, j0, j1): cells the recording can change."},
+    {"run", (PyCFunction)simulation_run, METH_VARARGS,
+     "run(sample): step up to the state at this sample."},
+    {"settle", (PyCFunction)simulation_settle, METH_NOARGS,
+     "settle(): let everything that is loose come to rest."},
+    {"report", (PyCFunction)simulation_report, METH_NOARGS,
+     "report() -> dict: contacts, depths [m] and volumes [m^3] so far."},
+    {"read", (PyCFunction)simulation_read, METH_VARARGS,
+     "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
+    {"open_frames", (PyCFunction)simulation_open_frames, METH_VARARGS,
+     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
+    {"write_frame", (PyCFunction)simulation_write_frame, METH_VARARGS,
+     "write_frame(path or None, time): encode the tiles that changed and write the frame."},
+    {NULL, NULL, 0, NULL}};
+
+static PyType_Slot type_slots[] = {
+    {Py_tp_new, (void*)simulation_new},
+    {Py_tp_dealloc, (void*)simulation_dealloc},
+    {Py_tp_methods, methods},
+    {Py_tp_doc, "Ground that walkers press: see desire_path.sim.Simulation."},
+    {0, NULL}};
+
+static PyType_Spec type_spec = {.name = "desire_path._native.Simulation",
+                                .basicsize = sizeof(Simulation),
+                                .flags = Py_TPFLAGS_DEFAULT,
+                                .slots = type_slots};
+
+static PyObject* bytes_live(PyObject* module, PyObject* unused)
+{
+    (void)module, (void)unused;
+    return PyLong_FromSize_t(dp_bytes_live());
+}
+
+static PyObject* bytes_peak(PyObject* module, PyObject* unused)
+{
+    (void)module, (void)unused;
+    const size_t peak = dp_bytes_peak();
+    dp_bytes_peak_reset();
+    return PyLong_FromSize_t(peak);
+}
+
+static PyMethodDef memory_methods[] = {
+    {"bytes_live", bytes_live, METH_NOARGS, "bytes_live() -> int: memory the core holds now [B]."},
+    {"bytes_peak", bytes_peak, METH_NOARGS,
+     "bytes_peak() -> int: the most the core held since the last call [B]."},
+    {NULL, NULL, 0, NULL}};
 
 int dp_py_sim_types(PyObject* module)
 {
-    (void)module;
-    return 0;
+    PyObject* type = PyType_FromModuleAndSpec(module, &type_spec, NULL);
+    if (!type) return -1;
+    const int added = PyModule_AddObjectRef(module, "Simulation", type);
+    Py_DECREF(type);
+    return added < 0 ? -1 : PyModule_AddFunctions(module, memory_methods);
 }
