@@ -1,0 +1,85 @@
+"""compat.py - what differs between Blender 3.4 and 5.2, asked for by feature, never by version."""
+import numpy as np
+
+
+def positions(mesh):
+    """Local vertex positions, float32 (n, 3)."""
+    out = np.empty((len(mesh.vertices), 3), np.float32)
+    if not len(out):
+        return out
+    attribute = mesh.attributes.get("position")
+    if attribute is not None:
+        attribute.data.foreach_get("vector", out.ravel())
+    else:
+        mesh.vertices.foreach_get("co", out.ravel())
+    return out
+
+
+def triangles(mesh):
+    """Vertex indices of the faces cut into triangles, int32 (m, 3)."""
+    mesh.calc_loop_triangles()
+    out = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    if len(out):
+        mesh.loop_triangles.foreach_get("vertices", out.ravel())
+    return out
+
+
+def float_attribute(mesh, name):
+    """Values of a float point attribute, float32 (n,), or None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.domain != "POINT" or attribute.data_type != "FLOAT":
+        return None
+    out = np.empty(len(attribute.data), np.float32)
+    if len(out):
+        attribute.data.foreach_get("value", out)
+    return out
+
+
+def colour_attribute(mesh, name):
+    """Values of a float colour attribute, float32 (n, 4), or None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.data_type != "FLOAT_COLOR":
+        return None
+    out = np.empty((len(attribute.data), 4), np.float32)
+    if len(out):
+        attribute.data.foreach_get("color", out.ravel())
+    return out
+
+
+def geometry_tree(name, new_tree):
+    """A node tree with one geometry going in and one coming out."""
+    tree = new_tree(name, "GeometryNodeTree")
+    if hasattr(tree, "interface"):
+        for way in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    if hasattr(tree, "is_modifier"):
+        tree.is_modifier = True
+    return tree
+
+
+def socket(sockets, name):
+    """The socket of that name in use; None where this Blender's node has none (or hides it).
+
+    Nodes with a data type carry one socket per type up to 4.0, of which one is enabled.
+    """
+    for each in sockets:
+        if each.name == name and each.enabled:
+            return each
+    return None
+
+
+def action_range(animation):
+    """First and last frame of an object's own action or strips, or None."""
+    if animation is None:
+        return None
+    if animation.action is not None:
+        first, last = animation.action.frame_range
+        return float(first), float(last)
+    strips = [s for track in animation.nla_tracks if not track.mute for s in track.strips
+              if not s.mute]
+    if not strips:
+        return None
+    return float(min(s.frame_start for s in strips)), float(max(s.frame_end for s in strips))

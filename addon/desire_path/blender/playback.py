@@ -1,0 +1,226 @@
+"""playback.py - a bake plays in any Blender, with or without this add-on.
+
+    frames/trail_0000.exr ..  --image texture-->  attribute `desire_path`  --> position, groups
+
+One geometry-nodes modifier samples the frame's image once per point, by world position, into one
+colour attribute (height change, plant strength, compression, pressure) and moves the points by it.
+All numbers are constants inside the tree, so the same tree works from 3.4 to 5.2. File 0 is the
+untouched ground, file n the frame `frame_start + n - 1`.
+"""
+import os
+
+import bpy
+import numpy as np
+
+from . import axes, compat
+
+ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
+MODIFIER = "Desire Path"
+TAG = "desire_path"  # custom property on the trees and images that are ours
+ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
+GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
+
+
+def modifier(obj):
+    """Our modifier on the object, by its tree's mark, or None."""
+    for each in obj.modifiers:
+        if each.type == "NODES" and each.node_group is not None and TAG in each.node_group:
+            return each
+    return None
+
+
+def image_of(tree):
+    """The image sequence a tree of ours plays, or None."""
+    for node in tree.nodes:
+        if node.bl_idname == "GeometryNodeImageTexture":
+            return node.inputs["Image"].default_value
+    return None
+
+
+def attach(obj, folder, index, *, count, world, scale, smooth, corners, layer_depth=0.0):
+    """Play the frames of a bake on the object; replaces what it played before.
+
+    folder: the bake folder as Blender writes paths (`//` for beside the .blend file)
+    index: cell, x0, y0 [m], nx, ny, frame_start of the images
+    count: frames there are, file 0 not counted
+    world: the object's matrix when it was baked (4, 4); scale: metres in a unit [m]
+    smooth: interpolate between cells, for meshes whose points are not cell centres
+    corners: the local box of the mesh's points (8, 3)
+    layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
+    """
+    old = modifier(obj)
+    place = list(obj.modifiers).index(old) if old is not None else -1
+    detach(obj)
+    tree = _tree(obj, _image(folder), index, count, world, scale, smooth,
+                 corners, layer_depth)
+    ours = obj.modifiers.new(MODIFIER, "NODES")
+    made = ours.node_group
+    ours.node_group = tree
+    if made is not None and made is not tree and made.users == 0:
+        bpy.data.node_groups.remove(made)  # older Blenders fill in a tree of their own
+    ours.show_expanded = False
+    if place >= 0 and obj.modifiers[-1] is not None:
+        with _active(obj):
+            for _ in range(len(obj.modifiers) - 1 - place):
+                bpy.ops.object.modifier_move_up(modifier=ours.name)
+    return ours
+
+
+def detach(obj):
+    """Take our modifier off, with its tree and image if nobody else uses them."""
+    while True:
+        ours = modifier(obj)
+        if ours is None:
+            return
+        tree = ours.node_group
+        obj.modifiers.remove(ours)
+        if tree.users > 0:
+            continue
+        image = image_of(tree)
+        bpy.data.node_groups.remove(tree)
+        if image is not None and TAG in image and image.users == 0:
+            bpy.data.images.remove(image)
+
+
+def _active(obj):
+    return bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj])
+
+
+def _image(folder):
+    """A fresh datablock for the sequence: an old one would show frames out of its cache."""
+    path = join(folder, "frames", "trail_0001.exr")
+    image = bpy.data.images.new("desire_path frames", 1, 1, float_buffer=True)
+    image.source = "FILE"
+    image.filepath = path
+    image.source = "SEQUENCE"
+    image.colorspace_settings.name = "Non-Color"
+    image.alpha_mode = "CHANNEL_PACKED"
+    image[TAG] = 1
+    return image
+
+
+def join(folder, *names):
+    """Join below a folder that may begin with Blender's `//`."""
+    return "/".join((folder.replace("\\", "/").rstrip("/"),) + names)
+
+
+class _Wiring:
+    """Nodes in a row; `add` returns the node, links what is given by socket name or number."""
+
+    def __init__(self, tree):
+        self.tree = tree
+        self.column = 0
+
+    def add(self, kind, settings=None, **inputs):
+        node = self.tree.nodes.new(kind)
+        node.location = (180 * self.column, -40 * (self.column % 3))
+        self.column += 1
+        for name, value in (settings or {}).items():
+            setattr(node, name, value)
+        for name, value in inputs.items():
+            if name.startswith("_"):
+                target = node.inputs[int(name[1:])]
+            else:
+                target = compat.socket(node.inputs, name)
+            if target is None:
+                continue  # this Blender's node has no such input
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, target)
+            else:
+                target.default_value = value
+        return node
+
+    def math(self, operation, *values):
+        node = self.add("ShaderNodeMath", {"operation": operation},
+                        **{f"_{i}": v for i, v in enumerate(values)})
+        return node.outputs[0]
+
+    def vector(self, operation, *values):
+        node = self.add("ShaderNodeVectorMath", {"operation": operation},
+                        **{f"_{i}": v for i, v in enumerate(values)})
+        return compat.socket(node.outputs, "Vector") or compat.socket(node.outputs, "Value")
+
+
+def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
+    tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
+    tree[TAG] = 1
+    wire = _Wiring(tree)
+    entry = wire.add("NodeGroupInput")
+    leave = tree.nodes.new("NodeGroupOutput")
+
+    # which file: n = frame - frame_start + 1, file 0 before, the last one after
+    now = wire.add("GeometryNodeInputSceneTime").outputs["Frame"]
+    now = wire.math("FLOOR", wire.math("ADD", now, 1.0 - index.frame_start))
+    number = wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
+
+    # where in the image
+    turn, shift = axes.image_axes(world, scale, index)
+    here = wire.add("GeometryNodeInputPosition").outputs[0]
+    if turn[0, 1] == 0.0 and turn[0, 2] == 0.0 and turn[1, 0] == 0.0 and turn[1, 2] == 0.0:
+        at = wire.vector("MULTIPLY_ADD", here, (turn[0, 0], turn[1, 1], 0.0), (*shift, 0.0))
+    else:
+        u, v = (wire.math("ADD", wire.vector("DOT_PRODUCT", here, tuple(turn[k])), shift[k])
+                for k in (0, 1))
+        at = wire.add("ShaderNodeCombineXYZ", X=u, Y=v).outputs[0]
+    inside = None if _covers(corners, turn, shift) else _inside(wire, at)
+
+    # sample once, read everything from it
+    texture = wire.add("GeometryNodeImageTexture",
+                       {"interpolation": "Linear" if smooth else "Closest", "extension": "CLIP"},
+                       Image=image, Vector=at, Frame=number)
+    some = {} if inside is None else {"Selection": inside}
+    stored = wire.add("GeometryNodeStoreNamedAttribute",
+                      {"data_type": "FLOAT_COLOR", "domain": "POINT"},
+                      Geometry=entry.outputs[0], Name=ATTRIBUTE, Value=texture.outputs["Color"],
+                      **some)
+    pixel = wire.add("GeometryNodeInputNamedAttribute", {"data_type": "FLOAT_COLOR"},
+                     Name=ATTRIBUTE)
+    split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"},
+                     Color=compat.socket(pixel.outputs, "Attribute"))
+    up = axes.lift(world, scale)
+    if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
+        offset = wire.add("ShaderNodeCombineXYZ", Z=split.outputs[0]).outputs[0]
+    else:
+        offset = wire.vector("MULTIPLY", tuple(up), split.outputs[0])
+    if compat.socket(stored.inputs, "Selection") is not None:
+        some = {}  # what is not stored reads zero
+    moved = wire.add("GeometryNodeSetPosition", Geometry=stored.outputs[0], Offset=offset, **some)
+    geometry = moved.outputs[0]
+
+    # a group of that name on the object is filled instead of an attribute
+    if layer_depth > 0.0:
+        weights = (split.outputs[1], wire.math("MULTIPLY", split.outputs[2], 1.0 / layer_depth))
+        for name, weight in zip(GROUPS, weights):
+            geometry = wire.add("GeometryNodeStoreNamedAttribute",
+                                {"data_type": "FLOAT", "domain": "POINT"}, Geometry=geometry,
+                                Name=group_name(name), Value=weight).outputs[0]
+    tree.links.new(geometry, leave.inputs[0])
+    leave.location = (180 * wire.column, 0)
+    return tree
+
+
+def group_name(name):
+    return f"{ATTRIBUTE}_{name}"
+
+
+def _covers(corners, turn, shift):
+    """Whether the image reaches beyond the whole mesh, so that no point need be left out."""
+    corners = np.asarray(corners, np.float64) @ turn.T + shift
+    return bool((corners >= 0.0).all() and (corners <= 1.0).all())
+
+
+def _inside(wire, at):
+    """A field that is true for points inside the image."""
+    from_middle = wire.vector("ABSOLUTE", wire.vector("SUBTRACT", at, (0.5, 0.5, 0.0)))
+    split = wire.add("ShaderNodeSeparateXYZ", Vector=from_middle)
+    return wire.math("LESS_THAN", wire.math("MAXIMUM", split.outputs[0], split.outputs[1]), 0.5)
+
+
+def whole_frames(folder, index):
+    """How many of the frames are there, counted from the first without a gap."""
+    frames = os.path.join(bpy.path.abspath(folder), "frames")
+    count = index.frame_end - index.frame_start + 1
+    for n in range(1, count + 1):
+        if not os.path.isfile(os.path.join(frames, f"trail_{n:04d}.exr")):
+            return n - 1
+    return count

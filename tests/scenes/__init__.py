@@ -1,0 +1,1 @@
+"""Small worlds shared by tests, benchmarks and demos."""
