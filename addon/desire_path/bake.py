@@ -1,0 +1,413 @@
+"""From a recording to a folder of EXR files: frames for playback, maps, and a report.
+
+    folder/frames/trail_0000.exr   the ground at rest (all zero)
+    folder/frames/trail_0001.exr   the first frame, then one file a frame
+    folder/frames/index.json       where the frames lie and which are there
+    folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
+    folder/maps_start.exr          plant_strength_in, young_modulus_in
+    folder/maps_final.exr          compression, heap, pressure_time, plant_strength
+    folder/report.json             what happened, in numbers
+
+A bake grows in folder/frames.new and takes the place of folder/frames when it is whole. One that was
+stopped stays there: the same bake started again goes on from its last whole frame. An earlier bake
+plays until the new one is whole.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+import shutil
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import maps, walker
+from .errors import DesirePathError
+from .sim import LOAD_MODELS, TILE, Simulation, as_soils
+from .version import VERSION
+
+FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
+SAMPLE_RATE = 120.0  # at least so many steps a second, at most half as many again [1/s]
+MOST_PIXELS = 1 << 28  # of one frame
+
+
+@dataclass(frozen=True)
+class FrameIndex:
+    """Where a bake's frames lie: the picture's lower left corner, its size, and its frames."""
+
+    folder: str  # holds trail_0000.exr ..
+    cell: float  # [m]
+    x0: float  # [m]
+    y0: float  # [m]
+    nx: int
+    ny: int
+    frame_start: int  # scene frame of trail_0001.exr
+    frame_end: int  # scene frame of the last file when the bake is whole
+    frame_rate: float  # [1/s]
+    frames: int  # files that are there and whole, counted from trail_0001.exr on
+    complete: bool
+
+    @property
+    def missing(self):
+        """How many frames are still to be baked."""
+        return self.frame_end - self.frame_start + 1 - self.frames
+
+    def path(self, number):
+        """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
+        return frame_path(self.folder, number)
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a bake has come."""
+
+    frame: int  # scene frame just written
+    fraction: float  # 0..1
+
+
+def frame_path(frames_folder, number):
+    """trail_0001.exr and so on."""
+    return os.path.join(frames_folder, f"trail_{number:04d}.exr")
+
+
+def read_index(folder):
+    """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
+    complete False. Raises DesirePathError when there is nothing to play."""
+    for name in ("frames", "frames.new"):
+        frames = os.path.join(folder, name)
+        path = os.path.join(frames, "index.json")
+        if not os.path.exists(path):
+            continue
+        try:
+            with open(path, encoding="utf-8") as file:
+                data = json.load(file)
+            form = data["format"]
+        except (OSError, ValueError, KeyError, TypeError):
+            raise DesirePathError(f"{path} is damaged: bake again.") from None
+        if form != FORMAT:
+            raise DesirePathError(
+                f"The bake in {folder} was written by version {data.get('version', 'unknown')} in another form: bake again."
+            )
+        try:
+            count = int(data["frame_end"]) - int(data["frame_start"]) + 1
+            there = 0
+            while there < count and os.path.exists(frame_path(frames, there + 1)):
+                there += 1
+            return FrameIndex(
+                frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
+                int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
+                float(data["frame_rate"]), there, there == count,
+            )
+        except (KeyError, TypeError, ValueError):
+            raise DesirePathError(f"{path} is damaged: bake again.") from None
+    raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
+
+
+def free(folder):
+    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
+    root = Path(folder)
+    known = [("frames", "trail_*.exr"), ("frames.new", "trail_*.exr"), ("frames", "index.json"),
+             ("frames.new", "index.json"), ("maps", "second_*.exr"), (".", "maps_start.exr"),
+             (".", "maps_final.exr"), (".", "report.json")]
+    for place, pattern in known:
+        for path in (root / place).glob(pattern):
+            path.unlink()
+    for place in ("frames", "frames.new", "maps", "."):
+        try:
+            (root / place).rmdir()
+        except OSError:
+            pass  # not there, or holds somebody else's files
+
+
+def _write_json(path, data):
+    part = f"{path}.part"
+    with open(part, "w", encoding="utf-8") as file:
+        json.dump(data, file, indent=1)
+        file.write("\n")
+    os.replace(part, path)
+
+
+class Bake:
+    """One bake: make it, run it, read its report.
+
+    gait: Gait; ground: Ground; soils as for Simulation; folder: where the files go.
+    cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
+    load_model: "inertia" or "impulse"; law, heap, rim_width, threads: as for Simulation.
+    resume: go on where the same bake was stopped. map_seconds: write maps after every second.
+    """
+
+    def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
+                 frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
+                 rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True):
+        if load_model not in LOAD_MODELS:
+            raise DesirePathError(
+                f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
+            )
+        gait.check()
+        self.gait = gait
+        self.ground = ground
+        self.soils = as_soils(soils)
+        self.folder = os.path.abspath(os.fspath(folder))
+        self.frame_rate = float(gait.frame_rate)
+        last = gait.frame_start + math.floor(
+            (gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6)
+        self.frame_start = gait.frame_start if frame_start is None else int(frame_start)
+        self.frame_end = last if frame_end is None else int(frame_end)
+        if self.frame_end <= self.frame_start:
+            raise DesirePathError(
+                f"The frame range {self.frame_start} to {self.frame_end} holds no motion: let it end after it starts."
+            )
+        self.load_model = load_model
+        self.resume = resume
+        self.map_seconds = map_seconds
+        self.options = {"law": law, "heap": heap, "rim_width": rim_width, "origin": tuple(origin)}
+        self.cell_size = float(cell_size)
+        self.threads = threads
+        self.loads = None
+        self.report = None
+
+    # ---- what is baked --------------------------------------------------------------------------
+
+    def _parameters(self):
+        return {
+            "cell_size": self.cell_size,
+            "frame_start": self.frame_start,
+            "frame_end": self.frame_end,
+            "frame_rate": self.frame_rate,
+            "load_model": self.load_model,
+            "soils": [asdict(soil) for soil in self.soils],
+            "ground": self.ground.name,
+            "walkers": list(self.gait.walker_name),
+            "mass_kg": [float(mass) for mass in self.gait.mass],
+            **self.options,
+        }
+
+    def _signature(self):
+        """The same for two bakes exactly when they write the same files."""
+        digest = hashlib.sha256(f"{VERSION} {FORMAT} {self._parameters()} {self.ground.native[0]}".encode())
+        gait = self.gait
+        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker]
+        for sole in gait.soles:
+            arrays += [sole.vertices, sole.triangles]
+        for array in arrays + self.ground.arrays():
+            digest.update(np.ascontiguousarray(array).data)
+        digest.update(repr([part for part in self.ground.native if isinstance(part, float)]).encode())
+        return digest.hexdigest()
+
+    def _simulation(self):
+        """The ground with the recording on it, at a whole number of samples a frame."""
+        self.samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
+        gait = self.gait.resample(self.frame_rate * self.samples)
+        sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads, **self.options)
+        self.loads = walker.loads(gait, self.load_model, ground=sim.rest_height)
+        sim.load(gait, self.loads)
+        return sim
+
+    def _rectangle(self, sim):
+        """Tiles (x, y, nx, ny) the frames cover: what the walk can reach of the ground."""
+        i0, i1, j0, j1 = sim.reach()
+        if i0 >= i1:
+            raise DesirePathError(
+                "No foot touches the ground in these frames: check that the walker stands on it and the scale is right."
+            )
+        x0, y0, x1, y1 = sim.bounds()
+        cell, (ox, oy) = self.cell_size, self.options["origin"]
+        if math.isfinite(x0):
+            i0 = max(i0, math.floor((x0 - ox) / cell))
+            i1 = min(i1, math.ceil((x1 - ox) / cell))
+            j0 = max(j0, math.floor((y0 - oy) / cell))
+            j1 = min(j1, math.ceil((y1 - oy) / cell))
+        if i0 >= i1 or j0 >= j1:
+            raise DesirePathError(
+                "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
+            )
+        tx0, ty0 = i0 // TILE, j0 // TILE
+        tx1, ty1 = -(-i1 // TILE), -(-j1 // TILE)
+        if (tx1 - tx0) * (ty1 - ty0) * TILE * TILE > MOST_PIXELS:
+            raise DesirePathError(
+                "The walk covers more cells than one picture can hold: choose a larger cell size or a shorter walk."
+            )
+        return tx0, ty0, tx1 - tx0, ty1 - ty0
+
+    # ---- the bake -------------------------------------------------------------------------------
+
+    def run(self):
+        """Bake, yielding Progress after every frame. Stopping early (closing the generator) keeps
+        what was written. DesirePathError says in one sentence what went wrong."""
+        try:
+            yield from self._run()
+        except OSError as problem:
+            raise DesirePathError(
+                f"{_plain(problem)}. What was baked before is still there; make room or choose another folder, then bake again."
+            ) from None
+
+    def _run(self):
+        seconds = {"total": time.perf_counter()}
+        sim = self._simulation()
+        tiles = self._rectangle(sim)
+        sim.open_frames(*tiles)
+        seconds["loads"] = time.perf_counter() - seconds["total"]
+
+        fresh = os.path.join(self.folder, "frames.new")
+        index = self._index(tiles)
+        done = self._prepare(fresh, index)
+        spent_step = spent_write = 0.0
+        count = self.frame_end - self.frame_start + 1
+        try:
+            if done < 0:
+                sim.write_frame(frame_path(fresh, 0), 0.0)
+            for number in range(1, count + 1):
+                frame = self.frame_start + number - 1
+                begun = time.perf_counter()
+                sim.run(self._sample(frame))
+                stepped = time.perf_counter()
+                path = frame_path(fresh, number) if number > done else None
+                sim.write_frame(path, (frame - self.gait.frame_start) / self.frame_rate)
+                if self.map_seconds:
+                    self._second(sim, tiles, frame)
+                spent_step += stepped - begun
+                spent_write += time.perf_counter() - stepped
+                yield Progress(frame, number / count)
+        except (GeneratorExit, OSError):
+            self._publish(fresh, only_if_free=True)
+            raise
+
+        seconds["step"], seconds["write"] = spent_step, spent_write
+        self._maps(sim, tiles, os.path.join(self.folder, "maps_final.exr"), frame)
+        self._start_maps(sim, tiles)
+        _write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
+        seconds["total"] = time.perf_counter() - seconds["total"]
+        self.report = self._report(sim, seconds)
+        _write_json(os.path.join(self.folder, "report.json"), self.report)
+        self._publish(fresh)
+
+    def _sample(self, frame):
+        """Sample of the recording that shows this scene frame."""
+        return max(0, (frame - self.gait.frame_start) * self.samples)
+
+    def _index(self, tiles):
+        tx, ty, nx, ny = tiles
+        ox, oy = self.options["origin"]
+        side = TILE * self.cell_size
+        return {
+            "format": FORMAT, "version": VERSION, "signature": self._signature(),
+            "cell": self.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
+            "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
+            "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
+        }
+
+    def _prepare(self, fresh, index):
+        """Make the folders; how many frames of the very same bake are there already (-1 = none)."""
+        try:
+            os.makedirs(self.folder, exist_ok=True)
+        except OSError as problem:
+            raise DesirePathError(
+                f"The folder {self.folder} cannot be made ({problem.strerror}): choose another one."
+            ) from None
+        done = -1
+        for place in (fresh, os.path.join(self.folder, "frames")):
+            try:
+                with open(os.path.join(place, "index.json"), encoding="utf-8") as file:
+                    old = json.load(file)
+            except (OSError, ValueError):
+                continue
+            same = self.resume and old.get("signature") == index["signature"] and not old.get("complete")
+            if same and os.path.exists(frame_path(place, 0)):
+                done = 0
+                while os.path.exists(frame_path(place, done + 1)):
+                    done += 1
+                if place != fresh:
+                    shutil.rmtree(fresh, ignore_errors=True)
+                    os.rename(place, fresh)
+                break
+        try:
+            if done < 0:
+                shutil.rmtree(fresh, ignore_errors=True)
+                os.makedirs(fresh, exist_ok=True)
+            if self.map_seconds:
+                os.makedirs(os.path.join(self.folder, "maps"), exist_ok=True)
+                for old in Path(self.folder, "maps").glob("second_*.exr"):
+                    old.unlink()
+            _write_json(os.path.join(fresh, "index.json"), index)
+        except OSError as problem:
+            raise DesirePathError(
+                f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one."
+            ) from None
+        return done
+
+    def _publish(self, fresh, only_if_free=False):
+        """Let the fresh frames take the place of the old ones."""
+        frames = os.path.join(self.folder, "frames")
+        if os.path.exists(frames):
+            if only_if_free:
+                return
+            old = os.path.join(self.folder, "frames.old")
+            shutil.rmtree(old, ignore_errors=True)
+            os.rename(frames, old)
+            os.rename(fresh, frames)
+            shutil.rmtree(old, ignore_errors=True)
+        elif os.path.exists(fresh):
+            os.rename(fresh, frames)
+
+    # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
+
+    def _notes(self, tiles, frame):
+        tx, ty, _, _ = tiles
+        ox, oy = self.options["origin"]
+        side = TILE * self.cell_size
+        notes = [
+            ("software", f"Desire Path {VERSION}"), ("cell", self.cell_size), ("originX", ox + tx * side),
+            ("originY", oy + ty * side), ("time", (frame - self.gait.frame_start) / self.frame_rate),
+            ("parameters", json.dumps(self._parameters())),
+        ]
+        return notes + [(f"unit_{entry.name}", entry.unit) for entry in maps.MAPS]
+
+    def _maps(self, sim, tiles, path, frame):
+        tx, ty, nx, ny = tiles
+        planes = {
+            entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
+            for entry in maps.MAPS
+        }
+        maps.write(path, planes, self._notes(tiles, frame))
+
+    def _second(self, sim, tiles, frame):
+        """After every whole simulated second, TRAIL (17)."""
+        elapsed = frame - self.frame_start
+        before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
+        if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
+            name = f"second_{math.floor(now + 1e-9):04d}.exr"
+            self._maps(sim, tiles, os.path.join(self.folder, "maps", name), frame)
+
+    def _start_maps(self, sim, tiles):
+        tx, ty, nx, ny = tiles
+        window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
+        modulus = sim.read("young_modulus", *window)
+        planes = {"plant_strength_in": np.zeros_like(modulus), "young_modulus_in": modulus}
+        maps.write(os.path.join(self.folder, "maps_start.exr"), planes,
+                   self._notes(tiles, self.gait.frame_start))
+
+    def _report(self, sim, seconds):
+        found = sim.report()
+        warnings = list(self.gait.warnings) + list(self.loads.warnings)
+        if found["off_ground"]:
+            warnings.append("Some steps land beside the ground and leave no print there.")
+        return {
+            "contacts": found["contacts"], "deepest_m": found["deepest_m"],
+            "pressed_m3": found["pressed_m3"], "pressed_heap_m3": found["pressed_heap_m3"],
+            "heaped_m3": found["heaped_m3"], "displaced_m3": found["displaced_m3"],
+            "seconds": round(seconds["total"], 3),
+            "stages": {name: round(spent, 3) for name, spent in seconds.items()},
+            "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
+        }
+
+
+def _plain(problem):
+    """One clause about an OSError, whoever raised it."""
+    if problem.strerror and problem.filename:
+        return f"{problem.filename} cannot be written ({problem.strerror})"
+    return str(problem)

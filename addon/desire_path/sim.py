@@ -1,0 +1,222 @@
+"""The one doorway to the core: ground, soils and a recording go in, pressed ground comes out.
+
+SI units, world frame, +Z up. Arrays that cross to the core are C-ordered float64 (recordings) or
+float32 (grids). Nothing here knows Blender.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import _native
+from .errors import DesirePathError
+from .soil import SOILS, Soil
+from .version import VERSION
+
+TILE = 64  # cells along one side of a tile of ground and of a playback frame
+
+LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
+HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
+LOAD_MODELS = ("inertia", "impulse")
+
+_FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
+    "compression": 0,
+    "heap": 1,
+    "pressure_time": 2,
+    "rest": 3,
+    "young_modulus": 4,
+    "soil": 5,
+    "plant_strength": 6,
+}
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Where the ground is before anybody walks on it. Use flat(), heights() or mesh()."""
+
+    native: tuple = field(repr=False)
+    name: str = "ground"
+
+    @staticmethod
+    def flat(height=0.0):
+        """Level ground without end at `height` [m]."""
+        if not math.isfinite(height):
+            raise DesirePathError("The height of the flat ground is not a number: give it in metres.")
+        return Ground(("flat", float(height)), "flat")
+
+    @staticmethod
+    def heights(heights, spacing, x0=0.0, y0=0.0, kind_weight=None):
+        """Ground from a regular grid.
+
+        heights: (ny, nx) [m], row 0 at the lowest y, NaN = no ground; bilinear between samples.
+        spacing: distance of samples [m] > 0; sample (0, 0) lies at (x0, y0).
+        kind_weight: (kinds, ny, nx) >= 0, how much of each soil; the heaviest wins.
+        """
+        heights = np.ascontiguousarray(heights, np.float32)
+        if heights.ndim != 2 or min(heights.shape) < 2:
+            raise DesirePathError("A ground of heights needs at least 2 x 2 samples.")
+        if np.isinf(heights).any():
+            raise DesirePathError("The ground has infinite heights: mark holes with NaN instead.")
+        if np.isnan(heights).all():
+            raise DesirePathError("The ground has no height anywhere: every sample is NaN.")
+        if not (spacing > 0 and math.isfinite(spacing) and math.isfinite(x0) and math.isfinite(y0)):
+            raise DesirePathError("The ground's sample spacing must be a positive number of metres.")
+        if kind_weight is not None:
+            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
+            kind_weight = kind_weight.reshape(len(kind_weight), -1)
+        native = ("heights", heights, float(spacing), float(x0), float(y0), kind_weight)
+        return Ground(native, "heights")
+
+    @staticmethod
+    def mesh(vertices, triangles, kind_weight=None):
+        """Ground from triangles seen from above.
+
+        vertices: (n, 3) world position [m]; triangles: (m, 3) indices.
+        kind_weight: (kinds, n) >= 0, how much of each soil at each vertex; the heaviest wins.
+        """
+        vertices = np.ascontiguousarray(vertices, np.float64).reshape(-1, 3)
+        triangles = np.ascontiguousarray(triangles, np.int32).reshape(-1, 3)
+        if len(triangles) == 0:
+            raise DesirePathError("The ground has no faces: give it at least one.")
+        bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+        if len(bad):
+            raise DesirePathError(
+                f"Vertex {bad[0]} of the ground is not a finite position: repair the mesh and bake again."
+            )
+        if kind_weight is not None:
+            kind_weight = np.ascontiguousarray(kind_weight, np.float32).reshape(-1, len(vertices))
+        return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
+
+    def arrays(self):
+        """The arrays the ground is made of, for telling one ground from another."""
+        return [part for part in self.native if isinstance(part, np.ndarray)]
+
+
+def as_soils(soils):
+    """A list of Soil from one Soil, one preset's name, or a sequence of either."""
+    if isinstance(soils, (str, Soil)):
+        soils = [soils]
+    found = []
+    for soil in soils:
+        if isinstance(soil, str):
+            if soil not in SOILS:
+                raise DesirePathError(f"There is no soil '{soil}': choose one of {', '.join(SOILS)}.")
+            soil = SOILS[soil]
+        found.append(soil)
+    if not 1 <= len(found) <= 255:
+        raise DesirePathError("Give the ground between 1 and 255 soils.")
+    return found
+
+
+def _soil_rows(soils):
+    rows = [
+        (
+            soil.layer_depth,
+            soil.young_modulus,
+            soil.poisson_ratio,
+            soil.settle_time,
+            soil.rest_angle,
+            soil.push_threshold,
+        )
+        for soil in soils
+    ]
+    return np.array(rows, np.float32)
+
+
+class Simulation:
+    """Ground that walkers press.
+
+    ground: Ground; soils: a preset's name, a Soil, or a list (painted ground counts through it).
+    cell_size: side of a cell [m], 0.0005 to 1.
+    law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: reach of a "paper" heap.
+    threads: 0 = as many as the machine has; the result is the same for any number.
+    """
+
+    def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
+                 heap="rest", rim_width=0.04, threads=0):
+        if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
+            raise DesirePathError(
+                f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
+            )
+        if law not in LAWS:
+            raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
+        if heap not in HEAPS:
+            raise DesirePathError(f"There is no heap law '{heap}': choose {' or '.join(HEAPS)}.")
+        if not 0 <= threads <= 64:
+            raise DesirePathError("The number of threads must be 0 (all) to 64.")
+        self.cell_size = float(cell_size)
+        self.origin = (float(origin[0]), float(origin[1]))
+        self.soils = as_soils(soils)
+        try:
+            self._core = _native.Simulation(
+                ground.native, _soil_rows(self.soils), self.cell_size, self.origin,
+                LAWS.index(law), HEAPS.index(heap), float(rim_width), 100000, 0.25, int(threads),
+            )
+        except ValueError as problem:
+            if "no ground" in str(problem):
+                raise DesirePathError(
+                    "The ground has no area seen from above: it stands upright. Lay it down and bake again."
+                ) from None
+            raise DesirePathError(f"The ground cannot be used: {problem}.") from None
+
+    def rest_height(self, xy):
+        """Height of the ground before any walker [m] at points xy (n, 2); NaN where there is none."""
+        xy = np.ascontiguousarray(xy, np.float64).reshape(-1, 2)
+        height = np.empty(len(xy))
+        self._core.rest(xy, height)
+        return height
+
+    def bounds(self):
+        """World box of the ground (x0, y0, x1, y1) [m]; infinite for flat ground."""
+        return self._core.bounds()
+
+    def load(self, gait, loads):
+        """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
+        vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
+        triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
+        self._core.load(
+            np.ascontiguousarray(gait.time), np.ascontiguousarray(gait.mass),
+            np.ascontiguousarray(gait.pose), np.ascontiguousarray(gait.limb_walker, np.int32),
+            np.ascontiguousarray(gait.part_limb, np.int32), np.ascontiguousarray(vertices),
+            np.array([len(sole.vertices) for sole in gait.soles], np.int32),
+            np.ascontiguousarray(triangles),
+            np.array([len(sole.triangles) for sole in gait.soles], np.int32),
+            np.ascontiguousarray(loads.touching, np.uint8), np.ascontiguousarray(loads.force),
+            np.ascontiguousarray(loads.point),
+        )
+
+    def reach(self):
+        """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
+        return self._core.reach()
+
+    def run(self, sample):
+        """Step to the state at this sample of the loaded recording."""
+        self._core.run(int(sample))
+
+    def settle(self):
+        """Lift all feet and let everything loose come to rest."""
+        self._core.settle()
+
+    def report(self):
+        """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
+        return self._core.report()
+
+    def read(self, name, i0, j0, nx, ny):
+        """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS, "rest",
+        "young_modulus" or "soil"."""
+        if name not in _FIELDS:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(_FIELDS)}.")
+        out = np.zeros((int(ny), int(nx)), np.float32)
+        self._core.read(_FIELDS[name], int(i0), int(j0), out)
+        return out
+
+    def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
+        """Frames written from now on cover these tiles (TILE cells a side)."""
+        self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}")
+
+    def write_frame(self, path, time):
+        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
+        self._core.write_frame(None if path is None else str(path), float(time))
