@@ -1,0 +1,25 @@
+// imprint/imprint_raster.h - triangles on a grid of samples, lowest height kept. Inside the room.
+#pragma once
+#include "base/types.h"
+
+// lives inside the clone that calls it
+#define DP_INLINE static inline __attribute__((always_inline))
+
+// A window on the grid of samples about a patch. Sample (p, q) of the whole grid sits at
+// (2 p - past_u, 2 q - past_v) in units of half the distance of two samples, from the patch's
+// middle: whole numbers, so that a mirrored sole meets mirrored samples to the last bit.
+typedef struct DpSamples
+{
+    int    p0, p1, q0, q1;  // window: p0 <= p < p1, q0 <= q < q1
+    int    past_u, past_v;  // samples along the whole grid, less one
+    int    row;             // floats from one row to the next, a multiple of 8
+    float* low;             // lowest height of the sole above its lowest point, +inf where none [m]
+} DpSamples;
+
+// First sample at or after position x, last sample at or before it; one step beyond the grid at most.
+int dp_samples_first(double x, int past);
+int dp_samples_last(double x, int past);
+
+// Lower the samples under `count` triangles over corners (u, v, z). z >= 0 above the lowest point.
+void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
+                      int count);
