@@ -1,0 +1,205 @@
+"""What must hold of the ground whoever walks on it: design 11, oracles 1 to 7 and 11."""
+
+import math
+
+import numpy as np
+import pytest
+
+from desire_path import walker
+from desire_path.gait import Gait
+from desire_path.sim import Ground, Simulation
+from desire_path.soil import SOILS, Soil
+
+from tests.scenes import gaits
+
+G = 9.81
+FIRM = Soil(layer_depth=0.3, young_modulus=0.35e6, poisson_ratio=0.35, settle_time=0.15,
+            rest_angle=math.radians(20))
+
+
+def press(soles, poses, forces, *, soil=FIRM, cell=0.01, law="sole", heap="rest", threads=1, **more):
+    """The ground after standing and lifting off, and the report; a window of 4 m about the origin."""
+    sim = Simulation(Ground.flat(), soil, cell, law=law, heap=heap, threads=threads)
+    gait, loads = gaits.pressed(soles, poses, forces, **more)
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    half = int(round(2 / cell))
+    window = (-half, -half, 2 * half, 2 * half)
+    maps = {name: sim.read(name, *window) for name in ("compression", "heap", "pressure_time")}
+    return maps, sim.report()
+
+
+AT_ORIGIN = [0, 0, 0, 1, 0, 0, 0]
+FOOT = gaits.box(0.25, 0.11)  # 0.0275 m^2
+
+
+def ledger(report, nu):
+    return 2 * nu * (report["pressed_m3"] + report["pressed_heap_m3"]) - report["pressed_heap_m3"]
+
+
+@pytest.mark.parametrize("law", ["sole", "uniform"])
+def test_single_support_at_rest_sinks_by_stress_over_stiffness(law):
+    maps, report = press([FOOT], [AT_ORIGIN], [[0, 0, -75 * G]], law=law)
+    want = 75 * G * 0.3 / (0.35e6 * 0.0275)
+    assert want == pytest.approx(0.0229, abs=1e-4)
+    assert report["deepest_m"] == pytest.approx(want, rel=0.01)
+
+
+@pytest.mark.parametrize("law", ["sole", "uniform"])
+def test_two_feet_share_the_depth(law):
+    places = [[0, 0.3, 0, 1, 0, 0, 0], [0, -0.3, 0, 1, 0, 0, 0]]
+    one, _ = press([FOOT], [AT_ORIGIN], [[0, 0, -75 * G]], law=law)
+    two, _ = press([FOOT, FOOT], places, [[0, 0, -37.5 * G]] * 2, law=law)
+    assert two["compression"].max() == pytest.approx(one["compression"].max() / 2, rel=0.01)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_depth_is_proportional_to_load_and_layer_and_softness(factor):
+    _, base = press([FOOT], [AT_ORIGIN], [[0, 0, -40 * G]])
+    from dataclasses import replace
+    for soil, load in [(FIRM, 40 * factor),
+                       (replace(FIRM, layer_depth=0.3 * factor), 40),
+                       (replace(FIRM, young_modulus=0.35e6 / factor), 40)]:
+        _, other = press([FOOT], [AT_ORIGIN], [[0, 0, -load * G]], soil=soil)
+        assert other["deepest_m"] == pytest.approx(factor * base["deepest_m"], rel=0.01)
+
+
+def test_half_the_area_is_twice_as_deep():
+    _, whole = press([gaits.box(0.24, 0.1)], [AT_ORIGIN], [[0, 0, -50 * G]])
+    _, half = press([gaits.box(0.12, 0.1)], [AT_ORIGIN], [[0, 0, -50 * G]])
+    assert half["deepest_m"] == pytest.approx(2 * whole["deepest_m"], rel=0.01)
+
+
+def test_the_print_does_not_depend_on_the_rate():
+    deep = [press([FOOT], [AT_ORIGIN], [[0, 0, -75 * G]], rate=rate)[1] for rate in (24.0, 60.0, 240.0)]
+    for report in deep[1:]:
+        assert report["deepest_m"] == pytest.approx(deep[0]["deepest_m"], rel=0.01)
+        assert report["heaped_m3"] == pytest.approx(deep[0]["heaped_m3"], rel=0.01)
+
+
+@pytest.mark.parametrize("heap", ["rest", "paper"])
+@pytest.mark.parametrize("name", ["dry-sand", "snow", "mud"])
+def test_the_ledger_balances_after_crossing_prints(heap, name):
+    soil = SOILS[name]
+    sim = Simulation(Ground.flat(), soil, 0.01, heap=heap)
+    for k in range(6):
+        turned = gaits.turn_z(0.7 * k)
+        gait, loads = gaits.pressed([FOOT], [[0.05 * k, 0.03 * (k % 3), 0, *turned]],
+                                    [[60 * (k % 2), 40, -700]], seconds=0.4)
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        report = sim.report()
+        assert report["heaped_m3"] == pytest.approx(ledger(report, soil.poisson_ratio), rel=1e-6)
+    assert report["pressed_heap_m3"] > 0
+
+
+def test_a_first_print_heaps_two_nu_of_its_volume():
+    _, report = press([FOOT], [AT_ORIGIN], [[0, 0, -75 * G]])
+    assert report["heaped_m3"] == pytest.approx(2 * 0.35 * report["pressed_m3"], rel=1e-6)
+
+
+def test_a_mirrored_foot_leaves_a_mirrored_print():
+    tilted = np.array([0.05, 0.02, 0, math.cos(0.1), 0.04, 0.03, math.sin(0.1)])
+    tilted[3:] /= np.linalg.norm(tilted[3:])
+    mirrored = tilted * [1, -1, 1, 1, -1, 1, -1]  # across the plane y = 0
+    left, _ = press([FOOT], [tilted], [[50, 80, -600]])
+    right, _ = press([FOOT], [mirrored], [[50, -80, -600]])
+    assert left["heap"].max() > 0.002
+    for name in ("compression", "heap"):
+        assert np.abs(left[name] - right[name][::-1]).max() < 1e-5
+
+
+def test_a_turned_scene_leaves_the_same_print_turned():
+    base, _ = press([FOOT], [AT_ORIGIN], [[90, 20, -600]])
+    quarter, _ = press([FOOT], [[0, 0, 0, *gaits.turn_z(math.pi / 2)]], [[-20, 90, -600]])
+    for name in ("compression", "heap"):
+        assert np.abs(np.rot90(base[name], -1) - quarter[name]).max() < 1e-5 or \
+               np.abs(np.rot90(base[name], 1) - quarter[name]).max() < 1e-5
+
+
+def test_every_loose_slope_rests():
+    for name in ("dry-sand", "mud", "soft-soil"):
+        soil = SOILS[name]
+        maps, _ = press([FOOT], [AT_ORIGIN], [[120, 0, -900]], soil=soil)
+        heap, surface = maps["heap"], maps["heap"] - maps["compression"]
+        limit = math.tan(soil.rest_angle + math.radians(0.1))
+        steepest = 0.0
+        for dj in (-1, 0, 1):
+            for di in (-1, 0, 1):
+                if di or dj:
+                    way = 0.01 * math.hypot(di, dj)
+                    fall = (surface - np.roll(surface, (dj, di), (0, 1))) - limit * way
+                    steepest = max(steepest, float(np.minimum(fall, heap).max() / way))
+        assert heap.max() > 0.001
+        assert steepest < 1e-4, name
+
+
+def test_threads_do_not_matter():
+    places = [[0.5 * k - 1, 0.4 * (k % 3), 0, *gaits.turn_z(0.3 * k)] for k in range(6)]
+    runs = [press([FOOT] * 6, places, [[30, 0, -500]] * 6, threads=threads)[0] for threads in (1, 2, 4)]
+    for name in ("compression", "heap", "pressure_time"):
+        assert runs[0][name].tobytes() == runs[1][name].tobytes() == runs[2][name].tobytes()
+
+
+def test_volume_and_rim_do_not_depend_on_the_cell():
+    """A wide stamp, so that its rim is wider than the coarsest cell."""
+    stamp, load = gaits.box(0.8, 0.6), 0.35e6 * 0.48 * 0.10 / 0.3
+    runs = {cell: press([stamp], [AT_ORIGIN], [[0, 0, -load]], cell=cell) for cell in (0.04, 0.02, 0.01)}
+    fine_maps, fine = runs[0.01]
+    for cell in (0.04, 0.02):
+        maps, report = runs[cell]
+        assert report["pressed_m3"] == pytest.approx(fine["pressed_m3"], rel=0.03)
+        assert maps["heap"].max() == pytest.approx(fine_maps["heap"].max(), rel=0.10)
+
+
+def test_a_foot_s_volume_does_not_depend_on_the_cell():
+    turned = [0.013, 0.021, 0, *gaits.turn_z(0.4)]
+    runs = [press([FOOT], [turned], [[0, 0, -75 * G]], cell=cell)[1] for cell in (0.04, 0.02, 0.01, 0.005)]
+    for report in runs[:-1]:
+        assert report["pressed_m3"] == pytest.approx(runs[-1]["pressed_m3"], rel=0.03)
+
+
+def falling_sphere(mass=50.0, height=2.5, radius=0.15):
+    """A sphere dropped from `height`, sampled until 0.5 s after it lands (oracle 11)."""
+    rate = 240.0
+    fall = math.sqrt(2 * height / G)
+    time = np.arange(int((fall + 0.5) * rate) + 1) / rate
+    z = np.maximum(height - G * time**2 / 2, 0.0)
+    at = np.stack([0 * time, 0 * time, z + radius], axis=1)
+    pose = np.concatenate([at, np.tile([1.0, 0, 0, 0], (len(time), 1))], axis=1)
+    return Gait(time=time, com=at[None], mass=[mass], pose=pose[None], limb_walker=[0], part_limb=[0],
+                soles=[gaits.sphere(radius)], point=[[0, 0, -radius]], point_part=[0], point_role=[1],
+                frame_rate=rate)
+
+
+def drop(mass=50.0, modulus=1e6, nu=0.35):
+    soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2,
+                rest_angle=math.radians(30))
+    gait = falling_sphere(mass)
+    sim = Simulation(Ground.flat(), soil, 0.01)
+    loads = walker.loads(gait, "impulse", ground=sim.rest_height, settle_time=soil.settle_time)
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    heap = sim.read("heap", -100, -100, 200, 200)
+    return loads, sim.report(), heap
+
+
+def test_a_dropped_sphere_hits_with_weight_and_impulse():
+    loads, _, _ = drop()
+    peak = -loads.force[0, :, 2].min()
+    assert peak == pytest.approx(2241, rel=0.01)
+
+
+def test_a_dropped_sphere_goes_deeper_with_mass_and_shallower_with_stiffness():
+    depth = [drop(mass=m)[1]["deepest_m"] for m in (25, 50, 100)]
+    assert depth[0] < depth[1] < depth[2]
+    depth = [drop(modulus=e)[1]["deepest_m"] for e in (0.5e6, 1e6, 2e6)]
+    assert depth[0] > depth[1] > depth[2]
+
+
+def test_a_dropped_sphere_s_rim_grows_with_poisson_s_ratio_and_its_depth_does_not():
+    runs = [drop(nu=nu) for nu in (0.1, 0.25, 0.45)]
+    depths = [report["deepest_m"] for _, report, _ in runs]
+    rims = [float(heap.max()) for _, _, heap in runs]
+    assert depths[0] == pytest.approx(depths[2], rel=1e-3) and depths[0] == pytest.approx(depths[1], rel=1e-3)
+    assert rims[0] < rims[1] < rims[2]

@@ -1,0 +1,65 @@
+"""Small recordings made of numbers: a box that stands, a sphere that falls, a stamp that is pressed.
+
+They drive the core directly, with forces said and not computed, so that a test knows the answer.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from desire_path.gait import Gait, Sole
+
+
+def box(length, width, height=0.02):
+    """A closed box, its underside at z = 0, centred; 12 triangles."""
+    x, y = length / 2, width / 2
+    corner = np.array([[sx * x, sy * y, z] for z in (0, height) for sy in (-1, 1) for sx in (-1, 1)])
+    faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+             [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]
+    return Sole(corner, faces)
+
+
+def sphere(radius, rings=24):
+    """A sphere about its centre."""
+    up = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
+    round_ = np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)
+    corner = radius * np.array([[np.cos(u) * np.cos(r), np.cos(u) * np.sin(r), np.sin(u)]
+                                for u in up for r in round_])
+    n = 2 * rings
+    faces = []
+    for j in range(rings):
+        for i in range(n):
+            a, b = j * n + i, j * n + (i + 1) % n
+            faces += [[a, b, a + n], [b, b + n, a + n]]
+    return Sole(corner, faces)
+
+
+def turn_z(angle):
+    """Quaternion of a turn about +Z."""
+    return np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
+
+
+def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.1):
+    """Rigid parts that stand still and press: (Gait, loads).
+
+    soles, poses (each 7 numbers), forces (each x y z [N]): one a limb. They stand for `seconds` [s],
+    then are lifted and `lift` [s] pass.
+    """
+    count = len(soles)
+    samples = int(round((seconds + lift) * rate)) + 1
+    time = np.arange(samples) / rate
+    stands = time < seconds + 1e-9
+    pose = np.repeat(np.asarray(poses, float)[:, None, :], samples, axis=1)
+    pose[:, ~stands, 2] += 0.3
+    com = np.mean(pose[:, :, :3], axis=0)[None] + [0, 0, 0.9]
+    gait = Gait(
+        time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(count),
+        part_limb=np.arange(count), soles=soles, point=np.zeros((count, 3)),
+        point_part=np.arange(count), point_role=np.ones(count), frame_rate=rate,
+    )
+    force = np.asarray(forces, float)[:, None, :] * stands[None, :, None]
+    loads = SimpleNamespace(
+        touching=np.repeat(stands[None], count, axis=0).astype(np.uint8), force=force,
+        point=pose[:, :, :3].copy(), warnings=(),
+    )
+    return gait, loads
