@@ -1,0 +1,140 @@
+// Files of other writers are read; damaged ones are refused, whatever the damage.
+#include "maps/foreign.h"
+
+#define F EXR_PIXEL_FLOAT
+#define H EXR_PIXEL_HALF
+#define U EXR_PIXEL_UINT
+
+static const Foreign sorts[] = {
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_NONE, {F, F, F}},
+    {53, 41, -7, 19, 0, 0, EXR_COMPRESSION_RLE, {H, F, U}},
+    {53, 41, 5, -300, 0, 0, EXR_COMPRESSION_ZIPS, {U, U, U}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, H, H}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PIZ, {H, F, H}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PXR24, {H, H, F}},
+    {53, 41, 0, 0, 16, 0, EXR_COMPRESSION_ZIP, {F, H, U}},
+    {53, 41, 9, 9, 32, 0, EXR_COMPRESSION_NONE, {F, F, F}},
+    {64, 64, 0, 0, 16, 1, EXR_COMPRESSION_PIZ, {F, F, F}},
+    {1, 90, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, F, U}},
+};
+#define SORTS ((int)(sizeof sorts / sizeof *sorts))
+
+TEST(other_writers_are_read)
+{
+    for (int s = 0; s < SORTS; ++s) {
+        const Foreign* as = &sorts[s];
+        const char*    path = world_path("foreign.exr");
+        CHECK(foreign_write(path, as) == 0);
+        DpMapFile* map = NULL;
+        CHECK(dp_maps_read(path, &map) == DP_OK);
+        if (!map) continue;
+        CHECK(map->nx == as->nx && map->ny == as->ny && map->channel_count == 3);
+        long bad = 0;
+        for (int c = 0; c < 3; ++c)
+            for (int j = 0; j < as->ny; ++j)
+                for (int i = 0; i < as->nx; ++i)
+                    bad += map->value[(c * as->ny + j) * as->nx + i] !=
+                           foreign_value(i, as->ny - 1 - j, c);
+        if (bad) printf("  sort %d: %ld values differ\n", s, bad);
+        CHECK(bad == 0);
+        CHECK(map->note_count == 3);
+        CHECK(strcmp(map->note_name[0], "owner") == 0);
+        CHECK(strcmp(map->note_text[0], "somebody else") == 0);
+        CHECK(map->note_number[1] == 43.0 && map->note_number[2] == 0.5);
+        dp_map_file_destroy(map);
+        unlink(path);
+    }
+}
+
+TEST(what_is_no_map_is_refused)
+{
+    DpMapFile*  map = NULL;
+    const char* path = world_path("no.exr");
+    CHECK(dp_maps_read(NULL, &map) == DP_BAD_ARGUMENT);
+    CHECK(dp_maps_read(path, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_maps_read(path, &map) == DP_CANNOT_OPEN);
+    CHECK(dp_maps_read("/tmp", &map) == DP_BAD_FILE);
+    CHECK(dp_maps_read("/dev/zero", &map) == DP_BAD_FILE);
+    world_put(path, "", 0);
+    CHECK(dp_maps_read(path, &map) == DP_BAD_FILE);
+    world_put(path, "\x76\x2f\x31\x01", 4);
+    CHECK(dp_maps_read(path, &map) == DP_BAD_FILE);
+    world_put(path, "not an image at all, but a text of some length", 46);
+    CHECK(dp_maps_read(path, &map) == DP_BAD_FILE);
+    CHECK(map == NULL);
+    unlink(path);
+}
+
+static unsigned char whole[400000], hurt[400000];
+
+// read what is in hurt[]; nothing may crash, leak, or take memory out of proportion
+static void read_hurt(const char* path, size_t size, long* refused)
+{
+    DpMapFile* map = NULL;
+    world_put(path, hurt, size);
+    dp_bytes_peak_reset();
+    const size_t   before = dp_bytes_live();
+    const DpStatus status = dp_maps_read(path, &map);
+    CHECK(status == DP_OK || status == DP_BAD_FILE || status == DP_NO_MEMORY);
+    CHECK((status == DP_OK) == (map != NULL));
+    CHECK(dp_bytes_peak() - before < 1500000000);
+    *refused += status != DP_OK;
+    dp_map_file_destroy(map);
+    CHECK(dp_bytes_live() == before);
+}
+
+TEST(every_truncation_is_refused)
+{
+    const char* path = world_path("short.exr");
+    const int   some[] = {0, 4, 6};
+    for (int s = 0; s < 3; ++s) {
+        CHECK(foreign_write(path, &sorts[some[s]]) == 0);
+        const size_t size = world_bytes(path, whole, sizeof whole);
+        memcpy(hurt, whole, size);
+        long   refused = 0;
+        size_t cuts = 0;
+        for (size_t cut = 0; cut < size; cut += cut < 700 ? 1 : 97, ++cuts)
+            read_hurt(path, cut, &refused);
+        CHECK(refused == (long)cuts);
+    }
+    unlink(path);
+}
+
+TEST(mutations_do_no_harm)
+{
+    const char* path = world_path("hurt.exr");
+    unsigned    state = 2024;
+    long        refused = 0, tries = 0;
+    for (int s = 0; s < SORTS; ++s) {
+        CHECK(foreign_write(path, &sorts[s]) == 0);
+        const size_t size = world_bytes(path, whole, sizeof whole);
+        CHECK(size > 300 && size < sizeof whole);
+        for (int k = 0; k < 400; ++k, ++tries) {
+            memcpy(hurt, whole, size);
+            const int changes = 1 + (int)(4.0 * check_random(&state));
+            for (int c = 0; c < changes; ++c) {
+                // the header is where damage is most telling
+                const size_t reach = check_random(&state) < 0.7 && size > 600 ? 600 : size;
+                const size_t at = (size_t)(check_random(&state) * (double)reach);
+                const double how = check_random(&state);
+                if (how < 0.4) hurt[at] ^= (unsigned char)(1u << (int)(8.0 * check_random(&state)));
+                else if (how < 0.7) hurt[at] = (unsigned char)(256.0 * check_random(&state));
+                else if (how < 0.85) hurt[at] = 0xff;
+                else if (at + 4 < size) memset(hurt + at, how < 0.93 ? 0x7f : 0, 4);
+            }
+            read_hurt(path, size, &refused);
+        }
+    }
+    CHECK(refused > tries / 10 && refused < tries);
+    unlink(path);
+}
+
+int main(void)
+{
+    RUN(other_writers_are_read);
+    RUN(what_is_no_map_is_refused);
+    RUN(every_truncation_is_refused);
+    RUN(mutations_do_no_harm);
+    world_end();
+    return check_done();
+}
