@@ -1,3 +1,186 @@
+// python/py_maps.c - maps_write and maps_read: named float32 planes to and from OpenEXR files.
+#include <string.h>
+
+#include "base/alloc.h"
+#include "maps/maps.h"
 #include "python/door.h"
 
-PyMethodDef dp_py_maps_methods[] = {{NULL, NULL, 0, NULL}};
+// A sequence's items as a tuple that holds them; NULL with a TypeError naming it.
+static PyObject* items_of(PyObject* object, const char* name)
+{
+    PyObject* items = PySequence_Tuple(object);
+    if (!items) PyErr_Format(PyExc_TypeError, "%s: expected a list", name);
+    return items;
+}
+
+// A str's UTF-8 text, without a zero inside; NULL with an exception naming it.
+static const char* text_of(PyObject* object, const char* name)
+{
+    if (!object || !PyUnicode_Check(object)) {
+        PyErr_Format(PyExc_TypeError, "%s: expected a str", name);
+        return NULL;
+    }
+    Py_ssize_t  length;
+    const char* text = PyUnicode_AsUTF8AndSize(object, &length);
+    if (text && strlen(text) != (size_t)length) {
+        PyErr_Format(PyExc_ValueError, "%s: holds a zero character", name);
+        return NULL;
+    }
+    return text;
+}
+
+// ---- writing ------------------------------------------------------------------------------------
+
+// notes[k] = (name, str or number); what they point to lives as long as `items`
+static int fill_notes(PyObject* items, DpNote* notes)
+{
+    const Py_ssize_t count = PyTuple_Size(items);
+    for (Py_ssize_t k = 0; k < count; ++k) {
+        PyObject* pair = PyTuple_GetItem(items, k);
+        if (!PyTuple_Check(pair) || PyTuple_Size(pair) != 2) {
+            PyErr_Format(PyExc_TypeError, "notes: element %zd is not a tuple (name, value)", k);
+            return -1;
+        }
+        PyObject* value = PyTuple_GetItem(pair, 1);
+        notes[k].name = text_of(PyTuple_GetItem(pair, 0), "a note's name");
+        if (!notes[k].name) return -1;
+        if (PyUnicode_Check(value)) {
+            notes[k].text = text_of(value, notes[k].name);
+            if (!notes[k].text) return -1;
+        } else {
+            notes[k].number = PyFloat_AsDouble(value);
+            if (PyErr_Occurred()) return -1;
+        }
+    }
+    return 0;
+}
+
+static int fill_channels(PyObject* names, PyObject* planes, DpDoor* door, DpMapChannel* channels,
+                         DpShape* shape)
+{
+    const Py_ssize_t count = PyTuple_Size(names);
+    for (Py_ssize_t k = 0; k < count; ++k) {
+        channels[k].name = text_of(PyTuple_GetItem(names, k), "a plane's name");
+        if (!channels[k].name) return -1;
+        channels[k].value = dp_door_open(door, PyTuple_GetItem(planes, k), channels[k].name, 'f',
+                                         shape, false);
+        if (!channels[k].value) return -1;
+    }
+    return 0;
+}
+
+static PyObject* maps_write(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *path = NULL, *names, *planes, *notes, *done = NULL;
+    DpNote*   note = NULL;
+    DpDoor    door = {.count = 0};
+    DpMapChannel channel[DP_DOOR_MOST];
+    DpShape      shape = {2, {-1, -1}};
+    if (!PyArg_ParseTuple(arguments, "O&OOO:maps_write", PyUnicode_FSConverter, &path, &names,
+                          &planes, &notes))
+        return NULL;
+    names = items_of(names, "names");
+    planes = names ? items_of(planes, "planes") : NULL;
+    notes = planes ? items_of(notes, "notes") : NULL;
+    if (!notes) goto leave;
+    const Py_ssize_t count = PyTuple_Size(names), note_count = PyTuple_Size(notes);
+    if (count < 1 || count > DP_DOOR_MOST || count != PyTuple_Size(planes)) {
+        PyErr_Format(PyExc_ValueError, "expected 1 to %d names and as many planes", DP_DOOR_MOST);
+        goto leave;
+    }
+    note = dp_alloc((size_t)note_count + 1, sizeof *note);
+    if (!note) {
+        PyErr_NoMemory();
+        goto leave;
+    }
+    if (fill_notes(notes, note) || fill_channels(names, planes, &door, channel, &shape)) goto leave;
+    if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX || note_count > INT32_MAX) {
+        dp_door_result(DP_BAD_ARGUMENT, "writing maps");
+        goto leave;
+    }
+    const char* file = PyBytes_AsString(path);
+    DpStatus    status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel, (int)count, note,
+                           (int)note_count);
+    Py_END_ALLOW_THREADS
+    done = dp_door_result(status, "writing maps");
+leave:
+    dp_door_close(&door);
+    dp_free(note);
+    Py_XDECREF(notes);
+    Py_XDECREF(planes);
+    Py_XDECREF(names);
+    Py_XDECREF(path);
+    return done;
+}
+
+// ---- reading ------------------------------------------------------------------------------------
+
+static PyObject* str_of(const char* text)
+{
+    return PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "replace");
+}
+
+static PyObject* names_of(const DpMapFile* map)
+{
+    PyObject* names = PyTuple_New(map->channel_count);
+    for (int c = 0; names && c < map->channel_count; ++c) {
+        PyObject* name = str_of(map->channel[c]);
+        if (!name || PyTuple_SetItem(names, c, name) < 0) Py_CLEAR(names);
+    }
+    return names;
+}
+
+static PyObject* notes_of(const DpMapFile* map)
+{
+    PyObject* notes = PyTuple_New(map->note_count);
+    for (int k = 0; notes && k < map->note_count; ++k) {
+        PyObject* name = str_of(map->note_name[k]);
+        PyObject* value = map->note_text[k] ? str_of(map->note_text[k])
+                                            : PyFloat_FromDouble(map->note_number[k]);
+        PyObject* pair = name && value ? PyTuple_Pack(2, name, value) : NULL;
+        Py_XDECREF(name);
+        Py_XDECREF(value);
+        if (!pair || PyTuple_SetItem(notes, k, pair) < 0) Py_CLEAR(notes);
+    }
+    return notes;
+}
+
+static PyObject* maps_read(PyObject* module, PyObject* path)
+{
+    (void)module;
+    PyObject* name = NULL;
+    if (!PyUnicode_FSConverter(path, &name)) return NULL;
+    const char* file = PyBytes_AsString(name);
+    DpMapFile*  map = NULL;
+    DpStatus    status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_maps_read(file, &map);
+    Py_END_ALLOW_THREADS
+    Py_DECREF(name);
+    if (status != DP_OK) return dp_door_result(status, "reading maps");
+
+    const size_t size = (size_t)map->channel_count * (size_t)map->ny * (size_t)map->nx * 4;
+    PyObject*    names = names_of(map);
+    PyObject*    notes = names ? notes_of(map) : NULL;
+    PyObject*    data = notes ? PyByteArray_FromStringAndSize((const char*)map->value,
+                                                              (Py_ssize_t)size)
+                              : NULL;
+    PyObject*    all = data ? Py_BuildValue("(iiOOO)", map->nx, map->ny, names, data, notes) : NULL;
+    Py_XDECREF(names);
+    Py_XDECREF(notes);
+    Py_XDECREF(data);
+    dp_map_file_destroy(map);
+    return all;
+}
+
+PyMethodDef dp_py_maps_methods[] = {
+    {"maps_write", maps_write, METH_VARARGS,
+     "maps_write(path, names, planes, notes)\n\nWrite float32 (ny, nx) planes, row 0 = lowest y, as "
+     "channels of one OpenEXR file; notes is a list of (name, str or float) for its header."},
+    {"maps_read", maps_read, METH_O,
+     "maps_read(path) -> (nx, ny, names, data, notes)\n\ndata is a bytearray of float32 "
+     "(len(names), ny, nx), row 0 = lowest y."},
+    {NULL, NULL, 0, NULL}};

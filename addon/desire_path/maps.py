@@ -1,0 +1,105 @@
+"""Maps in and out: named float32 grids in OpenEXR files, row 0 at the lowest y. TRAIL 4.3, (17)
+
+    from desire_path import maps
+    picture = maps.read("bake/maps_final.exr")
+    picture.planes["compression"]      # (ny, nx) float32, [m]
+    picture.notes["cell"]              # side of a cell [m]
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _native
+from .errors import DesirePathError
+
+
+class Map(NamedTuple):
+    """A field that leaves the simulation."""
+
+    name: str
+    unit: str
+    equation: str
+    meaning: str
+
+
+MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
+    Map("compression", "m", "TRAIL (10)", "pressed below the first height, >= 0"),
+    Map("heap", "m", "TRAIL (12)", "loose soil piled above it, >= 0"),
+    Map("pressure_time", "Pa s", "TRAIL (17)", "stress summed over the walk"),
+    Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
+)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What a file holds: planes by name, float32 (ny, nx); notes by name, text or number."""
+
+    planes: dict
+    notes: dict
+
+    @property
+    def shape(self):
+        return next(iter(self.planes.values())).shape
+
+
+def write(path, planes, notes=()):
+    """Write planes to one file, whole or not at all; an old file stays when this fails.
+
+    planes: dict of name -> (ny, nx) array, all of one shape.
+    notes: dict, or list of (name, text or number), for the file's header.
+    """
+    path = os.fspath(path)
+    if not planes:
+        raise DesirePathError(f"There is nothing to write to {path}: give at least one map.")
+    grids = {}
+    for name, plane in planes.items():
+        grid = np.ascontiguousarray(plane, np.float32)
+        if grid.ndim != 2 or 0 in grid.shape:
+            raise DesirePathError(
+                f"The map '{name}' for {path} has the shape {grid.shape}: give it rows and columns."
+            )
+        grids[name] = grid
+    if len({grid.shape for grid in grids.values()}) > 1:
+        shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
+        raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
+    pairs = list(notes.items() if isinstance(notes, dict) else notes)
+    pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
+    try:
+        _native.maps_write(path, list(grids), list(grids.values()), pairs)
+    except OSError as problem:
+        raise DesirePathError(
+            f"{path} cannot be written ({_clause(problem)}): make room or choose another folder."
+        ) from None
+    except ValueError as problem:
+        raise DesirePathError(
+            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28 cells,"
+            " and maps and notes with different names of 1 to 31 characters that OpenEXR does not"
+            " use itself."
+        ) from None
+
+
+def read(path):
+    """Read a flat OpenEXR file of any writer as a Picture."""
+    path = os.fspath(path)
+    try:
+        nx, ny, names, data, notes = _native.maps_read(path)
+    except OSError:
+        raise DesirePathError(
+            f"{path} cannot be opened: check that the file is there and may be read."
+        ) from None
+    except ValueError:
+        raise DesirePathError(
+            f"{path} is damaged or no flat OpenEXR image: write it again, or choose another file."
+        ) from None
+    grids = np.frombuffer(data, np.float32).reshape(len(names), ny, nx)
+    return Picture(dict(zip(names, grids)), dict(notes))
+
+
+def _clause(problem):
+    """The core's words without the name of what it was doing."""
+    return str(problem).split(": ", 1)[-1]

@@ -1,0 +1,161 @@
+"""Maps: what is written is what is read, here and by other programs; errors are sentences."""
+
+import hashlib
+import os
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from desire_path import _native, maps
+from desire_path.errors import DesirePathError
+
+
+@pytest.fixture
+def grids():
+    rng = np.random.default_rng(3)
+    grids = {entry.name: rng.normal(size=(37, 83)).astype(np.float32) for entry in maps.MAPS}
+    grids["heap"][5:20] = 0
+    grids["heap"][0, :4] = [np.nan, np.inf, -0.0, 1e-42]
+    return grids
+
+
+def same_bits(a, b):
+    return a.dtype == b.dtype == np.float32 and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def test_what_is_written_is_what_is_read(tmp_path, grids):
+    path = tmp_path / "maps ä.exr"
+    notes = {"software": "Desire Path ü", "cell": 0.01, "count": 3, "empty": ""}
+    maps.write(path, grids, notes)
+    picture = maps.read(path)
+    assert sorted(picture.planes) == sorted(grids)
+    assert picture.shape == (37, 83)
+    for name, grid in grids.items():
+        assert same_bits(picture.planes[name], grid)
+    assert picture.notes == notes
+    assert [entry.name for entry in tmp_path.iterdir()] == ["maps ä.exr"]
+    picture.planes["heap"][0, 0] = 1  # the arrays are the reader's own
+
+
+def test_any_array_becomes_float32(tmp_path):
+    path = tmp_path / "any.exr"
+    plane = np.arange(12.0).reshape(3, 4)
+    maps.write(path, {"Y": plane.T, "list": np.arange(12).reshape(4, 3)})
+    picture = maps.read(str(path))
+    assert (picture.planes["Y"] == plane.T).all()
+    assert (picture.planes["list"].ravel() == np.arange(12)).all()
+
+
+@pytest.mark.skipif(not shutil.which("oiiotool"), reason="oiiotool is not installed")
+def test_oiiotool_reads_the_same_bits(tmp_path, grids):
+    path = tmp_path / "maps.exr"
+    maps.write(path, grids, {"cell": 0.25, "soil": "mud"})
+    told = subprocess.run(["oiiotool", "--info", "-v", str(path)], capture_output=True, text=True)
+    assert "83 x   37, 4 channel, float openexr" in told.stdout
+    assert "compression, heap, plant_strength, pressure_time" in told.stdout
+    assert "cell: 0.25" in told.stdout and 'soil: "mud"' in told.stdout
+    # the fingerprint of what it holds in memory: pixel by pixel, highest row first
+    told = subprocess.run(["oiiotool", "--hash", str(path)], capture_output=True, text=True)
+    pixels = np.stack([grids[name][::-1] for name in sorted(grids)], axis=-1)
+    assert hashlib.sha1(pixels.tobytes()).hexdigest() in told.stdout.lower()
+
+
+def test_a_file_of_oiiotool_is_read(tmp_path):
+    if not shutil.which("oiiotool"):
+        pytest.skip("oiiotool is not installed")
+    path = tmp_path / "theirs.exr"
+    subprocess.run(["oiiotool", "--pattern", "fill:topleft=0,0.5,1:topright=1,0.5,0:"
+                    "bottomleft=0,0,0:bottomright=1,1,1", "65x33", "3", "-d", "half", "--tile", "16",
+                    "16", "--compression", "piz", "-o", str(path)], check=True)
+    picture = maps.read(path)
+    assert picture.shape == (33, 65) and sorted(picture.planes) == ["B", "G", "R"]
+    red, blue = picture.planes["R"], picture.planes["B"]
+    assert red[-1, 0] == 0 and red[-1, -1] == 1 and blue[-1, 0] == 1  # the highest row
+    assert red[0, 0] == 0 and blue[0, -1] == 1  # the lowest
+
+
+@pytest.mark.parametrize("planes, words", [
+    ({}, "nothing to write"),
+    ({"heap": np.zeros(4)}, "rows and columns"),
+    ({"heap": np.zeros((0, 4))}, "rows and columns"),
+    ({"heap": np.zeros((2, 2)), "rest": np.zeros((2, 3))}, "differ in shape"),
+    ({"": np.zeros((2, 2))}, "different names"),
+    ({"x" * 40: np.zeros((2, 2))}, "different names"),
+    ({f"n{k}": np.zeros((2, 2)) for k in range(65)}, "up to 64 maps"),
+])
+def test_bad_planes_are_told(tmp_path, planes, words):
+    path = tmp_path / "never.exr"
+    with pytest.raises(DesirePathError, match=words) as told:
+        maps.write(path, planes)
+    assert str(path) in str(told.value) and str(told.value).endswith(".")
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("notes", [{"dataWindow": "mine"}, {"": 1.0}, [("a", 1.0), ("a", 2.0)],
+                                   {"zero": "a\0b"}])
+def test_bad_notes_are_told(tmp_path, notes):
+    with pytest.raises(DesirePathError, match="cannot be written"):
+        maps.write(tmp_path / "never.exr", {"heap": np.zeros((2, 2))}, notes)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_failed_write_leaves_the_old_file(tmp_path, grids):
+    path = tmp_path / "maps.exr"
+    maps.write(path, grids)
+    before = path.read_bytes()
+    with pytest.raises(DesirePathError):
+        maps.write(path, grids, {"channels": "mine"})
+    assert path.read_bytes() == before
+    with pytest.raises(DesirePathError, match="cannot be written .*choose another folder"):
+        maps.write(tmp_path / "no" / "folder.exr", grids)
+    with pytest.raises(DesirePathError, match="cannot be written"):
+        maps.write(tmp_path, grids)
+    assert [entry.name for entry in tmp_path.iterdir()] == ["maps.exr"]
+
+
+def test_a_linked_copy_is_never_written_into(tmp_path, grids):
+    path, link = tmp_path / "a.exr", tmp_path / "b.exr"
+    maps.write(path, grids)
+    os.link(path, link)
+    before = link.read_bytes()
+    maps.write(path, {"heap": np.ones((3, 3))})
+    assert link.read_bytes() == before and maps.read(path).shape == (3, 3)
+
+
+def test_damaged_files_are_told(tmp_path, grids):
+    path = tmp_path / "maps.exr"
+    with pytest.raises(DesirePathError, match="cannot be opened"):
+        maps.read(path)
+    maps.write(path, grids)
+    whole = path.read_bytes()
+    for damaged in (b"", whole[:100], whole[:-1], b"no image at all"):
+        path.write_bytes(damaged)
+        with pytest.raises(DesirePathError, match="damaged or no flat OpenEXR image") as told:
+            maps.read(path)
+        assert str(path) in str(told.value)
+    with pytest.raises(DesirePathError, match="damaged"):
+        maps.read(tmp_path)
+
+
+def test_the_door_refuses_what_it_cannot_take(tmp_path):
+    path, grid = str(tmp_path / "door.exr"), np.zeros((2, 2), np.float32)
+    for arguments in [
+        (path, ["a"], [grid.astype(np.float64)], []), (path, ["a"], [grid[:, ::2]], []),
+        (path, ["a"], [grid.ravel()], []), (path, ["a", "b"], [grid], []), (path, [1], [grid], []),
+        (path, ["a"], [grid], [("n",)]), (path, ["a"], [grid], [("n", None)]),
+        (path, ["a"], [grid], 5), (path, 5, [grid], []), (None, ["a"], [grid], []), (path,),
+    ]:
+        with pytest.raises((TypeError, ValueError)):
+            _native.maps_write(*arguments)
+    with pytest.raises(TypeError):
+        _native.maps_read(5.0)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_table_names_every_map_once():
+    names = [entry.name for entry in maps.MAPS]
+    assert names == ["compression", "heap", "pressure_time", "plant_strength"]
+    assert all(entry.unit and entry.equation.startswith("TRAIL (") and entry.meaning
+               for entry in maps.MAPS)
