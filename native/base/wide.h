@@ -1,0 +1,14 @@
+// base/wide.h - one body, several machines.
+//
+// Hot loops are written plainly, row by row, so that a compiler can widen them. DP_CLONES before a
+// function asks for a second build of it for wider registers, picked when the program starts. Both
+// do the same operations in the same order (no fused multiply-add), so both give the same bits.
+// -DDP_SCALAR leaves only the plain build.
+#pragma once
+#include <limits.h>  // tells __GLIBC__, whose loader picks the clone
+
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(DP_SCALAR) && !defined(DP_CHECKED)
+#define DP_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define DP_CLONES
+#endif

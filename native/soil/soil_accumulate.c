@@ -1,0 +1,88 @@
+// soil/soil_accumulate.c - who gets how much of what was pushed aside. TRAIL (11)-(13).
+//
+//   push --> anisotropy beta (13) --> share of each border cell (11)(12) --> heap: rest | paper
+//
+// Departures
+//   TRAIL (11)(12): where the push leaves no border cell ahead (a sole at the edge of the ground),
+//     all border cells share alike; as printed the sum would be zero. test_soil_accumulate.c,
+//     nobody_ahead.
+//   Shares are rounded to 2^-30, so that a mirrored foot gets mirrored shares even where its
+//     mirrored coordinates differ in their last bits.
+#include "base/vec.h"
+#include "soil/soil_heaps.h"
+
+double dp_soil_anisotropy(DpVec3 push, double threshold)
+{
+    if (!(threshold > 0.0)) return 1.0;
+    return fmin(dp_length(push) / threshold, 1.0);  // TRAIL (13)
+}
+
+// max(F_par . u, 0)/|F_par|, u the unit vector from the point of force to the cell
+static double ahead_of(const HeapShares* shares, int i, int j)
+{
+    const double x = (double)i - shares->from_x, y = (double)j - shares->from_y;
+    const double far = sqrt(x * x + y * y);
+    if (!(far > 0.0)) return 0.0;
+    return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
+}
+
+double soil_heap_share(const HeapShares* shares, int i, int j)
+{
+    const double coarse = ldexp(1.5, 52 - 30);
+    if (shares->even) return 1.0;
+    const double share = shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    return soil_on_grid(share, coarse);
+}
+
+// is there a border cell at all, and one that gets something?
+static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, HeapShares* shares)
+{
+    const int i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0, j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
+    bool      any = false, ahead = false;
+    for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
+        for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (imprint->ring[p] != 1 || !soil_is_ground(patch->rest[p])) continue;
+            any = true;
+            ahead = ahead || soil_heap_share(shares, i, j) > 0.0;
+        }
+    shares->even = !ahead;
+    return any;
+}
+
+// tan(gamma_r) under the centre of pressure, or at the cell of the patch that is nearest to it
+static double slope_under(const DpSoilPatch* patch, const HeapShares* shares)
+{
+    const double i = fmin(fmax(floor(shares->from_x + 0.5), 0.0), patch->nx - 1.0);
+    const double j = fmin(fmax(floor(shares->from_y + 0.5), 0.0), patch->ny - 1.0);
+    return (double)patch->rest_slope[soil_at(patch, (int)i, (int)j)];
+}
+
+DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const DpFootForce* foot,
+                            double volume, const DpHeapOptions* options, double* height,
+                            DpSoilScratch* scratch)
+{
+    if (!soil_patch_ok(patch) || !imprint || !foot || !options || !height || !scratch)
+        return DP_BAD_ARGUMENT;
+    if (!(volume >= 0.0) || !isfinite(volume) || !(*height >= 0.0)) return DP_BAD_ARGUMENT;
+
+    const DpVec3 press = dp_scale(foot->normal, dp_dot(foot->force, foot->normal));
+    const DpVec3 push = dp_sub(foot->force, press);
+    const DpVec3 dir = dp_unit(push);
+    HeapShares   shares = {
+          .beta = dp_soil_anisotropy(push, options->threshold),
+          .dir_x = dir.x,
+          .dir_y = dir.y,
+          .from_x = (foot->point.x - patch->x0) / patch->cell,
+          .from_y = (foot->point.y - patch->y0) / patch->cell,
+    };
+    if (!isfinite(shares.beta) || !isfinite(shares.from_x) || !isfinite(shares.from_y))
+        return DP_BAD_ARGUMENT;
+    if (!look_at_border(patch, imprint, &shares)) return DP_NO_GROUND;
+    if (volume <= 0.0) return DP_OK;
+
+    if (options->law == DP_HEAP_PAPER)
+        return soil_heap_paper(patch, imprint, &shares, volume, options->rim_width);
+    const double slope = slope_under(patch, &shares);
+    return soil_heap_rest(patch, imprint, &shares, volume, slope, height, scratch);
+}

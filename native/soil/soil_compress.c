@@ -1,0 +1,331 @@
+// soil/soil_compress.c - how deep a sole goes. TRAIL (9) (10), SOFT22 (9)-(11).
+//
+//   force --(balance)--> sink of the sole --> target of each column --(rate)--> pressed now
+//
+// Departures
+//   TRAIL (10): one stress for all touched cells is `uniform`. `sole` makes every column a spring of
+//     stiffness E/L0 under a rigid sole; a flat sole on even ground gives (10) exactly.
+//     test_soil_compress.c, flat_sole_is_trail_10.
+//   SOFT22 (11): as printed a column stops one step short of dL or overshoots it; here the last step
+//     is cut to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
+//     frame_rate_does_not_matter.
+//   A sole that rises off pressed ground is let go over r = 5 % of the depth + 0.1 mm: soils give back
+//     a few per cent of what they were pressed, and a spring that lets go at once would make the
+//     load balance jump. The ground itself does not come back.
+//   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
+//   A cell that the sole covers by the share a is pressed by a times its column, so that volume
+//     and stress do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
+#include <string.h>
+
+#include "base/vec.h"
+#include "base/wide.h"
+#include "soil/soil_inside.h"
+
+#define CHUNK 32             // columns worked on at once
+#define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
+#define LET_GO_SHARE 0.05    // r = LET_GO_SHARE e + LET_GO_LEAST
+#define LET_GO_LEAST 1e-4    // [m]
+#define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
+#define FLOOR_CELLS 4.0      // least contact area: so many cells
+#define FLOOR_SHARE 0.05     // .. or this share of the sole
+#define PRESS_GRID ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
+
+// Columns of ground under the sole; what is not covered has share and stiffness 0.
+typedef struct Columns
+{
+    double gap[CHUNK];      // g = h0 - underside of the sole, before it sinks     [m]
+    double pressed[CHUNK];  // e = compression - heap                              [m]
+    double let_go[CHUNK];   // e/r: how much stiffer a column unloads              [-] >= 1
+    double rigid[CHUNK];    // 0.95 L0                                             [m]
+    double share[CHUNK];    // a                                                   [-]
+    double spring[CHUNK];   // a E/L0 cell^2                                       [N/m]
+} Columns;
+
+// What the sole can be balanced on.
+typedef struct Balance
+{
+    double load;                    // N                                        [N]
+    double force_grid, slope_grid;  // for soil_on_grid
+    double highest;                 // largest gap                              [m]
+    double guess;                   // sink if all columns carried              [m]
+    double sole;                    // area of the sole over ground             [m^2]
+} Balance;
+
+// What the ground answers when the sole has sunk by s.
+typedef struct Answer
+{
+    double force;  // [N]
+    double slope;  // of force over s [N/m]
+    double area;   // of the columns that carry [m^2]
+} Answer;
+
+static void gather(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint, int j,
+                   int i, int count)
+{
+    const size_t at = soil_at(patch, i, j);
+    const double area = patch->cell * patch->cell;
+    for (int k = 0; k < CHUNK; ++k) {
+        const size_t p = at + (size_t)(k < count ? k : 0);
+        const bool   covered = k < count && imprint->cover[p] > 0.0f && soil_is_ground(patch->rest[p]);
+        if (!covered) {
+            columns->gap[k] = columns->pressed[k] = 0.0;
+            columns->share[k] = columns->spring[k] = 0.0;
+            columns->let_go[k] = columns->rigid[k] = 1.0;
+            continue;
+        }
+        const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
+        const double e = (double)patch->compression[p] - (double)patch->heap[p];
+        const double r = fmin(LET_GO_SHARE * e + LET_GO_LEAST, e);
+        columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
+        columns->pressed[k] = e;
+        columns->let_go[k] = e > 0.0 ? e / r : 1.0;
+        columns->rigid[k] = SOIL_RIGID * depth;
+        columns->share[k] = (double)imprint->cover[p];
+        columns->spring[k] = (double)imprint->cover[p] * (double)patch->modulus[p] / depth * area;
+    }
+}
+
+// Length by which a column's spring is pressed when its target lies t below h0: t itself, less when
+// the sole rises off ground that is already pressed, more when it meets the rigid ground.
+static inline double spring_length(double t, double e, double let_go, double rigid)
+{
+    const double soft = t >= e ? t : e - (e - t) * let_go;
+    const double hard = soft > rigid ? rigid + RIGID_STIFFER * (soft - rigid) : soft;
+    return hard > 0.0 ? hard : 0.0;
+}
+
+// add what `columns` answer to the sums; every lane has its own, the grids make the order free
+DP_CLONES
+static void push_back(const Columns* columns, const Balance* balance, double s, double* force,
+                      double* slope, double* share)
+{
+    const double load = balance->load, force_grid = balance->force_grid;
+    const double slope_grid = balance->slope_grid, share_grid = ldexp(1.5, 52 - 30);
+    for (int k = 0; k < CHUNK; ++k) {
+        const double t = columns->gap[k] + s, e = columns->pressed[k];
+        const double x = spring_length(t, e, columns->let_go[k], columns->rigid[k]);
+        const double push = columns->spring[k] * x;
+        const double steep = t >= e ? 1.0 : columns->let_go[k];
+        const double stiff = (x > columns->rigid[k] ? RIGID_STIFFER : steep) * columns->spring[k];
+        force[k] += soil_on_grid(push < load ? push : load, force_grid);
+        slope[k] += soil_on_grid(x > 0.0 ? stiff : 0.0, slope_grid);
+        share[k] += soil_on_grid(x > 0.0 ? columns->share[k] : 0.0, share_grid);
+    }
+}
+
+static Answer answer(const DpSoilPatch* patch, const DpImprint* imprint, const Balance* balance,
+                     double s)
+{
+    double  force[CHUNK] = {0}, slope[CHUNK] = {0}, share[CHUNK] = {0};
+    Columns columns;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
+            const int left = imprint->i1 - i;
+            gather(&columns, patch, imprint, j, i, left < CHUNK ? left : CHUNK);
+            push_back(&columns, balance, s, force, slope, share);
+        }
+    Answer sum = {0};
+    for (int k = 0; k < CHUNK; ++k) {
+        sum.force += force[k];
+        sum.slope += slope[k];
+        sum.area += share[k];
+    }
+    sum.area *= patch->cell * patch->cell;
+    return sum;
+}
+
+// look once at all columns: scales of the sums, and a first guess; false if there are none
+static bool weigh(Balance* balance, const DpSoilPatch* patch, const DpImprint* imprint, double load)
+{
+    double  stiffest = 0.0, highest = -INFINITY, share = 0.0, springs = 0.0, hanging = 0.0;
+    Columns columns;
+    for (int pass = 0; pass < 2; ++pass) {  // the second pass needs the grid that the first one finds
+        const double slope_grid = soil_grid(RIGID_STIFFER * stiffest);
+        const double share_grid = ldexp(1.5, 52 - 30);
+        for (int j = imprint->j0; j < imprint->j1; ++j)
+            for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
+                const int left = imprint->i1 - i;
+                gather(&columns, patch, imprint, j, i, left < CHUNK ? left : CHUNK);
+                for (int k = 0; k < CHUNK && i + k < imprint->i1; ++k) {
+                    const double spring = columns.spring[k];
+                    if (spring <= 0.0) continue;
+                    if (pass == 0) {
+                        stiffest = fmax(stiffest, spring);
+                        highest = fmax(highest, columns.gap[k]);
+                        continue;
+                    }
+                    share += soil_on_grid(columns.share[k], share_grid);
+                    springs += soil_on_grid(spring, slope_grid);
+                    hanging += soil_on_grid(spring * fmin(highest - columns.gap[k], 1.0), slope_grid);
+                }
+            }
+        if (pass == 0 && !(stiffest > 0.0 && isfinite(stiffest) && isfinite(highest))) return false;
+        balance->slope_grid = slope_grid;
+    }
+    balance->load = load;
+    balance->force_grid = soil_grid(load);
+    balance->highest = highest;
+    balance->guess = (load + hanging) / springs - highest;
+    balance->sole = share * patch->cell * patch->cell;
+    return true;
+}
+
+// the sink s at which the columns carry the load: Newton, kept inside a bracket
+static double sink_of(const DpSoilPatch* patch, const DpImprint* imprint, const Balance* balance,
+                      Answer* found)
+{
+    double low = -balance->highest, high = INFINITY;  // nothing carries at low
+    double s = fmax(balance->guess, low), step = 0.01;
+    for (int round = 0; round < 100; ++round) {
+        *found = answer(patch, imprint, balance, s);
+        const double missing = balance->load - found->force;
+        if (fabs(missing) <= 2e-9 * balance->load) break;
+        if (missing > 0.0) low = s;
+        else high = s;
+        if (high - low < 1e-12) break;
+        double next = found->slope > 0.0 ? s + missing / found->slope : low + step;
+        if (!(next > low)) next = isinf(high) ? low + step : 0.5 * (low + high);
+        if (isinf(high)) {
+            next = fmin(next, low + 64.0 * step);  // far out a single stiff column could mislead
+            step *= 2.0;
+        } else if (!(next < high) || found->force > 4.0 * balance->load) {
+            next = 0.5 * (low + high);
+        }
+        s = next;
+    }
+    return s;
+}
+
+// the target of one cell and the stress on it
+typedef struct Target
+{
+    double depth;   // t, below h0 under the sole [m]
+    double stress;  // sigma [Pa]
+    double share;   // a [-]
+} Target;
+
+// lower one cell towards its target for dt seconds, SOFT22 (11)
+static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed)
+{
+    const DpSoil* soil = &patch->soils[patch->kind[p]];
+    const float   c = patch->compression[p], b = patch->heap[p];
+    const double  goal = target.share * target.depth;                             // TRAIL (10)
+    const double  rate = goal * fmin(dt / (double)soil->settle_time, 1.0);        // SOFT22 (11)
+    const double  press = fmax(fmin(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
+    const double  loose = fmin(press, (double)b);
+    patch->heap[p] = (float)((double)b - loose);
+    patch->compression[p] = (float)((double)c + (press - loose));
+    if (patch->pressure_time) patch->pressure_time[p] += (float)(target.stress * target.share * dt);
+
+    // the ledger counts what the float grids really hold
+    const double out_of_heap = (double)b - (double)patch->heap[p];
+    const double out_of_firm = (double)patch->compression[p] - (double)c;
+    const double moved = out_of_heap + out_of_firm;
+    pressed->loose += soil_on_grid(out_of_heap, PRESS_GRID);
+    pressed->firm += soil_on_grid(out_of_firm, PRESS_GRID);
+    pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
+                                       PRESS_GRID);
+    pressed->deepest = fmax(pressed->deepest, (double)patch->compression[p]);
+}
+
+// `sole`: balance, then press what carries
+static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Balance* balance, double dt,
+                       DpPressed* pressed)
+{
+    const double area = patch->cell * patch->cell;
+    const double least = fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+    Answer       found;
+    double       s = sink_of(patch, imprint, balance, &found);
+    if (found.area > 0.0 && found.area < least) {  // a first touch is not a needle
+        const double share = found.area / least;
+        balance->guess = -balance->highest + (balance->guess + balance->highest) * share;
+        balance->load *= share;
+        balance->force_grid = soil_grid(balance->load);
+        s = sink_of(patch, imprint, balance, &found);
+    }
+    pressed->sink = s;
+    pressed->area = found.area;
+    Columns columns;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
+            const int left = imprint->i1 - i, count = left < CHUNK ? left : CHUNK;
+            gather(&columns, patch, imprint, j, i, count);
+            for (int k = 0; k < count; ++k) {
+                const double t = columns.gap[k] + s, rigid = columns.rigid[k];
+                const double x = spring_length(t, columns.pressed[k], columns.let_go[k], rigid);
+                if (columns.share[k] <= 0.0 || x <= 0.0) continue;
+                const size_t p = soil_at(patch, i + k, j);
+                const double stress = columns.spring[k] * x / (columns.share[k] * area);
+                imprint->ring[p] = 0;
+                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns.share[k]}, dt, pressed);
+            }
+        }
+}
+
+// height of the ground under the covered share of a cell over the sole's underside
+static double overlap(const Columns* columns, int k)
+{
+    const double e = columns->pressed[k], share = columns->share[k];
+    return columns->gap[k] - (e > 0.0 ? fmin(e / share, columns->rigid[k]) : e);
+}
+
+// `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
+static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, const Balance* balance, double dt,
+                          DpPressed* pressed)
+{
+    const double area = patch->cell * patch->cell, share_grid = ldexp(1.5, 52 - 30);
+    double       highest = -INFINITY, shares = 0.0, stress = 0.0;
+    Columns      columns;
+    for (int pass = 0; pass < 3; ++pass) {  // find the touching height, count the area, press
+        for (int j = imprint->j0; j < imprint->j1; ++j)
+            for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
+                const int left = imprint->i1 - i, count = left < CHUNK ? left : CHUNK;
+                gather(&columns, patch, imprint, j, i, count);
+                for (int k = 0; k < count; ++k) {
+                    if (columns.share[k] <= 0.0) continue;
+                    const double over = overlap(&columns, k);
+                    if (pass == 0) highest = fmax(highest, over);
+                    if (pass == 0 || over < highest - TOUCH_GAP) continue;
+                    if (pass == 1) shares += soil_on_grid(columns.share[k], share_grid);
+                    if (pass == 1) continue;
+                    const size_t p = soil_at(patch, i + k, j);
+                    const double rigid = columns.rigid[k];
+                    const double depth =
+                        stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];  // SOFT22 (10)
+                    imprint->ring[p] = 0;
+                    press_cell(patch, p, (Target){fmin(depth, rigid), stress, columns.share[k]}, dt,
+                               pressed);
+                }
+            }
+        const double least =
+            fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+        if (pass == 1) stress = balance->load / fmax(shares * area, least);  // SOFT22 (9)
+    }
+    pressed->sink = -highest;
+    pressed->area = shares * area;
+}
+
+DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
+                          DpContactLaw law, double dt, DpPressed* pressed)
+{
+    if (!soil_patch_ok(patch) || !imprint || !foot || !pressed || !(dt > 0.0) || !isfinite(dt))
+        return DP_BAD_ARGUMENT;
+    const double load = -dp_dot(foot->force, foot->normal);
+    if (!isfinite(load)) return DP_BAD_ARGUMENT;
+
+    memset(pressed, 0, sizeof *pressed);
+    for (int j = 0; j < patch->ny; ++j) {
+        int32_t* ring = imprint->ring + soil_at(patch, 0, j);
+        for (int i = 0; i < patch->nx; ++i) ring[i] = DP_RING_FAR;
+    }
+    Balance balance = {0};
+    if (load <= 0.0 || !weigh(&balance, patch, imprint, load)) return DP_OK;
+
+    if (law == DP_CONTACT_UNIFORM) press_uniform(patch, imprint, &balance, dt, pressed);
+    else press_sole(patch, imprint, &balance, dt, pressed);
+    const double area = patch->cell * patch->cell;
+    pressed->firm *= area;
+    pressed->loose *= area;
+    pressed->displaced *= area;
+    return DP_OK;
+}

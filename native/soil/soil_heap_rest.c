@@ -1,0 +1,370 @@
+// soil/soil_heap_rest.c - displaced soil laid at once in the shape in which it rests. Ours; design 6.3.
+//
+//   cones on the border cells, T sqrt(omega) high --(upper envelope)--> fill --> T until volume fits
+//
+// A straight heap against a wall with cross-section A is a triangle of height sqrt(2 A tan gamma_r),
+// so a border cell with share omega carries a cone of height T sqrt(omega) over its firm ground and
+// slope tan gamma_r. Soil fills the ground up to the envelope of the cones. Distances are
+// chamfer distances with 1 and sqrt(2), the metric in which soil_stabilize.c compares neighbours: what
+// is laid here is at rest there. They lead around the sole, not through it.
+//
+// Heights are whole numbers of a small step (a power of two, some nanometres), so that neither the
+// order of a sweep nor that of a sum can change a bit: with equal shares, mirrored or
+// turned ground gets exactly mirrored or turned heaps. With a push the shares come from
+// coordinates; they are rounded to 2^-30 and agree but for ties (soil_accumulate.c).
+#include "base/wide.h"
+#include "soil/soil_heaps.h"
+
+#define NOTHING (-(1 << 30))  // no cone reaches this cell
+#define WALL (1 << 29)        // surface of cells that take no soil: under the sole, no ground
+#define MOST_STEPS (1 << 28)  // heights stay below this, so that no sum can overflow
+#define MATCH 0.004           // a volume this close is right; the rest is a common factor
+#define MOST_ROUNDS 40
+
+// The part of the patch that is worked on, with a frame of one wall cell around it.
+typedef struct Window
+{
+    int i0, j0, nx, ny;  // patch cells i0 <= i < i0 + nx, j0 <= j < j0 + ny
+    int row;             // nx + 2, and what makes rows start evenly
+    int32_t* surface;    // present surface h, WALL where no soil can go [steps] (ny + 2, row)
+    int32_t* fill;       // envelope of the cones                        [steps] (ny + 2, row)
+    int32_t* spare;      // one row
+} Window;
+
+// A border cell with a share.
+typedef struct Apex
+{
+    int     i, j;    // of the patch
+    double  ground;  // firm ground [m]
+    double  root;    // sqrt(omega) [-]
+} Apex;
+
+typedef struct Heap
+{
+    DpSoilPatch*     patch;
+    const DpImprint* imprint;
+    Window           window;
+    Apex*            apex;
+    int              apex_count;
+    double           step;      // height of one step    [m]
+    double           level;     // height of step 0      [m]
+    int32_t          straight;  // what a cone falls per cell                [steps]
+    int32_t          diagonal;  // .. per diagonal cell, sqrt(2) times that  [steps]
+} Heap;
+
+static int32_t* row_of(const Window* window, int32_t* grid, int j)
+{
+    return grid + (size_t)(j + 1) * (size_t)window->row + 1;
+}
+
+// ---- envelope --------------------------------------------------------------------------------
+
+// fill[i] = max(fill[i], what comes from the row before), NOTHING on walls
+DP_CLONES
+static void from_row(int32_t* restrict fill, const int32_t* restrict before,
+                     const int32_t* restrict surface, int count, int32_t straight, int32_t diagonal)
+{
+    for (int i = 0; i < count; ++i) {
+        const int32_t side = before[i - 1] > before[i + 1] ? before[i - 1] : before[i + 1];
+        const int32_t up = before[i] - straight, across = side - diagonal;
+        const int32_t come = up > across ? up : across;
+        const int32_t most = come > fill[i] ? come : fill[i];
+        fill[i] = surface[i] == WALL ? NOTHING : most;
+    }
+}
+
+static void along_row(int32_t* fill, const int32_t* surface, int count, int32_t straight)
+{
+    int32_t run = NOTHING;
+    for (int i = 0; i < count; ++i) {
+        run = run - straight > fill[i] ? run - straight : fill[i];
+        run = surface[i] == WALL ? NOTHING : run;
+        fill[i] = run;
+    }
+    run = NOTHING;
+    for (int i = count - 1; i >= 0; --i) {
+        run = run - straight > fill[i] ? run - straight : fill[i];
+        run = surface[i] == WALL ? NOTHING : run;
+        fill[i] = run;
+    }
+}
+
+// does any cell of the row still get more from its neighbours?
+DP_CLONES
+static int wants_more(const int32_t* fill, const int32_t* below, const int32_t* above,
+                      const int32_t* surface, int count, int32_t straight, int32_t diagonal)
+{
+    int more = 0;
+    for (int i = 0; i < count; ++i) {
+        const int32_t side = fill[i - 1] > fill[i + 1] ? fill[i - 1] : fill[i + 1];
+        const int32_t next = below[i] > above[i] ? below[i] : above[i];
+        const int32_t low = below[i - 1] > below[i + 1] ? below[i - 1] : below[i + 1];
+        const int32_t high = above[i - 1] > above[i + 1] ? above[i - 1] : above[i + 1];
+        const int32_t up = (side > next ? side : next) - straight;
+        const int32_t across = (low > high ? low : high) - diagonal;
+        const int32_t come = up > across ? up : across;
+        more |= (come > fill[i]) & (surface[i] != WALL) & (come > NOTHING / 2);
+    }
+    return more;
+}
+
+// envelope of the cones: two chamfer passes, and again while distances still lead around the sole
+static void spread(const Heap* heap)
+{
+    const Window* window = &heap->window;
+    const int     nx = window->nx, ny = window->ny;
+    for (bool more = true; more;) {
+        for (int j = 0; j < ny; ++j) {
+            int32_t*       fill = row_of(window, window->fill, j);
+            const int32_t* surface = row_of(window, window->surface, j);
+            from_row(fill, row_of(window, window->fill, j - 1), surface, nx, heap->straight,
+                     heap->diagonal);
+            along_row(fill, surface, nx, heap->straight);
+        }
+        for (int j = ny - 1; j >= 0; --j) {
+            int32_t*       fill = row_of(window, window->fill, j);
+            const int32_t* surface = row_of(window, window->surface, j);
+            from_row(fill, row_of(window, window->fill, j + 1), surface, nx, heap->straight,
+                     heap->diagonal);
+            along_row(fill, surface, nx, heap->straight);
+        }
+        more = false;
+        for (int j = 0; j < ny && !more; ++j)
+            more = wants_more(row_of(window, window->fill, j), row_of(window, window->fill, j - 1),
+                              row_of(window, window->fill, j + 1), row_of(window, window->surface, j),
+                              nx, heap->straight, heap->diagonal) != 0;
+    }
+}
+
+DP_CLONES
+static int64_t row_volume(const int32_t* restrict fill, const int32_t* restrict surface, int count)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < count; ++i) {
+        const int32_t over = fill[i] - surface[i];
+        sum += over > 0 ? over : 0;
+    }
+    return sum;
+}
+
+// lay cones of height T sqrt(omega), and measure what lies over the present surface [steps * cells]
+static double fill_to(const Heap* heap, double height)
+{
+    const Window* window = &heap->window;
+    const size_t  cells = (size_t)window->row * (size_t)(window->ny + 2);
+    for (size_t k = 0; k < cells; ++k) window->fill[k] = NOTHING;
+    for (int k = 0; k < heap->apex_count; ++k) {
+        const Apex*  apex = &heap->apex[k];
+        const double top = (apex->ground - heap->level + height * apex->root) / heap->step;
+        row_of(window, window->fill, apex->j - window->j0)[apex->i - window->i0] =
+            (int32_t)floor(top + 0.5);
+    }
+    spread(heap);
+    int64_t sum = 0;
+    for (int j = 0; j < window->ny; ++j)
+        sum += row_volume(row_of(window, window->fill, j), row_of(window, window->surface, j),
+                          window->nx);
+    return (double)sum;
+}
+
+// ---- window ----------------------------------------------------------------------------------
+
+// read the surface into the window; false if its heights do not fit the steps
+static bool open_window(Heap* heap, double height, double slope, const int box[4])
+{
+    DpSoilPatch* patch = heap->patch;
+    Window*      window = &heap->window;
+    window->i0 = box[0], window->j0 = box[2];
+    window->nx = box[1] - box[0], window->ny = box[3] - box[2];
+    double low = INFINITY, high = -INFINITY;
+    for (int j = box[2]; j < box[3]; ++j)
+        for (int i = box[0]; i < box[1]; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (!soil_is_ground(patch->rest[p])) continue;
+            const double firm = (double)patch->rest[p] - (double)patch->compression[p];
+            low = fmin(low, firm);
+            high = fmax(high, firm + (double)patch->heap[p]);
+        }
+    const double fall = slope * patch->cell * (double)(window->nx + window->ny);
+    const double range = high - low + height + fall;
+    int          exponent = 0;
+    (void)frexp(range, &exponent);
+    if (!isfinite(range) || exponent > 40) return false;
+    heap->step = ldexp(1.0, exponent - 28);  // range / step <= MOST_STEPS
+    heap->level = low;
+    heap->straight = (int32_t)floor(slope * patch->cell / heap->step + 0.5);
+    heap->diagonal = (int32_t)floor(slope * patch->cell * sqrt(2.0) / heap->step + 0.5);
+
+    const size_t cells = (size_t)window->row * (size_t)(window->ny + 2);
+    for (size_t k = 0; k < cells; ++k) window->surface[k] = WALL;
+    for (int j = 0; j < window->ny; ++j) {
+        int32_t* surface = row_of(window, window->surface, j);
+        for (int i = 0; i < window->nx; ++i) {
+            const size_t p = soil_at(patch, window->i0 + i, window->j0 + j);
+            if (!soil_is_ground(patch->rest[p]) || heap->imprint->ring[p] == 0) continue;
+            const double at = (double)patch->rest[p] - (double)patch->compression[p] - low;
+            surface[i] = (int32_t)floor((at + (double)patch->heap[p]) / heap->step + 0.5);
+        }
+    }
+    return true;
+}
+
+// does soil lie on a side of the window beyond which the patch goes on?
+static bool reaches_out(const Heap* heap)
+{
+    const Window* window = &heap->window;
+    const int     nx = window->nx, ny = window->ny;
+    const bool    left = window->i0 > 0, right = window->i0 + nx < heap->patch->nx;
+    const bool    under = window->j0 > 0, over = window->j0 + ny < heap->patch->ny;
+    for (int j = 0; j < ny; ++j) {
+        const int32_t* fill = row_of(window, window->fill, j);
+        const int32_t* surface = row_of(window, window->surface, j);
+        if (left && fill[0] > surface[0]) return true;
+        if (right && fill[nx - 1] > surface[nx - 1]) return true;
+        if (!(under && j == 0) && !(over && j == ny - 1)) continue;
+        for (int i = 0; i < nx; ++i)
+            if (fill[i] > surface[i]) return true;
+    }
+    return false;
+}
+
+// ---- height ----------------------------------------------------------------------------------
+
+// Find T so that the fill holds `goal` [steps * cells]: the volume of a heap grows with T^2, so the
+// secant is taken in T^2. Returns the volume of the fill left in the window.
+static double find_height(const Heap* heap, double goal, double width, double slope, double* height)
+{
+    // a bare border would need T^2 = 2 slope volume/width on top of what lies there
+    const double area = heap->patch->cell * heap->patch->cell;
+    const double guess = 2.0 * slope * goal * heap->step * area / width;
+    const double limit = 0.25 * (double)MOST_STEPS * heap->step;
+    double       low = -1.0, low_volume = 0.0, high = INFINITY, high_volume = 0.0;
+    double       square = *height * *height + guess, volume = 0.0;
+    double       known = *height * *height;  // believed to hold nothing new
+    for (int round = 0; round < MOST_ROUNDS; ++round) {
+        *height = fmin(sqrt(square), limit);
+        volume = fill_to(heap, *height);
+        if (fabs(volume - goal) <= MATCH * goal) break;
+        if (volume > goal) {
+            if (square <= 0.0) break;  // even flat cones hold more: they are laid thinner
+            high = square, high_volume = volume;
+        } else {
+            if (*height >= limit) break;
+            low = square, low_volume = volume;
+        }
+        double next;
+        if (low >= 0.0 && !isinf(high) && high_volume > low_volume) {
+            next = low + (high - low) * (goal - low_volume) / (high_volume - low_volume);
+            const double inside = (high - low) * (round < 12 ? 0.01 : 0.5);  // then by halves
+            next = fmin(fmax(next, low + inside), high - inside);
+        } else if (isinf(high)) {
+            const double gain = low - known;
+            next = volume > 0.0 && gain > 0.0 ? known + gain * goal / volume : 0.0;
+            next = fmin(fmax(next, low + 0.25 * guess), low + 4.0 * (gain > guess ? gain : guess));
+        } else {
+            const double gain = high - known;
+            next = gain > 0.0 ? known + gain * goal / volume : 0.0;
+            if (!(next < high) || round > 2) next = round > 6 ? 0.0 : 0.25 * high;
+        }
+        if (!(high - low > 1e-15 * high) && !isinf(high) && low >= 0.0) break;
+        square = next;
+    }
+    return volume;
+}
+
+DP_CLONES
+static void add_row(float* restrict heap, const int32_t* restrict fill,
+                    const int32_t* restrict surface, int count, double metres)
+{
+    for (int i = 0; i < count; ++i) {
+        const int32_t over = fill[i] - surface[i];
+        const double  more = (double)(over > 0 ? over : 0) * metres;
+        heap[i] = (float)((double)heap[i] + more);
+    }
+}
+
+// border cells with a share; returns how many, *width = sum of omega * cell, the border's length
+static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double* width, int box[4])
+{
+    const DpSoilPatch* patch = heap->patch;
+    const DpImprint*   imprint = heap->imprint;
+    const int          i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0;
+    const int          j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
+    int                count = 0;
+    double             sum = 0.0;
+    box[0] = patch->nx, box[1] = 0, box[2] = patch->ny, box[3] = 0;
+    for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
+        for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (imprint->ring[p] != 1 || !soil_is_ground(patch->rest[p])) continue;
+            const double share = soil_heap_share(shares, i, j);
+            if (!(share > 0.0)) continue;
+            if (apex) {
+                const double firm = (double)patch->rest[p] - (double)patch->compression[p];
+                apex[count] = (Apex){i, j, firm, sqrt(share)};
+            }
+            ++count;
+            sum += share;
+            if (i < box[0]) box[0] = i;
+            if (i >= box[1]) box[1] = i + 1;
+            if (j < box[2]) box[2] = j;
+            if (j >= box[3]) box[3] = j + 1;
+        }
+    *width = sum * patch->cell;
+    return count;
+}
+
+static void grow(int box[4], const int around[4], int reach, const DpSoilPatch* patch)
+{
+    box[0] = around[0] > reach ? around[0] - reach : 0;
+    box[1] = around[1] < patch->nx - reach ? around[1] + reach : patch->nx;
+    box[2] = around[2] > reach ? around[2] - reach : 0;
+    box[3] = around[3] < patch->ny - reach ? around[3] + reach : patch->ny;
+}
+
+DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                        double volume, double slope, double* height, DpSoilScratch* scratch)
+{
+    Heap         heap = {.patch = patch, .imprint = imprint};
+    int          border[4], box[4];
+    double       width = 0.0;
+    const double area = patch->cell * patch->cell;
+    heap.apex_count = find_apexes(&heap, shares, NULL, &width, border);
+    if (heap.apex_count == 0) return DP_NO_GROUND;
+
+    // how far a heap like the last one, and this volume, goes on level ground; more where it falls
+    const double likely = sqrt(*height * *height + 2.0 * slope * volume / width);
+    double       reach = fmin(likely / (slope * patch->cell) + 3.0, 30000.0);
+    double       found = *height;
+    for (bool again = true; again; reach = fmin(2.0 * reach, 30000.0)) {
+        grow(box, border, (int)reach, patch);
+        const size_t row = ((size_t)(box[1] - box[0]) + 2 + 15) / 16 * 16;
+        const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);
+        const size_t apexes = ((size_t)heap.apex_count * sizeof(Apex) + 63) / 64 * 64;
+        char*        block = dp_soil_scratch_block(scratch, apexes + 2 * cells * sizeof(int32_t));
+        if (!block) return DP_NO_MEMORY;
+        heap.apex = (Apex*)(void*)block;
+        heap.window.row = (int)row;
+        heap.window.surface = (int32_t*)(void*)(block + apexes);
+        heap.window.fill = heap.window.surface + cells;
+        (void)find_apexes(&heap, shares, heap.apex, &width, border);
+        if (!open_window(&heap, 16.0 * likely, slope, box)) return DP_BAD_ARGUMENT;
+
+        found = *height;
+        const double goal = volume / (area * heap.step);
+        const double laid = find_height(&heap, goal, width, slope, &found);
+        const bool   whole = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
+        again = !whole && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
+        if (again) continue;
+        if (!(laid > 0.0)) return DP_NO_GROUND;
+
+        // what is left of the difference goes into a common factor: the sum is right to rounding
+        const double metres = heap.step * goal / laid;
+        for (int j = 0; j < heap.window.ny; ++j)
+            add_row(patch->heap + soil_at(patch, box[0], box[2] + j),
+                    row_of(&heap.window, heap.window.fill, j),
+                    row_of(&heap.window, heap.window.surface, j), heap.window.nx, metres);
+        *height = found;
+    }
+    return DP_OK;
+}

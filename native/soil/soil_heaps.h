@@ -1,0 +1,23 @@
+// soil/soil_heaps.h - the two ways of laying soil down, as soil_accumulate.c calls them.
+#pragma once
+#include "soil/soil_inside.h"
+
+// Shares asked for around a sole. TRAIL (11)-(13).
+typedef struct HeapShares
+{
+    double beta;        // anisotropy, TRAIL (13)             [-] 0..1
+    double dir_x, dir_y;  // of the push                      [-]
+    double from_x, from_y;  // centre of pressure, in cells of the patch
+    bool   even;        // no border cell lies ahead: all share alike
+} HeapShares;
+
+// omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12).
+double soil_heap_share(const HeapShares* shares, int i, int j);
+
+// Lay `volume` [m^3] > 0 in its resting shape; slope = tan(gamma_r).
+DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                        double volume, double slope, double* height, DpSoilScratch* scratch);
+
+// Lay `volume` [m^3] > 0 on a rim `width` [m] wide.
+DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                         double volume, double width);

@@ -1,0 +1,52 @@
+// soil/soil_inside.h - what the files of this room share; not a door.
+#pragma once
+#include <math.h>
+#include <stddef.h>
+
+#include "soil/soil.h"
+
+#define SOIL_RIGID 0.95  // share of L0 that can be pressed; rigid ground below
+
+struct DpSoilScratch
+{
+    void*  block;
+    size_t bytes;
+};
+
+// At least `bytes` of 64-byte aligned memory, contents undefined; NULL when there is none.
+void* dp_soil_scratch_block(DpSoilScratch* scratch, size_t bytes);
+
+// Sums that do not depend on the order of their terms: every term is first put on a grid of powers
+// of two, so that adding is exact. Mirrored ground then gives the same bits as the ground itself.
+// @param grid  from soil_grid(): 1.5 * 2^52 steps of the grid
+static inline double soil_on_grid(double x, double grid)
+{
+    return (x + grid) - grid;
+}
+
+// A grid on which terms up to `most` keep 32 bits, and 2^21 of them can be added exactly.
+static inline double soil_grid(double most)
+{
+    int exponent = 0;
+    (void)frexp(most > 1e-200 ? most : 1e-200, &exponent);
+    return ldexp(1.5, 52 + exponent - 32);
+}
+
+static inline bool soil_is_ground(float rest)
+{
+    return rest == rest;
+}
+
+// a grid the kernels can work with
+static inline bool soil_patch_ok(const DpSoilPatch* patch)
+{
+    return patch && patch->nx > 0 && patch->ny > 0 && patch->row >= patch->nx &&
+           patch->cell > 0.0 && isfinite(patch->cell) && patch->rest && patch->compression &&
+           patch->heap && patch->modulus && patch->rest_slope && patch->kind && patch->soils &&
+           patch->soil_count > 0;
+}
+
+static inline size_t soil_at(const DpSoilPatch* patch, int i, int j)
+{
+    return (size_t)j * (size_t)patch->row + (size_t)i;
+}

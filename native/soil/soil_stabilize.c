@@ -1,0 +1,345 @@
+// soil/soil_stabilize.c - loose soil slides until it rests. TRAIL (14)-(16).
+//
+//   slopes to 8 neighbours --(first stencil)--> share given away --(second stencil)--> new heaps
+//
+// A sweep never depends on the order of its cells: the first stencil only reads heights, the second
+// only adds up what the first one decided. Opposite neighbours are added in pairs, so a mirrored
+// or turned print stays mirrored or turned to the bit.
+//
+// Departures
+//   TRAIL (14): eight neighbours on the grid (diagonals at sqrt(2) cells), not the next ring outward, so
+//     soil also slides back into a print that the foot has left. test_soil_stabilize.c, comes_to_rest.
+//   TRAIL (15)(16): as printed h_step leaves a cell once but arrives once per neighbour, and ring by
+//     ring the result depends on the order. Here a cell gives each lower neighbour a share of its own
+//     excess over gamma_r. test_soil_stabilize.c, keeps_volume.
+//   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets
+//     stand over one cell counts as at rest wherever it lies: soil that creeps down a steep wall of
+//     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
+#include <string.h>
+
+#include "base/wide.h"
+#include "soil/soil_inside.h"
+
+#define FRAME 3         // cells around the window that only stand as walls
+#define BARRIER 1e30f   // height of what soil cannot go to
+#define ROOT2 1.41421356f
+#define FIRST_MARGIN 8  // cells the window is larger than what is looked at
+
+typedef struct Box
+{
+    int i0, i1, j0, j1;  // cells of the patch; empty if i0 >= i1
+} Box;
+
+// A copy of the part of the patch in which soil moves. All grids (ny + 2 FRAME, row).
+typedef struct Window
+{
+    Box     box;      // patch cells it holds
+    size_t  row;
+    float*  firm;      // firm ground, BARRIER where no soil can be          [m]
+    float*  height;   // firm + heap                                        [m]
+    double* sum;      // b, kept finer than a float: small flows add up      [m]
+    float*  heap;     // b                                                  [m]
+    float*  fall;     // tan(gamma_r) cell: what may stand over one cell     [m]
+    float*  slack;    // what may stand above that and still count as rest   [m]
+    float*  share;    // a, share of the excess that is given               [-]
+    float*  give;     // a * sum of excess                                  [m]
+} Window;
+
+static size_t cell_of(const Window* window, int i, int j)
+{
+    return (size_t)(j - window->box.j0 + FRAME) * window->row + (size_t)(i - window->box.i0 + FRAME);
+}
+
+static Box grown(Box box, int by, const DpSoilPatch* patch)
+{
+    box.i0 = box.i0 > by ? box.i0 - by : 0;
+    box.j0 = box.j0 > by ? box.j0 - by : 0;
+    box.i1 = box.i1 < patch->nx - by ? box.i1 + by : patch->nx;
+    box.j1 = box.j1 < patch->ny - by ? box.j1 + by : patch->ny;
+    return box;
+}
+
+static Box joined(Box a, Box b)
+{
+    if (a.i0 >= a.i1) return b;
+    if (b.i0 >= b.i1) return a;
+    const Box both = {a.i0 < b.i0 ? a.i0 : b.i0, a.i1 > b.i1 ? a.i1 : b.i1,
+                      a.j0 < b.j0 ? a.j0 : b.j0, a.j1 > b.j1 ? a.j1 : b.j1};
+    return both;
+}
+
+static bool holds(Box outer, Box inner)
+{
+    return inner.i0 >= outer.i0 && inner.i1 <= outer.i1 && inner.j0 >= outer.j0 &&
+           inner.j1 <= outer.j1;
+}
+
+// ---- the two stencils ------------------------------------------------------------------------
+
+static inline float above_zero(float x)
+{
+    return x > 0.0f ? x : 0.0f;
+}
+
+static inline float one_if(float x)
+{
+    return x > 0.0f ? 1.0f : 0.0f;
+}
+
+// What the cells of one row want.
+typedef struct RowWish
+{
+    int first, last;  // cells that give something: first <= i <= last, empty if first > last
+    int restless;     // does one stand steeper than gamma_r + tolerance?
+} RowWish;
+
+// first stencil: what each cell of a row gives away, TRAIL (14) (15)
+DP_CLONES
+static RowWish decide_row(float* restrict share, float* restrict give, const float* restrict h,
+                          const float* restrict heap, const float* restrict fall,
+                          const float* restrict slack, ptrdiff_t row, int count, float film)
+{
+    int first = count, last = -1, restless = 0;
+    for (int i = 0; i < count; ++i) {
+        const float* c = h + i;
+        const float  at = *c, straight = fall[i], diagonal = fall[i] * ROOT2;
+        const float  e = (at - c[1]) - straight, w = (at - c[-1]) - straight;  // TRAIL (14)
+        const float  n = (at - c[row]) - straight, s = (at - c[-row]) - straight;
+        const float  ne = (at - c[row + 1]) - diagonal, sw = (at - c[-row - 1]) - diagonal;
+        const float  nw = (at - c[row - 1]) - diagonal, se = (at - c[-row + 1]) - diagonal;
+        const float  sides = (above_zero(e) + above_zero(w)) + (above_zero(n) + above_zero(s));
+        const float  edges = (above_zero(ne) + above_zero(sw)) + (above_zero(nw) + above_zero(se));
+        const float  lower = ((one_if(e) + one_if(w)) + (one_if(n) + one_if(s))) +
+                            ((one_if(ne) + one_if(sw)) + (one_if(nw) + one_if(se)));
+        const float sum = sides + edges, part = 1.0f / (lower + 1.0f);
+        const float has = heap[i] / (sum * part + 1e-35f);
+        const float a = (has < 1.0f ? has : 1.0f) * part;  // TRAIL (15)
+        share[i] = a;
+        give[i] = a * sum;
+
+        const float ew = e > w ? e : w, ns = n > s ? n : s;
+        const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
+        const float steep = ew > ns ? ew : ns, across = up > down ? up : down;
+        const int   tilted = (steep > slack[i]) | (across > slack[i] * ROOT2);
+        restless |= tilted & (heap[i] > film);
+        const int moves = give[i] > 0.0f;
+        first = moves && i < first ? i : first;
+        last = moves && i > last ? i : last;
+    }
+    return (RowWish){first, last, restless};
+}
+
+// what cell h[k] gives to the cell at height `at`
+static inline float comes(const float* h, const float* share, const float* fall, ptrdiff_t k,
+                          float at, float far)
+{
+    return share[k] * above_zero((h[k] - at) - fall[k] * far);
+}
+
+// second stencil: each cell of a row takes what its neighbours give, TRAIL (16)
+DP_CLONES
+static void take_row(double* restrict sum, const float* restrict give, const float* restrict h,
+                     const float* restrict share, const float* restrict fall, ptrdiff_t row,
+                     int count)
+{
+    for (int i = 0; i < count; ++i) {
+        const float *H = h + i, *a = share + i, *f = fall + i;
+        const float  at = *H;
+        const float  sides = (comes(H, a, f, 1, at, 1.0f) + comes(H, a, f, -1, at, 1.0f)) +
+                            (comes(H, a, f, row, at, 1.0f) + comes(H, a, f, -row, at, 1.0f));
+        const float edges =
+            (comes(H, a, f, row + 1, at, ROOT2) + comes(H, a, f, -row - 1, at, ROOT2)) +
+            (comes(H, a, f, row - 1, at, ROOT2) + comes(H, a, f, -row + 1, at, ROOT2));
+        const double left = sum[i] - (double)give[i];
+        sum[i] = (left > 0.0 ? left : 0.0) + (double)(sides + edges);  // TRAIL (16)
+    }
+}
+
+DP_CLONES
+static void raise_row(float* restrict height, float* restrict heap, const float* restrict firm,
+                      const double* restrict sum, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        heap[i] = (float)sum[i];
+        height[i] = firm[i] + heap[i];
+    }
+}
+
+// ---- window ----------------------------------------------------------------------------------
+
+static void read_row(const Window* window, const DpSoilPatch* patch, const DpImprint* imprint, int j,
+                     double level, double tan_slack)
+{
+    const double cell = patch->cell;
+    for (int i = window->box.i0; i < window->box.i1; ++i) {
+        const size_t p = soil_at(patch, i, j), w = cell_of(window, i, j);
+        if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
+        const double slope = (double)patch->rest_slope[p];
+        window->firm[w] =
+            (float)((double)patch->rest[p] - (double)patch->compression[p] - level);
+        window->sum[w] = (double)patch->heap[p];
+        window->heap[w] = patch->heap[p];
+        window->height[w] = window->firm[w] + window->heap[w];
+        window->fall[w] = (float)(slope * cell);
+        // tan(gamma + slack) - tan(gamma), from its first order: a little stricter
+        window->slack[w] = (float)(tan_slack * (1.0 + slope * slope) * cell);
+    }
+}
+
+static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
+                        double level, double tan_slack, DpSoilScratch* scratch)
+{
+    const size_t nx = (size_t)(box.i1 - box.i0), ny = (size_t)(box.j1 - box.j0);
+    window->box = box;
+    window->row = (nx + 2 * FRAME + 15) / 16 * 16;
+    const size_t cells = window->row * (ny + 2 * FRAME);
+    double*      doubles = dp_soil_scratch_block(scratch, cells * (sizeof(double) + 7 * sizeof(float)));
+    if (!doubles) return false;
+    window->sum = doubles;
+    float*        block = (float*)(void*)(doubles + cells);
+    float** const grid[7] = {&window->firm,  &window->height, &window->heap, &window->fall,
+                             &window->slack, &window->share,  &window->give};
+    for (size_t g = 0; g < 7; ++g) *grid[g] = block + g * cells;
+    for (size_t k = 0; k < cells; ++k) window->firm[k] = window->height[k] = BARRIER;
+    memset(window->sum, 0, cells * sizeof(double));
+    memset(window->heap, 0, 5 * cells * sizeof(float));
+    for (int j = box.j0; j < box.j1; ++j) read_row(window, patch, imprint, j, level, tan_slack);
+    return true;
+}
+
+// what has changed of the cells the window holds; others were written back with an earlier window
+static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint, Box box)
+{
+    const Box held = window->box;
+    box.i0 = box.i0 > held.i0 ? box.i0 : held.i0, box.i1 = box.i1 < held.i1 ? box.i1 : held.i1;
+    box.j0 = box.j0 > held.j0 ? box.j0 : held.j0, box.j1 = box.j1 < held.j1 ? box.j1 : held.j1;
+    for (int j = box.j0; j < box.j1; ++j)
+        for (int i = box.i0; i < box.i1; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
+            patch->heap[p] = window->heap[cell_of(window, i, j)];
+        }
+}
+
+// a height near the ground, so that floats are small; the same for mirrored ground
+static double level_of(const DpSoilPatch* patch, Box box)
+{
+    float high = -INFINITY;
+    for (int j = box.j0; j < box.j1; ++j)
+        for (int i = box.i0; i < box.i1; ++i) {
+            const float rest = patch->rest[soil_at(patch, i, j)];
+            if (rest > high) high = rest;
+        }
+    return isfinite(high) ? floor((double)high) : 0.0;
+}
+
+// ---- sweeps ----------------------------------------------------------------------------------
+
+// first stencil over `look`; returns the cells that give, and whether one of them must
+static Box decide(const Window* window, Box look, float film, bool* restless)
+{
+    Box movers = {INT_MAX, INT_MIN, INT_MAX, INT_MIN};
+    *restless = false;
+    const size_t  wide = (size_t)(look.i1 - look.i0) + 4;
+    const int32_t row = (int32_t)window->row;
+    for (int j = look.j0 - 2; j < look.j1 + 2; ++j) {
+        const size_t at = cell_of(window, look.i0, j);
+        if (j < look.j0 || j >= look.j1) {  // nothing is given from outside
+            memset(window->share + at - 2, 0, wide * sizeof(float));
+            memset(window->give + at - 2, 0, wide * sizeof(float));
+            continue;
+        }
+        const RowWish wish = decide_row(window->share + at, window->give + at, window->height + at,
+                                        window->heap + at, window->fall + at, window->slack + at,
+                                        row, look.i1 - look.i0, film);
+        memset(window->share + at - 2, 0, 2 * sizeof(float));
+        memset(window->give + at - 2, 0, 2 * sizeof(float));
+        memset(window->share + at + (look.i1 - look.i0), 0, 2 * sizeof(float));
+        memset(window->give + at + (look.i1 - look.i0), 0, 2 * sizeof(float));
+        *restless = *restless || wish.restless != 0;
+        if (wish.first > wish.last) continue;
+        movers.i0 = movers.i0 < look.i0 + wish.first ? movers.i0 : look.i0 + wish.first;
+        movers.i1 = movers.i1 > look.i0 + wish.last ? movers.i1 : look.i0 + wish.last + 1;
+        movers.j0 = movers.j0 < j ? movers.j0 : j;
+        movers.j1 = j + 1;
+    }
+    return movers;
+}
+
+// second stencil over the cells that give and their neighbours
+static void take(const Window* window, Box change)
+{
+    const int count = change.i1 - change.i0;
+    for (int j = change.j0; j < change.j1; ++j) {
+        const size_t at = cell_of(window, change.i0, j);
+        take_row(window->sum + at, window->give + at, window->height + at, window->share + at,
+                 window->fall + at, (ptrdiff_t)window->row, count);
+    }
+    for (int j = change.j0; j < change.j1; ++j) {
+        const size_t at = cell_of(window, change.i0, j);
+        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at, count);
+    }
+}
+
+// has loose soil come to the edge of the patch?
+static bool at_edge(const DpSoilPatch* patch, Box box, float film)
+{
+    const Box inner = {1, patch->nx - 1, 1, patch->ny - 1};
+    if (holds(inner, box)) return false;
+    for (int j = box.j0; j < box.j1; ++j)
+        for (int i = box.i0; i < box.i1; ++i) {
+            const bool edge = i < inner.i0 || i >= inner.i1 || j < inner.j0 || j >= inner.j1;
+            if (edge && patch->heap[soil_at(patch, i, j)] > film) return true;
+        }
+    return false;
+}
+
+DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
+                           double tolerance, int most, DpSoilScratch* scratch, DpSettled* settled)
+{
+    if (!soil_patch_ok(patch) || !scratch || !settled) return DP_BAD_ARGUMENT;
+    if (!(tolerance > 0.0) || !(tolerance < 1.0) || most < 0) return DP_BAD_ARGUMENT;
+    Box look = {0, patch->nx, 0, patch->ny};
+    if (within) {
+        look = (Box){within[0] > 0 ? within[0] : 0, within[1] < patch->nx ? within[1] : patch->nx,
+                     within[2] > 0 ? within[2] : 0, within[3] < patch->ny ? within[3] : patch->ny};
+    }
+    memset(settled, 0, sizeof *settled);
+    settled->at_rest = true;
+    if (look.i0 >= look.i1 || look.j0 >= look.j1) return DP_OK;
+
+    const double tan_slack = tan(tolerance), level = level_of(patch, look);
+    const float  film = (float)(0.1 * tan_slack * patch->cell);
+    int          margin = FIRST_MARGIN;
+    Window       window;
+    Box          changed = {0, 0, 0, 0};
+    if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack, scratch))
+        return DP_NO_MEMORY;
+
+    for (;;) {
+        bool      restless;
+        const Box movers = decide(&window, look, film, &restless);
+        settled->at_rest = !restless;
+        if (!restless || settled->sweeps == most) break;
+        const Box change = grown(movers, 1, patch);
+        look = grown(movers, 2, patch);
+        take(&window, change);
+        changed = joined(changed, change);
+        ++settled->sweeps;
+        if (holds(window.box, grown(look, 1, patch))) continue;
+
+        // soil comes near the window's side: a larger one
+        write_back(&window, patch, imprint, changed);
+        margin *= 2;
+        if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
+                         scratch))
+            return DP_NO_MEMORY;
+    }
+    if (changed.i0 < changed.i1) {
+        write_back(&window, patch, imprint, changed);
+        settled->i0 = changed.i0, settled->i1 = changed.i1;
+        settled->j0 = changed.j0, settled->j1 = changed.j1;
+        settled->at_edge = at_edge(patch, changed, film);
+    }
+    return DP_OK;
+}
