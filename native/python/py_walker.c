@@ -1,3 +1,210 @@
-#include "python/door.h"
+// python/py_walker.c - the walker's functions for Python. Arrays come in and are filled; shapes and
+// types are checked here, meaning in walker/walker.h.
+#include <math.h>
 
-PyMethodDef dp_py_walker_methods[] = {{NULL, NULL, 0, NULL}};
+#include "python/door.h"
+#include "walker/walker.h"
+
+// A gait as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part, point_role).
+static int open_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
+{
+    if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != 9) {
+        PyErr_SetString(PyExc_TypeError,
+                        "gait: expected (time, com, mass, pose, limb_walker, part_limb, point, "
+                        "point_part, point_role)");
+        return -1;
+    }
+    PyObject* item[9];
+    for (int k = 0; k < 9; ++k) item[k] = PyTuple_GetItem(tuple, k);
+    DpShape time = {1, {-1}}, mass = {1, {-1}}, limb = {1, {-1}}, part = {1, {-1}}, point = {1, {-1}};
+    if (!(gait->time = dp_door_open(door, item[0], "time", 'd', &time, false))) return -1;
+    if (!(gait->mass = dp_door_open(door, item[2], "mass", 'd', &mass, false))) return -1;
+    if (!(gait->limb_walker = dp_door_open(door, item[4], "limb_walker", 'i', &limb, false))) return -1;
+    if (!(gait->part_limb = dp_door_open(door, item[5], "part_limb", 'i', &part, false))) return -1;
+    if (!(gait->point_part = dp_door_open(door, item[7], "point_part", 'i', &point, false))) return -1;
+    const Py_ssize_t T = time.n[0], W = mass.n[0], P = part.n[0], K = point.n[0];
+    if (!(gait->com = dp_door_open(door, item[1], "com", 'd', DP_SHAPE3(W, T, 3), false))) return -1;
+    if (!(gait->pose = dp_door_open(door, item[3], "pose", 'd', DP_SHAPE3(P, T, 7), false))) return -1;
+    if (!(gait->point = dp_door_open(door, item[6], "point", 'd', DP_SHAPE2(K, 3), false))) return -1;
+    if (!(gait->point_role = dp_door_open(door, item[8], "point_role", 'i', DP_SHAPE1(K), false)))
+        return -1;
+    if (T > 100000000 || W > 100000 || limb.n[0] > 1000000 || P > 1000000 || K > 1000000) {
+        PyErr_SetString(PyExc_ValueError, "gait: too many samples or parts");
+        return -1;
+    }
+    gait->times = (int)T, gait->walkers = (int)W, gait->limbs = (int)limb.n[0];
+    gait->parts = (int)P, gait->points = (int)K;
+    if (dp_door_finite(gait->time, T, "time") < 0) return -1;
+    if (dp_door_finite(gait->mass, W, "mass") < 0) return -1;
+    if (dp_door_finite(gait->com, 3 * W * T, "com") < 0) return -1;
+    if (dp_door_finite(gait->pose, 7 * P * T, "pose") < 0) return -1;
+    return dp_door_finite(gait->point, 3 * K, "point");
+}
+
+static PyObject* resample_count(PyObject* self, PyObject* args)
+{
+    (void)self;
+    double first, last, rate;
+    if (!PyArg_ParseTuple(args, "ddd", &first, &last, &rate)) return NULL;
+    const int count = isfinite(first) && isfinite(last) && isfinite(rate)
+                          ? dp_gait_resample_count(first, last, rate)
+                          : 0;
+    if (count > 0) return PyLong_FromLong(count);
+    PyErr_SetString(PyExc_ValueError, "resampling: the rate or the times cannot be used");
+    return NULL;
+}
+
+static PyObject* resample(PyObject* self, PyObject* args)
+{
+    (void)self;
+    PyObject *time, *com, *pose, *new_time, *new_com, *new_pose;
+    double    rate;
+    if (!PyArg_ParseTuple(args, "OOOdOOO", &time, &com, &pose, &rate, &new_time, &new_com, &new_pose))
+        return NULL;
+    DpDoor    door = {0};
+    DpGait    gait = {0};
+    DpShape   times = {1, {-1}}, count = {1, {-1}}, coms = {3, {-1, -1, 3}}, poses = {3, {-1, -1, 7}};
+    PyObject* result = NULL;
+    double *  out_time, *out_com, *out_pose;
+    if (!(gait.time = dp_door_open(&door, time, "time", 'd', &times, false))) goto done;
+    coms.n[1] = poses.n[1] = times.n[0];
+    if (!(gait.com = dp_door_open(&door, com, "com", 'd', &coms, false))) goto done;
+    if (!(gait.pose = dp_door_open(&door, pose, "pose", 'd', &poses, false))) goto done;
+    if (!(out_time = dp_door_open(&door, new_time, "new time", 'd', &count, true))) goto done;
+    const Py_ssize_t n = count.n[0];
+    if (!(out_com = dp_door_open(&door, new_com, "new com", 'd', DP_SHAPE3(coms.n[0], n, 3), true)))
+        goto done;
+    if (!(out_pose = dp_door_open(&door, new_pose, "new pose", 'd', DP_SHAPE3(poses.n[0], n, 7), true)))
+        goto done;
+    if (times.n[0] > 100000000 || n > 100000000) {
+        PyErr_SetString(PyExc_ValueError, "resampling: too many samples");
+        goto done;
+    }
+    if (dp_door_finite(gait.time, times.n[0], "time") < 0) goto done;
+    gait.times = (int)times.n[0], gait.walkers = (int)coms.n[0], gait.parts = (int)poses.n[0];
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "resampling");
+done:
+    dp_door_close(&door);
+    return result;
+}
+
+// numbers of a plain struct of doubles, or its defaults where None stands
+static int read_numbers(DpDoor* door, PyObject* object, const char* name, double* number, int count)
+{
+    if (object == Py_None) return 0;
+    const double* given = dp_door_open(door, object, name, 'd', DP_SHAPE1(count), false);
+    if (!given) return -1;
+    for (int k = 0; k < count; ++k) {
+        if (!isfinite(given[k]) || given[k] < 0.0) {
+            PyErr_Format(PyExc_ValueError, "%s: element %d is not a number of 0 or more", name, k);
+            return -1;
+        }
+        number[k] = given[k];
+    }
+    return 0;
+}
+
+static PyObject* foot_contact(PyObject* self, PyObject* args)
+{
+    (void)self;
+    PyObject *tuple, *ground, *touching, *clearance, *numbers = Py_None;
+    if (!PyArg_ParseTuple(args, "OOOO|O", &tuple, &ground, &touching, &clearance, &numbers))
+        return NULL;
+    DpDoor          door = {0};
+    DpGait          gait = {0};
+    DpContactLimits l = dp_contact_limits_default();
+    double  n[11] = {l.touch_height, l.release_height, l.release_height_toe, l.touch_speed,
+                     l.touch_speed_share, l.release_speed, l.slow_speed, l.shortest,
+                     l.point_cutoff, l.com_cutoff, l.support_fall};
+    PyObject* result = NULL;
+    if (open_gait(&door, tuple, &gait) < 0) goto done;
+    const double* below = dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times),
+                                       false);
+    uint8_t* on = below ? dp_door_open(&door, touching, "touching", 'B',
+                                       DP_SHAPE2(gait.parts, gait.times), true)
+                        : NULL;
+    double* rest = on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true)
+                      : NULL;
+    if (!rest || read_numbers(&door, numbers, "limits", n, 11) < 0) goto done;
+    l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_foot_contact(&gait, below, &l, on, rest);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "finding contacts");
+done:
+    dp_door_close(&door);
+    return result;
+}
+
+static PyObject* foot_force(PyObject* self, PyObject* args)
+{
+    (void)self;
+    PyObject *tuple, *touching, *ground, *force, *point, *numbers = Py_None;
+    int       model, half_sine;
+    double    settle_time;
+    if (!PyArg_ParseTuple(args, "OOOidpOO|O", &tuple, &touching, &ground, &model, &settle_time,
+                          &half_sine, &force, &point, &numbers))
+        return NULL;
+    DpDoor        door = {0};
+    DpGait        gait = {0};
+    DpLoadOptions o = dp_load_options_default();
+    double        n[8] = {o.cutoff_share, o.cutoff_low, o.cutoff_high, o.overlap_most,
+                          o.ramp_standing, o.ramp_alone, o.ramp_trust, o.reach};
+    PyObject*     result = NULL;
+    double *      out_force = NULL, *out_point = NULL;
+    if (open_gait(&door, tuple, &gait) < 0) goto done;
+    const uint8_t* on = dp_door_open(&door, touching, "touching", 'B',
+                                     DP_SHAPE2(gait.parts, gait.times), false);
+    if (!on) goto done;
+    const double* below = dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times),
+                                       false);
+    if (!below) goto done;
+    DpShape shape = {3, {gait.parts, gait.times, 3}};
+    if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
+    if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
+    if (read_numbers(&door, numbers, "options", n, 8) < 0) goto done;
+    o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA, settle_time, half_sine != 0,
+                        n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+    if (model != 0 && model != 1) {
+        PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
+        goto done;
+    }
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "finding loads");
+done:
+    dp_door_close(&door);
+    return result;
+}
+
+static PyObject* foot_share(PyObject* self, PyObject* args)
+{
+    (void)self;
+    DpVec3 c, l, r;
+    if (!PyArg_ParseTuple(args, "(ddd)(ddd)(ddd)", &c.x, &c.y, &c.z, &l.x, &l.y, &l.z, &r.x, &r.y,
+                          &r.z))
+        return NULL;
+    return PyFloat_FromDouble(dp_foot_share(c, l, r));
+}
+
+PyMethodDef dp_py_walker_methods[] = {
+    {"resample_count", resample_count, METH_VARARGS,
+     "resample_count(first, last, rate): samples an even recording of that span has"},
+    {"resample", resample, METH_VARARGS,
+     "resample(time, com, pose, rate, new_time, new_com, new_pose): fill the last three"},
+    {"foot_contact", foot_contact, METH_VARARGS,
+     "foot_contact(gait, ground, touching, clearance, limits=None): fill touching and clearance. "
+     "TRAIL (4)"},
+    {"foot_force", foot_force, METH_VARARGS,
+     "foot_force(gait, touching, ground, model, settle_time, half_sine, force, point, options=None): "
+     "fill force and point. TRAIL (3)"},
+    {"foot_share", foot_share, METH_VARARGS,
+     "foot_share(com, left, right): weight share of the right foot. SOFT22 (5)"},
+    {NULL, NULL, 0, NULL}};

@@ -35,6 +35,7 @@ typedef struct DpContactLimits
     double shortest;            // ticks and gaps below this are closed                [s]   >= 0
     double point_cutoff;        // low-pass of a point's speed                         [Hz]  > 0
     double com_cutoff;          // low-pass of the centre's speed                      [Hz]  > 0
+    double support_fall;        // nobody touches and a_z > -this * g: somebody carries [-]  > 0
 } DpContactLimits;
 
 DpContactLimits dp_contact_limits_default(void);
@@ -60,6 +61,16 @@ typedef struct DpLoadOptions
     DpLoadModel model;
     double      settle_time;  // tau of `impulse`, TRAIL (3)                     [s] > 0
     bool        half_sine;    // `impulse`: spread J as a half-sine, else evenly [-]
+
+    // `inertia`, design 4.3
+    double cutoff_share;  // low-pass of a_com in step frequencies               [-]  > 0
+    double cutoff_low;    // and its bounds                                      [Hz] > 0
+    double cutoff_high;   //                                                     [Hz] >= cutoff_low
+    double overlap_most;  // longer overlaps are standing, not a change of feet  [s]  > 0
+    double ramp_standing; // ramp of a limb that joins others that stay          [s]  > 0
+    double ramp_alone;    // ramp of a limb that relieves none                   [s]  > 0
+    double ramp_trust;    // mu, trust in ramps against the zero-moment point    [-]  >= 0
+    double reach;         // spread at which that point gets half its say        [m]  > 0
 } DpLoadOptions;
 
 DpLoadOptions dp_load_options_default(void);

@@ -1,0 +1,308 @@
+// walker/foot_contact.c - which part touches the ground when. TRAIL (4).
+//
+//   heights, speeds ---calibrate---> clearance ---hysteresis---> touching ---support---> touching
+//
+// Departures
+//   TRAIL (4): a point touches below a height and a speed, and lets go above others, each over the
+//   clip's own resting clearance; one fixed height loses most contacts of real recordings.
+//   test_foot_contact.c, hovering_clip_touches.
+//   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "walker/walker_inside.h"
+
+#define SUPPORT_CUTOFF 8.0    // low-pass of a_com for the question whether it falls        [Hz]
+#define SUPPORT_SHORTEST 0.1  // shorter gaps without a foot may well be a flight's edge    [s]
+#define RISE_TO_SPEED 10.0    // a foot this much faster carries as little as one 1 m higher [1/s]
+#define CLEARANCE_MOST 0.15   // a foot at rest this far above the lowest one hangs in the air [m]
+
+DpContactLimits dp_contact_limits_default(void)
+{
+    const DpContactLimits limits = {.touch_height = 0.03,
+                                    .release_height = 0.03,
+                                    .release_height_toe = 0.05,
+                                    .touch_speed = 0.3,
+                                    .touch_speed_share = 0.4,
+                                    .release_speed = 1.2,
+                                    .slow_speed = 0.25,
+                                    .shortest = 0.03,
+                                    .point_cutoff = 20.0,
+                                    .com_cutoff = 3.0,
+                                    .support_fall = 0.5};
+    return limits;
+}
+
+// what is known of the points and walkers over the clip
+typedef struct Watch
+{
+    const DpGait*          gait;
+    const DpContactLimits* limits;
+    double                 rate;
+    double*                height;   // over the ground; NaN = no ground [m]   (K, T)
+    double*                speed;    // [m/s]                                  (K, T)
+    double*                gate;     // speed below which a point may touch [m/s] (W, T)
+    double*                fall;     // a_com upward [m/s^2]                   (W, T)
+    uint8_t*               on;       // the point touches                      (K, T)
+    double*                scratch;  // for the low-pass
+    double*                line;     // three signals                          (3, T)
+} Watch;
+
+static void close_watch(Watch* w)
+{
+    dp_free(w->height), dp_free(w->speed), dp_free(w->gate), dp_free(w->fall);
+    dp_free(w->on), dp_free(w->scratch), dp_free(w->line);
+}
+
+static bool open_watch(Watch* w)
+{
+    const size_t times = (size_t)w->gait->times, points = (size_t)w->gait->points;
+    const size_t walkers = (size_t)w->gait->walkers;
+    w->height = dp_alloc(points * times, sizeof(double));
+    w->speed = dp_alloc(points * times, sizeof(double));
+    w->gate = dp_alloc(walkers * times, sizeof(double));
+    w->fall = dp_alloc(walkers * times, sizeof(double));
+    w->on = dp_alloc(points * times, 1);
+    w->scratch = dp_alloc(3 * times + 8, sizeof(double));
+    w->line = dp_alloc(3 * times, sizeof(double));
+    return w->height && w->speed && w->gate && w->fall && w->on && w->scratch && w->line;
+}
+
+static int limb_of(const DpGait* gait, int point)
+{
+    return gait->part_limb[gait->point_part[point]];
+}
+
+static int walker_of(const DpGait* gait, int point)
+{
+    return gait->limb_walker[limb_of(gait, point)];
+}
+
+// the size of the change in time of three smoothed signals
+static void speed_of(const Watch* w, double cutoff, double* speed)
+{
+    const int times = w->gait->times;
+    double*   axis[3] = {w->line, w->line + times, w->line + 2 * (size_t)times};
+    for (int c = 0; c < 3; ++c) walker_low_pass(axis[c], times, w->rate, cutoff, w->scratch);
+    for (int t = 0; t < times; ++t)
+        speed[t] = dp_length(dp_vec3(walker_velocity(axis[0], times, t, w->rate),
+                                     walker_velocity(axis[1], times, t, w->rate),
+                                     walker_velocity(axis[2], times, t, w->rate)));
+}
+
+static void watch_point(Watch* w, int k, const double* ground)
+{
+    const int    times = w->gait->times;
+    const size_t row = (size_t)k * (size_t)times;
+    const DpVec3 point = walker_point(w->gait, k);
+    for (int t = 0; t < times; ++t) {
+        const DpVec3 at = dp_place(walker_pose(w->gait, w->gait->point_part[k], t), point);
+        w->line[t] = at.x, w->line[t + times] = at.y, w->line[t + 2 * times] = at.z;
+        w->height[row + (size_t)t] = at.z - ground[row + (size_t)t];
+    }
+    speed_of(w, w->limits->point_cutoff, w->speed + row);
+}
+
+static void watch_walker(Watch* w, int walker)
+{
+    const int times = w->gait->times;
+    double*   gate = w->gate + (size_t)walker * (size_t)times;
+    double*   fall = w->fall + (size_t)walker * (size_t)times;
+    for (int t = 0; t < times; ++t) w->line[t] = walker_com(w->gait, walker, t).z;
+    walker_low_pass(w->line, times, w->rate, SUPPORT_CUTOFF, w->scratch);
+    for (int t = 0; t < times; ++t) fall[t] = walker_acceleration(w->line, times, t, w->rate);
+    for (int t = 0; t < times; ++t) {
+        const DpVec3 com = walker_com(w->gait, walker, t);
+        w->line[t] = com.x, w->line[t + times] = com.y, w->line[t + 2 * times] = com.z;
+    }
+    speed_of(w, w->limits->com_cutoff, gate);
+    for (int t = 0; t < times; ++t)
+        gate[t] = w->limits->touch_speed + w->limits->touch_speed_share * gate[t];
+}
+
+// ---- the clip's own resting clearance ------------------------------------------------------------
+
+static int by_value(const void* a, const void* b)
+{
+    const double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+// median of the lowest band of heights at slow samples; NaN if the point is never slow
+static double resting_height(const Watch* w, int k, const double* gate)
+{
+    const int     times = w->gait->times;
+    const double* height = w->height + (size_t)k * (size_t)times;
+    const double* speed = w->speed + (size_t)k * (size_t)times;
+    double*       slow = w->line;
+    size_t        count = 0;
+    for (int t = 0; t < times; ++t) {
+        const double most = gate ? gate[t] : w->limits->slow_speed;
+        if (!isnan(height[t]) && speed[t] < most) slow[count++] = height[t];
+    }
+    if (count == 0) return NAN;
+    qsort(slow, count, sizeof *slow, by_value);
+    const double lowest = slow[count / 20];
+    size_t       band = count / 20;
+    while (band < count && slow[band] <= lowest + w->limits->touch_height) ++band;
+    return slow[band / 2];
+}
+
+// the lowest a walker's points rest; if none ever does, the lowest they go
+static double lowest_rest(const Watch* w, const double* clearance, int walker)
+{
+    const DpGait* gait = w->gait;
+    double        rest = INFINITY, low = INFINITY;
+    for (int k = 0; k < gait->points; ++k) {
+        if (walker_of(gait, k) != walker) continue;
+        rest = fmin(rest, clearance[k]);  // fmin passes over NaN
+        const double* height = w->height + (size_t)k * (size_t)gait->times;
+        for (int t = 0; t < gait->times; ++t) low = fmin(low, height[t]);
+    }
+    return isfinite(rest) ? rest : isfinite(low) ? low : 0.0;
+}
+
+static void calibrate(const Watch* w, double* clearance)
+{
+    const DpGait* gait = w->gait;
+    for (int k = 0; k < gait->points; ++k) {
+        clearance[k] = resting_height(w, k, NULL);
+        if (isnan(clearance[k]))  // never slow: the samples at which it might land
+            clearance[k] =
+                resting_height(w, k, w->gate + (size_t)walker_of(gait, k) * (size_t)gait->times);
+    }
+    // a foot held up in the air, or one that never rests, hovers as its lowest fellow does
+    for (int walker = 0; walker < gait->walkers; ++walker) {
+        const double lowest = lowest_rest(w, clearance, walker);
+        for (int k = 0; k < gait->points; ++k)
+            if (walker_of(gait, k) == walker && !(clearance[k] <= lowest + CLEARANCE_MOST))
+                clearance[k] = lowest;
+    }
+}
+
+// ---- touching and letting go ---------------------------------------------------------------------
+
+static void touch_point(Watch* w, int k, double clearance)
+{
+    const DpContactLimits* limits = w->limits;
+    const int              times = w->gait->times;
+    const double*          height = w->height + (size_t)k * (size_t)times;
+    const double*          speed = w->speed + (size_t)k * (size_t)times;
+    const double*          gate = w->gate + (size_t)walker_of(w->gait, k) * (size_t)times;
+    uint8_t*               on = w->on + (size_t)k * (size_t)times;
+    const double           release = w->gait->point_role[k] == DP_POINT_HEEL
+                                         ? limits->release_height
+                                         : limits->release_height_toe;
+    bool touches = false, came_to_rest = false;
+    for (int t = 0; t < times; ++t) {
+        const double d = height[t] - clearance;  // TRAIL (4)
+        if (!touches) {
+            touches = d < limits->touch_height && speed[t] < gate[t];
+            came_to_rest = false;
+        }
+        // a foot that lands fast lets go by speed only once it has been slower
+        if (speed[t] <= limits->release_speed) came_to_rest = true;
+        if (touches && (!(d <= release) || (came_to_rest && speed[t] > limits->release_speed)))
+            touches = false;
+        on[t] = touches;
+    }
+}
+
+// close runs of `value` that are shorter than `most` samples and have something on both sides
+static void close_runs(uint8_t* on, int times, uint8_t value, double most)
+{
+    for (int t = 0; t < times;) {
+        int end = t;
+        while (end < times && on[end] == on[t]) ++end;
+        if (on[t] == value && t > 0 && end < times && (double)(end - t) < most)
+            memset(on + t, !value, (size_t)(end - t));
+        t = end;
+    }
+}
+
+static void tidy(uint8_t* on, int times, double most)
+{
+    close_runs(on, times, 0, most);  // gaps first, so that a broken stance is whole
+    close_runs(on, times, 1, most);
+}
+
+// ---- somebody carries what does not fall ----------------------------------------------------------
+
+static bool limb_on(const Watch* w, int walker, int t)
+{
+    for (int k = 0; k < w->gait->points; ++k)
+        if (walker_of(w->gait, k) == walker && w->on[(size_t)k * (size_t)w->gait->times + (size_t)t])
+            return true;
+    return false;
+}
+
+// the slowest lowest foot touches, at its own height
+static void support(Watch* w, int walker, int t, const double* clearance)
+{
+    const DpGait* gait = w->gait;
+    double        least = INFINITY, lowest = 0.0;
+    int           limb = -1;
+    for (int k = 0; k < gait->points; ++k) {
+        const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
+        if (walker_of(gait, k) != walker || isnan(w->height[at])) continue;
+        const double d = w->height[at] - clearance[k];
+        const double cost = w->speed[at] + RISE_TO_SPEED * d;
+        if (cost < least) least = cost, lowest = d, limb = limb_of(gait, k);
+    }
+    for (int k = 0; k < gait->points && limb >= 0; ++k) {
+        const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
+        if (limb_of(gait, k) != limb || isnan(w->height[at])) continue;
+        const double d = w->height[at] - clearance[k];
+        if (d <= lowest + w->limits->touch_height) w->on[at] = 1;
+    }
+}
+
+static void support_walker(Watch* w, int walker, const double* clearance)
+{
+    const int     times = w->gait->times;
+    const double* fall = w->fall + (size_t)walker * (size_t)times;
+    const double  floats = -w->limits->support_fall * DP_GRAVITY;
+    for (int t = 0; t < times;) {
+        int end = t;
+        while (end < times && fall[end] > floats && !limb_on(w, walker, end)) ++end;
+        if ((double)(end - t) >= SUPPORT_SHORTEST * w->rate)
+            for (int s = t; s < end; ++s) support(w, walker, s, clearance);
+        t = end > t ? end : t + 1;
+    }
+}
+
+DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpContactLimits* limits,
+                         uint8_t* touching, double* clearance)
+{
+    if (!walker_gait_ok(gait) || !ground || !limits || !touching || !clearance)
+        return DP_BAD_ARGUMENT;
+    Watch w = {.gait = gait, .limits = limits, .rate = walker_rate(gait)};
+    if (gait->times > 1 && w.rate <= 0.0) return DP_BAD_ARGUMENT;
+    if (gait->times == 1) w.rate = 1.0;
+    if (!open_watch(&w)) {
+        close_watch(&w);
+        return DP_NO_MEMORY;
+    }
+    const int    times = gait->times;
+    const double shortest = limits->shortest * w.rate - 1e-6;
+    for (int k = 0; k < gait->points; ++k) watch_point(&w, k, ground);
+    for (int walker = 0; walker < gait->walkers; ++walker) watch_walker(&w, walker);
+    calibrate(&w, clearance);
+    for (int k = 0; k < gait->points; ++k) {
+        touch_point(&w, k, clearance[k]);
+        tidy(w.on + (size_t)k * (size_t)times, times, shortest);
+    }
+    for (int walker = 0; walker < gait->walkers; ++walker) support_walker(&w, walker, clearance);
+    memset(touching, 0, (size_t)gait->parts * (size_t)times);
+    for (int k = 0; k < gait->points; ++k) {
+        uint8_t*       part = touching + (size_t)gait->point_part[k] * (size_t)times;
+        const uint8_t* on = w.on + (size_t)k * (size_t)times;
+        for (int t = 0; t < times; ++t) part[t] |= on[t];
+    }
+    for (int p = 0; p < gait->parts; ++p) tidy(touching + (size_t)p * (size_t)times, times, shortest);
+    close_watch(&w);
+    return DP_OK;
+}

@@ -1,0 +1,136 @@
+// walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5), design 4.3.
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/vec.h"
+#include "walker/walker_inside.h"
+
+#define MOST_SWEEPS 400
+#define CLOSE_ENOUGH 1e-12
+
+double dp_foot_share(DpVec3 com, DpVec3 left, DpVec3 right)
+{
+    const DpVec3 across = dp_sub(right, left);
+    const double square = dp_dot(across, across);
+    if (!(square > 0.0)) return 0.5;
+    return dp_clamp(dp_dot(dp_sub(com, left), across) / square, 0.0, 1.0);  // SOFT22 (5)
+}
+
+// mean square distance between the supports, weighted by what the ramps give them; for two, L
+static double spread(const double* s, const DpVec3* at, int count)
+{
+    double sum = 0.0, weight = 0.0;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < i; ++j) {
+            const DpVec3 d = dp_sub(at[i], at[j]);
+            const double both = s[i] * s[j];
+            sum += both * (d.x * d.x + d.y * d.y);
+            weight += both;
+        }
+    return weight > 0.0 ? sum / weight : 0.0;
+}
+
+// Each pair trades weight until nobody gains: for two supports that is the closed form
+//   a = (mu s + 2 lambda q a*) / (mu + 2 lambda q),  q = s (1 - s),  a* = SOFT22 (5).
+void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu, double reach)
+{
+    enum { MOST = 64 };  // more supports than that keep their ramps
+    if (count < 2 || count > MOST) return;
+    const double square = spread(share, at, count);
+    if (!(square > 1e-12)) return;
+    const double lambda = square / (square + reach * reach) / square;
+    double       pull[MOST];  // mu / (4 s (1 - s)): how hard a ramp holds its share
+    double       held[MOST];
+    DpVec3       miss = dp_vec3(-target.x, -target.y, 0.0);  // sum a_i p_i - target
+    for (int i = 0; i < count; ++i) {
+        held[i] = share[i];
+        pull[i] = mu / fmax(4.0 * share[i] * (1.0 - share[i]), 1e-9) + 1e-9;
+        miss = dp_add(miss, dp_scale(dp_vec3(at[i].x, at[i].y, 0.0), share[i]));
+    }
+    for (int sweep = 0; sweep < MOST_SWEEPS; ++sweep) {
+        double most = 0.0;
+        for (int i = 0; i < count; ++i)
+            for (int j = 0; j < i; ++j) {
+                // whom the ramps give nothing gets nothing
+                if (held[i] <= 0.0 || held[j] <= 0.0) continue;
+                const DpVec3 d = dp_vec3(at[i].x - at[j].x, at[i].y - at[j].y, 0.0);
+                const double slope = pull[i] * (share[i] - held[i]) - pull[j] * (share[j] - held[j]) +
+                                     lambda * dp_dot(d, miss);
+                const double curve = pull[i] + pull[j] + lambda * dp_dot(d, d);
+                const double give = dp_clamp(-slope / curve, -share[i], share[j]);
+                share[i] += give, share[j] -= give;
+                miss = dp_add(miss, dp_scale(d, give));
+                most = fmax(most, fabs(give));
+            }
+        if (most < CLOSE_ENOUGH) break;
+    }
+}
+
+// ---- ramps ---------------------------------------------------------------------------------------
+
+// first sample after t at which the support's state has changed, or `times`
+static int run_end(const uint8_t* on, int times, int t)
+{
+    const uint8_t state = on[t];
+    while (t < times && on[t] == state) ++t;
+    return t;
+}
+
+static int run_begin(const uint8_t* on, int t)
+{
+    const uint8_t state = on[t];
+    while (t > 0 && on[t - 1] == state) --t;
+    return t;
+}
+
+// Time over which a support that begins (or ends) at sample t changes weight with the others: the
+// shortest overlap with one that it relieves (or that relieves it).
+static double ramp_time(const uint8_t* touching, int count, int times, int self, int t, bool begins,
+                        double rate, const DpLoadOptions* options)
+{
+    const size_t row = (size_t)times;
+    const int    own_end = run_end(touching + (size_t)self * row, times, t);
+    const int    own_begin = run_begin(touching + (size_t)self * row, t);
+    bool         company = false;
+    double       shortest = INFINITY;
+    for (int other = 0; other < count; ++other) {
+        const uint8_t* on = touching + (size_t)other * row;
+        if (other == self || !on[t]) continue;
+        company = true;
+        const int end = run_end(on, times, t), begin = run_begin(on, t);
+        if (begins && begin < t && end < own_end) shortest = fmin(shortest, (double)(end - t));
+        if (!begins && begin > own_begin && end > t + 1)
+            shortest = fmin(shortest, (double)(t + 1 - begin));
+    }
+    if (!company) return options->ramp_alone;
+    const double overlap = shortest / rate;
+    return overlap < options->overlap_most ? overlap : options->ramp_standing;
+}
+
+void walker_ramps(const uint8_t* touching, int count, int times, double rate,
+                  const DpLoadOptions* options, double* weight)
+{
+    for (int i = 0; i < count; ++i) {
+        const uint8_t* on = touching + (size_t)i * (size_t)times;
+        double*        w = weight + (size_t)i * (size_t)times;
+        for (int t = 0; t < times;) {
+            const int end = run_end(on, times, t);
+            if (!on[t]) {
+                for (; t < end; ++t) w[t] = 0.0;
+                continue;
+            }
+            // a stance cut by the clip's ends was there before and stays after
+            const double up =
+                t > 0 ? ramp_time(touching, count, times, i, t, true, rate, options) : 0.0;
+            const double down =
+                end < times ? ramp_time(touching, count, times, i, end - 1, false, rate, options) : 0.0;
+            for (int s = t; s < end; ++s) {
+                const double since = ((double)(s - t) + 0.5) / rate;
+                const double left = ((double)(end - s) - 0.5) / rate;
+                w[s] = fmin(up > 0.0 ? dp_smoothstep(since / up) : 1.0,
+                            down > 0.0 ? dp_smoothstep(left / down) : 1.0);
+            }
+            t = end;
+        }
+    }
+}

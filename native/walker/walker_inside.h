@@ -1,0 +1,57 @@
+// walker/walker_inside.h - what the files of this room share; no other room comes in here.
+#pragma once
+#include "walker/walker.h"
+
+// Low-pass value (count) in place without phase: a 2nd-order Butterworth forward and backward, on
+// a signal continued beyond its ends by turning it about its end points, so that a clip may begin and
+// end in full motion. A cut-off too near to half the rate leaves the signal as it is.
+// @param scratch  (walker_low_pass_scratch(count, ..)) doubles
+void   walker_low_pass(double* value, int count, double rate, double cutoff, double* scratch);
+size_t walker_low_pass_scratch(int count, double rate, double cutoff);
+
+// First and second change in time at a sample, from its neighbours; one-sided at the ends.
+double walker_velocity(const double* value, int count, int at, double rate);
+double walker_acceleration(const double* value, int count, int at, double rate);
+
+// Samples a second of an even recording; 0 if it is uneven or has fewer than two samples.
+double walker_rate(const DpGait* gait);
+
+// Is every count, pointer, owner and number of the recording one that can be worked with?
+bool walker_gait_ok(const DpGait* gait);
+
+static inline DpPose walker_pose(const DpGait* gait, int part, int sample)
+{
+    const double* p = gait->pose + 7 * ((size_t)part * (size_t)gait->times + (size_t)sample);
+    const DpPose  pose = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+    return pose;
+}
+
+static inline DpVec3 walker_com(const DpGait* gait, int walker, int sample)
+{
+    const double* c = gait->com + 3 * ((size_t)walker * (size_t)gait->times + (size_t)sample);
+    const DpVec3  com = {c[0], c[1], c[2]};
+    return com;
+}
+
+static inline DpVec3 walker_point(const DpGait* gait, int point)
+{
+    const double* p = gait->point + 3 * (size_t)point;
+    const DpVec3  at = {p[0], p[1], p[2]};
+    return at;
+}
+
+// How much of the weight each of `count` supports carries: ramps first, corrected by the
+// zero-moment point where the supports are far apart. Design 4.3.
+// @param share   in: s_i of the ramps, sum 1; out: a_i >= 0, sum 1  [-] (count)
+// @param at      centres of contact, horizontal                     [m] (count)
+// @param target  where the supports' mean should be                 [m]
+// @param mu      trust in the ramps, 0 = none                       [-] >= 0
+// @param reach   spread at which the zero-moment point gets half its say [m] > 0
+void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu,
+                  double reach);
+
+// Ramps of supports that touch and let go. Design 4.3, step 1.
+// @param touching  (count, times), rows `stride` samples apart
+// @param weight    out: 0 in the air, easing to 1 on the ground (count, times)
+void walker_ramps(const uint8_t* touching, int count, int times, double rate,
+                  const DpLoadOptions* options, double* weight);
