@@ -1,0 +1,117 @@
+// terrain/terrain_inside.h - what the files of this room share. Other rooms come in by terrain.h.
+#pragma once
+#include <limits.h>
+#include <stdatomic.h>
+
+#include "terrain/terrain.h"
+
+#define TILE_CELLS (DP_TILE * DP_TILE)
+#if LONG_MAX > 0x7fffffff
+#define MOST_CELL_INDEX (1L << 52)  // beyond it a cell's position is no longer exact
+#else
+#define MOST_CELL_INDEX (1L << 30)
+#endif
+
+// ---- ground, terrain_rest.c and terrain_mesh.c --------------------------------------------------
+
+// triangles in a uniform grid of bins: those of bin b are item[start[b]] .. item[start[b + 1] - 1]
+typedef struct MeshGround
+{
+    int      vertex_count, triangle_count;
+    double*  vertex;    // [m] (vertex_count, 3)
+    int32_t* triangle;  // (triangle_count, 3)
+    double   x0, y0, bin;  // corner and side of bin (0, 0) [m]
+    int      nx, ny;       // bins
+    size_t*  start;        // (nx * ny + 1)
+    int32_t* item;         // triangles, ascending within a bin
+} MeshGround;
+
+// rest ground as it was given; kind_weight goes by mesh vertex or height sample
+typedef struct Rest
+{
+    DpGroundKind kind;
+    double       height;
+    int          nx, ny;
+    double       x0, y0, spacing;
+    float*       heights;
+    MeshGround   mesh;
+    int          kind_count;
+    size_t       weights;      // of each kind
+    float*       kind_weight;  // (kind_count, weights)
+    double       bounds[4];    // {x0, y0, x1, y1} [m]
+} Rest;
+
+DpStatus rest_create(Rest* rest, const DpGround* ground);
+void     rest_destroy(Rest* rest);
+
+// Height at a point, NaN where there is none; the kind of ground there goes to *kind if not NULL.
+double rest_at(const Rest* rest, double x, double y, uint8_t* kind);
+
+// Where a tile's cells are. Positions come from the world's cell numbers alone (cell_at), so a tile
+// and a point query see the same numbers.
+typedef struct TileGrid
+{
+    double origin_x, origin_y, cell;
+    long   i0, j0;  // world cell of the tile's cell (0, 0)
+} TileGrid;
+
+// Heights and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)rest_at at cell centres.
+void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
+
+DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, double bounds[4]);
+void     mesh_destroy(MeshGround* mesh);
+double   mesh_at(const Rest* rest, double x, double y, uint8_t* kind);
+void     mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
+
+// Heaviest of the kinds, the first of equals; kind k weighs sum of share[n] * kind_weight[k][of[n]].
+uint8_t heaviest_kind(const Rest* rest, int count, const size_t* of, const double* share);
+
+static inline double cell_at(double origin, double cell, long index)
+{
+    return origin + ((double)index + 0.5) * cell;
+}
+
+// ---- tiles, terrain.c ----------------------------------------------------------------------------
+
+typedef struct Tile
+{
+    float      rest[TILE_CELLS];           // NaN = no ground [m]
+    float      compression[TILE_CELLS];    // [m]
+    float      heap[TILE_CELLS];           // [m]
+    float      pressure_time[TILE_CELLS];  // [Pa s]
+    uint8_t    kind[TILE_CELLS];
+    long       tx, ty;
+    atomic_int changed;
+} Tile;
+
+struct DpTerrain
+{
+    double   cell, origin_x, origin_y;
+    int      soil_count, workers;
+    DpSoil*  soils;
+    float*   slope;  // tan(rest_angle) of each soil
+    Rest     rest;
+
+    Tile**        slot;  // hash of (tx, ty): a power of two of slots, at most half of them full
+    size_t        slots;
+    Tile**        sorted;       // all tiles, ascending (ty, tx)
+    Tile**        marked;       // tiles changed since the last dp_terrain_changed, in any order
+    size_t        tiles, room;  // how many there are; how many sorted and marked can hold
+    atomic_size_t marks;
+};
+
+// NULL if nobody touched it.
+Tile*    tile_find(const DpTerrain* terrain, long tx, long ty);
+TileGrid tile_grid(const DpTerrain* terrain, long tx, long ty);
+
+// which tile holds a cell
+static inline long tile_of(long cell)
+{
+    return cell >= 0 ? cell / DP_TILE : -((-cell - 1) / DP_TILE) - 1;
+}
+
+static inline bool is_rectangle(long i0, long i1, long j0, long j1)
+{
+    return i0 < i1 && j0 < j1 && i0 > -MOST_CELL_INDEX && i1 < MOST_CELL_INDEX &&
+           j0 > -MOST_CELL_INDEX && j1 < MOST_CELL_INDEX;
+}

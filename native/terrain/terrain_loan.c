@@ -1,0 +1,268 @@
+// Windows: tiles are copied into one dense patch, what changed is copied back, and fields are read.
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/assert.h"
+#include "base/parallel.h"
+#include "terrain/terrain_inside.h"
+
+#define ROW_STEP 16              // cells; whole cache lines of floats
+#define MOST_CELLS (1L << 28)    // of one patch
+#define FLOAT_GRIDS 6
+
+struct DpLoan
+{
+    DpSoilPatch patch;
+    long        i0, j0;  // world cell of the patch's cell (0, 0)
+    float*      grid;    // rest, compression, heap, pressure_time, modulus, rest_slope
+    uint8_t*    kind;
+    size_t      room;  // cells of each
+};
+
+DpLoan* dp_loan_create(void)
+{
+    return dp_alloc(1, sizeof(DpLoan));
+}
+
+void dp_loan_destroy(DpLoan* loan)
+{
+    if (!loan) return;
+    dp_free(loan->grid);
+    dp_free(loan->kind);
+    dp_free(loan);
+}
+
+static bool make_room(DpLoan* loan, size_t cells)
+{
+    if (cells <= loan->room) return true;
+    const size_t room = (cells + cells / 4 + ROW_STEP - 1) / ROW_STEP * ROW_STEP;
+    float*       grid = dp_alloc(room, FLOAT_GRIDS * sizeof *grid);
+    uint8_t*     kind = dp_alloc(room, sizeof *kind);
+    if (!grid || !kind) {
+        dp_free(grid);
+        dp_free(kind);
+        return false;
+    }
+    dp_free(loan->grid);
+    dp_free(loan->kind);
+    loan->grid = grid;
+    loan->kind = kind;
+    loan->room = room;
+    return true;
+}
+
+// the part of a rectangle of cells that one tile holds
+typedef struct Part
+{
+    long   tx, ty;
+    int    i, j, nx, ny;  // in the rectangle
+    size_t in_tile;       // its first cell in the tile
+} Part;
+
+static long later(long a, long b)
+{
+    return a > b ? a : b;
+}
+
+static long earlier(long a, long b)
+{
+    return a < b ? a : b;
+}
+
+static Part part_of(long tx, long ty, long i0, long i1, long j0, long j1)
+{
+    const long from_i = later(i0, tx * DP_TILE), to_i = earlier(i1, (tx + 1) * DP_TILE);
+    const long from_j = later(j0, ty * DP_TILE), to_j = earlier(j1, (ty + 1) * DP_TILE);
+    const Part part = {tx,
+                       ty,
+                       (int)(from_i - i0),
+                       (int)(from_j - j0),
+                       (int)(to_i - from_i),
+                       (int)(to_j - from_j),
+                       (size_t)(from_j - ty * DP_TILE) * DP_TILE + (size_t)(from_i - tx * DP_TILE)};
+    return part;
+}
+
+// what kernels may read beyond the end of a row: no ground, at rest
+static void fill_padding(const DpTerrain* terrain, DpLoan* loan, float* const* grid)
+{
+    const DpSoilPatch* patch = &loan->patch;
+    const float        pad[FLOAT_GRIDS] = {NAN, 0.0f, 0.0f, 0.0f, terrain->soils[0].young_modulus,
+                                           terrain->slope[0]};
+    for (int j = 0; j < patch->ny; ++j) {
+        const size_t row = (size_t)j * (size_t)patch->row;
+        for (int i = patch->nx; i < patch->row; ++i) {
+            for (int g = 0; g < FLOAT_GRIDS; ++g) grid[g][row + (size_t)i] = pad[g];
+            loan->kind[row + (size_t)i] = 0;
+        }
+    }
+}
+
+static void copy_in(const DpTerrain* terrain, const Tile* tile, const Part* part, DpLoan* loan,
+                    float* const* grid)
+{
+    const float* from[4] = {tile->rest, tile->compression, tile->heap, tile->pressure_time};
+    const size_t wide = (size_t)part->nx;
+    for (int j = 0; j < part->ny; ++j) {
+        const size_t to = (size_t)(part->j + j) * (size_t)loan->patch.row + (size_t)part->i;
+        const size_t at = part->in_tile + (size_t)j * DP_TILE;
+        for (int g = 0; g < 4; ++g) memcpy(grid[g] + to, from[g] + at, wide * sizeof(float));
+        memcpy(loan->kind + to, tile->kind + at, wide);
+        for (size_t i = 0; i < wide; ++i) {
+            grid[4][to + i] = terrain->soils[tile->kind[at + i]].young_modulus;
+            grid[5][to + i] = terrain->slope[tile->kind[at + i]];
+        }
+    }
+}
+
+DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, long j0, long j1,
+                         DpSoilPatch** patch)
+{
+    if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
+    const long nx = i1 - i0, ny = j1 - j0;
+    if (nx > MOST_CELLS || ny > MOST_CELLS || nx + ROW_STEP > MOST_CELLS / ny) return DP_BAD_ARGUMENT;
+    const DpStatus status = dp_terrain_touch(terrain, i0, i1, j0, j1);
+    if (status != DP_OK) return status;
+
+    const int    row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
+    const size_t cells = (size_t)row * (size_t)ny;
+    if (!make_room(loan, cells)) return DP_NO_MEMORY;
+    float* grid[FLOAT_GRIDS];
+    for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = loan->grid + g * loan->room;
+    const DpSoilPatch lent = {(int)nx, (int)ny, row, terrain->cell,
+                              cell_at(terrain->origin_x, terrain->cell, i0),
+                              cell_at(terrain->origin_y, terrain->cell, j0),
+                              grid[0], grid[1], grid[2], grid[3], grid[4], grid[5],
+                              loan->kind, terrain->soils, terrain->soil_count};
+    loan->patch = lent;
+    loan->i0 = i0;
+    loan->j0 = j0;
+    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
+        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
+            const Part part = part_of(tx, ty, i0, i1, j0, j1);
+            copy_in(terrain, tile_find(terrain, tx, ty), &part, loan, grid);
+        }
+    fill_padding(terrain, loan, grid);
+    *patch = &loan->patch;
+    return DP_OK;
+}
+
+// cells without ground keep what they have: nothing
+static void copy_out(const DpLoan* loan, size_t from, Tile* tile, size_t to, int count)
+{
+    const float* rest = tile->rest + to;
+    const float* source[3] = {loan->patch.compression + from, loan->patch.heap + from,
+                              loan->patch.pressure_time + from};
+    float*       target[3] = {tile->compression + to, tile->heap + to, tile->pressure_time + to};
+    for (int g = 0; g < 3; ++g)
+        for (int i = 0; i < count; ++i)
+            target[g][i] = isnan(rest[i]) ? target[g][i] : source[g][i];
+}
+
+static void mark(DpTerrain* terrain, Tile* tile)
+{
+    if (atomic_exchange(&tile->changed, 1) == 0)
+        terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
+}
+
+void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1)
+{
+    DP_ASSERT(di0 >= 0 && di1 <= loan->patch.nx && dj0 >= 0 && dj1 <= loan->patch.ny);
+    if (di0 >= di1 || dj0 >= dj1) return;
+    const long i0 = loan->i0 + di0, i1 = loan->i0 + di1;
+    const long j0 = loan->j0 + dj0, j1 = loan->j0 + dj1;
+    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
+        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
+            const Part part = part_of(tx, ty, i0, i1, j0, j1);
+            Tile*      tile = tile_find(terrain, tx, ty);
+            for (int j = 0; j < part.ny; ++j) {
+                const size_t from = (size_t)(dj0 + part.j + j) * (size_t)loan->patch.row +
+                                    (size_t)(di0 + part.i);
+                copy_out(loan, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
+            }
+            mark(terrain, tile);
+        }
+}
+
+// ---- reading -------------------------------------------------------------------------------------
+
+typedef struct Reading
+{
+    const DpTerrain* terrain;
+    DpField          field;
+    long             i0, i1, j0, j1;
+    long             tx0, ty0;
+    int              tiles_x;
+    float*           out;
+} Reading;
+
+static float read_cell(const Reading* reading, const Tile* tile, const float* rest,
+                       const uint8_t* kind, size_t at)
+{
+    switch (reading->field) {
+        case DP_FIELD_COMPRESSION: return tile ? tile->compression[at] : 0.0f;
+        case DP_FIELD_HEAP: return tile ? tile->heap[at] : 0.0f;
+        case DP_FIELD_PRESSURE_TIME: return tile ? tile->pressure_time[at] : 0.0f;
+        case DP_FIELD_REST: return rest[at];
+        case DP_FIELD_MODULUS: return reading->terrain->soils[kind[at]].young_modulus;
+        case DP_FIELD_KIND: return (float)kind[at];
+        case DP_FIELD_PLANT_STRENGTH: return 0.0f;
+    }
+    return 0.0f;
+}
+
+static bool comes_from_ground(DpField field)
+{
+    return field == DP_FIELD_REST || field == DP_FIELD_MODULUS || field == DP_FIELD_KIND;
+}
+
+// one tile of the rectangle; an untouched one is made for the moment
+static void read_tile(void* context, int index, int worker)
+{
+    const Reading* reading = context;
+    const long     tx = reading->tx0 + index % reading->tiles_x;
+    const long     ty = reading->ty0 + index / reading->tiles_x;
+    const Tile*    tile = tile_find(reading->terrain, tx, ty);
+    float          made_rest[TILE_CELLS];
+    uint8_t        made_kind[TILE_CELLS];
+    const float*   rest = tile ? tile->rest : made_rest;
+    const uint8_t* kind = tile ? tile->kind : made_kind;
+    (void)worker;
+    if (!tile && comes_from_ground(reading->field)) {
+        const TileGrid grid = tile_grid(reading->terrain, tx, ty);
+        rest_tile(&reading->terrain->rest, &grid, made_rest, made_kind);
+    }
+    const Part   part = part_of(tx, ty, reading->i0, reading->i1, reading->j0, reading->j1);
+    const size_t nx = (size_t)(reading->i1 - reading->i0);
+    for (int j = 0; j < part.ny; ++j) {
+        float*       out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
+        const size_t at = part.in_tile + (size_t)j * DP_TILE;
+        for (int i = 0; i < part.nx; ++i)
+            out[i] = read_cell(reading, tile, rest, kind, at + (size_t)i);
+    }
+}
+
+DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
+                         float* out)
+{
+    if (nx < 1 || ny < 1 || !is_rectangle(i0, i0 + nx, j0, j0 + ny)) return DP_BAD_ARGUMENT;
+    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_PLANT_STRENGTH) return DP_BAD_ARGUMENT;
+    Reading reading = {terrain, field, i0, i0 + nx, j0, j0 + ny, tile_of(i0), tile_of(j0), 0, out};
+    reading.tiles_x = (int)(tile_of(reading.i1 - 1) - reading.tx0 + 1);
+    const long tiles_y = tile_of(reading.j1 - 1) - reading.ty0 + 1;
+    if (tiles_y > INT_MAX / reading.tiles_x) return DP_BAD_ARGUMENT;
+    dp_parallel_for(reading.tiles_x * (int)tiles_y, terrain->workers, read_tile, &reading);
+    return DP_OK;
+}
+
+void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba)
+{
+    const Tile* tile = tile_find(terrain, tx, ty);
+    for (size_t n = 0; n < TILE_CELLS; ++n) {
+        rgba[4 * n] = tile ? tile->heap[n] - tile->compression[n] : 0.0f;
+        rgba[4 * n + 1] = 0.0f;  // no plants yet
+        rgba[4 * n + 2] = tile ? tile->compression[n] : 0.0f;
+        rgba[4 * n + 3] = tile ? tile->pressure_time[n] : 0.0f;
+    }
+}

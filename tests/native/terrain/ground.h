@@ -1,0 +1,57 @@
+// tests/native/terrain/ground.h - small grounds that the terrain's tests share.
+#pragma once
+#include "check.h"
+#include "terrain/terrain.h"
+
+static const DpSoil ground_soils[3] = {{0.3f, 2e6f, 0.05f, 0.2f, 0.5585f, 0.0f},
+                                       {0.3f, 4e5f, 0.05f, 0.2f, 0.6632f, 0.0f},
+                                       {0.3f, 6e5f, 0.35f, 0.2f, 0.2618f, 0.0f}};
+
+static inline DpTerrainOptions ground_options(double cell, double origin_x, double origin_y)
+{
+    const DpTerrainOptions options = {cell, origin_x, origin_y, ground_soils, 3, 2};
+    return options;
+}
+
+static inline DpGround ground_flat(double height)
+{
+    DpGround ground = {0};
+    ground.kind = DP_GROUND_FLAT;
+    ground.height = height;
+    return ground;
+}
+
+static inline DpGround ground_mesh(int vertices, const double* vertex, int triangles,
+                                   const int32_t* triangle)
+{
+    DpGround ground = {0};
+    ground.kind = DP_GROUND_MESH;
+    ground.vertex_count = vertices;
+    ground.triangle_count = triangles;
+    ground.vertex = vertex;
+    ground.triangle = triangle;
+    return ground;
+}
+
+static inline DpGround ground_heights(int nx, int ny, double x0, double y0, double spacing,
+                                      const float* heights)
+{
+    DpGround ground = {0};
+    ground.kind = DP_GROUND_HEIGHTS;
+    ground.nx = nx, ground.ny = ny;
+    ground.x0 = x0, ground.y0 = y0;
+    ground.spacing = spacing;
+    ground.heights = heights;
+    return ground;
+}
+
+// the terrain on a ground, or NULL with the status told
+static inline DpTerrain* ground_terrain(const DpGround* ground, double cell, double origin_x,
+                                        double origin_y)
+{
+    DpTerrain*             terrain = NULL;
+    const DpTerrainOptions options = ground_options(cell, origin_x, origin_y);
+    const DpStatus         status = dp_terrain_create(&terrain, &options, ground);
+    if (status != DP_OK) printf("  no terrain: %s\n", dp_status_text(status));
+    return terrain;
+}
