@@ -1,0 +1,235 @@
+"""From a recording to the forces its feet put on the ground. TRAIL (3) (4), design 4.2 and 4.3."""
+
+import csv
+import os
+import tempfile
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import DesirePathError
+
+RATE = 120.0  # loads are found at this rate [1/s] ..
+RATE_KEPT = 100.0  # .. unless the recording is even and at least this fine
+MODELS = {"inertia": 0, "impulse": 1}
+MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
+GRAVITY = 9.81
+
+# Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
+LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
+          "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
+          "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5}
+OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "overlap_most": 0.3,
+           "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25, "reach": 0.3}
+
+
+@dataclass(frozen=True)
+class FootForce:
+    time: np.ndarray  # (T,) [s]
+    touching: np.ndarray  # 1 where the part touches (P, T) u1
+    force: np.ndarray  # of the part on the ground (P, T, 3) [N]
+    point: np.ndarray  # centre of pressure, NaN in the air (P, T, 3) [m]
+    clearance: np.ndarray  # resting height of each contact point over the ground (K,) [m]
+    mean: np.ndarray = None  # mean vertical force of each walker (W,) [body weights]
+    warnings: tuple = ()
+
+
+def _native_gait(gait):
+    return (gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point,
+            gait.point_part, gait.point_role)
+
+
+def _numbers(defaults, chosen):
+    unknown = set(chosen or ()) - set(defaults)
+    if unknown:
+        raise DesirePathError(f"There is no setting {sorted(unknown)[0]}: use one of "
+                              + ", ".join(defaults) + ".")
+    return np.array([float({**defaults, **(chosen or {})}[name]) for name in defaults])
+
+
+def point_places(gait):
+    """World positions of the contact points (K, T, 3)."""
+    pose = gait.pose[gait.point_part]
+    u, w = pose[..., 4:], pose[..., 3:4]
+    p = np.broadcast_to(gait.point[:, None], u.shape)
+    t = 2.0 * np.cross(u, p)
+    return pose[..., :3] + p + w * t + np.cross(u, t)
+
+
+def ground_below(gait, ground):
+    """Height of the ground below each contact point (K, T) [m].
+
+    ground: None = flat at 0; a number; heights (K, T); or a function of points (n, 2) -> (n,) that
+    answers NaN where there is none.
+    """
+    shape = (len(gait.point), len(gait.time))
+    if callable(ground):
+        xy = point_places(gait)[..., :2].reshape(-1, 2)
+        heights = np.asarray(ground(np.ascontiguousarray(xy)), float).reshape(shape)
+    else:
+        heights = np.asarray(0.0 if ground is None else ground, float)
+        if heights.shape not in ((), shape):
+            raise DesirePathError(f"The ground's heights have shape {heights.shape} where {shape} is "
+                                  "needed: give one height for each contact point and sample.")
+    return np.ascontiguousarray(np.broadcast_to(heights, shape), "f8").copy()
+
+
+def _even(gait):
+    """(gait at a rate fit for filters, is it the recording itself)."""
+    rate = gait.rate()
+    if len(gait.time) == 1 or (rate is not None and rate >= RATE_KEPT):
+        return gait, True
+    return gait.resample(RATE), False
+
+
+def _find_contacts(gait, below, limits):
+    from . import _native
+
+    touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
+    clearance = np.zeros(len(gait.point))
+    _native.foot_contact(_native_gait(gait), below, touching, clearance, _numbers(LIMITS, limits))
+    return touching, clearance
+
+
+def contacts(gait, ground_height=None, *, limits=None):
+    """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
+    gait.check()
+    even, same = _even(gait)
+    touching, clearance = _find_contacts(even, _on_even(gait, even, same, ground_height), limits)
+    return (touching if same else touching[:, _nearest(even.time, gait.time)]), clearance
+
+
+def _on_even(gait, even, same, ground):
+    """Ground heights for the even recording; heights given for the recording itself are carried over."""
+    below = ground_below(gait if not (same or callable(ground)) else even, ground)
+    if same or callable(ground) or np.ndim(ground) == 0:
+        return ground_below(even, ground)
+    return np.stack([np.interp(even.time, gait.time, row) for row in below])
+
+
+def _nearest(have, want):
+    after = np.clip(np.searchsorted(have, want), 1, len(have) - 1) if len(have) > 1 else np.zeros(
+        len(want), int)
+    before = np.maximum(after - 1, 0)
+    return np.where(abs(have[before] - want) <= abs(have[after] - want), before, after)
+
+
+def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=False, limits=None,
+          options=None):
+    """FootForce of a recording at its own samples. TRAIL (3), SOFT22 (3)-(8)
+
+    model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
+    tau [s], half_sine spreads the landing as a half-sine). ground: see ground_below.
+    """
+    from . import _native
+
+    gait.check()
+    if model not in MODELS:
+        raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
+    if not (np.isfinite(settle_time) and settle_time > 0):
+        raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
+    even, same = _even(gait)
+    below = _on_even(gait, even, same, ground)
+    touching, clearance = _find_contacts(even, below, limits)
+    force = np.zeros(touching.shape + (3,))
+    point = np.zeros(touching.shape + (3,))
+    _native.foot_force(_native_gait(even), touching, below, MODELS[model], float(settle_time),
+                       bool(half_sine), force, point, _numbers(OPTIONS, options))
+    mean, warnings = _weigh(even, touching, force) if model == "inertia" else (None, [])
+    warnings = _sinks(even, below) + warnings
+    if not same:
+        touching, force, point = _at(gait.time, even.time, touching, force, point)
+    return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
+
+
+def _at(want, have, touching, force, point):
+    """Loads at other times: the nearest contact, forces between their neighbours."""
+    near = _nearest(have, want)
+    on = np.ascontiguousarray(touching[:, near])
+    new_force, new_point = np.zeros(on.shape + (3,)), point[:, near].copy()
+    for p in range(len(on)):
+        for c in range(3):
+            new_force[p, :, c] = np.interp(want, have, force[p, :, c])
+            known = np.isfinite(point[p, :, c])
+            if known.any():
+                new_point[p, :, c] = np.interp(want, have[known], point[p, known, c])
+    new_force[on == 0] = 0.0
+    new_point[on == 0] = np.nan
+    return on, new_force, new_point
+
+
+def _sinks(gait, below):
+    """Refuse a walker that is under the ground all the time."""
+    ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
+    for w in range(len(gait.mass)):
+        if gait.com[w, :, 2].max() < ground:
+            raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time: move the "
+                                  "ground down or the walker up.")
+    return []
+
+
+def _cycle(on, count):
+    """First and last sample of whole strides of one walker's limbs (L, T); the whole clip if none."""
+    best = (0, count - 1)
+    longest = 0
+    for row in on:
+        down = np.flatnonzero((row[1:] != 0) & (row[:-1] == 0)) + 1
+        if len(down) > 1 and down[-1] - down[0] > longest:
+            longest, best = down[-1] - down[0], (down[0], down[-1])
+    return best
+
+
+def _weigh(gait, touching, force):
+    """Mean vertical force in body weights over whole strides, and a sentence where it is odd."""
+    mean, warnings = np.ones(len(gait.mass)), []
+    count = len(gait.time)
+    for w, mass in enumerate(gait.mass):
+        limbs = np.flatnonzero(gait.limb_walker == w)
+        parts = np.flatnonzero(np.isin(gait.part_limb, limbs))
+        on = np.array([touching[gait.part_limb == limb].any(axis=0) for limb in limbs])
+        if not on.any():
+            warnings.append(f"{gait.walker_name[w]} never touches the ground: check its feet, its "
+                            "scale and the frame range.")
+            mean[w] = 0.0
+            continue
+        if count < 5:
+            continue
+        first, last = _cycle(on, count)
+        total = -force[parts, first:last + 1, 2].sum(axis=0) / (mass * GRAVITY)
+        # over whole strides the body neither gains nor loses speed; elsewhere it may
+        z, reach = gait.com[w, :, 2], max(1, int(round(0.05 / (gait.time[1] - gait.time[0]))))
+        slope = [(z[min(k + reach, count - 1)] - z[max(k - reach, 0)])
+                 / (gait.time[min(k + reach, count - 1)] - gait.time[max(k - reach, 0)])
+                 for k in (first, last)]
+        gain = (slope[1] - slope[0]) / ((gait.time[last] - gait.time[first]) * GRAVITY)
+        mean[w] = np.mean(total) - gain
+        if not MEAN_FORCE[0] <= mean[w] <= MEAN_FORCE[1]:
+            warnings.append(f"The feet of {gait.walker_name[w]} carry {mean[w]:.2f} of its weight on "
+                            "average: check the mass centre, the scale and whether feet float.")
+    return mean, warnings
+
+
+def write_loads(path, gait, loads):
+    """The table `time,walker,limb,part,touching,fx,fy,fz,px,py,pz`, a row a part and sample."""
+    path = os.fspath(path)
+    folder = os.path.dirname(os.path.abspath(path))
+    temporary = None
+    number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
+    try:
+        handle, temporary = tempfile.mkstemp(suffix=".part", dir=folder)
+        with os.fdopen(handle, "w", newline="", encoding="utf-8") as stream:
+            table = csv.writer(stream, lineterminator="\n")
+            table.writerow("time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(","))
+            names = [(gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
+                     for limb, part in zip(gait.part_limb, gait.part_name)]
+            for t, time in enumerate(loads.time):
+                for p, name in enumerate(names):
+                    table.writerow([number(time), *name, int(loads.touching[p, t]),
+                                    *map(number, loads.force[p, t]), *map(number, loads.point[p, t])])
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except OSError as error:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
+        raise DesirePathError(f"The loads cannot be written to {path} ({error.strerror or error}): "
+                              "choose another folder or make room.") from None
