@@ -74,6 +74,12 @@ double dp_terrain_cell(const DpTerrain* terrain)
     return terrain->cell;
 }
 
+void dp_terrain_origin(const DpTerrain* terrain, double origin[2])
+{
+    origin[0] = terrain->origin_x;
+    origin[1] = terrain->origin_y;
+}
+
 int dp_terrain_soil_count(const DpTerrain* terrain)
 {
     return terrain->soil_count;
