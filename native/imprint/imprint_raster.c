@@ -184,12 +184,17 @@ DP_INLINE void lower_triangle(const DpSamples* samples, Corner a, Corner b, Corn
     }
 }
 
-DP_CLONES void dp_samples_lower(const DpSamples* samples, const double* corner,
-                                const int32_t* triangle, int count)
+DP_CLONES static void lower_triangles(const DpSamples* samples, const Corner* at,
+                                      const int32_t* triangle, int count)
 {
-    const Corner* at = (const Corner*)(const void*)corner;
     for (int t = 0; t < count; ++t) {
         const int32_t* of = triangle + 3 * (size_t)t;
         lower_triangle(samples, at[of[0]], at[of[1]], at[of[2]]);
     }
+}
+
+void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
+                      int count)
+{
+    lower_triangles(samples, (const Corner*)(const void*)corner, triangle, count);
 }
