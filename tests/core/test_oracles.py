@@ -123,15 +123,16 @@ def test_every_loose_slope_rests():
         maps, _ = press([FOOT], [AT_ORIGIN], [[120, 0, -900]], soil=soil)
         heap, surface = maps["heap"], maps["heap"] - maps["compression"]
         limit = math.tan(soil.rest_angle + math.radians(0.1))
+        film = 0.1 * math.tan(math.radians(0.1)) * 0.01  # thinner counts as at rest anywhere
         steepest = 0.0
         for dj in (-1, 0, 1):
             for di in (-1, 0, 1):
                 if di or dj:
                     way = 0.01 * math.hypot(di, dj)
                     fall = (surface - np.roll(surface, (dj, di), (0, 1))) - limit * way
-                    steepest = max(steepest, float(np.minimum(fall, heap).max() / way))
+                    steepest = max(steepest, float(np.minimum(fall, heap - film).max() / way))
         assert heap.max() > 0.001
-        assert steepest < 1e-4, name
+        assert steepest < 1e-5, name
 
 
 def test_threads_do_not_matter():

@@ -1,0 +1,250 @@
+"""A bake folder: what is in it, that it is the same every time, and that nothing is lost on the way."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from desire_path import bake as bakes
+from desire_path import maps
+from desire_path.bake import Bake, read_index
+from desire_path.errors import DesirePathError
+from desire_path.sim import Ground
+
+from tests.scenes import gaits
+
+REPO = Path(__file__).resolve().parents[2]
+
+
+def standing(seconds=1.5, rate=24.0, at=(0.0, 0.0)):
+    """A box of 0.25 x 0.11 m that stands and is lifted, recorded at `rate`."""
+    gait, _ = gaits.pressed([gaits.box(0.25, 0.11)], [[*at, 0, 1, 0, 0, 0]], [[0, 0, -700]],
+                            seconds=seconds, rate=rate, lift=0.5)
+    return gait
+
+
+def baked(folder, gait=None, **more):
+    bake = Bake(gait or standing(), Ground.flat(), "mud", folder, **{"threads": 1, **more})
+    frames = [progress.frame for progress in bake.run()]
+    return bake, frames
+
+
+def content(folder):
+    return {path.name: path.read_bytes() for path in Path(folder, "frames").glob("*.exr")}
+
+
+def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
+    bake, frames = baked(tmp_path)
+    index = read_index(tmp_path)
+    assert index.complete and index.missing == 0
+    assert frames == list(range(index.frame_start, index.frame_end + 1))
+    assert len(content(tmp_path)) == len(frames) + 1
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert report["contacts"] == 1
+    assert {"deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "seconds", "warnings", "version",
+            "parameters"} <= set(report)
+    assert 0.005 < report["deepest_m"] < 0.05
+    final = maps.read(tmp_path / "maps_final.exr")
+    assert list(final.planes) == ["compression", "heap", "pressure_time", "plant_strength"] or \
+        set(final.planes) == {"compression", "heap", "pressure_time", "plant_strength"}
+    assert float(final.planes["compression"].max()) == pytest.approx(report["deepest_m"], rel=1e-6)
+    cell = report["parameters"]["cell_size"]
+    assert float(final.planes["heap"].astype(float).sum()) * cell**2 == pytest.approx(report["heaped_m3"], rel=1e-6)
+    assert (tmp_path / "maps" / "second_0001.exr").exists()
+    start = maps.read(tmp_path / "maps_start.exr")
+    assert np.all(start.planes["young_modulus_in"] > 1e5)
+
+
+def test_the_first_file_is_ground_at_rest_and_the_last_the_final_map(tmp_path):
+    baked(tmp_path)
+    index = read_index(tmp_path)
+    rest = maps.read(index.path(0))
+    assert rest.planes["R"].shape == (index.ny, index.nx)
+    assert not any(plane.any() for plane in rest.planes.values())
+    last = maps.read(index.path(index.frames))
+    final = maps.read(tmp_path / "maps_final.exr")
+    assert np.array_equal(last.planes["B"], final.planes["compression"])
+    assert np.array_equal(last.planes["A"], final.planes["pressure_time"])
+    assert np.array_equal(last.planes["R"], final.planes["heap"] - final.planes["compression"])
+
+
+def test_frames_do_not_depend_on_threads(tmp_path):
+    folders = [tmp_path / str(threads) for threads in (1, 2, 4)]
+    for folder, threads in zip(folders, (1, 2, 4)):
+        baked(folder, threads=threads)
+    assert content(folders[0]) == content(folders[1]) == content(folders[2])
+
+
+def test_a_stopped_bake_plays_what_is_whole_and_goes_on(tmp_path):
+    whole = tmp_path / "whole"
+    baked(whole)
+    stopped = tmp_path / "stopped"
+    bake = Bake(standing(), Ground.flat(), "mud", stopped, threads=1)
+    run = bake.run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    index = read_index(stopped)
+    assert not index.complete and index.frames == 10 and index.missing > 0
+    first = (stopped / "frames" / "trail_0005.exr").stat().st_mtime_ns
+    baked(stopped)
+    assert read_index(stopped).complete
+    assert content(stopped) == content(whole)
+    assert (stopped / "frames" / "trail_0005.exr").stat().st_mtime_ns == first  # not written again
+
+
+def test_a_killed_bake_plays_what_is_whole(tmp_path):
+    """Killed: no clean-up at all ran, and a temporary file lies about."""
+    bake = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1)
+    run = bake.run()
+    for _ in range(7):
+        next(run)
+    killed = tmp_path.parent / "killed"
+    shutil.copytree(tmp_path, killed)
+    (killed / "frames.new" / "trail_0008.exr.part").write_bytes(b"half")
+    run.close()
+    index = read_index(killed)
+    assert index.frames == 7 and not index.complete
+    assert maps.read(index.path(7)).planes["R"].min() < 0
+    baked(killed)
+    assert read_index(killed).complete
+
+
+def test_an_earlier_bake_plays_until_the_new_one_is_whole(tmp_path):
+    baked(tmp_path)
+    before = content(tmp_path)
+    bake = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1)
+    run = bake.run()
+    for _ in range(5):
+        next(run)
+    run.close()
+    assert content(tmp_path) == before and read_index(tmp_path).complete
+    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run():
+        pass
+    assert content(tmp_path) != before and read_index(tmp_path).complete
+    assert not (tmp_path / "frames.new").exists() and not (tmp_path / "frames.old").exists()
+
+
+def test_free_deletes_what_was_baked_and_nothing_else(tmp_path):
+    baked(tmp_path)
+    mine = tmp_path / "notes.txt"
+    mine.write_text("keep")
+    bakes.free(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
+    with pytest.raises(DesirePathError, match="no bake"):
+        read_index(tmp_path)
+
+
+def sentence(error):
+    text = str(error.value)
+    assert "\n" not in text and text.endswith(".") and text[0].isupper() or text.startswith("/"), text
+    return text
+
+
+@pytest.mark.parametrize("words, wrong", [
+    ("cell size", {"cell_size": 0.0}),
+    ("cell size", {"cell_size": float("nan")}),
+    ("frame range", {"frame_start": 5, "frame_end": 5}),
+    ("frame range", {"frame_start": 9, "frame_end": 2}),
+    ("law", {"law": "magic"}),
+    ("heap", {"heap": "magic"}),
+    ("load model", {"load_model": "magic"}),
+    ("threads", {"threads": -1}),
+])
+def test_bad_parameters_are_a_sentence(tmp_path, words, wrong):
+    with pytest.raises(DesirePathError, match=words) as error:
+        baked(tmp_path, **wrong)
+    sentence(error)
+
+
+def test_bad_ground_is_a_sentence():
+    upright = [[0, 0, 0], [1, 0, 0], [0, 0, 1]]
+    with pytest.raises(DesirePathError, match="no faces"):
+        Ground.mesh(upright, [])
+    with pytest.raises(DesirePathError, match="Vertex 1"):
+        Ground.mesh([[0, 0, 0], [np.nan, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    with pytest.raises(DesirePathError, match="upright"):
+        for _ in Bake(standing(), Ground.mesh(upright, [[0, 1, 2]]), "mud", "unused").run():
+            pass
+    assert not os.path.exists("unused")
+
+
+def test_a_walk_beside_the_ground_is_a_sentence(tmp_path):
+    far = Ground.heights(np.zeros((3, 3)), 0.5, 50.0, 50.0)
+    bake = Bake(standing(), far, "mud", tmp_path / "bake")
+    with pytest.raises(DesirePathError) as error:
+        for _ in bake.run():
+            pass
+    assert "ground" in sentence(error)
+    assert not (tmp_path / "bake").exists()
+
+
+def test_a_folder_that_cannot_be_made_is_a_sentence(tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(DesirePathError, match="folder") as error:
+        baked(tmp_path / "file" / "bake")
+    sentence(error)
+    assert (tmp_path / "file").read_text() == "in the way"
+
+
+def test_a_cache_of_another_version_is_a_sentence(tmp_path):
+    baked(tmp_path)
+    path = tmp_path / "frames" / "index.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), "format": 99, "version": "9.0"}))
+    with pytest.raises(DesirePathError, match="9.0.*bake again"):
+        read_index(tmp_path)
+    path.write_text("{ damaged")
+    with pytest.raises(DesirePathError, match="damaged"):
+        read_index(tmp_path)
+
+
+FULL = """
+import resource, sys
+sys.path[:0] = [{addon!r}, {repo!r}]
+from tests.core.test_bake import standing
+from desire_path.bake import Bake
+from desire_path.errors import DesirePathError
+from desire_path.sim import Ground
+bake = Bake(standing(), Ground.flat(), "snow", {folder!r}, threads=1, cell_size=0.002)
+run = bake.run()
+for _ in range(3):
+    next(run)
+resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+try:
+    for _ in run:
+        pass
+except DesirePathError as problem:
+    print(problem)
+"""
+
+
+def test_a_write_that_fails_in_the_middle_loses_nothing(tmp_path):
+    """Files may grow to 20 kB only: what a full disk or a quota does to a bake."""
+    folder = str(tmp_path / "bake")
+    script = FULL.format(addon=str(REPO / "addon"), repo=str(REPO), folder=folder)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert "make room or choose another folder" in done.stdout, done.stdout + done.stderr
+    index = read_index(folder)
+    assert 3 <= index.frames < index.frames + index.missing
+    maps.read(index.path(index.frames))
+    leftovers = [name for name in os.listdir(os.path.join(folder, "frames"))
+                 if not name.startswith("trail_") and name != "index.json"]
+    assert not leftovers, leftovers
+
+
+@pytest.mark.skipif(not shutil.which("oiiotool"), reason="oiiotool reads the map as another program would")
+def test_another_program_reads_the_same_bits(tmp_path):
+    """Oracle 14."""
+    baked(tmp_path)
+    final = maps.read(tmp_path / "maps_final.exr").planes
+    for name, plane in final.items():
+        raw = tmp_path / f"{name}.exr"
+        subprocess.run(["oiiotool", str(tmp_path / "maps_final.exr"), "--ch", name, "--compression", "none",
+                        "-o", str(raw)], check=True, env={**os.environ, "LD_LIBRARY_PATH": ""})
+        again = maps.read(raw).planes
+        assert np.array_equal(next(iter(again.values())), plane)

@@ -1,0 +1,83 @@
+"""python -m desire_path, as a farm calls it."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from desire_path import maps
+
+from tests.core.test_bake import standing
+
+REPO = Path(__file__).resolve().parents[2]
+
+
+def run(*arguments, cwd=None):
+    environment = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
+    return subprocess.run([sys.executable, "-m", "desire_path", *map(str, arguments)], cwd=cwd,
+                          capture_output=True, text=True, env=environment)
+
+
+@pytest.fixture
+def walk(tmp_path):
+    path = tmp_path / "walk.npz"
+    standing().save(path)
+    return path
+
+
+def test_bake_on_flat_ground(tmp_path, walk):
+    done = run("bake", walk, "--ground", "flat", "--soil", "dry-sand", "--cell", "0.01", "--out",
+               tmp_path / "folder")
+    assert done.returncode == 0, done.stderr
+    assert "contacts      1" in done.stdout and "deepest" in done.stdout
+    report = json.loads((tmp_path / "folder" / "report.json").read_text())
+    assert report["contacts"] == 1
+    assert (tmp_path / "folder" / "maps_final.exr").exists()
+
+
+def test_bake_on_a_height_map(tmp_path, walk):
+    y, x = np.mgrid[-1:1:81j, -1:1:81j]
+    maps.write(tmp_path / "height.exr", {"height": (0.05 * x).astype(np.float32)},
+               [("cell", 0.025), ("originX", -1.0125), ("originY", -1.0125)])
+    done = run("bake", walk, "--ground", tmp_path / "height.exr", "--soil", "mud", "--out", tmp_path / "folder")
+    assert done.returncode == 0, done.stderr
+    assert json.loads((tmp_path / "folder" / "report.json").read_text())["deepest_m"] > 0.005
+
+
+def test_loads_are_a_table(tmp_path, walk):
+    done = run("loads", walk, "--model", "inertia", "--out", tmp_path / "loads.csv")
+    assert done.returncode == 0, done.stderr
+    with open(tmp_path / "loads.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == "time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(",")
+    stands = [float(row["fz"]) for row in rows if 0.3 < float(row["time"]) < 1.2]
+    assert np.mean(stands) == pytest.approx(-75 * 9.81, rel=0.02)
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("bake", "nowhere.npz", "--out", "x"), "nowhere.npz"),
+    (("bake", "{walk}", "--soil", "cheese", "--out", "x"), "cheese"),
+    (("bake", "{walk}", "--cell", "-1", "--out", "x"), "cell size"),
+    (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
+    (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),
+    (("loads", "{walk}", "--out", "no/such/folder/loads.csv"), "loads.csv"),
+])
+def test_bad_input_is_one_sentence(tmp_path, walk, arguments, words):
+    done = run(*(text.replace("{walk}", str(walk)) for text in arguments), cwd=tmp_path)
+    assert done.returncode == 1
+    assert words in done.stderr and done.stderr.count("\n") == 1, done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("cut", [0, 100, -200])
+def test_a_damaged_recording_is_one_sentence(tmp_path, walk, cut):
+    data = walk.read_bytes()
+    broken = tmp_path / "broken.npz"
+    broken.write_bytes(data[:cut] if cut else bytes(reversed(data)))
+    done = run("bake", broken, "--out", tmp_path / "x")
+    assert done.returncode == 1 and "broken.npz" in done.stderr and done.stderr.count("\n") == 1
