@@ -1,0 +1,182 @@
+"""materials.py - what the demo is made of: three soils in one shader, cloth, skin, shoes.
+
+The soils follow the painted groups through the colour attribute `soil` (red sand, green snow, blue
+mud) and what was baked through the colour attribute `desire_path` (red height change, blue
+compression), which the playback modifier stores at every frame.
+"""
+import bpy
+
+SOIL = "soil"  # colour attribute of the ground: shares of sand, snow, mud
+BAKED = "desire_path"  # colour attribute stored by the playback
+DEEP = 0.030  # compression at which the ground looks fully pressed [m]
+HIGH = 0.010  # heap at which the ground looks fully turned [m]
+
+
+class _Nodes:
+    """A shader tree by function calls: every call makes one node and returns its output."""
+
+    def __init__(self, material):
+        material.use_nodes = True
+        self.tree = material.node_tree
+        self.tree.nodes.clear()
+        self.made = 0
+
+    def new(self, kind, inputs=(), **settings):
+        node = self.tree.nodes.new(kind)
+        node.location = (200 * (self.made % 12), -220 * (self.made // 12))
+        self.made += 1
+        for name, value in settings.items():
+            setattr(node, name, value)
+        for name, value in dict(inputs).items():
+            if value is None:
+                continue
+            target = node.inputs[name]
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, target)
+            else:
+                target.default_value = value
+        return node
+
+    def attribute(self, name):
+        return self.new("ShaderNodeAttribute", attribute_name=name).outputs["Color"]
+
+    def split(self, colour):
+        return self.new("ShaderNodeSeparateColor", {"Color": colour}).outputs
+
+    def math(self, operation, a, b=0.0, clamp=False):
+        return self.new("ShaderNodeMath", {0: a, 1: b}, operation=operation,
+                        use_clamp=clamp).outputs[0]
+
+    def between(self, value, low, high, a=0.0, b=1.0):
+        """a below `low`, b above `high`, a smooth step between."""
+        node = self.new("ShaderNodeMapRange", {"Value": value, "From Min": low, "From Max": high,
+                                               "To Min": a, "To Max": b},
+                        interpolation_type="SMOOTHSTEP")
+        return node.outputs["Result"]
+
+    def noise(self, at, scale, detail=2.0, rough=0.5):
+        node = self.new("ShaderNodeTexNoise", {"Vector": at, "Scale": scale, "Detail": detail,
+                                               "Roughness": rough})
+        return node.outputs["Fac"]
+
+    def mix(self, share, a, b):
+        """Colours or numbers."""
+        if isinstance(a, (float, int)) or getattr(a, "type", "") == "VALUE":
+            more = self.math("MULTIPLY", share, self.math("SUBTRACT", b, a))
+            return self.math("ADD", more, a)
+        node = self.new("ShaderNodeMixRGB", {"Fac": share, "Color1": a, "Color2": b})
+        return node.outputs["Color"]
+
+
+def ground():
+    """Sand, snow and mud by their shares; pressed ground is darker, heaps are crumbly."""
+    material = bpy.data.materials.new("Soils")
+    n = _Nodes(material)
+    at = n.new("ShaderNodeNewGeometry").outputs["Position"]
+    shares = n.split(n.attribute(SOIL))
+    baked = n.split(n.attribute(BAKED))
+    pressed = n.between(baked["Blue"], 0.002, DEEP)
+    heap = n.between(n.math("ADD", baked["Red"], baked["Blue"]), 0.0015, HIGH)
+
+    lumps = n.noise(at, 28.0, 3.0)  # a few centimetres
+    grain = n.noise(at, 420.0, 2.0, 0.6)  # a few millimetres
+    clods = n.noise(at, 95.0, 2.0, 0.55)  # a centimetre
+    wide = n.noise(at, 3.1, 2.0)
+    # the border between soils is frayed
+    fray = n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 0.9)
+    snow = n.between(n.math("ADD", shares["Green"], fray), 0.36, 0.64)
+    mud = n.between(n.math("ADD", shares["Blue"], fray), 0.36, 0.64)
+
+    # colours, dry and pressed
+    spot = n.between(grain, 0.35, 0.7)
+    sand_dry = n.mix(spot, (0.40, 0.255, 0.125, 1), (0.60, 0.42, 0.235, 1))
+    sand_dry = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), sand_dry, (0.36, 0.22, 0.105, 1))
+    sand = n.mix(n.math("MULTIPLY", pressed, 0.45), sand_dry, (0.22, 0.125, 0.058, 1))
+    snow_dry = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.5), (0.84, 0.87, 0.92, 1),
+                     (0.76, 0.81, 0.89, 1))
+    snow_at = n.mix(n.math("MULTIPLY", pressed, 0.55), snow_dry, (0.56, 0.66, 0.80, 1))
+    mud_dry = n.mix(n.between(clods, 0.35, 0.7), (0.075, 0.045, 0.027, 1), (0.135, 0.085, 0.052, 1))
+    mud_dry = n.mix(n.between(wide, 0.40, 0.65, 0.0, 0.5), mud_dry, (0.060, 0.036, 0.021, 1))
+    mud_at = n.mix(n.math("MULTIPLY", pressed, 0.75), mud_dry, (0.030, 0.017, 0.010, 1))
+    colour = n.mix(mud, n.mix(snow, sand, snow_at), mud_at)
+
+    # roughness: mud is wet, wetter where it was pressed and in patches
+    wet = n.math("MAXIMUM", n.math("MULTIPLY", pressed, 0.8), n.between(wide, 0.48, 0.62, 0.1, 0.7))
+    mud_rough = n.between(n.math("ADD", wet, n.math("MULTIPLY", clods, 0.15)), 0.1, 0.9, 0.62, 0.20)
+    roughness = n.mix(mud, n.mix(snow, 0.95, 0.60), mud_rough)
+    specular = n.mix(mud, n.mix(snow, 0.12, 0.35), 0.5)
+
+    # heights too small for the mesh [m]
+    crumbs = n.math("MULTIPLY", heap, 0.6)
+    sand_bump = n.math("ADD", n.math("MULTIPLY", grain, 0.0011),
+                       n.math("MULTIPLY", clods, n.math("ADD", 0.0012, n.math("MULTIPLY", crumbs, 0.004))))
+    snow_bump = n.math("ADD", n.math("MULTIPLY", grain, 0.0007),
+                       n.math("MULTIPLY", clods, n.math("ADD", 0.0014, n.math("MULTIPLY", crumbs, 0.007))))
+    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.65))
+    mud_bump = n.math("MULTIPLY", n.math("ADD", n.math("MULTIPLY", clods, 0.0065),
+                                         n.math("MULTIPLY", grain, 0.0008)), flat)
+    height = n.mix(mud, n.mix(snow, sand_bump, snow_bump), mud_bump)
+    bump = n.new("ShaderNodeBump", {"Height": height, "Distance": 1.0, "Strength": 0.9}).outputs[0]
+
+    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": roughness,
+                                                "Normal": bump})
+    _set(shader, ("Specular", "Specular IOR Level"), specular)
+    n.tree.links.new(shader.outputs[0], n.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def _set(shader, names, value):
+    """The input goes by different names in different Blenders."""
+    for name in names:
+        if name in shader.inputs:
+            target = shader.inputs[name]
+            if isinstance(value, bpy.types.NodeSocket):
+                value.id_data.links.new(value, target)
+            else:
+                target.default_value = value
+            return
+
+
+def plain(name, colour, roughness, weave=0.0):
+    """One colour; weave: height of a fine cloth texture [m]."""
+    material = bpy.data.materials.new(name)
+    n = _Nodes(material)
+    normal = None
+    if weave:
+        at = n.new("ShaderNodeTexCoord").outputs["Generated"]
+        normal = n.new("ShaderNodeBump", {"Height": n.noise(at, 320.0), "Distance": weave}).outputs[0]
+    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": (*colour, 1), "Roughness": roughness,
+                                                "Normal": normal})
+    n.tree.links.new(shader.outputs[0], n.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def clothes():
+    """Materials of the mannequin's slots: jacket, trousers, skin, uppers, outsoles."""
+    return (plain("Jacket", (0.42, 0.055, 0.032), 0.80, 0.002),
+            plain("Trousers", (0.040, 0.055, 0.090), 0.85, 0.002),
+            plain("Skin", (0.46, 0.27, 0.18), 0.55),
+            plain("Uppers", (0.085, 0.042, 0.020), 0.50),
+            plain("Outsoles", (0.022, 0.020, 0.019), 0.70))
+
+
+def sky(scene, strength=0.55):
+    """A hazy morning: pale low, blue above."""
+    world = bpy.data.worlds.new("Morning")
+    world.use_nodes = True
+    tree = world.node_tree
+    tree.nodes.clear()
+    way = tree.nodes.new("ShaderNodeTexCoord")
+    split = tree.nodes.new("ShaderNodeSeparateXYZ")
+    ramp = tree.nodes.new("ShaderNodeValToRGB")
+    light = tree.nodes.new("ShaderNodeBackground")
+    out = tree.nodes.new("ShaderNodeOutputWorld")
+    ramp.color_ramp.elements[0].color = (0.86, 0.74, 0.62, 1)
+    ramp.color_ramp.elements[1].color = (0.26, 0.42, 0.70, 1)
+    ramp.color_ramp.elements[1].position = 0.55
+    light.inputs["Strength"].default_value = strength
+    tree.links.new(way.outputs["Generated"], split.inputs[0])
+    tree.links.new(split.outputs["Z"], ramp.inputs[0])
+    tree.links.new(ramp.outputs[0], light.inputs["Color"])
+    tree.links.new(light.outputs[0], out.inputs["Surface"])
+    scene.world = world
