@@ -82,7 +82,7 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
                          DpSoilPatch** patch);
 
 // Copy compression, heap and pressure_time of patch cells di0 <= i < di1, dj0 <= j < dj1 (patch
-// indices) back into the tiles and mark those tiles changed.
+// indices) back into the tiles and mark the tiles in which a value is new.
 void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1);
 
 // ---- reading ---------------------------------------------------------------------------------

@@ -148,16 +148,21 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
     return DP_OK;
 }
 
-// cells without ground keep what they have: nothing
-static void copy_out(const DpLoan* loan, size_t from, Tile* tile, size_t to, int count)
+// cells without ground keep what they have: nothing; says whether any other cell is new
+static bool copy_out(const DpLoan* loan, size_t from, Tile* tile, size_t to, int count)
 {
     const float* rest = tile->rest + to;
     const float* source[3] = {loan->patch.compression + from, loan->patch.heap + from,
                               loan->patch.pressure_time + from};
     float*       target[3] = {tile->compression + to, tile->heap + to, tile->pressure_time + to};
+    int differs = 0;
     for (int g = 0; g < 3; ++g)
-        for (int i = 0; i < count; ++i)
-            target[g][i] = isnan(rest[i]) ? target[g][i] : source[g][i];
+        for (int i = 0; i < count; ++i) {
+            const float now = isnan(rest[i]) ? target[g][i] : source[g][i];
+            differs |= now != target[g][i];
+            target[g][i] = now;
+        }
+    return differs != 0;
 }
 
 static void mark(DpTerrain* terrain, Tile* tile)
@@ -176,12 +181,13 @@ void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, in
         for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
             const Part part = part_of(tx, ty, i0, i1, j0, j1);
             Tile*      tile = tile_find(terrain, tx, ty);
+            bool       differs = false;
             for (int j = 0; j < part.ny; ++j) {
                 const size_t from = (size_t)(dj0 + part.j + j) * (size_t)loan->patch.row +
                                     (size_t)(di0 + part.i);
-                copy_out(loan, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
+                differs |= copy_out(loan, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
             }
-            mark(terrain, tile);
+            if (differs) mark(terrain, tile);
         }
 }
 
