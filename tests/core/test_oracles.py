@@ -143,9 +143,11 @@ def test_threads_do_not_matter():
 
 
 def test_volume_and_rim_do_not_depend_on_the_cell():
-    """A wide stamp, so that its rim is wider than the coarsest cell."""
-    stamp, load = gaits.box(0.8, 0.6), 0.35e6 * 0.48 * 0.10 / 0.3
-    runs = {cell: press([stamp], [AT_ORIGIN], [[0, 0, -load]], cell=cell) for cell in (0.04, 0.02, 0.01)}
+    """A wide stamp in mud, so that its rim is several of the coarsest cells wide."""
+    mud = SOILS["mud"]
+    stamp, load = gaits.box(0.8, 0.6), mud.young_modulus * 0.48 * 0.12 / mud.layer_depth
+    runs = {cell: press([stamp], [AT_ORIGIN], [[0, 0, -load]], soil=mud, cell=cell)
+            for cell in (0.04, 0.02, 0.01)}
     fine_maps, fine = runs[0.01]
     for cell in (0.04, 0.02):
         maps, report = runs[cell]

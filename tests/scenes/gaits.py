@@ -43,15 +43,16 @@ def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.
     """Rigid parts that stand still and press: (Gait, loads).
 
     soles, poses (each 7 numbers), forces (each x y z [N]): one a limb. They stand for `seconds` [s],
-    then are lifted and `lift` [s] pass.
+    then are lifted by 0.3 m within `lift` [s]. The mass centre stays where it is.
     """
     count = len(soles)
     samples = int(round((seconds + lift) * rate)) + 1
     time = np.arange(samples) / rate
     stands = time < seconds + 1e-9
     pose = np.repeat(np.asarray(poses, float)[:, None, :], samples, axis=1)
-    pose[:, ~stands, 2] += 0.3
-    com = np.mean(pose[:, :, :3], axis=0)[None] + [0, 0, 0.9]
+    risen = np.clip((time - seconds) / lift, 0.0, 1.0)
+    pose[:, :, 2] += 0.3 * risen * risen * (3.0 - 2.0 * risen)
+    com = np.repeat(np.mean(poses, axis=0)[None, None, :3] + [0, 0, 0.9], samples, axis=1)
     gait = Gait(
         time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(count),
         part_limb=np.arange(count), soles=soles, point=np.zeros((count, 3)),
