@@ -17,11 +17,12 @@
 //     and stress do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
 #include <string.h>
 
+#include "base/wide.h"  // first: it says how loops may be widened
 #include "base/vec.h"
-#include "base/wide.h"
 #include "soil/soil_inside.h"
 
-#define CHUNK 32             // columns worked on at once
+#define LANES 32    // columns worked on at once
+#define CHUNKS 40   // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define LET_GO_SHARE 0.05    // r = LET_GO_SHARE e + LET_GO_LEAST
 #define LET_GO_LEAST 1e-4    // [m]
@@ -30,16 +31,30 @@
 #define FLOOR_SHARE 0.05     // .. or this share of the sole
 #define PRESS_GRID ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
-// Columns of ground under the sole; what is not covered has share and stiffness 0.
+// Columns of ground under the sole; lanes that hold none have share and spring 0.
 typedef struct Columns
 {
-    double gap[CHUNK];      // g = h0 - underside of the sole, before it sinks     [m]
-    double pressed[CHUNK];  // e = compression - heap                              [m]
-    double let_go[CHUNK];   // e/r: how much stiffer a column unloads              [-] >= 1
-    double rigid[CHUNK];    // 0.95 L0                                             [m]
-    double share[CHUNK];    // a                                                   [-]
-    double spring[CHUNK];   // a E/L0 cell^2                                       [N/m]
+    double gap[LANES];      // g = h0 - underside of the sole, before it sinks     [m]
+    double pressed[LANES];  // e = compression - heap                              [m]
+    double let_go[LANES];   // e/r: how much stiffer a column unloads              [-] >= 1
+    double rigid[LANES];    // 0.95 L0                                             [m]
+    double share[LANES];    // a                                                   [-]
+    double spring[LANES];   // a E/L0 cell^2                                       [N/m]
+    size_t cell[LANES];     // where in the patch
+    int    count;           // lanes in use
 } Columns;
+
+// The columns of a sole, as many at a time as there is room for.
+typedef struct Sole
+{
+    const DpSoilPatch* patch;
+    const DpImprint*   imprint;
+    int                i, j;    // where to read on
+    int                filled;  // chunks that hold columns
+    bool               whole;   // all of the sole is held: no need to read again
+    bool               shown;   // .. and was handed out in this round
+    Columns            chunk[CHUNKS];
+} Sole;
 
 // What the sole can be balanced on.
 typedef struct Balance
@@ -59,30 +74,66 @@ typedef struct Answer
     double area;   // of the columns that carry [m^2]
 } Answer;
 
-static void gather(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint, int j,
-                   int i, int count)
+static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint, size_t p)
 {
-    const size_t at = soil_at(patch, i, j);
-    const double area = patch->cell * patch->cell;
-    for (int k = 0; k < CHUNK; ++k) {
-        const size_t p = at + (size_t)(k < count ? k : 0);
-        const bool   covered = k < count && imprint->cover[p] > 0.0f && soil_is_ground(patch->rest[p]);
-        if (!covered) {
-            columns->gap[k] = columns->pressed[k] = 0.0;
-            columns->share[k] = columns->spring[k] = 0.0;
-            columns->let_go[k] = columns->rigid[k] = 1.0;
-            continue;
-        }
-        const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
-        const double e = (double)patch->compression[p] - (double)patch->heap[p];
-        const double r = fmin(LET_GO_SHARE * e + LET_GO_LEAST, e);
-        columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
-        columns->pressed[k] = e;
-        columns->let_go[k] = e > 0.0 ? e / r : 1.0;
-        columns->rigid[k] = SOIL_RIGID * depth;
-        columns->share[k] = (double)imprint->cover[p];
-        columns->spring[k] = (double)imprint->cover[p] * (double)patch->modulus[p] / depth * area;
+    const int    k = columns->count++;
+    const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
+    const double e = (double)patch->compression[p] - (double)patch->heap[p];
+    const double r = fmin(LET_GO_SHARE * e + LET_GO_LEAST, e);
+    const double stiffness = (double)patch->modulus[p] / depth * (patch->cell * patch->cell);
+    columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
+    columns->pressed[k] = e;
+    columns->let_go[k] = e > 0.0 ? e / r : 1.0;
+    columns->rigid[k] = SOIL_RIGID * depth;
+    columns->share[k] = (double)imprint->cover[p];
+    columns->spring[k] = (double)imprint->cover[p] * stiffness;
+    columns->cell[k] = p;
+}
+
+static void fill_up(Columns* columns)
+{
+    for (int k = columns->count; k < LANES; ++k) {
+        columns->gap[k] = columns->pressed[k] = 0.0;
+        columns->share[k] = columns->spring[k] = 0.0;
+        columns->let_go[k] = columns->rigid[k] = 1.0;
     }
+}
+
+static void from_the_start(Sole* sole)
+{
+    sole->shown = false;
+    if (sole->whole) return;
+    sole->i = sole->imprint->i0;
+    sole->j = sole->imprint->j0;
+}
+
+// read the next columns; false when all have been handed out since from_the_start()
+static bool next_columns(Sole* sole)
+{
+    const DpImprint* imprint = sole->imprint;
+    if (sole->whole) {
+        const bool more = !sole->shown;
+        sole->shown = true;
+        return more;
+    }
+    const bool first = sole->i == imprint->i0 && sole->j == imprint->j0;
+    int        filled = 0;
+    sole->chunk[0].count = 0;
+    for (; sole->j < imprint->j1; ++sole->j, sole->i = imprint->i0)
+        for (; sole->i < imprint->i1; ++sole->i) {
+            const size_t p = soil_at(sole->patch, sole->i, sole->j);
+            if (!(imprint->cover[p] > 0.0f) || !soil_is_ground(sole->patch->rest[p])) continue;
+            if (sole->chunk[filled].count == LANES) {
+                if (filled == CHUNKS - 1) goto full;
+                sole->chunk[++filled].count = 0;
+            }
+            put_column(&sole->chunk[filled], sole->patch, imprint, p);
+        }
+    sole->whole = sole->shown = first;
+full:
+    fill_up(&sole->chunk[filled]);
+    sole->filled = sole->chunk[filled].count > 0 ? filled + 1 : filled;
+    return sole->filled > 0;
 }
 
 // Length by which a column's spring is pressed when its target lies t below h0: t itself, less when
@@ -101,7 +152,7 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
 {
     const double load = balance->load, force_grid = balance->force_grid;
     const double slope_grid = balance->slope_grid, share_grid = ldexp(1.5, 52 - 30);
-    for (int k = 0; k < CHUNK; ++k) {
+    for (int k = 0; k < LANES; ++k) {
         const double t = columns->gap[k] + s, e = columns->pressed[k];
         const double x = spring_length(t, e, columns->let_go[k], columns->rigid[k]);
         const double push = columns->spring[k] * x;
@@ -113,71 +164,61 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
     }
 }
 
-static Answer answer(const DpSoilPatch* patch, const DpImprint* imprint, const Balance* balance,
-                     double s)
+static Answer answer(Sole* sole, const Balance* balance, double s)
 {
-    double  force[CHUNK] = {0}, slope[CHUNK] = {0}, share[CHUNK] = {0};
-    Columns columns;
-    for (int j = imprint->j0; j < imprint->j1; ++j)
-        for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
-            const int left = imprint->i1 - i;
-            gather(&columns, patch, imprint, j, i, left < CHUNK ? left : CHUNK);
-            push_back(&columns, balance, s, force, slope, share);
-        }
+    double force[LANES] = {0}, slope[LANES] = {0}, share[LANES] = {0};
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            push_back(&sole->chunk[c], balance, s, force, slope, share);
     Answer sum = {0};
-    for (int k = 0; k < CHUNK; ++k) {
+    for (int k = 0; k < LANES; ++k) {
         sum.force += force[k];
         sum.slope += slope[k];
         sum.area += share[k];
     }
-    sum.area *= patch->cell * patch->cell;
+    sum.area *= sole->patch->cell * sole->patch->cell;
     return sum;
 }
 
-// look once at all columns: scales of the sums, and a first guess; false if there are none
-static bool weigh(Balance* balance, const DpSoilPatch* patch, const DpImprint* imprint, double load)
+// look at all columns: scales of the sums, and a first guess; false if there are none
+static bool weigh(Balance* balance, Sole* sole, double load)
 {
-    double  stiffest = 0.0, highest = -INFINITY, share = 0.0, springs = 0.0, hanging = 0.0;
-    Columns columns;
-    for (int pass = 0; pass < 2; ++pass) {  // the second pass needs the grid that the first one finds
-        const double slope_grid = soil_grid(RIGID_STIFFER * stiffest);
-        const double share_grid = ldexp(1.5, 52 - 30);
-        for (int j = imprint->j0; j < imprint->j1; ++j)
-            for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
-                const int left = imprint->i1 - i;
-                gather(&columns, patch, imprint, j, i, left < CHUNK ? left : CHUNK);
-                for (int k = 0; k < CHUNK && i + k < imprint->i1; ++k) {
-                    const double spring = columns.spring[k];
-                    if (spring <= 0.0) continue;
-                    if (pass == 0) {
-                        stiffest = fmax(stiffest, spring);
-                        highest = fmax(highest, columns.gap[k]);
-                        continue;
-                    }
-                    share += soil_on_grid(columns.share[k], share_grid);
-                    springs += soil_on_grid(spring, slope_grid);
-                    hanging += soil_on_grid(spring * fmin(highest - columns.gap[k], 1.0), slope_grid);
-                }
+    double       stiffest = 0.0, highest = -INFINITY, share = 0.0, springs = 0.0, hanging = 0.0;
+    const double share_grid = ldexp(1.5, 52 - 30);
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                stiffest = fmax(stiffest, sole->chunk[c].spring[k]);
+                highest = fmax(highest, sole->chunk[c].gap[k]);
             }
-        if (pass == 0 && !(stiffest > 0.0 && isfinite(stiffest) && isfinite(highest))) return false;
-        balance->slope_grid = slope_grid;
-    }
+    if (!(stiffest > 0.0 && isfinite(stiffest) && isfinite(highest))) return false;
+    const double slope_grid = soil_grid(RIGID_STIFFER * stiffest);
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c) {
+            const Columns* columns = &sole->chunk[c];
+            for (int k = 0; k < columns->count; ++k) {
+                const double hang = columns->spring[k] * fmin(highest - columns->gap[k], 1.0);
+                share += soil_on_grid(columns->share[k], share_grid);
+                springs += soil_on_grid(columns->spring[k], slope_grid);
+                hanging += soil_on_grid(hang, slope_grid);
+            }
+        }
     balance->load = load;
     balance->force_grid = soil_grid(load);
+    balance->slope_grid = slope_grid;
     balance->highest = highest;
     balance->guess = (load + hanging) / springs - highest;
-    balance->sole = share * patch->cell * patch->cell;
+    balance->sole = share * sole->patch->cell * sole->patch->cell;
     return true;
 }
 
 // the sink s at which the columns carry the load: Newton, kept inside a bracket
-static double sink_of(const DpSoilPatch* patch, const DpImprint* imprint, const Balance* balance,
-                      Answer* found)
+static double sink_of(Sole* sole, const Balance* balance, Answer* found)
 {
     double low = -balance->highest, high = INFINITY;  // nothing carries at low
     double s = fmax(balance->guess, low), step = 0.01;
     for (int round = 0; round < 100; ++round) {
-        *found = answer(patch, imprint, balance, s);
+        *found = answer(sole, balance, s);
         const double missing = balance->load - found->force;
         if (fabs(missing) <= 2e-9 * balance->load) break;
         if (missing > 0.0) low = s;
@@ -228,36 +269,40 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     pressed->deepest = fmax(pressed->deepest, (double)patch->compression[p]);
 }
 
+// least contact area, so that a first touch is not a needle
+static double least_area(const Sole* sole, const Balance* balance)
+{
+    const double area = sole->patch->cell * sole->patch->cell;
+    return fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+}
+
 // `sole`: balance, then press what carries
-static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Balance* balance, double dt,
+static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balance* balance, double dt,
                        DpPressed* pressed)
 {
-    const double area = patch->cell * patch->cell;
-    const double least = fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+    const double area = patch->cell * patch->cell, least = least_area(sole, balance);
     Answer       found;
-    double       s = sink_of(patch, imprint, balance, &found);
-    if (found.area > 0.0 && found.area < least) {  // a first touch is not a needle
+    double       s = sink_of(sole, balance, &found);
+    if (found.area > 0.0 && found.area < least) {
         const double share = found.area / least;
         balance->guess = -balance->highest + (balance->guess + balance->highest) * share;
         balance->load *= share;
         balance->force_grid = soil_grid(balance->load);
-        s = sink_of(patch, imprint, balance, &found);
+        s = sink_of(sole, balance, &found);
     }
     pressed->sink = s;
     pressed->area = found.area;
-    Columns columns;
-    for (int j = imprint->j0; j < imprint->j1; ++j)
-        for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
-            const int left = imprint->i1 - i, count = left < CHUNK ? left : CHUNK;
-            gather(&columns, patch, imprint, j, i, count);
-            for (int k = 0; k < count; ++k) {
-                const double t = columns.gap[k] + s, rigid = columns.rigid[k];
-                const double x = spring_length(t, columns.pressed[k], columns.let_go[k], rigid);
-                if (columns.share[k] <= 0.0 || x <= 0.0) continue;
-                const size_t p = soil_at(patch, i + k, j);
-                const double stress = columns.spring[k] * x / (columns.share[k] * area);
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c) {
+            const Columns* columns = &sole->chunk[c];
+            for (int k = 0; k < columns->count; ++k) {
+                const double t = columns->gap[k] + s, rigid = columns->rigid[k];
+                const double x = spring_length(t, columns->pressed[k], columns->let_go[k], rigid);
+                if (x <= 0.0) continue;
+                const size_t p = columns->cell[k];
+                const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
-                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns.share[k]}, dt, pressed);
+                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns->share[k]}, dt, pressed);
             }
         }
 }
@@ -270,39 +315,39 @@ static double overlap(const Columns* columns, int k)
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
-static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, const Balance* balance, double dt,
-                          DpPressed* pressed)
+static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, const Balance* balance,
+                          double dt, DpPressed* pressed)
 {
-    const double area = patch->cell * patch->cell, share_grid = ldexp(1.5, 52 - 30);
-    double       highest = -INFINITY, shares = 0.0, stress = 0.0;
-    Columns      columns;
-    for (int pass = 0; pass < 3; ++pass) {  // find the touching height, count the area, press
-        for (int j = imprint->j0; j < imprint->j1; ++j)
-            for (int i = imprint->i0; i < imprint->i1; i += CHUNK) {
-                const int left = imprint->i1 - i, count = left < CHUNK ? left : CHUNK;
-                gather(&columns, patch, imprint, j, i, count);
-                for (int k = 0; k < count; ++k) {
-                    if (columns.share[k] <= 0.0) continue;
-                    const double over = overlap(&columns, k);
-                    if (pass == 0) highest = fmax(highest, over);
-                    if (pass == 0 || over < highest - TOUCH_GAP) continue;
-                    if (pass == 1) shares += soil_on_grid(columns.share[k], share_grid);
-                    if (pass == 1) continue;
-                    const size_t p = soil_at(patch, i + k, j);
-                    const double rigid = columns.rigid[k];
-                    const double depth =
-                        stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];  // SOFT22 (10)
-                    imprint->ring[p] = 0;
-                    press_cell(patch, p, (Target){fmin(depth, rigid), stress, columns.share[k]}, dt,
-                               pressed);
-                }
+    const double share_grid = ldexp(1.5, 52 - 30);
+    double       highest = -INFINITY, area = 0.0, stress = 0.0;
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k)
+                highest = fmax(highest, overlap(&sole->chunk[c], k));
+
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                if (overlap(&sole->chunk[c], k) < highest - TOUCH_GAP) continue;
+                area += soil_on_grid(sole->chunk[c].share[k], share_grid);
+                imprint->ring[sole->chunk[c].cell[k]] = 0;
             }
-        const double least =
-            fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
-        if (pass == 1) stress = balance->load / fmax(shares * area, least);  // SOFT22 (9)
-    }
+    area *= patch->cell * patch->cell;
+    stress = balance->load / fmax(area, least_area(sole, balance));  // SOFT22 (9)
+
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                const Columns* columns = &sole->chunk[c];
+                const size_t   p = columns->cell[k];
+                if (imprint->ring[p] != 0) continue;
+                const double rigid = columns->rigid[k];
+                const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
+                press_cell(patch, p, (Target){fmin(depth, rigid), stress, columns->share[k]}, dt,
+                           pressed);  // SOFT22 (10)
+            }
     pressed->sink = -highest;
-    pressed->area = shares * area;
+    pressed->area = area;
 }
 
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
@@ -318,11 +363,15 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
         int32_t* ring = imprint->ring + soil_at(patch, 0, j);
         for (int i = 0; i < patch->nx; ++i) ring[i] = DP_RING_FAR;
     }
+    Sole sole;
+    sole.patch = patch;
+    sole.imprint = imprint;
+    sole.whole = false;
     Balance balance = {0};
-    if (load <= 0.0 || !weigh(&balance, patch, imprint, load)) return DP_OK;
+    if (load <= 0.0 || !weigh(&balance, &sole, load)) return DP_OK;
 
-    if (law == DP_CONTACT_UNIFORM) press_uniform(patch, imprint, &balance, dt, pressed);
-    else press_sole(patch, imprint, &balance, dt, pressed);
+    if (law == DP_CONTACT_UNIFORM) press_uniform(patch, imprint, &sole, &balance, dt, pressed);
+    else press_sole(patch, imprint, &sole, &balance, dt, pressed);
     const double area = patch->cell * patch->cell;
     pressed->firm *= area;
     pressed->loose *= area;

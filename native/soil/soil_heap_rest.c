@@ -12,7 +12,7 @@
 // order of a sweep nor that of a sum can change a bit: with equal shares, mirrored or
 // turned ground gets exactly mirrored or turned heaps. With a push the shares come from
 // coordinates; they are rounded to 2^-30 and agree but for ties (soil_accumulate.c).
-#include "base/wide.h"
+#include "base/wide.h"  // first: it says how loops may be widened
 #include "soil/soil_heaps.h"
 
 #define NOTHING (-(1 << 30))  // no cone reaches this cell

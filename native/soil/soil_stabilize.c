@@ -17,7 +17,8 @@
 //     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
 #include <string.h>
 
-#include "base/wide.h"
+#include "base/wide.h"  // first: it says how loops may be widened
+#include "base/alloc.h"
 #include "soil/soil_inside.h"
 
 #define FRAME 3         // cells around the window that only stand as walls
@@ -86,20 +87,17 @@ static inline float one_if(float x)
     return x > 0.0f ? 1.0f : 0.0f;
 }
 
-// What the cells of one row want.
-typedef struct RowWish
-{
-    int first, last;  // cells that give something: first <= i <= last, empty if first > last
-    int restless;     // does one stand steeper than gamma_r + tolerance?
-} RowWish;
+// What one row wants, as bits.
+#define ROW_MOVES 1     // a cell gives something
+#define ROW_RESTLESS 2  // .. and one must: it stands steeper than gamma_r + tolerance
 
 // first stencil: what each cell of a row gives away, TRAIL (14) (15)
 DP_CLONES
-static RowWish decide_row(float* restrict share, float* restrict give, const float* restrict h,
-                          const float* restrict heap, const float* restrict fall,
-                          const float* restrict slack, ptrdiff_t row, int count, float film)
+static int decide_row(float* restrict share, float* restrict give, const float* restrict h,
+                      const float* restrict heap, const float* restrict fall,
+                      const float* restrict slack, ptrdiff_t row, int count, float film)
 {
-    int first = count, last = -1, restless = 0;
+    int moves = 0, restless = 0;
     for (int i = 0; i < count; ++i) {
         const float* c = h + i;
         const float  at = *c, straight = fall[i], diagonal = fall[i] * ROOT2;
@@ -120,13 +118,12 @@ static RowWish decide_row(float* restrict share, float* restrict give, const flo
         const float ew = e > w ? e : w, ns = n > s ? n : s;
         const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
         const float steep = ew > ns ? ew : ns, across = up > down ? up : down;
-        const int   tilted = (steep > slack[i]) | (across > slack[i] * ROOT2);
-        restless |= tilted & (heap[i] > film);
-        const int moves = give[i] > 0.0f;
-        first = moves && i < first ? i : first;
-        last = moves && i > last ? i : last;
+        const float over = steep > across * (1.0f / ROOT2) ? steep : across * (1.0f / ROOT2);
+        const float loose = heap[i] > film ? over : -1.0f;
+        restless |= loose > slack[i] ? 1 : 0;
+        moves |= a * sum > 0.0f ? 1 : 0;
     }
-    return (RowWish){first, last, restless};
+    return (moves ? ROW_MOVES : 0) | (restless ? ROW_RESTLESS : 0);
 }
 
 // what cell h[k] gives to the cell at height `at`
@@ -207,18 +204,35 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     return true;
 }
 
-// what has changed of the cells the window holds; others were written back with an earlier window
 static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint, Box box)
 {
-    const Box held = window->box;
-    box.i0 = box.i0 > held.i0 ? box.i0 : held.i0, box.i1 = box.i1 < held.i1 ? box.i1 : held.i1;
-    box.j0 = box.j0 > held.j0 ? box.j0 : held.j0, box.j1 = box.j1 < held.j1 ? box.j1 : held.j1;
     for (int j = box.j0; j < box.j1; ++j)
         for (int i = box.i0; i < box.i1; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
             patch->heap[p] = window->heap[cell_of(window, i, j)];
         }
+}
+
+// a larger window around `box`, which holds the old one; fine sums move along
+static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
+                        double level, double tan_slack, DpSoilScratch* scratch)
+{
+    const Window old = *window;
+    const size_t cells = old.row * (size_t)(old.box.j1 - old.box.j0 + 2 * FRAME);
+    double*      kept = dp_alloc(cells, sizeof(double));
+    if (!kept) return false;
+    memcpy(kept, old.sum, cells * sizeof(double));
+    const bool open = open_window(window, patch, imprint, box, level, tan_slack, scratch);
+    for (int j = old.box.j0; open && j < old.box.j1; ++j) {
+        const size_t at = cell_of(window, old.box.i0, j);
+        const int    count = old.box.i1 - old.box.i0;
+        memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j), (size_t)count * sizeof(double));
+        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at, count);
+    }
+    dp_free(kept);
+    if (!open) *window = old;
+    return open;
 }
 
 // a height near the ground, so that floats are small; the same for mirrored ground
@@ -240,8 +254,7 @@ static Box decide(const Window* window, Box look, float film, bool* restless)
 {
     Box movers = {INT_MAX, INT_MIN, INT_MAX, INT_MIN};
     *restless = false;
-    const size_t  wide = (size_t)(look.i1 - look.i0) + 4;
-    const int32_t row = (int32_t)window->row;
+    const size_t wide = (size_t)(look.i1 - look.i0) + 4;
     for (int j = look.j0 - 2; j < look.j1 + 2; ++j) {
         const size_t at = cell_of(window, look.i0, j);
         if (j < look.j0 || j >= look.j1) {  // nothing is given from outside
@@ -249,17 +262,22 @@ static Box decide(const Window* window, Box look, float film, bool* restless)
             memset(window->give + at - 2, 0, wide * sizeof(float));
             continue;
         }
-        const RowWish wish = decide_row(window->share + at, window->give + at, window->height + at,
-                                        window->heap + at, window->fall + at, window->slack + at,
-                                        row, look.i1 - look.i0, film);
+        const int count = look.i1 - look.i0;
+        const int wish = decide_row(window->share + at, window->give + at, window->height + at,
+                                    window->heap + at, window->fall + at, window->slack + at,
+                                    (ptrdiff_t)window->row, count, film);
         memset(window->share + at - 2, 0, 2 * sizeof(float));
         memset(window->give + at - 2, 0, 2 * sizeof(float));
-        memset(window->share + at + (look.i1 - look.i0), 0, 2 * sizeof(float));
-        memset(window->give + at + (look.i1 - look.i0), 0, 2 * sizeof(float));
-        *restless = *restless || wish.restless != 0;
-        if (wish.first > wish.last) continue;
-        movers.i0 = movers.i0 < look.i0 + wish.first ? movers.i0 : look.i0 + wish.first;
-        movers.i1 = movers.i1 > look.i0 + wish.last ? movers.i1 : look.i0 + wish.last + 1;
+        memset(window->share + at + count, 0, 2 * sizeof(float));
+        memset(window->give + at + count, 0, 2 * sizeof(float));
+        *restless = *restless || (wish & ROW_RESTLESS);
+        if (!(wish & ROW_MOVES)) continue;
+        const float* give = window->give + at;
+        int          first = 0, last = count - 1;
+        while (!(give[first] > 0.0f)) ++first;
+        while (!(give[last] > 0.0f)) --last;
+        movers.i0 = movers.i0 < look.i0 + first ? movers.i0 : look.i0 + first;
+        movers.i1 = movers.i1 > look.i0 + last ? movers.i1 : look.i0 + last + 1;
         movers.j0 = movers.j0 < j ? movers.j0 : j;
         movers.j1 = j + 1;
     }
@@ -311,6 +329,7 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     const double tan_slack = tan(tolerance), level = level_of(patch, look);
     const float  film = (float)(0.1 * tan_slack * patch->cell);
     int          margin = FIRST_MARGIN;
+    DpStatus     status = DP_OK;
     Window       window;
     Box          changed = {0, 0, 0, 0};
     if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack, scratch))
@@ -328,12 +347,12 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
         ++settled->sweeps;
         if (holds(window.box, grown(look, 1, patch))) continue;
 
-        // soil comes near the window's side: a larger one
-        write_back(&window, patch, imprint, changed);
-        margin *= 2;
-        if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
-                         scratch))
-            return DP_NO_MEMORY;
+        margin *= 2;  // soil comes near the window's side: a larger one
+        const Box wider = grown(joined(window.box, look), margin, patch);
+        if (!move_window(&window, patch, imprint, wider, level, tan_slack, scratch)) {
+            status = DP_NO_MEMORY;
+            break;
+        }
     }
     if (changed.i0 < changed.i1) {
         write_back(&window, patch, imprint, changed);
@@ -341,5 +360,5 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
         settled->j0 = changed.j0, settled->j1 = changed.j1;
         settled->at_edge = at_edge(patch, changed, film);
     }
-    return DP_OK;
+    return status;
 }

@@ -33,7 +33,7 @@ TEST(flat_sole_is_trail_10)
 {
     for (int law = 0; law < 2; ++law) {
         Ground          ground = ground_make(60, 40, 0.01, wet());
-        const DpPressed p = stand(&ground, shoe, 75 * DP_GRAVITY, law, 0.5, 1.0 / 60);
+        const DpPressed p = stand(&ground, shoe, 75 * DP_GRAVITY, (DpContactLaw)law, 0.5, 1.0 / 60);
         const double    c = 75 * DP_GRAVITY * 0.30 / (0.35e6 * 0.0275);
         CHECK_CLOSE(c, 0.0229, 0.01);
         CHECK_CLOSE(p.deepest, c, 0.01);
@@ -71,7 +71,7 @@ TEST(proportional)
             if (k == 2) soil.layer_depth *= 2.0f;
             if (k == 3) soil.young_modulus *= 2.0f;
             Ground ground = ground_make(60, 40, 0.00625, soil);
-            depth[k] = stand(&ground, k == 4 ? half : shoe, k == 1 ? 800.0 : 400.0, law, 0.3, 0.02)
+            depth[k] = stand(&ground, k == 4 ? half : shoe, k == 1 ? 800.0 : 400.0, (DpContactLaw)law, 0.3, 0.02)
                            .deepest;
             ground_free(&ground);
         }
@@ -198,7 +198,7 @@ TEST(rigid_below)
 {
     for (int law = 0; law < 2; ++law) {
         Ground          ground = ground_make(60, 40, 0.01, wet());
-        const DpPressed p = stand(&ground, shoe, 1e6, law, 0.4, 0.01);
+        const DpPressed p = stand(&ground, shoe, 1e6, (DpContactLaw)law, 0.4, 0.01);
         CHECK_CLOSE(p.deepest, 0.95 * 0.30, 1e-5);
         if (law == DP_CONTACT_SOLE)
             CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 1e6 * 0.4, 1e-4);
@@ -281,7 +281,7 @@ TEST(mirrored_to_the_bit)
             for (int m = 0; m < 4; ++m) {
                 const DpFootForce foot = ground_load(700.0 - 60.0 * step);
                 g[m].patch.soils = g[m].soil;
-                dp_soil_compress(&g[m].patch, &g[m].imprint, &foot, law, 0.01, &p[m]);
+                dp_soil_compress(&g[m].patch, &g[m].imprint, &foot, (DpContactLaw)law, 0.01, &p[m]);
             }
         for (int m = 1; m < 4; ++m) {
             CHECK(p[m].displaced == p[0].displaced && p[m].sink == p[0].sink);
