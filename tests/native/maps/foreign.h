@@ -106,3 +106,24 @@ static inline int foreign_write(const char* path, const Foreign* as)
     const exr_result_t closed = exr_finish(&file);
     return done ? done : closed;
 }
+
+// every way of packing and storing that is read bit for bit
+#define F EXR_PIXEL_FLOAT
+#define H EXR_PIXEL_HALF
+#define U EXR_PIXEL_UINT
+static const Foreign foreign_sorts[] = {
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_NONE, {F, F, F}},
+    {53, 41, -7, 19, 0, 0, EXR_COMPRESSION_RLE, {H, F, U}},
+    {53, 41, 5, -300, 0, 0, EXR_COMPRESSION_ZIPS, {U, U, U}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, H, H}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PIZ, {H, F, H}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PXR24, {H, H, F}},
+    {53, 41, 0, 0, 16, 0, EXR_COMPRESSION_ZIP, {F, H, U}},
+    {53, 41, 9, 9, 32, 0, EXR_COMPRESSION_NONE, {F, F, F}},
+    {64, 64, 0, 0, 16, 1, EXR_COMPRESSION_PIZ, {F, F, F}},
+    {1, 90, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, F, U}},
+};
+#define FOREIGN_SORTS ((int)(sizeof foreign_sorts / sizeof *foreign_sorts))
+#undef F
+#undef H
+#undef U

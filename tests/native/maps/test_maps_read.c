@@ -1,28 +1,10 @@
 // Files of other writers are read; damaged ones are refused, whatever the damage.
 #include "maps/foreign.h"
 
-#define F EXR_PIXEL_FLOAT
-#define H EXR_PIXEL_HALF
-#define U EXR_PIXEL_UINT
-
-static const Foreign sorts[] = {
-    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_NONE, {F, F, F}},
-    {53, 41, -7, 19, 0, 0, EXR_COMPRESSION_RLE, {H, F, U}},
-    {53, 41, 5, -300, 0, 0, EXR_COMPRESSION_ZIPS, {U, U, U}},
-    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, H, H}},
-    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PIZ, {H, F, H}},
-    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_PXR24, {H, H, F}},
-    {53, 41, 0, 0, 16, 0, EXR_COMPRESSION_ZIP, {F, H, U}},
-    {53, 41, 9, 9, 32, 0, EXR_COMPRESSION_NONE, {F, F, F}},
-    {64, 64, 0, 0, 16, 1, EXR_COMPRESSION_PIZ, {F, F, F}},
-    {1, 90, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, F, U}},
-};
-#define SORTS ((int)(sizeof sorts / sizeof *sorts))
-
 TEST(other_writers_are_read)
 {
-    for (int s = 0; s < SORTS; ++s) {
-        const Foreign* as = &sorts[s];
+    for (int s = 0; s < FOREIGN_SORTS; ++s) {
+        const Foreign* as = &foreign_sorts[s];
         const char*    path = world_path("foreign.exr");
         CHECK(foreign_write(path, as) == 0);
         DpMapFile* map = NULL;
@@ -88,7 +70,7 @@ TEST(every_truncation_is_refused)
     const char* path = world_path("short.exr");
     const int   some[] = {0, 4, 6};
     for (int s = 0; s < 3; ++s) {
-        CHECK(foreign_write(path, &sorts[some[s]]) == 0);
+        CHECK(foreign_write(path, &foreign_sorts[some[s]]) == 0);
         const size_t size = world_bytes(path, whole, sizeof whole);
         memcpy(hurt, whole, size);
         long   refused = 0;
@@ -105,8 +87,8 @@ TEST(mutations_do_no_harm)
     const char* path = world_path("hurt.exr");
     unsigned    state = 2024;
     long        refused = 0, tries = 0;
-    for (int s = 0; s < SORTS; ++s) {
-        CHECK(foreign_write(path, &sorts[s]) == 0);
+    for (int s = 0; s < FOREIGN_SORTS; ++s) {
+        CHECK(foreign_write(path, &foreign_sorts[s]) == 0);
         const size_t size = world_bytes(path, whole, sizeof whole);
         CHECK(size > 300 && size < sizeof whole);
         for (int k = 0; k < 400; ++k, ++tries) {
