@@ -98,9 +98,8 @@ endforeach()
 
 file(GLOB dp_openexr_sources ${dp_openexr_tree}/src/lib/OpenEXRCore/*.c)
 add_library(OpenEXRCore STATIC EXCLUDE_FROM_ALL ${dp_openexr_sources})
-target_include_directories(OpenEXRCore SYSTEM PRIVATE ${DP_DEFLATE_DIR})
-target_include_directories(OpenEXRCore SYSTEM PUBLIC
-  ${dp_openexr_tree}/src/lib/OpenEXRCore ${CMAKE_BINARY_DIR}/openexr ${DP_HALF_DIR})
+target_include_directories(OpenEXRCore SYSTEM PUBLIC ${dp_openexr_tree}/src/lib/OpenEXRCore
+  ${CMAKE_BINARY_DIR}/openexr ${DP_HALF_DIR} ${DP_DEFLATE_DIR})
 target_compile_options(OpenEXRCore PRIVATE -w)
 set_target_properties(OpenEXRCore PROPERTIES C_EXTENSIONS ON)
 if(DP_SANITIZE)  # damaged files must not get past its borders either

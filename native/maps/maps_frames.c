@@ -3,6 +3,7 @@
 // A frame of 1024^2 would take 44 ms to encode whole. A walker changes a tile or two of it, so every
 // tile's packed bytes are kept, and a frame is its header and those bytes in a row. Tiles that never
 // changed share one packed tile of zeros.
+#include <libdeflate.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -10,6 +11,7 @@
 
 #define WORKERS 64
 #define MOST_TILES (DP_MAPS_PIXELS / (DP_TILE * DP_TILE))
+#define TILE_BYTES (DP_TILE * DP_TILE * 4 * 4)
 
 typedef struct Tile
 {
@@ -17,70 +19,94 @@ typedef struct Tile
     size_t         size;    // [bytes]
 } Tile;
 
+// scratch memory of one worker, lent when it packs its first tile
+typedef struct Bench
+{
+    struct libdeflate_compressor* zip;
+    unsigned char*                byte;  // planes, their differences, the packed tile: 3 TILE_BYTES
+} Bench;
+
 struct DpFrames
 {
     int     tiles_x, tiles_y;
     DpNote* notes;
     int     note_count;
 
-    Tile  zero;
-    Tile* tile;  // (tiles_y, tiles_x), ty = 0 lowest
-
-    exr_context_t         encoder;  // packs tiles; its own file goes nowhere
-    DpBytes               nowhere;
-    exr_encode_pipeline_t pipe[WORKERS];
-    bool                  ready[WORKERS];
-
+    Tile    zero;
+    Tile*   tile;  // (tiles_y, tiles_x), ty = 0 lowest
+    Bench   bench[WORKERS];
     DpBytes file;  // the frame being written
 };
 
 static const char* const rgba_names[4] = {"R", "G", "B", "A"};
 
-// ---- packing one tile --------------------------------------------------------------------------
+// ---- packing one tile, OpenEXR's ZIP -------------------------------------------------------------
+// Departures
+//   OpenEXR's own encode pipeline makes a new compressor for every tile, which costs as much as the
+//   compressing. The format is short enough to be written here; test_maps_frames.c reads it with
+//   OpenEXR, tests/core/test_maps.py with other programs.
 
-// the end of the encode pipeline: keep the bytes instead of writing them
-static exr_result_t keep_packed(exr_encode_pipeline_t* pipe)
+// little-endian floats line by line, highest row first, and in a line A, then B, G, R
+static void lay_out(const float* rgba, unsigned char* byte)
 {
-    Tile* tile = pipe->encoding_user_data;
-    tile->packed = dp_alloc(pipe->compressed_bytes, 1);
-    if (!tile->packed) return EXR_ERR_OUT_OF_MEMORY;
-    memcpy(tile->packed, pipe->compressed_buffer, pipe->compressed_bytes);
-    tile->size = pipe->compressed_bytes;
-    return EXR_ERR_SUCCESS;
+    static const int order[4] = {3, 2, 1, 0};
+    for (int j = DP_TILE - 1; j >= 0; --j) {
+        const float* row = rgba + j * DP_TILE * 4;
+        for (int c = 0; c < 4; ++c) {
+            for (int i = 0; i < DP_TILE; ++i) {
+                uint32_t bits;
+                memcpy(&bits, &row[i * 4 + order[c]], 4);
+                byte[4 * i] = (unsigned char)bits;
+                byte[4 * i + 1] = (unsigned char)(bits >> 8);
+                byte[4 * i + 2] = (unsigned char)(bits >> 16);
+                byte[4 * i + 3] = (unsigned char)(bits >> 24);
+            }
+            byte += 4 * DP_TILE;
+        }
+    }
 }
 
-// @param row  of tiles in the file, 0 = highest y
-static exr_result_t pack(DpFrames* frames, int tx, int row, const float* rgba, int worker,
-                         Tile* into)
+// even bytes first, then the odd ones, each as its step from the one before
+static void difference(const unsigned char* byte, unsigned char* step)
 {
-    exr_encode_pipeline_t* pipe = &frames->pipe[worker];
-    exr_chunk_info_t       chunk;
-    exr_result_t done = exr_write_tile_chunk_info(frames->encoder, 0, tx, row, 0, 0, &chunk);
-    if (!done)
-        done = frames->ready[worker] ? exr_encoding_update(frames->encoder, 0, &chunk, pipe)
-                                     : exr_encoding_initialize(frames->encoder, 0, &chunk, pipe);
-    if (done) return done;
-    const bool first = !frames->ready[worker];
-    frames->ready[worker] = true;
-    for (int c = 0; c < pipe->channel_count; ++c) {
-        exr_coding_channel_info_t* from = &pipe->channels[c];
-        const char*                name = from->channel_name;
-        const int                  at = *name == 'R' ? 0 : *name == 'G' ? 1 : *name == 'B' ? 2 : 3;
-        // the file stores the highest row first
-        from->encode_from_ptr = (const uint8_t*)(rgba + (DP_TILE - 1) * DP_TILE * 4 + at);
-        from->user_data_type = EXR_PIXEL_FLOAT;
-        from->user_bytes_per_element = 4;
-        from->user_pixel_stride = 16;
-        from->user_line_stride = -16 * DP_TILE;
+    const int half = TILE_BYTES / 2;
+    step[0] = byte[0];
+    step[half] = (unsigned char)(byte[1] - byte[TILE_BYTES - 2] + 128);
+    for (int k = 1; k < half; ++k) {
+        step[k] = (unsigned char)(byte[2 * k] - byte[2 * k - 2] + 128);
+        step[half + k] = (unsigned char)(byte[2 * k + 1] - byte[2 * k - 1] + 128);
     }
-    if (first) {
-        done = exr_encoding_choose_default_routines(frames->encoder, 0, pipe);
-        if (done) return done;
-        pipe->yield_until_ready_fn = NULL;
-        pipe->write_fn = keep_packed;
+}
+
+static bool is_set_up(Bench* bench)
+{
+    if (!bench->byte) bench->byte = dp_alloc(TILE_BYTES, 3);
+    if (!bench->zip) {
+        const exr_context_initializer_t setup = dp_exr_setup(NULL);
+        libdeflate_set_memory_allocator(setup.alloc_fn, setup.free_fn);
+        bench->zip = libdeflate_alloc_compressor(DP_ZIP_LEVEL);
     }
-    pipe->encoding_user_data = into;
-    return exr_encoding_run(frames->encoder, 0, pipe);
+    return bench->byte && bench->zip;
+}
+
+static DpStatus pack(Bench* bench, const float* rgba, Tile* into)
+{
+    if (!is_set_up(bench)) return DP_NO_MEMORY;
+    unsigned char* byte = bench->byte;
+    unsigned char* step = byte + TILE_BYTES;
+    unsigned char* packed = step + TILE_BYTES;
+    lay_out(rgba, byte);
+    difference(byte, step);
+    size_t size = libdeflate_zlib_compress(bench->zip, step, TILE_BYTES, packed, TILE_BYTES - 1);
+    if (size == 0) {  // it would not get smaller: readers know by the size
+        packed = byte;
+        size = TILE_BYTES;
+    }
+    into->packed = dp_alloc(size, 1);
+    if (!into->packed) return DP_NO_MEMORY;
+    memcpy(into->packed, packed, size);
+    into->size = size;
+    return DP_OK;
 }
 
 DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* rgba, int worker)
@@ -88,11 +114,9 @@ DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* rgba,
     if (!frames || !rgba || tx < 0 || ty < 0 || tx >= frames->tiles_x || ty >= frames->tiles_y ||
         worker < 0 || worker >= WORKERS)
         return DP_BAD_ARGUMENT;
-    Tile fresh = {NULL, 0};
-    if (pack(frames, tx, frames->tiles_y - 1 - ty, rgba, worker, &fresh)) {
-        dp_free(fresh.packed);
-        return DP_NO_MEMORY;  // nothing else can go wrong in memory
-    }
+    Tile           fresh = {NULL, 0};
+    const DpStatus status = pack(&frames->bench[worker], rgba, &fresh);
+    if (status != DP_OK) return status;
     Tile* tile = &frames->tile[ty * frames->tiles_x + tx];
     dp_free(tile->packed);
     *tile = fresh;
@@ -146,22 +170,22 @@ static DpStatus copy_notes(DpFrames* frames, const DpNote* notes, int note_count
     return DP_OK;
 }
 
+// notes and names are tried out on a header before anything is written
 static DpStatus fill(DpFrames* frames, const DpNote* notes, int note_count)
 {
     DpStatus status = copy_notes(frames, notes, note_count);
     if (status != DP_OK) return status;
-    const int count = frames->tiles_x * frames->tiles_y;
-    float*    zeros = dp_alloc(DP_TILE * DP_TILE * 4, sizeof *zeros);
-    frames->tile = dp_alloc((size_t)count, sizeof *frames->tile);
-    const double no_time = 0.0;
-    if (!zeros || !frames->tile) {
-        status = DP_NO_MEMORY;
-    } else {
-        status = dp_exr_begin(&frames->encoder, &frames->nowhere, frames->tiles_x * DP_TILE,
-                              frames->tiles_y * DP_TILE, true, rgba_names, 4, frames->notes,
-                              frames->note_count, &no_time);
-    }
-    if (status == DP_OK && pack(frames, 0, 0, zeros, 0, &frames->zero)) status = DP_NO_MEMORY;
+    const double  no_time = 0.0;
+    exr_context_t trial;
+    status = dp_exr_begin(&trial, &frames->file, frames->tiles_x * DP_TILE,
+                          frames->tiles_y * DP_TILE, true, rgba_names, 4, frames->notes,
+                          frames->note_count, &no_time);
+    if (status != DP_OK) return status;
+    exr_finish(&trial);
+
+    float* zeros = dp_alloc(DP_TILE * DP_TILE * 4, sizeof *zeros);
+    frames->tile = dp_alloc((size_t)(frames->tiles_x * frames->tiles_y), sizeof *frames->tile);
+    status = zeros && frames->tile ? pack(&frames->bench[0], zeros, &frames->zero) : DP_NO_MEMORY;
     dp_free(zeros);
     return status;
 }
@@ -185,9 +209,10 @@ DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const DpN
 void dp_frames_destroy(DpFrames* frames)
 {
     if (!frames) return;
-    for (int w = 0; w < WORKERS; ++w)
-        if (frames->ready[w]) exr_encoding_destroy(frames->encoder, &frames->pipe[w]);
-    if (frames->encoder) exr_finish(&frames->encoder);
+    for (int w = 0; w < WORKERS; ++w) {
+        if (frames->bench[w].zip) libdeflate_free_compressor(frames->bench[w].zip);
+        dp_free(frames->bench[w].byte);
+    }
     for (int k = 0; frames->tile && k < frames->tiles_x * frames->tiles_y; ++k)
         dp_free(frames->tile[k].packed);
     for (int k = 0; k < frames->note_count; ++k) {
@@ -197,7 +222,6 @@ void dp_frames_destroy(DpFrames* frames)
     dp_free(frames->notes);
     dp_free(frames->tile);
     dp_free(frames->zero.packed);
-    dp_bytes_free(&frames->nowhere);
     dp_bytes_free(&frames->file);
     dp_free(frames);
 }

@@ -177,7 +177,7 @@ TEST(no_memory_is_survived)
         status = dp_frames_set_tile(frames, 1, 1, rgba, 3);
         CHECK(status == DP_OK || status == DP_NO_MEMORY);
     }
-    CHECK(status == DP_OK && tries > 3);
+    CHECK(status == DP_OK && tries > 2);
     dp_alloc_fail_after(-1);
     seeds[3] = seed;
     for (tries = 0, status = DP_NO_MEMORY; status != DP_OK && tries < 1000; ++tries) {
