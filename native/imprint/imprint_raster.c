@@ -6,10 +6,15 @@
 // edge belongs to both, which a minimum does not mind. A sample exactly on the sole's outline counts.
 #include "imprint/imprint_raster.h"
 
+#include <string.h>
+
 #include "base/wide.h"
 
-#define LANES 8
+#define LANES 8  // samples at a time; two registers where one holds four
 #define STEEPEST 1e4  // m per half sample: a needle seen edge-on, its lowest corner stands for it
+
+typedef float   Wide __attribute__((vector_size(LANES * sizeof(float))));
+typedef int32_t WideMask __attribute__((vector_size(LANES * sizeof(int32_t))));
 
 typedef struct Corner
 {
@@ -120,6 +125,9 @@ DP_INLINE int plane_through(Plane* plane, Corner a, Corner b, Corner c)
     return 1;
 }
 
+// a where the mask says so, else b
+#define PICK(mask, a, b) ((Wide)(((WideMask)(a) & (mask)) | ((WideMask)(b) & ~(mask))))
+
 // keep the lowest along samples first..last of one row, `LANES` at a time
 DP_INLINE void lower_span(const DpSamples* samples, int first, int last, int q, double v,
                           const Plane* plane)
@@ -128,22 +136,22 @@ DP_INLINE void lower_span(const DpSamples* samples, int first, int last, int q, 
     const int   middle = first + last - samples->past_u;
     const float z0 = (float)(plane->from.z + (v - plane->from.v) * plane->dv +
                              ((double)middle - plane->from.u) * plane->du);
-    const float slope = (float)plane->du, floor_z = (float)plane->lowest;
+    const float slope = (float)plane->du;
     const float d0 = (float)(2 * first - samples->past_u - middle);
     const float d1 = (float)(2 * last - samples->past_u - middle);
+    const Wide  floor = (Wide){0.0f} + (float)plane->lowest;
+    const Wide  lanes = {0.0f, 2.0f, 4.0f, 6.0f, 8.0f, 10.0f, 12.0f, 14.0f};
 
     const int begin = (first - samples->p0) & ~(LANES - 1);
     float*    low = samples->low + (size_t)(q - samples->q0) * (size_t)samples->row;
-    float     d = (float)(2 * (begin + samples->p0) - samples->past_u - middle);
+    Wide      d = lanes + (float)(2 * (begin + samples->p0) - samples->past_u - middle);
     for (int p = begin; p <= last - samples->p0; p += LANES, d += 2.0f * LANES) {
-        float* at = low + p;
-        for (int lane = 0; lane < LANES; ++lane) {
-            const float here = d + 2.0f * (float)lane;
-            const float plain = z0 + here * slope;
-            const float z = plain > floor_z ? plain : floor_z;
-            const int   under = (here >= d0) & (here <= d1) & (z < at[lane]);
-            at[lane] = under ? z : at[lane];
-        }
+        Wide was;
+        memcpy(&was, low + p, sizeof was);
+        const Wide plain = z0 + d * slope;
+        const Wide z = PICK(plain > floor, plain, floor);
+        const Wide now = PICK((d >= d0) & (d <= d1) & (z < was), z, was);
+        memcpy(low + p, &now, sizeof now);
     }
 }
 
