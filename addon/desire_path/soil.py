@@ -14,17 +14,17 @@ class Soil:
     young_modulus: float = 1.0e6  # E_g, without roots [Pa] > 0
     poisson_ratio: float = 0.35  # nu, share pushed sideways, SOFT22 (12) 0..0.5
     settle_time: float = 0.1  # tau, time to yield fully, SOFT22 (11) [s] > 0
-    rest_angle: float = math.radians(30)  # gamma_r, steepest slope that stays [rad] 0 < .. < pi/2
+    rest_angle: float = math.radians(30)  # gamma_r, steepest slope that stays [rad] > 0, up to 89 degrees
     push_threshold: float = 0.0  # F_threshold, TRAIL (13) [N]; 0 = half the walker's weight
 
     def __post_init__(self):
-        ranges = {"layer_depth": (0, 100), "young_modulus": (0, 1e12), "settle_time": (0, 1e4),
-                  "rest_angle": (0, math.pi / 2)}
+        ranges = {"layer_depth": (1e-4, 100), "young_modulus": (1, 1e12), "settle_time": (1e-5, 1e4),
+                  "rest_angle": (1e-3, math.radians(89))}
         for name, (low, high) in ranges.items():
             value = getattr(self, name)
-            if not low < value < high:
-                raise DesirePathError(f"A soil's {name} of {value:g} cannot be used: choose one above {low:g} "
-                                      f"and below {high:g}.")
+            if not low <= value <= high:
+                raise DesirePathError(f"A soil's {name} of {value:g} cannot be used: choose one from {low:.4g} "
+                                      f"to {high:.4g}.")
         if not 0 <= self.poisson_ratio <= 0.5:
             raise DesirePathError(f"A soil's poisson_ratio of {self.poisson_ratio:g} cannot be used: choose 0 to 0.5.")
         if not (self.push_threshold >= 0 and math.isfinite(self.push_threshold)):

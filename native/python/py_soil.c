@@ -1,3 +1,285 @@
-#include "python/door.h"
+// python/py_soil.c - the three kernels of the soil, for tests and for those who bring their own
+// ground.
+//
+//   soil_compress(patch, imprint, foot, law, dt)                          -> dict of DpPressed
+//   soil_accumulate(patch, imprint, foot, volume, law, rim_width, threshold, height) -> height
+//   soil_stabilize(patch, imprint | None, within | None, tolerance, most)  -> dict of DpSettled
+//   soil_anisotropy((x, y, z), threshold) -> beta;   soil_default() -> (6 numbers of DpSoil)
+//
+// patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
+// soils) imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
+// float32 (ny, nx), kind uint8, ring int32, soils float32 (count, 6) in DpSoil's order.
+#include <math.h>
+#include <string.h>
 
-PyMethodDef dp_py_soil_methods[] = {{NULL, NULL, 0, NULL}};
+#include "base/alloc.h"
+#include "python/door.h"
+#include "soil/soil.h"
+
+// What a call works with; zero it, open it, close it.
+typedef struct Call
+{
+    DpDoor         door;
+    DpSoilPatch    patch;
+    DpImprint      imprint;
+    DpFootForce    foot;
+    DpSoil*        soils;
+    DpSoilScratch* scratch;
+} Call;
+
+static void close_call(Call* call)
+{
+    dp_door_close(&call->door);
+    dp_free(call->soils);
+    dp_soil_scratch_destroy(call->scratch);
+}
+
+static int open_soils(Call* call, PyObject* object)
+{
+    DpShape      shape = {2, {-1, 6}};
+    const float* value = dp_door_open(&call->door, object, "soils", 'f', &shape, false);
+    if (!value) return -1;
+    if (shape.n[0] < 1 || shape.n[0] > 255) {
+        PyErr_SetString(PyExc_ValueError, "soils: expected 1 to 255 rows");
+        return -1;
+    }
+    call->soils = dp_alloc((size_t)shape.n[0], sizeof(DpSoil));
+    if (!call->soils) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    for (Py_ssize_t k = 0; k < shape.n[0]; ++k, value += 6) {
+        call->soils[k] = (DpSoil){value[0], value[1], value[2], value[3], value[4], value[5]};
+        if (dp_soil_check(&call->soils[k]) == DP_OK) continue;
+        PyErr_Format(PyExc_ValueError, "soils: row %zd holds a number out of its range", k);
+        return -1;
+    }
+    call->patch.soils = call->soils;
+    call->patch.soil_count = (int)shape.n[0];
+    return 0;
+}
+
+// numbers the kernels count on: no NaN but in `rest`, nothing below its range, soils that are there
+static int check_grids(const DpSoilPatch* patch)
+{
+    const size_t cells = (size_t)patch->nx * (size_t)patch->ny;
+    for (size_t k = 0; k < cells; ++k) {
+        const char* bad = NULL;
+        if (isinf(patch->rest[k])) bad = "rest";
+        if (!(patch->compression[k] >= 0.0f) || isinf(patch->compression[k])) bad = "compression";
+        if (!(patch->heap[k] >= 0.0f) || isinf(patch->heap[k])) bad = "heap";
+        if (!isfinite(patch->pressure_time[k])) bad = "pressure_time";
+        if (!(patch->modulus[k] > 0.0f) || isinf(patch->modulus[k])) bad = "modulus";
+        if (!(patch->rest_slope[k] > 0.0f) || isinf(patch->rest_slope[k])) bad = "rest_slope";
+        if (patch->kind[k] >= patch->soil_count) bad = "kind";
+        if (!bad) continue;
+        PyErr_Format(PyExc_ValueError, "%s: element %zu is out of its range", bad, k);
+        return -1;
+    }
+    return 0;
+}
+
+static int open_patch(Call* call, PyObject* object, DpShape* shape)
+{
+    DpSoilPatch* patch = &call->patch;
+    DpDoor*      door = &call->door;
+    PyObject *   rest, *compression, *heap, *pressure_time, *modulus, *rest_slope, *kind, *soils;
+    if (!PyTuple_Check(object)) {
+        PyErr_SetString(PyExc_TypeError, "patch: expected a tuple");
+        return -1;
+    }
+    if (!PyArg_ParseTuple(object, "dddOOOOOOOO:patch", &patch->cell, &patch->x0, &patch->y0, &rest,
+                          &compression, &heap, &pressure_time, &modulus, &rest_slope, &kind,
+                          &soils))
+        return -1;
+    if (!(patch->cell > 0.0) || !isfinite(patch->cell) || !isfinite(patch->x0) ||
+        !isfinite(patch->y0)) {
+        PyErr_SetString(PyExc_ValueError, "patch: cell must be > 0, x0 and y0 finite");
+        return -1;
+    }
+    if (!(patch->rest = dp_door_open(door, rest, "rest", 'f', shape, false)) ||
+        !(patch->compression = dp_door_open(door, compression, "compression", 'f', shape, true)) ||
+        !(patch->heap = dp_door_open(door, heap, "heap", 'f', shape, true)) ||
+        !(patch->pressure_time =
+              dp_door_open(door, pressure_time, "pressure_time", 'f', shape, true)) ||
+        !(patch->modulus = dp_door_open(door, modulus, "modulus", 'f', shape, false)) ||
+        !(patch->rest_slope = dp_door_open(door, rest_slope, "rest_slope", 'f', shape, false)) ||
+        !(patch->kind = dp_door_open(door, kind, "kind", 'B', shape, false)))
+        return -1;
+    if (shape->n[0] < 1 || shape->n[1] < 1 || shape->n[0] > 32768 || shape->n[1] > 32768) {
+        PyErr_SetString(PyExc_ValueError, "rest: expected 1 to 32768 cells a side");
+        return -1;
+    }
+    patch->ny = (int)shape->n[0];
+    patch->nx = patch->row = (int)shape->n[1];
+    if (open_soils(call, soils) < 0) return -1;
+    return check_grids(patch);
+}
+
+static int open_imprint(Call* call, PyObject* object, DpShape* shape)
+{
+    DpImprint* imprint = &call->imprint;
+    PyObject * bottom, *cover, *ring;
+    if (!PyTuple_Check(object)) {
+        PyErr_SetString(PyExc_TypeError, "imprint: expected a tuple");
+        return -1;
+    }
+    if (!PyArg_ParseTuple(object, "OOO:imprint", &bottom, &cover, &ring)) return -1;
+    if (!(imprint->bottom = dp_door_open(&call->door, bottom, "bottom", 'f', shape, false)) ||
+        !(imprint->cover = dp_door_open(&call->door, cover, "cover", 'f', shape, false)) ||
+        !(imprint->ring = dp_door_open(&call->door, ring, "ring", 'i', shape, true)))
+        return -1;
+    const int nx = call->patch.nx, ny = call->patch.ny;
+    imprint->i0 = nx, imprint->i1 = 0, imprint->j0 = ny, imprint->j1 = 0;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+            const size_t p = (size_t)j * (size_t)nx + (size_t)i;
+            const float  cover_here = imprint->cover[p];
+            if (!(cover_here >= 0.0f && cover_here <= 1.0f) ||
+                (cover_here > 0.0f && !isfinite(imprint->bottom[p]))) {
+                PyErr_Format(PyExc_ValueError, "cover, bottom: element %zu is out of its range", p);
+                return -1;
+            }
+            if (!(cover_here > 0.0f)) continue;
+            imprint->i0 = i < imprint->i0 ? i : imprint->i0;
+            imprint->i1 = i >= imprint->i1 ? i + 1 : imprint->i1;
+            imprint->j0 = j < imprint->j0 ? j : imprint->j0;
+            imprint->j1 = j + 1;
+        }
+    return 0;
+}
+
+static int open_foot(Call* call, PyObject* object)
+{
+    const double* v = dp_door_open(&call->door, object, "foot", 'd', DP_SHAPE2(3, 3), false);
+    if (!v || dp_door_finite(v, 9, "foot") < 0) return -1;
+    call->foot = (DpFootForce){{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
+    return 0;
+}
+
+static int open_call(Call* call, PyObject* patch, PyObject* imprint, PyObject* foot)
+{
+    DpShape shape = {2, {-1, -1}};
+    memset(call, 0, sizeof *call);
+    if (open_patch(call, patch, &shape) < 0) return -1;
+    if (imprint && open_imprint(call, imprint, &shape) < 0) return -1;
+    if (foot && open_foot(call, foot) < 0) return -1;
+    call->scratch = dp_soil_scratch_create();
+    if (call->scratch) return 0;
+    PyErr_NoMemory();
+    return -1;
+}
+
+static PyObject* soil_compress(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *patch, *imprint, *foot, *result = NULL;
+    int       law;
+    double    dt;
+    Call      call;
+    if (!PyArg_ParseTuple(arguments, "OOOid:soil_compress", &patch, &imprint, &foot, &law, &dt))
+        return NULL;
+    if (law != DP_CONTACT_SOLE && law != DP_CONTACT_UNIFORM)
+        return PyErr_Format(PyExc_ValueError, "law: expected 0 (sole) or 1 (uniform), got %d", law);
+    if (open_call(&call, patch, imprint, foot) == 0) {
+        DpPressed              p;
+        DpStatus               status;
+        Py_BEGIN_ALLOW_THREADS status =
+            dp_soil_compress(&call.patch, &call.imprint, &call.foot, (DpContactLaw)law, dt, &p);
+        Py_END_ALLOW_THREADS result =
+            status != DP_OK ? dp_door_result(status, "pressing soil")
+                            : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm, "loose",
+                                            p.loose, "displaced", p.displaced, "area", p.area,
+                                            "sink", p.sink, "deepest", p.deepest);
+    }
+    close_call(&call);
+    return result;
+}
+
+static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *    patch, *imprint, *foot, *result = NULL;
+    int           law;
+    double        volume, height;
+    DpHeapOptions options;
+    Call          call;
+    if (!PyArg_ParseTuple(arguments, "OOOdiddd:soil_accumulate", &patch, &imprint, &foot, &volume,
+                          &law, &options.rim_width, &options.threshold, &height))
+        return NULL;
+    if (law != DP_HEAP_REST && law != DP_HEAP_PAPER)
+        return PyErr_Format(PyExc_ValueError, "law: expected 0 (rest) or 1 (paper), got %d", law);
+    options.law = (DpHeapLaw)law;
+    if (open_call(&call, patch, imprint, foot) == 0) {
+        DpStatus               status;
+        Py_BEGIN_ALLOW_THREADS status = dp_soil_accumulate(&call.patch, &call.imprint, &call.foot,
+                                                           volume, &options, &height, call.scratch);
+        Py_END_ALLOW_THREADS   result =
+            status != DP_OK ? dp_door_result(status, "laying soil") : PyFloat_FromDouble(height);
+    }
+    close_call(&call);
+    return result;
+}
+
+static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *patch, *imprint, *within, *result = NULL;
+    int       most, box[4] = {0};
+    double    tolerance;
+    Call      call;
+    if (!PyArg_ParseTuple(arguments, "OOOdi:soil_stabilize", &patch, &imprint, &within, &tolerance,
+                          &most))
+        return NULL;
+    if (within != Py_None &&
+        (!PyTuple_Check(within) ||
+         !PyArg_ParseTuple(within, "iiii:within", &box[0], &box[1], &box[2], &box[3]))) {
+        if (!PyErr_Occurred())
+            PyErr_SetString(PyExc_TypeError, "within: expected (i0, i1, j0, j1)");
+        return NULL;
+    }
+    const bool stands = imprint != Py_None;
+    if (open_call(&call, patch, stands ? imprint : NULL, NULL) == 0) {
+        DpSettled              s;
+        DpStatus               status;
+        Py_BEGIN_ALLOW_THREADS status =
+            dp_soil_stabilize(&call.patch, stands ? &call.imprint : NULL,
+                              within == Py_None ? NULL : box, tolerance, most, call.scratch, &s);
+        Py_END_ALLOW_THREADS result =
+            status != DP_OK
+                ? dp_door_result(status, "letting soil come to rest")
+                : Py_BuildValue("{s:i,s:N,s:N,s:(iiii)}", "sweeps", s.sweeps, "at_rest",
+                                PyBool_FromLong(s.at_rest), "at_edge", PyBool_FromLong(s.at_edge),
+                                "changed", s.i0, s.i1, s.j0, s.j1);
+    }
+    close_call(&call);
+    return result;
+}
+
+static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    DpVec3 push;
+    double threshold;
+    if (!PyArg_ParseTuple(arguments, "(ddd)d:soil_anisotropy", &push.x, &push.y, &push.z,
+                          &threshold))
+        return NULL;
+    return PyFloat_FromDouble(dp_soil_anisotropy(push, threshold));
+}
+
+static PyObject* soil_default(PyObject* module, PyObject* arguments)
+{
+    (void)module, (void)arguments;
+    const DpSoil s = dp_soil_default();
+    return Py_BuildValue("(dddddd)", (double)s.layer_depth, (double)s.young_modulus,
+                         (double)s.poisson_ratio, (double)s.settle_time, (double)s.rest_angle,
+                         (double)s.push_threshold);
+}
+
+PyMethodDef dp_py_soil_methods[] = {
+    {"soil_compress", soil_compress, METH_VARARGS, "Press a sole into a patch for dt seconds."},
+    {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
+    {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
+    {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
+    {"soil_default", soil_default, METH_NOARGS, "The six numbers of the default soil."},
+    {NULL, NULL, 0, NULL}};

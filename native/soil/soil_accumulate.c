@@ -30,15 +30,17 @@ double soil_heap_share(const HeapShares* shares, int i, int j)
 {
     const double coarse = ldexp(1.5, 52 - 30);
     if (shares->even) return 1.0;
-    const double share = shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    const double share =
+        shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
     return soil_on_grid(share, coarse);
 }
 
 // is there a border cell at all, and one that gets something?
 static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, HeapShares* shares)
 {
-    const int i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0, j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
-    bool      any = false, ahead = false;
+    const int i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0,
+              j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
+    bool any = false, ahead = false;
     for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);

@@ -3,13 +3,16 @@
 //   force --(balance)--> sink of the sole --> target of each column --(rate)--> pressed now
 //
 // Departures
-//   TRAIL (10): one stress for all touched cells is `uniform`. `sole` makes every column a spring of
+//   TRAIL (10): one stress for all touched cells is `uniform`. `sole` makes every column a spring
+//   of
 //     stiffness E/L0 under a rigid sole; a flat sole on even ground gives (10) exactly.
 //     test_soil_compress.c, flat_sole_is_trail_10.
-//   SOFT22 (11): as printed a column stops one step short of dL or overshoots it; here the last step
+//   SOFT22 (11): as printed a column stops one step short of dL or overshoots it; here the last
+//   step
 //     is cut to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
 //     frame_rate_does_not_matter.
-//   A sole that rises off pressed ground is let go over r = 5 % of the depth + 0.1 mm: soils give back
+//   A sole that rises off pressed ground is let go over r = 5 % of the depth + 0.1 mm: soils give
+//   back
 //     a few per cent of what they were pressed, and a spring that lets go at once would make the
 //     load balance jump. The ground itself does not come back.
 //   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
@@ -21,15 +24,16 @@
 #include "base/vec.h"
 #include "soil/soil_inside.h"
 
-#define LANES 32    // columns worked on at once
-#define CHUNKS 40   // .. that are kept ready: a sole of up to 1280 cells is read only once
+#define LANES 32             // columns worked on at once
+#define CHUNKS 40            // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define LET_GO_SHARE 0.05    // r = LET_GO_SHARE e + LET_GO_LEAST
 #define LET_GO_LEAST 1e-4    // [m]
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
 #define FLOOR_CELLS 4.0      // least contact area: so many cells
 #define FLOOR_SHARE 0.05     // .. or this share of the sole
-#define PRESS_GRID ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
+#define PRESS_GRID \
+    ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
 // Columns of ground under the sole; lanes that hold none have share and spring 0.
 typedef struct Columns
@@ -74,7 +78,8 @@ typedef struct Answer
     double area;   // of the columns that carry [m^2]
 } Answer;
 
-static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint, size_t p)
+static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint,
+                       size_t p)
 {
     const int    k = columns->count++;
     const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
@@ -221,8 +226,10 @@ static double sink_of(Sole* sole, const Balance* balance, Answer* found)
         *found = answer(sole, balance, s);
         const double missing = balance->load - found->force;
         if (fabs(missing) <= 2e-9 * balance->load) break;
-        if (missing > 0.0) low = s;
-        else high = s;
+        if (missing > 0.0)
+            low = s;
+        else
+            high = s;
         if (high - low < 1e-12) break;
         double next = found->slope > 0.0 ? s + missing / found->slope : low + step;
         if (!(next > low)) next = isinf(high) ? low + step : 0.5 * (low + high);
@@ -277,8 +284,8 @@ static double least_area(const Sole* sole, const Balance* balance)
 }
 
 // `sole`: balance, then press what carries
-static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balance* balance, double dt,
-                       DpPressed* pressed)
+static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balance* balance,
+                       double dt, DpPressed* pressed)
 {
     const double area = patch->cell * patch->cell, least = least_area(sole, balance);
     Answer       found;
@@ -302,7 +309,8 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
                 const size_t p = columns->cell[k];
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
-                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns->share[k]}, dt, pressed);
+                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns->share[k]}, dt,
+                           pressed);
             }
         }
 }
@@ -315,8 +323,8 @@ static double overlap(const Columns* columns, int k)
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
-static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, const Balance* balance,
-                          double dt, DpPressed* pressed)
+static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
+                          const Balance* balance, double dt, DpPressed* pressed)
 {
     const double share_grid = ldexp(1.5, 52 - 30);
     double       highest = -INFINITY, area = 0.0, stress = 0.0;
@@ -370,8 +378,10 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     Balance balance = {0};
     if (load <= 0.0 || !weigh(&balance, &sole, load)) return DP_OK;
 
-    if (law == DP_CONTACT_UNIFORM) press_uniform(patch, imprint, &sole, &balance, dt, pressed);
-    else press_sole(patch, imprint, &sole, &balance, dt, pressed);
+    if (law == DP_CONTACT_UNIFORM)
+        press_uniform(patch, imprint, &sole, &balance, dt, pressed);
+    else
+        press_sole(patch, imprint, &sole, &balance, dt, pressed);
     const double area = patch->cell * patch->cell;
     pressed->firm *= area;
     pressed->loose *= area;

@@ -5,12 +5,12 @@
 DpSoil dp_soil_default(void)
 {
     const DpSoil soil = {
-        .layer_depth = 0.30f,       // TRAIL 4.2: a loose layer of 30 cm
-        .young_modulus = 0.75e6f,   // between soil and mud, SOFT22 Table 1
-        .poisson_ratio = 0.35f,     // the same table
-        .settle_time = 0.05f,       // the same table
-        .rest_angle = 0.5585054f,   // 32 degrees, dry sand
-        .push_threshold = 0.0f,     // half the walker's weight
+        .layer_depth = 0.30f,      // TRAIL 4.2: a loose layer of 30 cm
+        .young_modulus = 0.75e6f,  // between soil and mud, SOFT22 Table 1
+        .poisson_ratio = 0.35f,    // the same table
+        .settle_time = 0.05f,      // the same table
+        .rest_angle = 0.5585054f,  // 32 degrees, dry sand
+        .push_threshold = 0.0f,    // half the walker's weight
     };
     return soil;
 }
@@ -24,12 +24,11 @@ DpStatus dp_soil_check(const DpSoil* soil)
 {
     const float tiny = 1e-6f;
     if (!soil) return DP_BAD_ARGUMENT;
-    const bool good = in_range(soil->layer_depth, tiny, 1e3f) &&
-                      in_range(soil->young_modulus, tiny, 1e15f) &&
-                      in_range(soil->poisson_ratio, 0.0f, 0.5f) &&
-                      in_range(soil->settle_time, tiny, 1e6f) &&
-                      in_range(soil->rest_angle, 1e-4f, 1.5533430f) &&  // 89 degrees
-                      in_range(soil->push_threshold, 0.0f, 1e15f);
+    const bool good =
+        in_range(soil->layer_depth, tiny, 1e3f) && in_range(soil->young_modulus, tiny, 1e15f) &&
+        in_range(soil->poisson_ratio, 0.0f, 0.5f) && in_range(soil->settle_time, tiny, 1e6f) &&
+        in_range(soil->rest_angle, 1e-4f, 1.5533430f) &&  // 89 degrees
+        in_range(soil->push_threshold, 0.0f, 1e15f);
     return good ? DP_OK : DP_BAD_ARGUMENT;
 }
 

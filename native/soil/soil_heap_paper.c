@@ -1,10 +1,12 @@
 // soil/soil_heap_paper.c - a rim of fixed width around the touched cells. TRAIL (12), SOFT22 (13).
 //
 // Departures
-//   TRAIL (12) fills ring 1 only, a rim that gets thinner with the cell. Here the rim has a width in
+//   TRAIL (12) fills ring 1 only, a rim that gets thinner with the cell. Here the rim has a width
+//   in
 //     metres, and a cell's share falls linearly to zero over it. test_soil_accumulate.c,
 //     paper_falls_off.
-//   SOFT22 (14) lets the rim grow at a rate of its own; here what is displaced in a step is laid down
+//   SOFT22 (14) lets the rim grow at a rate of its own; here what is displaced in a step is laid
+//   down
 //     in that step, so no soil is in the air.
 #include "soil/soil_heaps.h"
 
@@ -36,7 +38,8 @@ DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const Hea
                 if (ring < 1 || ring > reach || !soil_is_ground(patch->rest[p])) continue;
                 const double weight = soil_on_grid(
                     soil_heap_share(shares, i, j) * falloff(ring, patch->cell, width), coarse);
-                if (pass == 0) total += weight;
+                if (pass == 0)
+                    total += weight;
                 else if (total > 0.0)
                     patch->heap[p] += (float)(weight / total * volume / area);  // TRAIL (12)
             }

@@ -1,12 +1,14 @@
-// soil/soil_heap_rest.c - displaced soil laid at once in the shape in which it rests. Ours; design 6.3.
+// soil/soil_heap_rest.c - displaced soil laid at once in the shape in which it rests. Ours;
+// design 6.3.
 //
-//   cones on the border cells, T sqrt(omega) high --(upper envelope)--> fill --> T until volume fits
+//   cones on the border cells, T sqrt(omega) high --(upper envelope)--> fill --> T until volume
+//   fits
 //
-// A straight heap against a wall with cross-section A is a triangle of height sqrt(2 A tan gamma_r),
-// so a border cell with share omega carries a cone of height T sqrt(omega) over its firm ground and
-// slope tan gamma_r. Soil fills the ground up to the envelope of the cones. Distances are
-// chamfer distances with 1 and sqrt(2), the metric in which soil_stabilize.c compares neighbours: what
-// is laid here is at rest there. They lead around the sole, not through it.
+// A straight heap against a wall with cross-section A is a triangle of height sqrt(2 A tan
+// gamma_r), so a border cell with share omega carries a cone of height T sqrt(omega) over its firm
+// ground and slope tan gamma_r. Soil fills the ground up to the envelope of the cones. Distances
+// are chamfer distances with 1 and sqrt(2), the metric in which soil_stabilize.c compares
+// neighbours: what is laid here is at rest there. They lead around the sole, not through it.
 //
 // Heights are whole numbers of a small step (a power of two, some nanometres), so that neither the
 // order of a sweep nor that of a sum can change a bit: with equal shares, mirrored or
@@ -24,19 +26,19 @@
 // The part of the patch that is worked on, with a frame of one wall cell around it.
 typedef struct Window
 {
-    int i0, j0, nx, ny;  // patch cells i0 <= i < i0 + nx, j0 <= j < j0 + ny
-    int row;             // nx + 2, and what makes rows start evenly
-    int32_t* surface;    // present surface h, WALL where no soil can go [steps] (ny + 2, row)
-    int32_t* fill;       // envelope of the cones                        [steps] (ny + 2, row)
-    int32_t* spare;      // one row
+    int      i0, j0, nx, ny;  // patch cells i0 <= i < i0 + nx, j0 <= j < j0 + ny
+    int      row;             // nx + 2, and what makes rows start evenly
+    int32_t* surface;         // present surface h, WALL where no soil can go [steps] (ny + 2, row)
+    int32_t* fill;            // envelope of the cones                        [steps] (ny + 2, row)
+    int32_t* spare;           // one row
 } Window;
 
 // A border cell with a share.
 typedef struct Apex
 {
-    int     i, j;    // of the patch
-    double  ground;  // firm ground [m]
-    double  root;    // sqrt(omega) [-]
+    int    i, j;    // of the patch
+    double ground;  // firm ground [m]
+    double root;    // sqrt(omega) [-]
 } Apex;
 
 typedef struct Heap
@@ -130,9 +132,10 @@ static void spread(const Heap* heap)
         }
         more = false;
         for (int j = 0; j < ny && !more; ++j)
-            more = wants_more(row_of(window, window->fill, j), row_of(window, window->fill, j - 1),
-                              row_of(window, window->fill, j + 1), row_of(window, window->surface, j),
-                              nx, heap->straight, heap->diagonal) != 0;
+            more =
+                wants_more(row_of(window, window->fill, j), row_of(window, window->fill, j - 1),
+                           row_of(window, window->fill, j + 1), row_of(window, window->surface, j),
+                           nx, heap->straight, heap->diagonal) != 0;
     }
 }
 
@@ -353,7 +356,7 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
         found = *height;
         const double goal = volume / (area * heap.step);
         const double laid = find_height(&heap, goal, width, slope, &found);
-        const bool   whole = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
+        const bool whole = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
         again = !whole && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
         if (again) continue;
         if (!(laid > 0.0)) return DP_NO_GROUND;

@@ -5,10 +5,10 @@
 // Shares asked for around a sole. TRAIL (11)-(13).
 typedef struct HeapShares
 {
-    double beta;        // anisotropy, TRAIL (13)             [-] 0..1
-    double dir_x, dir_y;  // of the push                      [-]
+    double beta;            // anisotropy, TRAIL (13)             [-] 0..1
+    double dir_x, dir_y;    // of the push                      [-]
     double from_x, from_y;  // centre of pressure, in cells of the patch
-    bool   even;        // no border cell lies ahead: all share alike
+    bool   even;            // no border cell lies ahead: all share alike
 } HeapShares;
 
 // omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12).

@@ -7,11 +7,14 @@
 // or turned print stays mirrored or turned to the bit.
 //
 // Departures
-//   TRAIL (14): eight neighbours on the grid (diagonals at sqrt(2) cells), not the next ring outward, so
-//     soil also slides back into a print that the foot has left. test_soil_stabilize.c, comes_to_rest.
-//   TRAIL (15)(16): as printed h_step leaves a cell once but arrives once per neighbour, and ring by
-//     ring the result depends on the order. Here a cell gives each lower neighbour a share of its own
-//     excess over gamma_r. test_soil_stabilize.c, keeps_volume.
+//   TRAIL (14): eight neighbours on the grid (diagonals at sqrt(2) cells), not the next ring
+//   outward, so
+//     soil also slides back into a print that the foot has left. test_soil_stabilize.c,
+//     comes_to_rest.
+//   TRAIL (15)(16): as printed h_step leaves a cell once but arrives once per neighbour, and ring
+//   by
+//     ring the result depends on the order. Here a cell gives each lower neighbour a share of its
+//     own excess over gamma_r. test_soil_stabilize.c, keeps_volume.
 //   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets
 //     stand over one cell counts as at rest wherever it lies: soil that creeps down a steep wall of
 //     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
@@ -21,8 +24,8 @@
 #include "base/alloc.h"
 #include "soil/soil_inside.h"
 
-#define FRAME 3         // cells around the window that only stand as walls
-#define BARRIER 1e30f   // height of what soil cannot go to
+#define FRAME 3        // cells around the window that only stand as walls
+#define BARRIER 1e30f  // height of what soil cannot go to
 #define ROOT2 1.41421356f
 #define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
@@ -34,21 +37,22 @@ typedef struct Box
 // A copy of the part of the patch in which soil moves. All grids (ny + 2 FRAME, row).
 typedef struct Window
 {
-    Box     box;      // patch cells it holds
+    Box     box;  // patch cells it holds
     size_t  row;
-    float*  firm;      // firm ground, BARRIER where no soil can be          [m]
-    float*  height;   // firm + heap                                        [m]
-    double* sum;      // b, kept finer than a float: small flows add up      [m]
-    float*  heap;     // b                                                  [m]
-    float*  fall;     // tan(gamma_r) cell: what may stand over one cell     [m]
-    float*  slack;    // what may stand above that and still count as rest   [m]
-    float*  share;    // a, share of the excess that is given               [-]
-    float*  give;     // a * sum of excess                                  [m]
+    float*  firm;    // firm ground, BARRIER where no soil can be          [m]
+    float*  height;  // firm + heap                                        [m]
+    double* sum;     // b, kept finer than a float: small flows add up      [m]
+    float*  heap;    // b                                                  [m]
+    float*  fall;    // tan(gamma_r) cell: what may stand over one cell     [m]
+    float*  slack;   // what may stand above that and still count as rest   [m]
+    float*  share;   // a, share of the excess that is given               [-]
+    float*  give;    // a * sum of excess                                  [m]
 } Window;
 
 static size_t cell_of(const Window* window, int i, int j)
 {
-    return (size_t)(j - window->box.j0 + FRAME) * window->row + (size_t)(i - window->box.i0 + FRAME);
+    return (size_t)(j - window->box.j0 + FRAME) * window->row +
+           (size_t)(i - window->box.i0 + FRAME);
 }
 
 static Box grown(Box box, int by, const DpSoilPatch* patch)
@@ -164,16 +168,15 @@ static void raise_row(float* restrict height, float* restrict heap, const float*
 
 // ---- window ----------------------------------------------------------------------------------
 
-static void read_row(const Window* window, const DpSoilPatch* patch, const DpImprint* imprint, int j,
-                     double level, double tan_slack)
+static void read_row(const Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
+                     int j, double level, double tan_slack)
 {
     const double cell = patch->cell;
     for (int i = window->box.i0; i < window->box.i1; ++i) {
         const size_t p = soil_at(patch, i, j), w = cell_of(window, i, j);
         if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
         const double slope = (double)patch->rest_slope[p];
-        window->firm[w] =
-            (float)((double)patch->rest[p] - (double)patch->compression[p] - level);
+        window->firm[w] = (float)((double)patch->rest[p] - (double)patch->compression[p] - level);
         window->sum[w] = (double)patch->heap[p];
         window->heap[w] = patch->heap[p];
         window->height[w] = window->firm[w] + window->heap[w];
@@ -190,7 +193,7 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     window->box = box;
     window->row = (nx + 2 * FRAME + 15) / 16 * 16;
     const size_t cells = window->row * (ny + 2 * FRAME);
-    double*      doubles = dp_soil_scratch_block(scratch, cells * (sizeof(double) + 7 * sizeof(float)));
+    double* doubles = dp_soil_scratch_block(scratch, cells * (sizeof(double) + 7 * sizeof(float)));
     if (!doubles) return false;
     window->sum = doubles;
     float*        block = (float*)(void*)(doubles + cells);
@@ -227,8 +230,10 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
     for (int j = old.box.j0; open && j < old.box.j1; ++j) {
         const size_t at = cell_of(window, old.box.i0, j);
         const int    count = old.box.i1 - old.box.i0;
-        memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j), (size_t)count * sizeof(double));
-        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at, count);
+        memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j),
+               (size_t)count * sizeof(double));
+        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at,
+                  count);
     }
     dp_free(kept);
     if (!open) *window = old;
@@ -295,7 +300,8 @@ static void take(const Window* window, Box change)
     }
     for (int j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
-        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at, count);
+        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at,
+                  count);
     }
 }
 
@@ -332,7 +338,8 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     DpStatus     status = DP_OK;
     Window       window;
     Box          changed = {0, 0, 0, 0};
-    if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack, scratch))
+    if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
+                     scratch))
         return DP_NO_MEMORY;
 
     for (;;) {

@@ -1,14 +1,16 @@
-// tests/bench/bench_soil.c - what one footstep costs: imprint, rings, compress, accumulate, stabilize.
+// tests/bench/bench_soil.c - what one footstep costs: imprint, rings, compress, accumulate,
+// stabilize.
 //
 //   cmake -S native -B build -DDP_MODULE=OFF && cmake --build build --target dp_soil dp_imprint
-//   cc -O3 -std=c11 -ffp-contract=off -fno-math-errno -D_POSIX_C_SOURCE=200809L -Inative -Itests/native \
+//   cc -O3 -std=c11 -ffp-contract=off -fno-math-errno -D_POSIX_C_SOURCE=200809L -Inative
+//   -Itests/native \
 //      tests/bench/bench_soil.c build/libdp_soil.a build/libdp_imprint.a build/libdp_base.a \
 //      -lm -lpthread -o build/bench_soil && build/bench_soil
 //
-// A 75 kg walker stands 36 frames at 60 Hz on a sole of 28 x 10 cm that rolls from heel to toe; then the
-// foot lifts off and everything comes to rest within 0.1 degrees. Times are per frame of the stance
-// with the lift-off in them, best of several prints, each on fresh ground. At the end the same sweeps
-// are made by a plain loop with branches, cell by cell.
+// A 75 kg walker stands 36 frames at 60 Hz on a sole of 28 x 10 cm that rolls from heel to toe;
+// then the foot lifts off and everything comes to rest within 0.1 degrees. Times are per frame of
+// the stance with the lift-off in them, best of several prints, each on fresh ground. At the end
+// the same sweeps are made by a plain loop with branches, cell by cell.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,9 +58,21 @@ static World make(double cell, double degrees)
         w.modulus[k] = w.soil.young_modulus;
         w.rest_slope[k] = (float)tan((double)w.soil.rest_angle);
     }
-    w.patch = (DpSoilPatch){nx, ny, nx, cell, -0.5 * (nx - 1) * cell, -0.5 * (ny - 1) * cell,
-                            w.rest, w.compression, w.heap, w.pressure_time, w.modulus,
-                            w.rest_slope, w.kind, NULL, 1};
+    w.patch = (DpSoilPatch){nx,
+                            ny,
+                            nx,
+                            cell,
+                            -0.5 * (nx - 1) * cell,
+                            -0.5 * (ny - 1) * cell,
+                            w.rest,
+                            w.compression,
+                            w.heap,
+                            w.pressure_time,
+                            w.modulus,
+                            w.rest_slope,
+                            w.kind,
+                            NULL,
+                            1};
     return w;
 }
 
@@ -94,12 +108,13 @@ static DpPose pose_at(double u)
 
 static Cost footstep(double cell, double degrees, DpHeapLaw law)
 {
-    static const float   corner[] = {-.14f, -.05f, 0, .14f, -.05f, 0, .14f, .05f, 0, -.14f, .05f, 0,
-                                     -.14f, -.05f, .03f, .14f, -.05f, .03f, .14f, .05f, .03f, -.14f, .05f, .03f};
+    static const float   corner[] = {-.14f, -.05f, 0,    .14f, -.05f, 0,     .14f, .05f,
+                                     0,     -.14f, .05f, 0,    -.14f, -.05f, .03f, .14f,
+                                     -.05f, .03f,  .14f, .05f, .03f,  -.14f, .05f, .03f};
     static const int32_t side[] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                    2, 3, 7, 2, 7, 6, 1, 2, 6, 1, 6, 5, 3, 0, 4, 3, 4, 7};
-    const DpMesh sole = {8, 12, corner, side};
-    World        w = make(cell, degrees);
+    const DpMesh         sole = {8, 12, corner, side};
+    World                w = make(cell, degrees);
     w.patch.soils = &w.soil;
     DpImprintScratch*   rasters = dp_imprint_scratch_create();
     DpSoilScratch*      scratch = dp_soil_scratch_create();
@@ -111,9 +126,11 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     for (int f = 0; f < FRAMES; ++f) {
         const double u = (f + 0.5) / FRAMES;
         const DpPose pose = pose_at(u);
-        DpFootForce  foot = {{120.0 * sin(2 * PI * (u - 0.5)), 10.0, -75.0 * DP_GRAVITY * fmin(1.1, 7.0 * fmin(u, 1.0 - u))},
-                             {0.2 * (u - 0.4), 0.0, 0.0}, {0.0, 0.0, 1.0}};
-        double t0 = now();
+        DpFootForce  foot = {{120.0 * sin(2 * PI * (u - 0.5)), 10.0,
+                              -75.0 * DP_GRAVITY * fmin(1.1, 7.0 * fmin(u, 1.0 - u))},
+                             {0.2 * (u - 0.4), 0.0, 0.0},
+                             {0.0, 0.0, 1.0}};
+        double       t0 = now();
         dp_imprint_foot(&w.imprint, &w.patch, &sole, &pose, 1, dp_imprint_samples(cell), rasters);
         double t1 = now();
         cost.imprint += t1 - t0;
@@ -124,11 +141,13 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         dp_imprint_rings(&w.imprint, &w.patch, rings);
         t1 = now();
         cost.rings += t1 - t0;
-        dp_soil_accumulate(&w.patch, &w.imprint, &foot, pressed.displaced, &options, &height, scratch);
+        dp_soil_accumulate(&w.patch, &w.imprint, &foot, pressed.displaced, &options, &height,
+                           scratch);
         t0 = now();
         cost.accumulate += t0 - t1;
         // where soil lies: the sole and what a heap of height T reaches
-        const int wide = 2 + (int)((law == DP_HEAP_PAPER ? 0.05 : height / tan(degrees * PI / 180.0)) / cell);
+        const int wide =
+            2 + (int)((law == DP_HEAP_PAPER ? 0.05 : height / tan(degrees * PI / 180.0)) / cell);
         if (w.imprint.i0 - wide < reach[0]) reach[0] = w.imprint.i0 - wide;
         if (w.imprint.i1 + wide > reach[1]) reach[1] = w.imprint.i1 + wide;
         if (w.imprint.j0 - wide < reach[2]) reach[2] = w.imprint.j0 - wide;
@@ -185,15 +204,21 @@ static void plain_sweep(const World* w, float* share, float* next)
                         if (pass == 1 && come > 0.0f) in += share[q] * come;
                     }
                 if (pass == 0)
-                    share[p] = lower ? fminf(1.0f, w->heap[p] * (float)(lower + 1) / sum) / (float)(lower + 1) : 0.0f;
-                else next[p] = w->heap[p] - share[p] * sum + in;
+                    share[p] = lower ? fminf(1.0f, w->heap[p] * (float)(lower + 1) / sum) /
+                                           (float)(lower + 1)
+                                     : 0.0f;
+                else
+                    next[p] = w->heap[p] - share[p] * sum + in;
             }
     memcpy(w->heap, next, (size_t)(nx * ny) * sizeof(float));
 }
 
 static void compare(double degrees)
 {
-    enum { SWEEPS = 200 };
+    enum
+    {
+        SWEEPS = 200
+    };
     double best[2] = {1e9, 1e9};
     int    made = 0;
     for (int run = 0; run < 5; ++run)
@@ -204,14 +229,16 @@ static void compare(double degrees)
             unsigned seed = 1;
             for (int k = 0; k < 61 * 43; ++k) {
                 seed = seed * 1664525u + 1013904223u;
-                w.heap[k] = (k % 61 % 60 && k > 61 && k < 61 * 42) ? (float)(seed >> 8) * 5e-9f : 0.0f;
+                w.heap[k] =
+                    (k % 61 % 60 && k > 61 && k < 61 * 42) ? (float)(seed >> 8) * 5e-9f : 0.0f;
             }
             float*         share = dp_alloc(61 * 43, 4);
             float*         next = dp_alloc(61 * 43, 4);
             DpSoilScratch* scratch = dp_soil_scratch_create();
             DpSettled      settled = {0};
             const double   t0 = now();
-            if (m == 0) dp_soil_stabilize(&w.patch, NULL, NULL, 1e-6, SWEEPS, scratch, &settled);
+            if (m == 0)
+                dp_soil_stabilize(&w.patch, NULL, NULL, 1e-6, SWEEPS, scratch, &settled);
             else
                 for (int k = 0; k < SWEEPS; ++k) plain_sweep(&w, share, next);
             const double spent = (now() - t0) / (m == 0 ? settled.sweeps : SWEEPS);
@@ -221,16 +248,20 @@ static void compare(double degrees)
             dp_free(share), dp_free(next);
             unmake(&w);
         }
-    printf("one sweep of 61 x 43 cells, all loose, %2.0f deg: %5.1f us (of %d), plain loop %5.1f us: %.1f times\n",
-           degrees, best[0] * 1e6, made, best[1] * 1e6, best[1] / best[0]);
+    printf(
+        "one sweep of 61 x 43 cells, all loose, %2.0f deg: %5.1f us (of %d), plain loop %5.1f us: "
+        "%.1f times\n",
+        degrees, best[0] * 1e6, made, best[1] * 1e6, best[1] / best[0]);
 }
 
 int main(int argc, char** argv)
 {
-    const int prints = argc > 1 ? atoi(argv[1]) : 12;
+    const int    prints = argc > 1 ? atoi(argv[1]) : 12;
     const double angles[] = {32.0, 15.0, 8.0};
     printf("us a frame (36 frames and the lift-off, best of %d prints)\n", prints);
-    printf("heap  cell deg |  total imprint rings compress accumulate stabilize liftoff | sweeps lift | depth rim mm, heap l\n");
+    printf(
+        "heap  cell deg |  total imprint rings compress accumulate stabilize liftoff | sweeps lift "
+        "| depth rim mm, heap l\n");
     for (int law = 0; law < 2; ++law)
         for (int c = 0; c < 2; ++c)
             for (int a = 0; a < 3; ++a) {
@@ -242,11 +273,13 @@ int main(int argc, char** argv)
                     if (total(cost) < total(best)) best = cost;
                 }
                 const double f = 1e6 / FRAMES;
-                printf("%-5s %4.0f %3.0f | %6.1f %7.1f %5.1f %8.1f %10.1f %9.1f %7.1f | %6d %4d | %4.1f %4.1f %6.3f\n",
-                       law ? "paper" : "rest", cell * 1000, angles[a], total(best) * f, best.imprint * f,
-                       best.rings * f, best.compress * f, best.accumulate * f, best.stabilize * f,
-                       best.liftoff * f, best.sweeps, best.lift_sweeps, best.depth * 1000, best.rim * 1000,
-                       best.volume * 1000);
+                printf(
+                    "%-5s %4.0f %3.0f | %6.1f %7.1f %5.1f %8.1f %10.1f %9.1f %7.1f | %6d %4d | "
+                    "%4.1f %4.1f %6.3f\n",
+                    law ? "paper" : "rest", cell * 1000, angles[a], total(best) * f,
+                    best.imprint * f, best.rings * f, best.compress * f, best.accumulate * f,
+                    best.stabilize * f, best.liftoff * f, best.sweeps, best.lift_sweeps,
+                    best.depth * 1000, best.rim * 1000, best.volume * 1000);
             }
     compare(32.0);
     compare(8.0);

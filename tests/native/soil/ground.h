@@ -1,5 +1,5 @@
-// tests/native/soil/ground.h - a small piece of ground and a sole made of boxes, for the soil's tests
-// and its benchmark. The sole is sampled 8 x 8 times a cell, so edges may lie anywhere.
+// tests/native/soil/ground.h - a small piece of ground and a sole made of boxes, for the soil's
+// tests and its benchmark. The sole is sampled 8 x 8 times a cell, so edges may lie anywhere.
 #pragma once
 #include <math.h>
 #include <string.h>
@@ -67,8 +67,8 @@ static inline void ground_free(Ground* ground)
     dp_free(ground->imprint.ring);
 }
 
-// A sole: a box of length along `heading`, flat underside at height z, tilted by pitch (slope along the
-// heading: > 0 lifts the front), its middle at (x, y).
+// A sole: a box of length along `heading`, flat underside at height z, tilted by pitch (slope along
+// the heading: > 0 lifts the front), its middle at (x, y).
 typedef struct BoxSole
 {
     double x, y, z, length, width, heading, pitch;
@@ -91,7 +91,8 @@ static inline void ground_sole(Ground* ground, BoxSole sole)
                     const double y = patch->y0 + (j + (b - 3.5) / 8.0) * patch->cell - sole.y;
                     const double along = x * along_x + y * along_y;
                     const double across = y * along_x - x * along_y;
-                    if (fabs(along) > 0.5 * sole.length || fabs(across) > 0.5 * sole.width) continue;
+                    if (fabs(along) > 0.5 * sole.length || fabs(across) > 0.5 * sole.width)
+                        continue;
                     ++hits;
                     height += sole.z + sole.pitch * along;
                 }
@@ -140,6 +141,7 @@ static inline double ground_sum(const Ground* ground, const float* grid)
 static inline double ground_most(const Ground* ground, const float* grid)
 {
     double most = 0.0;
-    for (int k = 0; k < ground->patch.nx * ground->patch.ny; ++k) most = fmax(most, (double)grid[k]);
+    for (int k = 0; k < ground->patch.nx * ground->patch.ny; ++k)
+        most = fmax(most, (double)grid[k]);
     return most;
 }

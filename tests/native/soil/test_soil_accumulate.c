@@ -1,4 +1,5 @@
-// tests of soil_accumulate.c, soil_heap_rest.c, soil_heap_paper.c: TRAIL (11)-(13), SOFT22 (12)-(14)
+// tests of soil_accumulate.c, soil_heap_rest.c, soil_heap_paper.c: TRAIL (11)-(13), SOFT22
+// (12)-(14)
 #include "check.h"
 #include "ground.h"
 
@@ -31,7 +32,8 @@ static DpStatus lay(Ground* ground, DpFootForce foot, double volume, const DpHea
     return status;
 }
 
-// steepest slope of soil over what is loose, against its rest slope; 8 neighbours, not under the sole
+// steepest slope of soil over what is loose, against its rest slope; 8 neighbours, not under the
+// sole
 static double steepest(const Ground* ground)
 {
     const DpSoilPatch* patch = &ground->patch;
@@ -44,8 +46,10 @@ static double steepest(const Ground* ground)
                 for (int a = -1; a <= 1; ++a) {
                     const int q = p + b * patch->row + a;
                     if (q == p || ground->imprint.ring[q] == 0) continue;
-                    const double from = (double)(patch->rest[p] - patch->compression[p]) + (double)patch->heap[p];
-                    const double to = (double)(patch->rest[q] - patch->compression[q]) + (double)patch->heap[q];
+                    const double from =
+                        (double)(patch->rest[p] - patch->compression[p]) + (double)patch->heap[p];
+                    const double to =
+                        (double)(patch->rest[q] - patch->compression[q]) + (double)patch->heap[q];
                     const double far = patch->cell * (a && b ? sqrt(2.0) : 1.0);
                     most = fmax(most, atan((from - to) / far) - atan((double)patch->rest_slope[p]));
                 }
@@ -81,8 +85,8 @@ TEST(keeps_volume)
 TEST(rest_is_a_triangle)
 {
     for (int d = 0; d < 3; ++d) {
-        const double degrees[3] = {8.0, 15.0, 32.0};
-        Ground       ground = ground_make(160, 120, 0.005, sand(degrees[d]));
+        const double  degrees[3] = {8.0, 15.0, 32.0};
+        Ground        ground = ground_make(160, 120, 0.005, sand(degrees[d]));
         const BoxSole wall = {.length = 2.0, .width = 0.02};
         touch(&ground, wall, 1);
         const double area = 4e-4, slope = tan(degrees[d] * 3.14159265358979 / 180.0);
@@ -99,10 +103,11 @@ TEST(rest_is_a_triangle)
 // laid in many steps, with a sole that tilts and a push that turns, it still is at rest
 TEST(rest_stays_at_rest)
 {
-    Ground ground = ground_make(100, 80, 0.01, sand(15.0));
+    Ground   ground = ground_make(100, 80, 0.01, sand(15.0));
     unsigned seed = 3;
     for (int k = 0; k < 100 * 80; ++k)
-        ground.rest[k] = 0.02f * sinf(0.09f * (float)(k % 100)) + (float)(0.0005 * check_random(&seed));
+        ground.rest[k] =
+            0.02f * sinf(0.09f * (float)(k % 100)) + (float)(0.0005 * check_random(&seed));
     touch(&ground, shoe, 1);
     double      height = 0.0;
     DpFootForce foot = ground_load(700.0);
@@ -139,7 +144,8 @@ TEST(anisotropy)
     CHECK(dp_soil_anisotropy(dp_vec3(0.0, 0.0, 0.0), 100.0) == 0.0);
 }
 
-// a push above the threshold lays all soil ahead, none behind, and the heap does not run under the sole
+// a push above the threshold lays all soil ahead, none behind, and the heap does not run under the
+// sole
 TEST(push_lays_ahead)
 {
     const DpHeapOptions* laws[2] = {&rest, &paper};
@@ -247,7 +253,10 @@ TEST(no_border)
 // oracle 4, to the bit: a print and its mirror, a quarter turn; an even push
 TEST(mirrored_to_the_bit)
 {
-    enum { SIDE = 64 };
+    enum
+    {
+        SIDE = 64
+    };
     for (int law = 0; law < 2; ++law) {
         Ground g[3];
         for (int m = 0; m < 3; ++m) g[m] = ground_make(SIDE, SIDE, 0.01, sand(15.0));
@@ -269,9 +278,11 @@ TEST(mirrored_to_the_bit)
         for (int step = 0; step < 8; ++step)
             for (int m = 0; m < 3; ++m) {
                 if (step == 0) ground_rings(&g[m], 6);
-                DpFootForce foot = ground_load(700.0);
+                DpFootForce  foot = ground_load(700.0);
                 const double x = 0.01 + 0.002 * step, y = 0.007;
-                foot.point = m == 0 ? dp_vec3(x, y, 0) : m == 1 ? dp_vec3(-x, y, 0) : dp_vec3(-y, x, 0);
+                foot.point = m == 0   ? dp_vec3(x, y, 0)
+                             : m == 1 ? dp_vec3(-x, y, 0)
+                                      : dp_vec3(-y, x, 0);
                 foot.force.x = m == 0 ? 90.0 : m == 1 ? -90.0 : -40.0;
                 foot.force.y = m == 2 ? 90.0 : 40.0;
                 CHECK(lay(&g[m], foot, 3e-5, law ? &paper : &rest, &height[m]) == DP_OK);
@@ -281,7 +292,8 @@ TEST(mirrored_to_the_bit)
             int unlike = 0;
             for (int j = 0; j < SIDE; ++j)
                 for (int i = 0; i < SIDE; ++i) {
-                    const int at[3] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, i * SIDE + SIDE - 1 - j};
+                    const int at[3] = {j * SIDE + i, j * SIDE + SIDE - 1 - i,
+                                       i * SIDE + SIDE - 1 - j};
                     unlike += g[m].heap[at[m]] != g[0].heap[at[0]];
                 }
             CHECK(unlike == 0);

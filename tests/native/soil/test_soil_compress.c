@@ -11,8 +11,8 @@ static DpSoil wet(void)
 }
 
 // stand `newton` on a level box for `seconds` in steps of dt; what all steps pressed
-static DpPressed stand(Ground* ground, BoxSole sole, double newton, DpContactLaw law, double seconds,
-                       double dt)
+static DpPressed stand(Ground* ground, BoxSole sole, double newton, DpContactLaw law,
+                       double seconds, double dt)
 {
     const DpFootForce foot = ground_load(newton);
     DpPressed         sum = {0};
@@ -71,7 +71,8 @@ TEST(proportional)
             if (k == 2) soil.layer_depth *= 2.0f;
             if (k == 3) soil.young_modulus *= 2.0f;
             Ground ground = ground_make(60, 40, 0.00625, soil);
-            depth[k] = stand(&ground, k == 4 ? half : shoe, k == 1 ? 800.0 : 400.0, (DpContactLaw)law, 0.3, 0.02)
+            depth[k] = stand(&ground, k == 4 ? half : shoe, k == 1 ? 800.0 : 400.0,
+                             (DpContactLaw)law, 0.3, 0.02)
                            .deepest;
             ground_free(&ground);
         }
@@ -85,7 +86,7 @@ TEST(proportional)
 // oracle 2
 TEST(frame_rate_does_not_matter)
 {
-    double volume[3];
+    double       volume[3];
     const double rate[3] = {24.0, 60.0, 240.0};
     for (int k = 0; k < 3; ++k) {
         Ground ground = ground_make(60, 40, 0.01, wet());
@@ -169,7 +170,7 @@ TEST(rises_off_pressed_ground)
 {
     Ground ground = ground_make(60, 40, 0.01, wet());
     stand(&ground, shoe, 700.0, DP_CONTACT_SOLE, 0.3, 0.01);
-    const double before = ground_sum(&ground, ground.pressure_time);
+    const double    before = ground_sum(&ground, ground.pressure_time);
     const DpPressed p = stand(&ground, shoe, 350.0, DP_CONTACT_SOLE, 0.01, 0.01);
     CHECK(p.firm == 0.0);
     CHECK_NEAR(ground_sum(&ground, ground.pressure_time) - before, 3.5, 1e-3);
@@ -224,8 +225,8 @@ TEST(cells_do_not_matter)
     const BoxSole sole = {.x = 0.0137, .y = -0.0071, .length = 0.28, .width = 0.10, .heading = 0.4};
     double        volume[3], depth[3];
     for (int k = 0; k < 3; ++k) {
-        const double cell = 0.04 / (1 << k);
-        Ground       ground = ground_make(20 << k, 20 << k, cell, wet());
+        const double    cell = 0.04 / (1 << k);
+        Ground          ground = ground_make(20 << k, 20 << k, cell, wet());
         const DpPressed p = stand(&ground, sole, 700.0, DP_CONTACT_SOLE, 0.3, 0.01);
         volume[k] = p.firm, depth[k] = p.deepest;
         ground_free(&ground);
@@ -257,16 +258,21 @@ TEST(nothing_to_press)
 // oracle 4: mirrored and turned input gives the same bits, mirrored and turned
 TEST(mirrored_to_the_bit)
 {
-    enum { SIDE = 48 };
+    enum
+    {
+        SIDE = 48
+    };
     Ground g[4];
     for (int m = 0; m < 4; ++m) g[m] = ground_make(SIDE, SIDE, 0.01, wet());
     unsigned seed = 7;
-    ground_sole(&g[0], (BoxSole){.x = 0.003, .length = 0.27, .width = 0.11, .heading = 0.3, .pitch = 0.1});
+    ground_sole(&g[0],
+                (BoxSole){.x = 0.003, .length = 0.27, .width = 0.11, .heading = 0.3, .pitch = 0.1});
     for (int j = 0; j < SIDE; ++j)
         for (int i = 0; i < SIDE; ++i) {
-            const int at[4] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, (SIDE - 1 - j) * SIDE + i,
-                               i * SIDE + SIDE - 1 - j};
-            const float rest = (float)(0.01 * check_random(&seed)), heap = (float)(0.003 * check_random(&seed));
+            const int   at[4] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, (SIDE - 1 - j) * SIDE + i,
+                                 i * SIDE + SIDE - 1 - j};
+            const float rest = (float)(0.01 * check_random(&seed)),
+                        heap = (float)(0.003 * check_random(&seed));
             for (int m = 0; m < 4; ++m) {
                 g[m].rest[at[m]] = rest, g[m].heap[at[m]] = heap;
                 g[m].imprint.cover[at[m]] = g[0].imprint.cover[at[0]];

@@ -17,7 +17,8 @@ static DpSettled settle(Ground* ground, const DpImprint* imprint, const int with
 {
     DpSoilScratch* scratch = dp_soil_scratch_create();
     DpSettled      settled;
-    CHECK(dp_soil_stabilize(&ground->patch, imprint, within, TENTH, most, scratch, &settled) == DP_OK);
+    CHECK(dp_soil_stabilize(&ground->patch, imprint, within, TENTH, most, scratch, &settled) ==
+          DP_OK);
     dp_soil_scratch_destroy(scratch);
     return settled;
 }
@@ -33,11 +34,14 @@ static double steepest(const Ground* ground)
             if (patch->heap[p] <= 2e-4f * (float)patch->cell) continue;
             for (int b = -1; b <= 1; ++b)
                 for (int a = -1; a <= 1; ++a) {
-                    if (i + a < 0 || i + a >= patch->nx || j + b < 0 || j + b >= patch->ny) continue;
+                    if (i + a < 0 || i + a >= patch->nx || j + b < 0 || j + b >= patch->ny)
+                        continue;
                     const int q = p + b * patch->row + a;
                     if (q == p || isnan(patch->rest[q])) continue;
-                    const double from = (double)patch->rest[p] - (double)patch->compression[p] + (double)patch->heap[p];
-                    const double to = (double)patch->rest[q] - (double)patch->compression[q] + (double)patch->heap[q];
+                    const double from = (double)patch->rest[p] - (double)patch->compression[p] +
+                                        (double)patch->heap[p];
+                    const double to = (double)patch->rest[q] - (double)patch->compression[q] +
+                                      (double)patch->heap[q];
                     const double far = patch->cell * (a && b ? sqrt(2.0) : 1.0);
                     most = fmax(most, atan((from - to) / far) - atan((double)patch->rest_slope[p]));
                 }
@@ -45,8 +49,9 @@ static double steepest(const Ground* ground)
     return most;
 }
 
-// One footfall: a load that rises and falls, a sole that rolls from heel to toe by `pitch`, heaps laid and kept at
-// rest in every frame; lift-off. Adds to `ledger` what sum heap cell^2 must grow by.
+// One footfall: a load that rises and falls, a sole that rolls from heel to toe by `pitch`, heaps
+// laid and kept at rest in every frame; lift-off. Adds to `ledger` what sum heap cell^2 must grow
+// by.
 static double footfall(Ground* ground, BoxSole sole, double newton, DpHeapLaw law, double* ledger)
 {
     DpSoilScratch*      scratch = dp_soil_scratch_create();
@@ -63,7 +68,8 @@ static double footfall(Ground* ground, BoxSole sole, double newton, DpHeapLaw la
         foot.force.y = 60.0 * (u - 0.5) * sin(sole.heading);
         foot.point = dp_vec3(sole.x, sole.y, 0.0);
         DpPressed p;
-        CHECK(dp_soil_compress(&ground->patch, &ground->imprint, &foot, DP_CONTACT_SOLE, 1.0 / 60, &p) == DP_OK);
+        CHECK(dp_soil_compress(&ground->patch, &ground->imprint, &foot, DP_CONTACT_SOLE, 1.0 / 60,
+                               &p) == DP_OK);
         *ledger += p.displaced - p.loose;
         if (p.area <= 0.0) continue;
         ground_rings(ground, 6);
@@ -96,7 +102,8 @@ TEST(comes_to_rest)
         CHECK(settled.i0 < 57 && settled.i1 > 63 && settled.i0 > 0);
         for (int k = 0; k < 120 * 120; ++k) {
             const int  i = k % 120, j = k / 120;
-            const bool inside = i >= settled.i0 && i < settled.i1 && j >= settled.j0 && j < settled.j1;
+            const bool inside =
+                i >= settled.i0 && i < settled.i1 && j >= settled.j0 && j < settled.j1;
             CHECK(ground.heap[k] >= 0.0f && (inside || ground.heap[k] == 0.0f));
         }
         CHECK(settle(&ground, NULL, NULL, 100).sweeps == 0);
@@ -135,7 +142,8 @@ TEST(only_loose_soil_moves)
         ground.imprint.ring[k] = ground.imprint.cover[k] > 0.0f ? 0 : DP_RING_FAR;
         if (k % 40 < 15) ground.rest[k] = NAN;
     }
-    for (int j = 10; j < 30; ++j) ground.heap[j * 40 + 20] = 0.05f, ground.heap[j * 40 + 30] = 0.01f;
+    for (int j = 10; j < 30; ++j)
+        ground.heap[j * 40 + 20] = 0.05f, ground.heap[j * 40 + 30] = 0.01f;
     const double before = ground_sum(&ground, ground.heap);
     CHECK(settle(&ground, &ground.imprint, NULL, 100000).at_rest);
     CHECK_CLOSE(ground_sum(&ground, ground.heap), before, 1e-6);
@@ -176,14 +184,18 @@ TEST(windows_do_not_matter)
 
 TEST(mirrored_to_the_bit)
 {
-    enum { SIDE = 60 };
+    enum
+    {
+        SIDE = 60
+    };
     Ground g[3];
     for (int m = 0; m < 3; ++m) g[m] = ground_make(SIDE, SIDE, 0.01, sand(15.0));
     unsigned seed = 11;
     for (int j = 0; j < SIDE; ++j)
         for (int i = 0; i < SIDE; ++i) {
-            const int at[3] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, i * SIDE + SIDE - 1 - j};
-            const float high = (float)(0.02 * check_random(&seed)), heap = (float)(0.03 * check_random(&seed));
+            const int   at[3] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, i * SIDE + SIDE - 1 - j};
+            const float high = (float)(0.02 * check_random(&seed)),
+                        heap = (float)(0.03 * check_random(&seed));
             for (int m = 0; m < 3; ++m) {
                 g[m].rest[at[m]] = high, g[m].heap[at[m]] = heap;
                 g[m].patch.soils = g[m].soil;
@@ -210,7 +222,12 @@ TEST(ledger_of_many_prints)
         Ground ground = ground_make(150, 110, 0.01, sand(15.0));
         double ledger = 0.0;
         for (int n = 0; n < 4; ++n) {
-            const BoxSole sole = {.x = -0.1 + 0.07 * n, .y = 0.05 * (n % 2), .length = 0.28, .width = 0.10, .heading = 0.3 * n, .pitch = 0.15};
+            const BoxSole sole = {.x = -0.1 + 0.07 * n,
+                                  .y = 0.05 * (n % 2),
+                                  .length = 0.28,
+                                  .width = 0.10,
+                                  .heading = 0.3 * n,
+                                  .pitch = 0.15};
             footfall(&ground, sole, 750.0, law ? DP_HEAP_PAPER : DP_HEAP_REST, &ledger);
             CHECK_CLOSE(ground_sum(&ground, ground.heap), ledger, 1e-6);
             const DpSettled settled = settle(&ground, NULL, NULL, 100000);
@@ -252,7 +269,8 @@ TEST(trends_of_soft22)
         soil.poisson_ratio = k == 3 ? 0.45f : 0.3f;
         Ground ground = ground_make(60, 60, 0.01, soil);
         double ledger = 0.0;
-        rim[k] = footfall(&ground, (BoxSole){.length = 0.2, .width = 0.2}, k == 1 ? 4482.0 : 2241.0, DP_HEAP_REST, &ledger);
+        rim[k] = footfall(&ground, (BoxSole){.length = 0.2, .width = 0.2}, k == 1 ? 4482.0 : 2241.0,
+                          DP_HEAP_REST, &ledger);
         depth[k] = ground_most(&ground, ground.compression);
         ground_free(&ground);
     }
@@ -267,14 +285,18 @@ TEST(bad_arguments)
     DpSoilScratch* scratch = dp_soil_scratch_create();
     DpSettled      settled;
     ground.patch.soils = ground.soil;
-    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, 0.0, 9, scratch, &settled) == DP_BAD_ARGUMENT);
-    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, -1, scratch, &settled) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, 0.0, 9, scratch, &settled) ==
+          DP_BAD_ARGUMENT);
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, -1, scratch, &settled) ==
+          DP_BAD_ARGUMENT);
     CHECK(dp_soil_stabilize(NULL, NULL, NULL, TENTH, 9, scratch, &settled) == DP_BAD_ARGUMENT);
     dp_alloc_fail_after(0);
-    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, 9, scratch, &settled) == DP_NO_MEMORY);
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, 9, scratch, &settled) ==
+          DP_NO_MEMORY);
     dp_alloc_fail_after(-1);
     const int none[4] = {5, 5, 0, 8};
-    CHECK(dp_soil_stabilize(&ground.patch, NULL, none, TENTH, 9, scratch, &settled) == DP_OK && settled.at_rest);
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, none, TENTH, 9, scratch, &settled) == DP_OK &&
+          settled.at_rest);
     dp_soil_scratch_destroy(scratch);
     dp_soil_scratch_destroy(NULL);
     ground_free(&ground);
