@@ -14,6 +14,7 @@ import time
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -26,8 +27,8 @@ UNIT = 0.056444  # metres in a unit of the clip
 RATE = 24  # frames a second
 MASS = 68.0  # [kg]
 SOILS = ("dry-sand", "snow", "mud")
-BORDERS = (0.42, -1.06)  # y where sand becomes snow, and snow mud; the walk goes to -y [m]
-SINK = (0.004, 0.020, 0.016)  # about how far a foot goes in, by soil [m]
+BORDERS = (0.03, -1.18)  # y where sand becomes snow, and snow mud; the walk goes to -y [m]
+SINK = (0.007, 0.033, 0.021)  # about how far a foot goes in, by soil [m]
 CELL = 0.005  # [m]
 
 
@@ -37,7 +38,7 @@ CELL = 0.005  # [m]
 def shares(x, y):
     """How much sand, snow and mud there is at places, (3, ..), sum 1; the borders wander."""
     wander = 0.10 * noise.rough(x, y, 0.9, 5) + 0.05 * x
-    soft = 0.035  # half the width of a border [m]
+    soft = 0.10  # half the width of a border [m]
     below = [np.clip(0.5 + (y + wander - at) / (2 * soft), 0.0, 1.0) for at in BORDERS]
     below = [s * s * (3 - 2 * s) for s in below]
     sand, snow = below[0], below[1] - below[0]
@@ -58,14 +59,14 @@ def height(x, y):
     phase = (y + 0.22 * x + 0.05 * noise.smooth(x, y, 0.55, 21)) / 0.085
     crest = 0.5 + 0.5 * np.cos(2 * np.pi * phase)
     ripples = 0.0042 * crest ** 1.5 * (0.65 + 0.35 * noise.smooth(x, y, 0.7, 22))
-    humps = 0.006 * noise.rough(x, y, 0.30, 31) + 0.0012 * noise.smooth(x, y, 0.03, 33)
+    humps = 0.007 * noise.rough(x, y, 0.34, 31) + 0.0016 * noise.rough(x, y, 0.06, 33, octaves=2)
     clods = 0.005 * noise.rough(x, y, 0.16, 41) + 0.0026 * noise.rough(x, y, 0.034, 43, octaves=2)
     # the snow lies on the sand and the mud, and thins out towards them
-    blanket = 0.012 * snow * snow
+    blanket = 0.020 * snow * snow
     return waves(x, y) + sand * ripples + snow * humps + mud * clods + blanket
 
 
-def _lines(low, high, step, reach, grow=1.09):
+def _lines(low, high, step, reach, grow=1.07):
     """Coordinates: even between low and high, then farther and farther apart."""
     middle = np.arange(round(low / step), round(high / step) + 1) * step
     out, width = [], step
@@ -78,7 +79,7 @@ def _lines(low, high, step, reach, grow=1.09):
 
 def add_ground(step):
     """One mesh, fine where the walk goes, coarse at the horizon, soils painted by vertex groups."""
-    x = _lines(-0.45, 0.42, step, 22.0)
+    x = _lines(-0.29, 0.29, step, 22.0)
     y = _lines(-2.95, 1.85, step, 22.0)
     x, y = np.meshgrid(x, y)
     points = np.stack([x, y, height(x, y)], axis=-1).reshape(-1, 3).astype(np.float32)
@@ -176,7 +177,6 @@ def follow_ground(walker):
 
 
 def aim(obj, target):
-    from mathutils import Vector
     way = Vector(target) - obj.location
     obj.rotation_euler = way.to_track_quat("-Z", "Y").to_euler()
 
@@ -190,7 +190,7 @@ def add_camera(name, at, target, lens, aperture=None):
     aim(obj, target)
     if aperture:
         data.dof.use_dof = True
-        data.dof.focus_distance = (obj.location - __import__("mathutils").Vector(target)).length
+        data.dof.focus_distance = (obj.location - Vector(target)).length
         data.dof.aperture_fstop = aperture
     return obj
 
@@ -200,7 +200,7 @@ def add_sun():
     data.energy, data.angle, data.color = 3.6, math.radians(1.2), (1.0, 0.80, 0.58)
     obj = bpy.data.objects.new("Sun", data)
     bpy.context.scene.collection.objects.link(obj)
-    obj.location = (-4.0, -2.2, 1.75)
+    obj.location = (-3.2, -2.6, 1.50)
     aim(obj, (0.0, 0.0, 0.0))
     return obj
 
@@ -208,15 +208,15 @@ def add_sun():
 def light_and_cameras(scene):
     add_sun()
     materials.sky(scene)
-    still = add_camera("Still", (0.72, 0.62, 0.80), (-0.06, -0.98, 0.06), 30.0)
+    still = add_camera("Still", (0.50, 1.16, 0.72), (-0.06, -0.62, 0.03), 31.0)
     film = add_camera("Film", (1.55, 0.0, 0.62), (0.0, 0.0, 0.30), 32.0)
     # the film's camera goes along with the walker, evenly
     span = scene.frame_end - scene.frame_start
     for frame in (scene.frame_start, scene.frame_end):
         share = (frame - scene.frame_start) / span
         y = 1.15 + share * (-2.15 - 1.15)
-        film.location = (1.75, y + 0.62, 0.72)
-        aim(film, (-0.05, y - 0.02, 0.33))
+        film.location = (1.22, y - 1.00, 0.86)
+        aim(film, (-0.03, y + 0.24, 0.19))
         film.keyframe_insert("location", frame=frame)
     for curve in film.animation_data.action.fcurves:
         for key in curve.keyframe_points:

@@ -78,44 +78,43 @@ def ground():
     pressed = n.between(baked["Blue"], 0.002, DEEP)
     heap = n.between(n.math("ADD", baked["Red"], baked["Blue"]), 0.0015, HIGH)
 
-    lumps = n.noise(at, 28.0, 3.0)  # a few centimetres
-    grain = n.noise(at, 420.0, 2.0, 0.6)  # a few millimetres
-    clods = n.noise(at, 95.0, 2.0, 0.55)  # a centimetre
-    wide = n.noise(at, 3.1, 2.0)
-    # the border between soils is frayed
-    fray = n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 0.9)
-    snow = n.between(n.math("ADD", shares["Green"], fray), 0.36, 0.64)
-    mud = n.between(n.math("ADD", shares["Blue"], fray), 0.36, 0.64)
+    lumps = n.noise(at, 26.0, 3.0, 0.6)  # a few centimetres
+    grain = n.noise(at, 420.0, 1.0, 0.6)  # a few millimetres
+    clods = n.noise(at, 95.0, 1.0, 0.55)  # a centimetre
+    wide = n.noise(at, 2.3, 2.0)
+    # the border between soils is frayed, the thin snow there lets the ground through
+    fray = n.math("ADD", n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 1.5),
+                  n.math("MULTIPLY", n.math("SUBTRACT", grain, 0.5), 0.8))
+    snow = n.between(n.math("ADD", shares["Green"], fray), 0.38, 0.62)
+    mud = n.between(n.math("ADD", shares["Blue"], fray), 0.38, 0.62)
 
     # colours, dry and pressed
     spot = n.between(grain, 0.35, 0.7)
-    sand_dry = n.mix(spot, (0.40, 0.255, 0.125, 1), (0.60, 0.42, 0.235, 1))
-    sand_dry = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), sand_dry, (0.36, 0.22, 0.105, 1))
-    sand = n.mix(n.math("MULTIPLY", pressed, 0.45), sand_dry, (0.22, 0.125, 0.058, 1))
-    snow_dry = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.5), (0.84, 0.87, 0.92, 1),
-                     (0.76, 0.81, 0.89, 1))
-    snow_at = n.mix(n.math("MULTIPLY", pressed, 0.55), snow_dry, (0.56, 0.66, 0.80, 1))
-    mud_dry = n.mix(n.between(clods, 0.35, 0.7), (0.075, 0.045, 0.027, 1), (0.135, 0.085, 0.052, 1))
-    mud_dry = n.mix(n.between(wide, 0.40, 0.65, 0.0, 0.5), mud_dry, (0.060, 0.036, 0.021, 1))
-    mud_at = n.mix(n.math("MULTIPLY", pressed, 0.75), mud_dry, (0.030, 0.017, 0.010, 1))
+    sand_dry = n.mix(spot, (0.42, 0.27, 0.135, 1), (0.62, 0.44, 0.25, 1))
+    sand_dry = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), sand_dry, (0.38, 0.235, 0.115, 1))
+    sand = n.mix(n.math("MULTIPLY", pressed, 0.5), sand_dry, (0.25, 0.145, 0.068, 1))
+    snow_dry = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.5), (0.80, 0.82, 0.86, 1),
+                     (0.72, 0.76, 0.82, 1))
+    snow_at = n.mix(n.math("MULTIPLY", pressed, 0.5), snow_dry, (0.62, 0.68, 0.75, 1))
+    mud_dry = n.mix(n.between(clods, 0.35, 0.7), (0.085, 0.051, 0.030, 1), (0.150, 0.095, 0.057, 1))
+    mud_dry = n.mix(n.between(wide, 0.42, 0.66, 0.0, 0.45), mud_dry, (0.066, 0.040, 0.023, 1))
+    mud_at = n.mix(n.math("MULTIPLY", pressed, 0.7), mud_dry, (0.040, 0.023, 0.013, 1))
     colour = n.mix(mud, n.mix(snow, sand, snow_at), mud_at)
 
-    # roughness: mud is wet, wetter where it was pressed and in patches
-    wet = n.math("MAXIMUM", n.math("MULTIPLY", pressed, 0.8), n.between(wide, 0.48, 0.62, 0.1, 0.7))
-    mud_rough = n.between(n.math("ADD", wet, n.math("MULTIPLY", clods, 0.15)), 0.1, 0.9, 0.62, 0.20)
+    # roughness: mud is damp, wet where it was pressed
+    wet = n.math("MAXIMUM", pressed, n.between(wide, 0.50, 0.66, 0.0, 0.35))
+    mud_rough = n.between(wet, 0.0, 1.0, 0.75, 0.36)
     roughness = n.mix(mud, n.mix(snow, 0.95, 0.60), mud_rough)
-    specular = n.mix(mud, n.mix(snow, 0.12, 0.35), 0.5)
+    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.22, 0.50))
 
-    # heights too small for the mesh [m]
-    crumbs = n.math("MULTIPLY", heap, 0.6)
-    sand_bump = n.math("ADD", n.math("MULTIPLY", grain, 0.0011),
-                       n.math("MULTIPLY", clods, n.math("ADD", 0.0012, n.math("MULTIPLY", crumbs, 0.004))))
-    snow_bump = n.math("ADD", n.math("MULTIPLY", grain, 0.0007),
-                       n.math("MULTIPLY", clods, n.math("ADD", 0.0014, n.math("MULTIPLY", crumbs, 0.007))))
-    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.65))
-    mud_bump = n.math("MULTIPLY", n.math("ADD", n.math("MULTIPLY", clods, 0.0065),
-                                         n.math("MULTIPLY", grain, 0.0008)), flat)
-    height = n.mix(mud, n.mix(snow, sand_bump, snow_bump), mud_bump)
+    # heights too small for the mesh [m]: how high the grain, the clods and the lumps are, by soil
+    crumbs = n.math("MULTIPLY", heap, 0.0035)
+    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.6))
+    grain_high = n.math("MULTIPLY", n.mix(shares["Green"], 0.0011, 0.0004), flat)
+    clod_high = n.math("ADD", n.mix(shares["Blue"], n.mix(shares["Green"], 0.0010, 0.0018), 0.0060),
+                       crumbs)
+    height = n.math("ADD", n.math("MULTIPLY", grain, grain_high),
+                    n.math("MULTIPLY", clods, n.math("MULTIPLY", clod_high, flat)))
     bump = n.new("ShaderNodeBump", {"Height": height, "Distance": 1.0, "Strength": 0.9}).outputs[0]
 
     shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": roughness,
@@ -171,12 +170,13 @@ def sky(scene, strength=0.55):
     ramp = tree.nodes.new("ShaderNodeValToRGB")
     light = tree.nodes.new("ShaderNodeBackground")
     out = tree.nodes.new("ShaderNodeOutputWorld")
-    ramp.color_ramp.elements[0].color = (0.86, 0.74, 0.62, 1)
-    ramp.color_ramp.elements[1].color = (0.26, 0.42, 0.70, 1)
-    ramp.color_ramp.elements[1].position = 0.55
+    ramp.color_ramp.elements[0].color = (0.93, 0.76, 0.58, 1)
+    ramp.color_ramp.elements[1].color = (0.40, 0.50, 0.66, 1)
+    ramp.color_ramp.elements[1].position = 0.38
     light.inputs["Strength"].default_value = strength
     tree.links.new(way.outputs["Generated"], split.inputs[0])
     tree.links.new(split.outputs["Z"], ramp.inputs[0])
     tree.links.new(ramp.outputs[0], light.inputs["Color"])
     tree.links.new(light.outputs[0], out.inputs["Surface"])
+    world.cycles.sampling_method = "NONE"  # smooth enough to be met by chance
     scene.world = world
