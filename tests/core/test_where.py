@@ -1,0 +1,116 @@
+"""Where an equation lives, and who may know whom, is found by scripts that must tell the truth."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+
+
+def run(name, *words):
+    return subprocess.run([sys.executable, str(SCRIPTS / name), *map(str, words)],
+                          capture_output=True, text=True, cwd="/")
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A small tree with known tags."""
+    def put(path, text):
+        file = tmp_path / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    put("native/soil/soil.h", "// heaps. TRAIL (9)(10), (12)-(14)\nint f(void);\n")
+    put("native/soil/soil_press.c", '#include "soil/soil.h"\n// TRAIL (10) is below\n'
+        "int f(void) { return 1; }  // TRAIL (10)\nint g = 2;  // SOFT22 (10), TRAIL 4.2.1\n")
+    put("native/python/py_soil.c", '{"f", f, "TRAIL (10)"},  // TRAIL (10)\n')
+    put("tests/native/soil/test_soil_press.c", "// TRAIL (10)\n")
+    put("tests/reference/soil.py", "depth = 1  # TRAIL (10)\n")
+    put("addon/desire_path/soil.py", "depth = 1  # TRAIL (10)\n")
+    return tmp_path
+
+
+def test_where_finds_what_is_there(tree):
+    told = run("where", "--root", tree, 10).stdout
+    sections = re.split(r"\n  (\w+): .*", told)
+    found = dict(zip(sections[1::2], sections[2::2]))
+    assert told.startswith("TRAIL (10)\n")
+    assert "native/soil/soil_press.c:3" in found["computed"] and found["computed"].count(":") == 1
+    assert "native/soil/soil.h:1" in found["told"] and "soil_press.c:2" in found["told"]
+    assert "addon/desire_path/soil.py:1" in found["python"] and "py_soil.c:1" in found["python"]
+    assert "tests/native/soil/test_soil_press.c:1" in found["tested"]
+    assert "tests/reference/soil.py:1" in found["twin"]
+
+
+@pytest.mark.parametrize("words, line", [
+    ((13,), "soil.h:1"), ((12,), "soil.h:1"), (("(14)",), "soil.h:1"), ((9,), "soil.h:1"),
+    (("SOFT22", 10), "soil_press.c:4"), (("soft22", "10"), "soil_press.c:4"),
+    (("4.2.1",), "soil_press.c:4"), (("TRAIL", "4.2.1"), "soil_press.c:4"),
+])
+def test_where_understands_ranges_papers_and_sections(tree, words, line):
+    told = run("where", "--root", tree, *words)
+    assert told.returncode == 0 and line in told.stdout
+
+
+def test_where_says_what_is_not_there(tree):
+    told = run("where", "--root", tree, 11)
+    assert told.returncode == 1 and told.stdout == ""
+    assert told.stderr == "No line is tagged TRAIL (11): scripts/where lists all there are.\n"
+    told = run("where", "--root", tree, "SOFT22", 9)
+    assert told.returncode == 1 and "there is TRAIL (9)" in told.stderr
+    assert run("where", "--root", tree, "nonsense").returncode == 2
+
+
+def test_where_without_words_is_a_table(tree):
+    lines = run("where", "--root", tree).stdout.splitlines()
+    assert [line[:16].strip() for line in lines[1:]] == [
+        "TRAIL (9)", "TRAIL (10)", "TRAIL (12)", "TRAIL (13)", "TRAIL (14)", "TRAIL 4.2.1",
+        "SOFT22 (10)"]
+    assert "soil/soil_press.c:3" in lines[2]
+
+
+@pytest.mark.parametrize("number", [3, 4, 9, 10, 11, 12, 13, 14, 15, 16, 17])
+def test_every_equation_is_on_the_line_that_computes_it(number):
+    told = run("where", number).stdout
+    assert re.search(r"\n  computed: .*\n    native/\w+/\w+\.c:\d+ ", told), told
+
+
+def test_rooms_hold(tmp_path):
+    told = run("rooms")
+    assert told.returncode == 0, told.stderr
+    assert "maps       knows base" in told.stdout
+
+
+@pytest.mark.parametrize("path, text, words", [
+    ("native/soil/a.c", '#include "walker/walker.h"\n', "soil may not know walker"),
+    ("native/base/a.c", '#include "soil/soil.h"\n', "base may not know soil"),
+    ("native/sim/a.c", '#include "soil/soil_heaps.h"\n', "by its door, soil/soil.h"),
+    ("native/sim/a.c", '#include "python/door.h"\n', "sim may not know python"),
+    ("native/soil/a.c", '#include "soil.h"\n', "by its room"),
+    ("native/attic/a.c", '#include "base/vec.h"\n', "does not know"),
+    ("addon/desire_path/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
+    ("addon/desire_path/sim.py", "from .blender import axes\n", "does not know blender/"),
+    ("addon/desire_path/sim.py", "from desire_path import maps\n", "import relatively"),
+    ("addon/desire_path/blender/a.py", "from .. import _native\n", "leave _native"),
+    ("addon/desire_path/blender/a.py", "import threading\n", "threading stays out"),
+])
+def test_rooms_fall(tmp_path, path, text, words):
+    file = tmp_path / path
+    file.parent.mkdir(parents=True)
+    file.write_text(text)
+    told = run("rooms", "--quiet", "--root", tmp_path)
+    assert told.returncode == 1 and words in told.stderr and path in told.stderr
+
+
+def test_every_script_helps():
+    scripts = sorted(path for path in SCRIPTS.iterdir() if path.is_file())
+    assert {"build", "test", "format", "package", "where", "rooms", "bench"} <= {
+        path.name for path in scripts}
+    for path in scripts:
+        assert os.access(path, os.X_OK), path
+        told = subprocess.run([str(path), "--help"], capture_output=True, text=True, cwd="/")
+        assert told.returncode == 0 and len(told.stdout) > 80, (path, told.stderr)
