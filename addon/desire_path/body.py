@@ -16,6 +16,7 @@ ANKLE_HEIGHT = 0.039 / 0.152  # ankle over the sole, in foot lengths; Winter, fi
 TOE_SHARE = (0.25, 0.75)  # plausible ball-to-tip in shares of ankle-to-ball; else TOE_GUESS
 TOE_GUESS = 0.42
 FOOT_TO_LEG = 0.22  # a foot bone longer than this share of the leg ends at the tip, not at the ball
+BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
 STIFF = np.radians(3.0)  # a toe bone that turns less than this against its foot never bends
 FLAT_SPEED = 0.25  # a flat foot moves slower than this [m/s]
 FLAT_RISE = 0.12  # rises and falls slower [m/s]
@@ -235,8 +236,18 @@ class _Foot:
             if apart <= 1e-4 * max(leg, 1e-9):
                 raise DesirePathError(f"Bone {foot.foot} has no length up to {self.toe}: choose "
                                       "another toe bone or none.")
-        self.ends_at_tip = not self.toe and length > FOOT_TO_LEG * leg > 0
         self.leg = leg
+        self.tip = None  # a far "toe" bone: its head is the tip
+        if self.toe and self._far():
+            self.tip, self.toe = self.toe, None
+        self.ends_at_tip = not self.toe and (self.tip or length > FOOT_TO_LEG * leg > 0)
+
+    def _far(self):
+        """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
+        ankle, ball, tip = (self.bones.rest_point(n, a) for n, a in (
+            (self.slots.foot, 0.0), (self.toe, 0.0), (self.toe, 1.0)))
+        reach = np.linalg.norm(ball - ankle)
+        return reach > FOOT_TO_LEG * self.leg > 0 and np.linalg.norm(tip - ball) < 0.35 * reach
 
     def joints(self, rest=False):
         """ankle, ball, tip: (T, 3) each, or (3,) in the rest pose."""
@@ -247,6 +258,7 @@ class _Foot:
             return ankle, at(toe), at(toe, 1.0)
         if self.ends_at_tip:
             share = 1.0 / (1.0 + TOE_GUESS)
+            tail = at(self.tip) if self.tip else tail
             return ankle, ankle + share * (tail - ankle), tail
         return ankle, tail, tail + TOE_GUESS * (tail - ankle)
 
@@ -368,7 +380,8 @@ def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, warning
         tip_x = shape.ball + float(soles[1].vertices[:, 0].max())
     length = tip_x - heel_x
     toe_length = tip_x - shape.ball
-    points = [(0, HEEL, (heel_x + 0.06 * length, 0.0, 0.0)), (0, BALL, (shape.ball, 0.0, 0.0)),
+    points = [(0, HEEL, (heel_x + 0.09 * length, 0.0, 0.0)),
+              (0, BALL, (shape.ball - BALL_PAD * length, 0.0, 0.0)),
               (1, BALL, (0.0, 0.0, 0.0)), (1, TIP, (toe_length - 0.04 * length, 0.0, 0.0))]
     poses = [np.concatenate([at, quaternion(turn)], axis=1)
              for at, turn in ((heel_at, heel_turn), (toe_at, toe_turn))]

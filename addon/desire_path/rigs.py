@@ -389,10 +389,11 @@ def build(skeleton, feet, hips=None, *, warnings=()):
             end = ((bones.names[top], 1.0),)
         if end and at >= 0 and end[0][0] == bones.names[at]:
             end = ()
-        legs = [np.linalg.norm(bones.head[bones.names.index(hip[0][0])]
+        legs = [np.linalg.norm(bones.head[bones.names.index(f.thigh or hip[0][0])]
                                - bones.head[bones.names.index(f.foot)]) for f in feet]
         lift = TRUNK[1] * TRUNK_TO_LEG * float(np.mean(legs))
-        segments.append(Segment("trunk", *TRUNK, hip, end, 0.0 if end else lift))
+        low = hip if end or len(tops) < len(feet) else tops  # straight up from between the hip joints
+        segments.append(Segment("trunk", *TRUNK, low, end, 0.0 if end else lift))
     scale = 0.2 / len(feet) / (UPPER[0] + LOWER[0] + SOLE[0]) if many else 1.0
     for foot in feet:
         top = ((foot.thigh, 0.0),) if foot.thigh else hip

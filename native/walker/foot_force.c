@@ -21,7 +21,8 @@
 #define LATCH_TIME (1.0 / 30.0)  // v0 is measured over this before touch-down      [s]
 #define LEAST_PULL 0.2           // a_z + g counts as no less than this share of g   [-]
 #define STILL 0.1                // accelerations below this share of g are near rest [-]
-#define SOLE_LIFT 0.04           // a point this far above its part's lowest carries nothing [m]
+#define SOLE_LIFT 0.04           // a point this far above its limb's lowest carries nothing [m]
+#define TIP_CAPACITY 0.25        // toes carry a quarter of what heel or ball does      [-]
 #define STEP_SHORTEST 0.15       // touch-downs closer than this are one step         [s]
 
 DpLoadOptions dp_load_options_default(void)
@@ -40,83 +41,107 @@ DpLoadOptions dp_load_options_default(void)
     return options;
 }
 
-// one walker: its limbs and parts in a row, and what they do over the clip
+// one walker: its limbs and their contact points in a row, and what they do over the clip
 typedef struct Load
 {
     const DpGait*        gait;
     const DpLoadOptions* options;
     const double*        ground;
     double               rate;
-    int                  walker, limbs, parts;
+    int                  walker, limbs, points;
     int*                 limb;          // index of each limb                  (limbs)
-    int*                 part;          // index of each part, limb by limb    (parts)
-    int*                 first;         // first part of each limb             (limbs + 1)
+    int*                 point;         // index of each point, limb by limb   (points)
+    int*                 first;         // first point of each limb            (limbs + 1)
+    double*              capacity;      // how much of a load suits each point (points)
+    DpVec3*              place;         // the points in the world, z on the ground (points, T)
     uint8_t*             limb_on;       //                                     (limbs, T)
-    uint8_t*             part_on;       //                                     (parts, T)
+    uint8_t*             point_on;      //                                     (points, T)
     double*              limb_weight;   // W_i of limbs                        (limbs, T)
-    double*              part_weight;   // and of parts within their limb      (parts, T)
+    double*              point_weight;  // and of points within their limb     (points, T)
     double*              accel;         // a_com                               (3, T)
     DpVec3*              landing;       // v0 latched for the impulse          (limbs)
     int*                 landed;        // its sample; -1 = never              (limbs)
-    double*              share;         // scratch                             (limbs + parts)
-    DpVec3*              at;            // centres of contact                  (limbs + parts)
 } Load;
 
 static void close_load(Load* l)
 {
-    dp_free(l->limb), dp_free(l->part), dp_free(l->first), dp_free(l->limb_on);
-    dp_free(l->part_on), dp_free(l->limb_weight), dp_free(l->part_weight), dp_free(l->accel);
-    dp_free(l->landing), dp_free(l->landed), dp_free(l->share), dp_free(l->at);
+    dp_free(l->limb), dp_free(l->point), dp_free(l->first), dp_free(l->capacity), dp_free(l->place);
+    dp_free(l->limb_on), dp_free(l->point_on), dp_free(l->limb_weight), dp_free(l->point_weight);
+    dp_free(l->accel), dp_free(l->landing), dp_free(l->landed);
 }
 
 static bool open_load(Load* l)
 {
-    const size_t limbs = (size_t)l->gait->limbs, parts = (size_t)l->gait->parts;
+    const size_t limbs = (size_t)l->gait->limbs, points = (size_t)l->gait->points;
     const size_t times = (size_t)l->gait->times;
     l->limb = dp_alloc(limbs, sizeof(int));
-    l->part = dp_alloc(parts, sizeof(int));
+    l->point = dp_alloc(points, sizeof(int));
     l->first = dp_alloc(limbs + 1, sizeof(int));
+    l->capacity = dp_alloc(points, sizeof(double));
+    l->place = dp_alloc(points * times, sizeof(DpVec3));
     l->limb_on = dp_alloc(limbs * times, 1);
-    l->part_on = dp_alloc(parts * times, 1);
+    l->point_on = dp_alloc(points * times, 1);
     l->limb_weight = dp_alloc(limbs * times, sizeof(double));
-    l->part_weight = dp_alloc(parts * times, sizeof(double));
+    l->point_weight = dp_alloc(points * times, sizeof(double));
     l->accel = dp_alloc(3 * times, sizeof(double));
     l->landing = dp_alloc(limbs, sizeof(DpVec3));
     l->landed = dp_alloc(limbs, sizeof(int));
-    l->share = dp_alloc(limbs + parts, sizeof(double));
-    l->at = dp_alloc(limbs + parts, sizeof(DpVec3));
-    return l->limb && l->part && l->first && l->limb_on && l->part_on && l->limb_weight &&
-           l->part_weight && l->accel && l->landing && l->landed && l->share && l->at;
+    return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on && l->point_on &&
+           l->limb_weight && l->point_weight && l->accel && l->landing && l->landed;
+}
+
+// Which points of a limb carry: those of touching parts, near the height of the limb's lowest one.
+static void gather_points(Load* l, int i, const uint8_t* touching)
+{
+    const DpGait* gait = l->gait;
+    const size_t  times = (size_t)gait->times;
+    int           in_role[3] = {0};
+    for (int k = l->first[i]; k < l->first[i + 1]; ++k) ++in_role[gait->point_role[l->point[k]]];
+    for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
+        const int role = gait->point_role[l->point[k]];
+        l->capacity[k] = (role == DP_POINT_TIP ? TIP_CAPACITY : 1.0) / (double)in_role[role];
+    }
+    for (size_t t = 0; t < times; ++t) {
+        double lowest = INFINITY;
+        for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
+            const int    part = gait->point_part[l->point[k]];
+            const double below = l->ground[(size_t)l->point[k] * times + t];
+            DpVec3*      at = l->place + (size_t)k * times + t;
+            *at = dp_place(walker_pose(gait, part, (int)t), walker_point(gait, l->point[k]));
+            l->point_on[(size_t)k * times + t] = touching[(size_t)part * times + t] != 0;
+            l->point_weight[(size_t)k * times + t] = at->z - (isfinite(below) ? below : 0.0);
+            if (l->point_on[(size_t)k * times + t])
+                lowest = fmin(lowest, l->point_weight[(size_t)k * times + t]);
+            if (isfinite(below)) at->z = below;
+        }
+        for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
+            uint8_t* on = l->point_on + (size_t)k * times + t;
+            *on = *on && l->point_weight[(size_t)k * times + t] < lowest + SOLE_LIFT;
+            l->limb_on[(size_t)i * times + t] |= *on;
+        }
+    }
 }
 
 static void gather(Load* l, int walker, const uint8_t* touching)
 {
     const DpGait* gait = l->gait;
     const size_t  times = (size_t)gait->times;
-    l->walker = walker, l->limbs = 0, l->parts = 0;
+    l->walker = walker, l->limbs = 0, l->points = 0;
     memset(l->limb_on, 0, (size_t)gait->limbs * times);
     for (int limb = 0; limb < gait->limbs; ++limb) {
         if (gait->limb_walker[limb] != walker) continue;
-        l->first[l->limbs] = l->parts;
-        for (int part = 0; part < gait->parts; ++part) {
-            if (gait->part_limb[part] != limb) continue;
-            uint8_t*       mine = l->part_on + (size_t)l->parts * times;
-            const uint8_t* on = touching + (size_t)part * times;
-            for (size_t t = 0; t < times; ++t) {
-                mine[t] = on[t] != 0;
-                l->limb_on[(size_t)l->limbs * times + t] |= mine[t];
-            }
-            l->part[l->parts++] = part;
-        }
-        l->limb[l->limbs++] = limb;
-    }
-    l->first[l->limbs] = l->parts;
-    walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, l->limb_weight);
-    for (int i = 0; i < l->limbs; ++i) {
+        const int i = l->limbs++;
+        l->limb[i] = limb;
+        l->first[i] = l->points;
+        for (int k = 0; k < gait->points; ++k)
+            if (gait->part_limb[gait->point_part[k]] == limb) l->point[l->points++] = k;
+        l->first[i + 1] = l->points;
+        gather_points(l, i, touching);
         const size_t row = (size_t)l->first[i] * times;
-        walker_ramps(l->part_on + row, l->first[i + 1] - l->first[i], gait->times, l->rate, l->options,
-                     l->part_weight + row);
+        walker_ramps(l->point_on + row, l->first[i + 1] - l->first[i], gait->times, l->rate, l->options,
+                     true, l->point_weight + row);
     }
+    walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, false, l->limb_weight);
 }
 
 // ---- how fast the walker steps ------------------------------------------------------------------
@@ -204,32 +229,7 @@ static DpStatus accelerate(Load* l)
     return DP_OK;
 }
 
-// ---- where the load goes in ------------------------------------------------------------------------
-
-// centre of a part's contact: its points, those that hang over the lowest one counting less
-static DpVec3 part_centre(const Load* l, int part, int t)
-{
-    const DpGait* gait = l->gait;
-    const DpPose  pose = walker_pose(gait, part, t);
-    double        lowest = INFINITY, sum = 0.0;
-    DpVec3        centre = {0};
-    for (int pass = 0; pass < 2; ++pass)
-        for (int k = 0; k < gait->points; ++k) {
-            if (gait->point_part[k] != part) continue;
-            DpVec3       at = dp_place(pose, walker_point(gait, k));
-            const double below = l->ground[(size_t)k * (size_t)gait->times + (size_t)t];
-            const double d = isfinite(below) ? at.z - below : at.z;
-            if (pass == 0) {
-                lowest = fmin(lowest, d);
-                continue;
-            }
-            const double weight = dp_smoothstep(1.0 - (d - lowest) / SOLE_LIFT);
-            if (isfinite(below)) at.z = below;
-            centre = dp_add(centre, dp_scale(at, weight));
-            sum += weight;
-        }
-    return sum > 0.0 ? dp_scale(centre, 1.0 / sum) : pose.at;
-}
+// ---- landing ---------------------------------------------------------------------------------------
 
 // the velocity of the mass centre at a sample, from the parabola through the last 1/30 s
 static DpVec3 latched_velocity(const Load* l, int t)
@@ -269,56 +269,89 @@ static DpVec3 landing_push(const Load* l, int limb, int t)
     return dp_scale(l->landing[limb], shape / tau);
 }
 
-// trust in the ramps: whole while somebody changes feet or is accelerated, none at rest
-static double trust(const Load* l, const double* weight, const int* row, int count, int t, DpVec3 a)
+// ---- sharing ---------------------------------------------------------------------------------------
+
+enum { MOST = 64 };  // limbs of a walker, or points of a limb, that share at one time
+
+// those among which a load is shared at one sample
+typedef struct Supports
 {
-    double change = dp_smoothstep(dp_length(a) / (STILL * DP_GRAVITY));
-    for (int i = 0; i < count; ++i)
-        change = fmax(change, 1.0 - weight[(size_t)row[i] * (size_t)l->gait->times + (size_t)t]);
+    int    count;
+    int    index[MOST];
+    DpVec3 at[MOST];      // centre of contact
+    double weight[MOST];  // W_i
+    double share[MOST];   // in: what the ramps give, not yet summing to 1; out: a_i
+} Supports;
+
+// trust in the ramps: whole while somebody changes feet or is accelerated, none at rest
+static double trust(const Load* l, const Supports* s, DpVec3 accel)
+{
+    double change = dp_smoothstep(dp_length(accel) / (STILL * DP_GRAVITY));
+    for (int i = 0; i < s->count; ++i) change = fmax(change, 1.0 - s->weight[i]);
     return l->options->ramp_trust * change;
 }
 
-// share a load among `count` supports, rows `row` of weight, centres `at`, so that it acts at target
-static void share_out(const Load* l, const double* weight, const int* row, int count, int t,
-                      DpVec3 accel, DpVec3 target, const DpVec3* at, double* share)
+static void share_out(const Load* l, Supports* s, DpVec3 accel, DpVec3 target)
 {
     const bool by_ramps = l->options->model == DP_LOAD_INERTIA;
     double     sum = 0.0;
-    for (int i = 0; i < count; ++i) {
-        share[i] = by_ramps ? weight[(size_t)row[i] * (size_t)l->gait->times + (size_t)t] : 1.0;
-        sum += share[i];
+    for (int i = 0; i < s->count; ++i) {
+        if (!by_ramps) s->share[i] = 1.0;
+        sum += s->share[i];
     }
-    for (int i = 0; i < count; ++i) share[i] /= sum;
+    for (int i = 0; i < s->count; ++i) s->share[i] /= sum;
     if (by_ramps)
-        walker_share(share, at, count, target, trust(l, weight, row, count, t, accel),
-                     l->options->reach);
-    else if (count == 2) {
-        const DpVec3 flat[2] = {dp_vec3(at[0].x, at[0].y, 0.0), dp_vec3(at[1].x, at[1].y, 0.0)};
-        share[1] = dp_foot_share(dp_vec3(target.x, target.y, 0.0), flat[0], flat[1]);  // SOFT22 (5)
-        share[0] = 1.0 - share[1];  // SOFT22 (4)
+        walker_share(s->share, s->at, s->count, target, trust(l, s, accel), l->options->reach);
+    else if (s->count == 2) {
+        const DpVec3 a = dp_vec3(s->at[0].x, s->at[0].y, 0.0), b = dp_vec3(s->at[1].x, s->at[1].y, 0.0);
+        s->share[1] = dp_foot_share(dp_vec3(target.x, target.y, 0.0), a, b);  // SOFT22 (5)
+        s->share[0] = 1.0 - s->share[1];                                      // SOFT22 (4)
     } else
-        walker_share(share, at, count, target, 0.0, l->options->reach);
+        walker_share(s->share, s->at, s->count, target, 0.0, l->options->reach);
 }
 
-enum { MOST = 64 };  // supports of one walker, or of one limb, that share at one time
-
-// one limb's load to its touching parts
-static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, DpVec3 target,
-                       const DpVec3* centre, double* out_force, double* out_point)
+static void add_support(Supports* s, int index, DpVec3 at, double weight, double capacity)
 {
-    const size_t times = (size_t)l->gait->times;
-    int          row[MOST], count = 0;
-    DpVec3       at[MOST];
-    double       share[MOST];
-    for (int p = l->first[i]; p < l->first[i + 1] && count < MOST; ++p)
-        if (l->part_on[(size_t)p * times + (size_t)t]) at[count] = centre[p], row[count++] = p;
-    share_out(l, l->part_weight, row, count, t, accel, target, at, share);
-    for (int k = 0; k < count; ++k) {
-        const size_t to = 3 * ((size_t)l->part[row[k]] * times + (size_t)t);
-        out_force[to] = force.x * share[k];
-        out_force[to + 1] = force.y * share[k];
-        out_force[to + 2] = force.z * share[k];
-        out_point[to] = at[k].x, out_point[to + 1] = at[k].y, out_point[to + 2] = at[k].z;
+    if (s->count == MOST) return;
+    s->index[s->count] = index, s->at[s->count] = at, s->weight[s->count] = weight;
+    s->share[s->count++] = weight * capacity;
+}
+
+static void limb_points(const Load* l, Supports* s, int i, int t)
+{
+    s->count = 0;
+    for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
+        const size_t at = (size_t)k * (size_t)l->gait->times + (size_t)t;
+        if (l->point_on[at]) add_support(s, k, l->place[at], l->point_weight[at], l->capacity[k]);
+    }
+}
+
+// one limb's load to its points, and theirs to the parts that carry them
+static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, DpVec3 target,
+                       double* out_force, double* out_point)
+{
+    const DpGait* gait = l->gait;
+    Supports      s;
+    limb_points(l, &s, i, t);
+    share_out(l, &s, accel, target);
+    for (int k = 0; k < s.count; ++k) {
+        const int part = gait->point_part[l->point[s.index[k]]];
+        double    sum = 0.0, even = 0.0;
+        DpVec3    centre = {0}, middle = {0};
+        bool      done = false;
+        for (int j = 0; j < s.count; ++j) {
+            if (gait->point_part[l->point[s.index[j]]] != part) continue;
+            done = done || j < k;
+            sum += s.share[j], even += 1.0;
+            centre = dp_add(centre, dp_scale(s.at[j], s.share[j]));
+            middle = dp_add(middle, s.at[j]);
+        }
+        if (done) continue;
+        centre = sum > 1e-9 ? dp_scale(centre, 1.0 / sum) : dp_scale(middle, 1.0 / even);
+        double* f = out_force + 3 * ((size_t)part * (size_t)gait->times + (size_t)t);
+        double* p = out_point + 3 * ((size_t)part * (size_t)gait->times + (size_t)t);
+        f[0] = force.x * sum, f[1] = force.y * sum, f[2] = force.z * sum;
+        p[0] = centre.x, p[1] = centre.y, p[2] = centre.z;
     }
 }
 
@@ -330,44 +363,41 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     const DpVec3  com = walker_com(l->gait, l->walker, t);
     const double* a = l->accel + t;
     const DpVec3  accel = inertia ? dp_vec3(a[0], a[times], a[2 * times]) : dp_vec3(0.0, 0.0, 0.0);
-    int           row[MOST], count = 0;
-    DpVec3        at[MOST], middle = {0};
-    double        share[MOST];
-    DpVec3*       centre = l->at + l->limbs;
+    Supports      limbs = {.count = 0}, points;
+    double        low = 0.0;
     for (int i = 0; i < l->limbs; ++i) {
+        const size_t at = (size_t)i * times + (size_t)t;
         if (begins(l->limb_on + (size_t)i * times, t)) {
             l->landed[i] = t;
             l->landing[i] = latched_velocity(l, t - 1);
         }
-        if (!l->limb_on[(size_t)i * times + (size_t)t] || count == MOST) continue;
-        DpVec3 sum = {0};
-        double weights = 0.0;
-        for (int p = l->first[i]; p < l->first[i + 1]; ++p) {
-            const double w = l->part_weight[(size_t)p * times + (size_t)t];
-            if (!l->part_on[(size_t)p * times + (size_t)t]) continue;
-            centre[p] = part_centre(l, l->part[p], t);
-            sum = dp_add(sum, dp_scale(centre[p], w));
-            weights += w;
+        if (!l->limb_on[at]) continue;
+        limb_points(l, &points, i, t);
+        DpVec3 centre = {0};
+        double sum = 0.0;
+        for (int k = 0; k < points.count; ++k) {
+            centre = dp_add(centre, dp_scale(points.at[k], points.share[k]));
+            sum += points.share[k];
         }
-        at[count] = dp_scale(sum, 1.0 / weights);
-        middle = dp_add(middle, at[count]);
-        row[count++] = i;
+        centre = dp_scale(centre, 1.0 / sum);
+        low += centre.z;
+        add_support(&limbs, i, centre, l->limb_weight[at], 1.0);
     }
-    if (count == 0) return;  // no touching limb means zero
+    if (limbs.count == 0) return;  // no touching limb means zero
     const double pull = accel.z + DP_GRAVITY;
-    const double rise = com.z - middle.z / (double)count;
-    DpVec3       zmp = com;  // zero-moment point; at rest, what lies below the mass centre
-    zmp.x -= rise / fmax(pull, LEAST_PULL * DP_GRAVITY) * accel.x;
-    zmp.y -= rise / fmax(pull, LEAST_PULL * DP_GRAVITY) * accel.y;
-    share_out(l, l->limb_weight, row, count, t, accel, zmp, at, share);
-    DpVec3 miss = zmp;  // what the limbs' centres leave to the parts
-    for (int k = 0; k < count; ++k) miss = dp_sub(miss, dp_scale(at[k], share[k]));
-    for (int k = 0; k < count; ++k) {
-        DpVec3 force = dp_vec3(-accel.x, -accel.y, -pull);  // of a mass of 1, on the ground
-        if (!inertia) force = dp_add(force, landing_push(l, row[k], t));  // TRAIL (3)
+    const double lever = (com.z - low / (double)limbs.count) / fmax(pull, LEAST_PULL * DP_GRAVITY);
+    // zero-moment point; at rest, what lies below the mass centre
+    const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));
+    share_out(l, &limbs, accel, zmp);
+    DpVec3 miss = zmp;  // what the limbs' centres leave to their points
+    for (int k = 0; k < limbs.count; ++k) miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));
+    for (int k = 0; k < limbs.count; ++k) {
+        const int i = limbs.index[k];
+        DpVec3    force = dp_vec3(-accel.x, -accel.y, -pull);  // of a mass of 1, on the ground
+        if (!inertia) force = dp_add(force, landing_push(l, i, t));  // TRAIL (3)
         // ground does not pull
-        force = force.z < 0.0 ? dp_scale(force, mass * share[k]) : dp_vec3(0.0, 0.0, 0.0);
-        load_parts(l, row[k], t, force, accel, dp_add(at[k], miss), centre, out_force, out_point);
+        force = force.z < 0.0 ? dp_scale(force, mass * limbs.share[k]) : dp_vec3(0.0, 0.0, 0.0);
+        load_parts(l, i, t, force, accel, dp_add(limbs.at[k], miss), out_force, out_point);
     }
 }
 

@@ -86,7 +86,7 @@ static int run_begin(const uint8_t* on, int t)
 // Time over which a support that begins (or ends) at sample t changes weight with the others: the
 // shortest overlap with one that it relieves (or that relieves it).
 static double ramp_time(const uint8_t* touching, int count, int times, int self, int t, bool begins,
-                        double rate, const DpLoadOptions* options)
+                        double rate, const DpLoadOptions* options, bool rolls)
 {
     const size_t row = (size_t)times;
     const int    own_end = run_end(touching + (size_t)self * row, times, t);
@@ -104,11 +104,18 @@ static double ramp_time(const uint8_t* touching, int count, int times, int self,
     }
     if (!company) return options->ramp_alone;
     const double overlap = shortest / rate;
-    return overlap < options->overlap_most ? overlap : options->ramp_standing;
+    return rolls && company && isfinite(overlap) ? overlap
+           : overlap < options->overlap_most     ? overlap
+                                                 : options->ramp_standing;
+}
+
+static double ease(double x, bool rolls)
+{
+    return rolls ? dp_clamp(x, 0.0, 1.0) : dp_smoothstep(x);
 }
 
 void walker_ramps(const uint8_t* touching, int count, int times, double rate,
-                  const DpLoadOptions* options, double* weight)
+                  const DpLoadOptions* options, bool rolls, double* weight)
 {
     for (int i = 0; i < count; ++i) {
         const uint8_t* on = touching + (size_t)i * (size_t)times;
@@ -121,14 +128,14 @@ void walker_ramps(const uint8_t* touching, int count, int times, double rate,
             }
             // a stance cut by the clip's ends was there before and stays after
             const double up =
-                t > 0 ? ramp_time(touching, count, times, i, t, true, rate, options) : 0.0;
+                t > 0 ? ramp_time(touching, count, times, i, t, true, rate, options, rolls) : 0.0;
             const double down =
-                end < times ? ramp_time(touching, count, times, i, end - 1, false, rate, options) : 0.0;
+                end < times ? ramp_time(touching, count, times, i, end - 1, false, rate, options, rolls) : 0.0;
             for (int s = t; s < end; ++s) {
                 const double since = ((double)(s - t) + 0.5) / rate;
                 const double left = ((double)(end - s) - 0.5) / rate;
-                w[s] = fmin(up > 0.0 ? dp_smoothstep(since / up) : 1.0,
-                            down > 0.0 ? dp_smoothstep(left / down) : 1.0);
+                w[s] = fmin(up > 0.0 ? ease(since / up, rolls) : 1.0,
+                            down > 0.0 ? ease(left / down, rolls) : 1.0);
             }
             t = end;
         }

@@ -51,7 +51,8 @@ void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, dou
                   double reach);
 
 // Ramps of supports that touch and let go. Design 4.3, step 1.
-// @param touching  (count, times), rows `stride` samples apart
+// @param touching  (count, times)
+// @param rolls     points of one foot: weight rolls evenly for as long as both are down
 // @param weight    out: 0 in the air, easing to 1 on the ground (count, times)
 void walker_ramps(const uint8_t* touching, int count, int times, double rate,
-                  const DpLoadOptions* options, double* weight);
+                  const DpLoadOptions* options, bool rolls, double* weight);
