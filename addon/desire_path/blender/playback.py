@@ -7,8 +7,6 @@ colour attribute (height change, plant strength, compression, pressure) and move
 All numbers are constants inside the tree, so the same tree works from 3.4 to 5.2. File 0 is the
 untouched ground, file n the frame `frame_start + n - 1`.
 """
-import os
-
 import bpy
 import numpy as np
 
@@ -37,10 +35,10 @@ def image_of(tree):
     return None
 
 
-def attach(obj, folder, index, *, count, world, scale, smooth, corners, layer_depth=0.0):
+def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0):
     """Play the frames of a bake on the object; replaces what it played before.
 
-    folder: the bake folder as Blender writes paths (`//` for beside the .blend file)
+    frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
     index: cell, x0, y0 [m], nx, ny, frame_start of the images
     count: frames there are, file 0 not counted
     world: the object's matrix when it was baked (4, 4); scale: metres in a unit [m]
@@ -51,7 +49,7 @@ def attach(obj, folder, index, *, count, world, scale, smooth, corners, layer_de
     old = modifier(obj)
     place = list(obj.modifiers).index(old) if old is not None else -1
     detach(obj)
-    tree = _tree(obj, _image(folder), index, count, world, scale, smooth,
+    tree = _tree(obj, _image(frames), index, count, world, scale, smooth,
                  corners, layer_depth)
     ours = obj.modifiers.new(MODIFIER, "NODES")
     made = ours.node_group
@@ -82,13 +80,19 @@ def detach(obj):
             bpy.data.images.remove(image)
 
 
+def mark(index, count):
+    """What a tree plays, in a word, to tell whether the files are still the same."""
+    return (f"{index.cell!r} {index.x0!r} {index.y0!r} {index.nx} {index.ny} "
+            f"{index.frame_start} {count}")
+
+
 def _active(obj):
     return bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj])
 
 
-def _image(folder):
+def _image(frames):
     """A fresh datablock for the sequence: an old one would show frames out of its cache."""
-    path = join(folder, "frames", "trail_0001.exr")
+    path = join(frames, "trail_0001.exr")
     image = bpy.data.images.new("desire_path frames", 1, 1, float_buffer=True)
     image.source = "FILE"
     image.filepath = path
@@ -104,7 +108,7 @@ def join(folder, *names):
     return "/".join((folder.replace("\\", "/").rstrip("/"),) + names)
 
 
-class _Wiring:
+class Wiring:
     """Nodes in a row; `add` returns the node, links what is given by socket name or number."""
 
     def __init__(self, tree):
@@ -143,8 +147,8 @@ class _Wiring:
 
 def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
-    tree[TAG] = 1
-    wire = _Wiring(tree)
+    tree[TAG] = mark(index, count)
+    wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
     leave = tree.nodes.new("NodeGroupOutput")
 
@@ -215,12 +219,3 @@ def _inside(wire, at):
     split = wire.add("ShaderNodeSeparateXYZ", Vector=from_middle)
     return wire.math("LESS_THAN", wire.math("MAXIMUM", split.outputs[0], split.outputs[1]), 0.5)
 
-
-def whole_frames(folder, index):
-    """How many of the frames are there, counted from the first without a gap."""
-    frames = os.path.join(bpy.path.abspath(folder), "frames")
-    count = index.frame_end - index.frame_start + 1
-    for n in range(1, count + 1):
-        if not os.path.isfile(os.path.join(frames, f"trail_{n:04d}.exr")):
-            return n - 1
-    return count

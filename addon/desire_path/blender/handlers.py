@@ -1,0 +1,51 @@
+"""handlers.py - after a file is loaded, grounds play what is whole of their bake.
+
+A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of. This
+is the only handler; playing and rendering need none.
+"""
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import DesirePathError
+from . import ground, op_bake, playback
+
+
+def refresh(scene, obj):
+    """Let a ground play its bake folder as it is now; nothing to do when it already does."""
+    from ..bake import read_index
+    settings = obj.desire_path
+    if not settings.folder or settings.folder.startswith("//") and not bpy.data.filepath:
+        return
+    try:
+        index = read_index(op_bake.folder(obj))
+    except DesirePathError:
+        if playback.modifier(obj) is not None:
+            settings.missing = "The baked files are not in the folder: bake again, or free the bake."
+        return
+    ours = playback.modifier(obj)
+    if ours is not None and ours.node_group[playback.TAG] == playback.mark(index, index.frames):
+        settings.missing = op_bake.missing(index)
+        return
+    try:
+        surface = ground.read(scene, obj, index.cell, index.frame_start)
+        op_bake.play(obj, surface)
+    except DesirePathError as problem:
+        settings.missing = str(problem)
+
+
+@persistent
+def after_load(*_):
+    for scene in bpy.data.scenes:
+        for obj in scene.objects:
+            if obj.type == "MESH" and obj.desire_path.is_ground:
+                refresh(scene, obj)
+
+
+def register():
+    bpy.app.handlers.load_post.append(after_load)
+    if hasattr(bpy.data, "scenes"):  # not while Blender itself starts
+        after_load()
+
+
+def unregister():
+    bpy.app.handlers.load_post.remove(after_load)

@@ -1,0 +1,239 @@
+"""op_walkers.py - grounds and walkers are chosen, and a walk is recorded to a file."""
+import bpy
+from bpy.props import StringProperty
+
+from .. import rigs
+from ..errors import DesirePathError
+from . import axes, playback, props, sample
+
+
+class Refusal:
+    """Operators that tell what is wrong in one sentence."""
+
+    def execute(self, context):
+        try:
+            return self.work(context)
+        except (DesirePathError, OSError, MemoryError) as problem:
+            self.report({"ERROR"}, sentence(problem))
+            return {"CANCELLED"}
+
+
+def sentence(problem):
+    if isinstance(problem, MemoryError):
+        return "There is not enough memory: choose a larger cell size or fewer frames."
+    return str(problem)
+
+
+def active(cls, context, kind, words):
+    """Whether the active object is of a type and not being edited; else poll's message."""
+    obj = context.object
+    if obj is None or obj.type != kind:
+        cls.poll_message_set(f"Select {words} first")
+        return False
+    if obj.mode == "EDIT":
+        cls.poll_message_set("Leave Edit Mode first")
+        return False
+    return True
+
+
+def grounds(scene):
+    return [obj for obj in scene.objects if obj.type == "MESH" and obj.desire_path.is_ground]
+
+
+def walkers(scene, ground):
+    """The armatures that walk on a ground."""
+    return [obj for obj in scene.objects if obj.type == "ARMATURE" and obj.desire_path.is_walker
+            and obj.desire_path.ground == ground]
+
+
+class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
+    """Make the active mesh a ground in which walkers leave prints"""
+
+    bl_idname = "object.desire_path_ground_add"
+    bl_label = "Add Ground"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "MESH", "the mesh that is walked on")
+
+    def work(self, context):
+        obj, scene = context.object, context.scene
+        if not len(obj.data.polygons) and not obj.modifiers:
+            raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
+        settings = obj.desire_path
+        settings.is_ground = True
+        if settings.folder_auto:
+            props.set_auto(settings, folder=props.default_folder(obj))
+        if settings.frames_auto:
+            props.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
+        text = f"'{obj.name}' is a ground"
+        if not bpy.data.filepath and settings.folder_auto:
+            text += (f"; until the file is saved its bake goes to the temporary folder "
+                     f"{settings.folder}")
+        self.report({"INFO"}, text + ".")
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
+    """Let the active armature leave prints: finds its feet and joins it to the ground"""
+
+    bl_idname = "object.desire_path_walker_add"
+    bl_label = "Add Walker"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks")
+
+    def work(self, context):
+        obj, scene = context.object, context.scene
+        settings = obj.desire_path
+        ground = self.ground(context, settings.ground)
+        world = axes.matrix(obj.matrix_world, obj.name)
+        found = rigs.detect(sample.skeleton(obj, world, axes.unit_scale(scene)))
+        settings.feet.clear()
+        for foot in found.feet:
+            each = settings.feet.add()
+            for name in ("limb", "foot", "toe", "heel", "thigh", "shank"):
+                setattr(each, name, getattr(foot, name, None) or "")
+        settings.hips = found.hips or ""
+        settings.is_walker = True
+        settings.ground = ground
+        for each in found.warnings:
+            self.report({"WARNING"}, each)
+        self.follow(scene, ground)
+        feet = ", ".join(foot.foot for foot in found.feet)
+        self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' with {feet}.")
+        return {"FINISHED"}
+
+    @staticmethod
+    def ground(context, chosen):
+        """The ground chosen before, a selected one, or the only one."""
+        there = grounds(context.scene)
+        if chosen is not None and chosen in there:
+            return chosen
+        selected = [obj for obj in context.selected_objects if obj in there]
+        if len(selected) == 1:
+            return selected[0]
+        if not there:
+            raise DesirePathError("There is no ground yet: select the mesh that is walked on and "
+                                  "press Add Ground.")
+        if len(there) > 1:
+            raise DesirePathError("There are several grounds: select the one to walk on together "
+                                  "with the armature, the armature last.")
+        return there[0]
+
+    @staticmethod
+    def follow(scene, ground):
+        """Let the ground's frames cover its walkers until they are set by hand."""
+        settings = ground.desire_path
+        if settings.frames_auto:
+            ranges = [sample.frame_range(scene, each) for each in walkers(scene, ground)]
+            props.set_auto(settings, frame_start=min(each[0] for each in ranges),
+                           frame_end=max(each[1] for each in ranges))
+
+
+class OBJECT_OT_desire_path_remove(Refusal, bpy.types.Operator):
+    """Let the active object be a ground or walker no more; frees its bake"""
+
+    bl_idname = "object.desire_path_remove"
+    bl_label = "Remove"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.object
+        return obj is not None and obj.mode != "EDIT" and (
+            obj.desire_path.is_ground or obj.desire_path.is_walker)
+
+    def work(self, context):
+        from .op_bake import free
+        obj = context.object
+        settings = obj.desire_path
+        if settings.is_ground:
+            free(obj)
+            settings.is_ground = False
+        settings.is_walker = False
+        settings.ground = None
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
+    """Write what the active armature does to a file that bakes without Blender"""
+
+    bl_idname = "object.desire_path_record"
+    bl_label = "Record Walk"
+    bl_options = {"REGISTER"}
+
+    filepath: StringProperty(name="File", subtype="FILE_PATH", default="walk.npz",
+                             description="Where the recording is written")
+    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks")
+
+    def invoke(self, context, _event):
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def work(self, context):
+        obj, scene = context.object, context.scene
+        context.view_layer.update()
+        ground = obj.desire_path.ground
+        if ground is not None:
+            first, last = ground.desire_path.frame_start, ground.desire_path.frame_end
+        else:
+            first, last = sample.frame_range(scene, obj)
+        gait = sample.record(scene, obj, first, last)
+        path = bpy.path.abspath(self.filepath)
+        gait.save(path)
+        for each in gait.warnings:
+            self.report({"WARNING"}, each)
+        self.report({"INFO"}, f"Recorded frames {first} to {last} of '{obj.name}' to {path}.")
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_paint_add(bpy.types.Operator):
+    """Add a soil that lies where a vertex group is painted"""
+
+    bl_idname = "object.desire_path_paint_add"
+    bl_label = "Add Painted Soil"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "MESH", "a ground") and context.object.desire_path.is_ground
+
+    def execute(self, context):
+        obj = context.object
+        settings = obj.desire_path
+        each = settings.painted.add()
+        if obj.vertex_groups.active is not None:
+            each.vertex_group = obj.vertex_groups.active.name
+        settings.painted_index = len(settings.painted) - 1
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
+    """Remove the painted soil from the list; the vertex group stays"""
+
+    bl_idname = "object.desire_path_paint_remove"
+    bl_label = "Remove Painted Soil"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "MESH", "a ground") and bool(context.object.desire_path.painted)
+
+    def execute(self, context):
+        settings = context.object.desire_path
+        settings.painted.remove(settings.painted_index)
+        settings.painted_index = max(0, min(settings.painted_index, len(settings.painted) - 1))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_desire_path_ground_add, OBJECT_OT_desire_path_walker_add,
+           OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
+           OBJECT_OT_desire_path_paint_add, OBJECT_OT_desire_path_paint_remove)

@@ -1,0 +1,217 @@
+"""panels.py - Properties > Physics > Desire Path, and the same in the sidebar."""
+import json
+
+import bpy
+
+from . import op_bake
+from .op_walkers import walkers
+
+
+def _column(layout):
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout.column()
+
+
+def draw(layout, context):
+    obj = context.object
+    if obj is None or obj.type not in {"MESH", "ARMATURE"}:
+        layout.label(text="Select a ground mesh or an armature", icon="INFO")
+    elif obj.type == "MESH":
+        draw_ground(layout, context, obj)
+    else:
+        draw_walker(layout, obj)
+
+
+def draw_ground(layout, context, obj):
+    settings = obj.desire_path
+    if not settings.is_ground:
+        layout.operator("object.desire_path_ground_add", icon="ADD")
+        return
+    column = _column(layout)
+    column.prop(settings, "soil")
+    column.prop(settings, "cell_size")
+    frames = column.column(align=True)
+    frames.prop(settings, "frame_start", text="Frame Start")
+    frames.prop(settings, "frame_end")
+    column.prop(settings, "folder")
+
+    layout.label(text="Walkers")
+    box = layout.box().column(align=True)
+    there = walkers(context.scene, obj)
+    for each in there:
+        box.label(text=f"{each.name}, {each.desire_path.mass:g} kg", icon="ARMATURE_DATA")
+    if not there:
+        box.label(text="None: select an armature and press Add Walker", icon="INFO")
+
+    job = op_bake.running()
+    if job is not None:
+        row = layout.row(align=True)
+        if hasattr(row, "progress"):
+            row.progress(factor=job.fraction, text=job.text)
+        else:
+            row.label(text=f"{job.text}, {100 * job.fraction:.0f} %")
+        row.operator("object.desire_path_cancel", text="", icon="X")
+    else:
+        row = layout.row(align=True)
+        row.scale_y = 1.4
+        row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
+        row.operator("object.desire_path_free", text="Free", icon="TRASH")
+    draw_result(layout, settings)
+
+
+def draw_result(layout, settings):
+    """What the last bake did, and what is missing."""
+    if settings.missing:
+        _lines(layout, settings.missing, "ERROR")
+    if not settings.summary:
+        return
+    found = json.loads(settings.summary)
+    column = layout.column(align=True)
+    column.label(text=f"{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm",
+                 icon="CHECKMARK")
+    column.label(text=f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l "
+                      f"in rims, {found['seconds_in_all']:.1f} s", icon="BLANK1")
+    for each in found["warnings"]:
+        _lines(column, each, "ERROR")
+
+
+def _lines(layout, text, icon, width=52):
+    """A sentence over several lines, since labels do not wrap."""
+    column = layout.column(align=True)
+    line = ""
+    for word in text.split():
+        if line and len(line) + 1 + len(word) > width:
+            column.label(text=line, icon=icon)
+            line, icon = word, "BLANK1"
+        else:
+            line = f"{line} {word}".strip()
+    column.label(text=line, icon=icon)
+
+
+def draw_painted(layout, obj):
+    settings = obj.desire_path
+    row = layout.row()
+    row.template_list("OBJECT_UL_desire_path_paint", "", settings, "painted", settings,
+                      "painted_index", rows=2)
+    side = row.column(align=True)
+    side.operator("object.desire_path_paint_add", text="", icon="ADD")
+    side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
+
+
+def draw_output(layout, obj):
+    settings = obj.desire_path
+    column = _column(layout)
+    column.prop(settings, "attributes")
+    column.prop(settings, "vertex_group")
+    column.prop(settings, "law")
+    column.prop(settings, "heap")
+    column.prop(settings, "threads")
+    column.operator("object.desire_path_remove", text="Remove Ground", icon="X")
+
+
+def draw_walker(layout, obj):
+    settings = obj.desire_path
+    if not settings.is_walker:
+        layout.operator("object.desire_path_walker_add", icon="ADD")
+        layout.operator("object.desire_path_record", icon="REC")
+        return
+    column = _column(layout)
+    column.prop(settings, "ground")
+    column.prop(settings, "mass")
+    column.prop(settings, "load_model")
+    column.prop(settings, "subframes")
+    for foot in settings.feet:
+        feet = column.column(align=True)
+        feet.prop_search(foot, "foot", obj.data, "bones", text=f"{foot.limb.title()} Foot")
+        feet.prop_search(foot, "toe", obj.data, "bones")
+    column.prop_search(settings, "hips", obj.data, "bones")
+    row = layout.row(align=True)
+    row.operator("object.desire_path_walker_add", text="Find Feet Again", icon="FILE_REFRESH")
+    row.operator("object.desire_path_record", icon="REC")
+    layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
+
+
+class OBJECT_UL_desire_path_paint(bpy.types.UIList):
+    """Soils and the vertex groups they are painted with"""
+
+    def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
+        row = layout.row(align=True)
+        row.prop_search(item, "vertex_group", context.object, "vertex_groups", text="")
+        row.prop(item, "soil", text="")
+
+
+class _Physics:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "physics"
+
+
+class _Sidebar:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Desire Path"
+
+
+class _Main:
+    bl_label = "Desire Path"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type in {"MESH", "ARMATURE"}
+
+    def draw(self, context):
+        draw(self.layout, context)
+
+
+class _Ground:
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.object
+        return obj is not None and obj.type == "MESH" and obj.desire_path.is_ground
+
+
+class _Painted(_Ground):
+    bl_label = "Painted Soils"
+
+    def draw(self, context):
+        draw_painted(self.layout, context.object)
+
+
+class _Output(_Ground):
+    bl_label = "Output and Method"
+
+    def draw(self, context):
+        draw_output(self.layout, context.object)
+
+
+class PHYSICS_PT_desire_path(_Physics, _Main, bpy.types.Panel):
+    pass
+
+
+class PHYSICS_PT_desire_path_painted(_Physics, _Painted, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
+class PHYSICS_PT_desire_path_output(_Physics, _Output, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
+class VIEW3D_PT_desire_path(_Sidebar, _Main, bpy.types.Panel):
+    bl_options = set()
+
+
+class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
+
+
+class VIEW3D_PT_desire_path_output(_Sidebar, _Output, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
+
+
+CLASSES = (OBJECT_UL_desire_path_paint, PHYSICS_PT_desire_path, PHYSICS_PT_desire_path_painted,
+           PHYSICS_PT_desire_path_output, VIEW3D_PT_desire_path, VIEW3D_PT_desire_path_painted,
+           VIEW3D_PT_desire_path_output)

@@ -1,0 +1,148 @@
+"""props.py - what a ground and a walker remember: Object.desire_path."""
+import os
+import tempfile
+
+import bpy
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
+                       PointerProperty, StringProperty)
+
+from ..soil import SOILS
+
+
+def _words(name):
+    return name.replace("-", " ").capitalize()
+
+
+_SOIL_ITEMS = tuple(
+    (name, _words(name), f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
+     f"{soil.rest_angle * 57.29578:.0f} degrees, yields in {soil.settle_time:.2g} s")
+    for name, soil in SOILS.items())
+
+
+def _soil(description):
+    return EnumProperty(name="Soil", description=description, items=_SOIL_ITEMS,
+                        default=_SOIL_ITEMS[0][0])
+
+
+def is_ground(_self, obj):
+    return obj.type == "MESH" and obj.desire_path.is_ground
+
+
+def _frames_by_hand(self, _context):
+    self.frames_auto = False
+
+
+def _folder_by_hand(self, _context):
+    self.folder_auto = False
+
+
+class DesirePathPaint(bpy.types.PropertyGroup):
+    """A soil painted by a vertex group."""
+
+    vertex_group: StringProperty(
+        name="Vertex Group", description="Where this soil lies: weights above one half")
+    soil: _soil("The soil that lies where the group is painted")
+
+
+class DesirePathFoot(bpy.types.PropertyGroup):
+    """The bones of one foot."""
+
+    limb: StringProperty(name="Limb", description="Which foot this is")
+    foot: StringProperty(name="Foot", description="The bone that begins at the ankle")
+    toe: StringProperty(name="Toe", description="The bone that begins at the ball of the foot; "
+                                                "empty where the rig has none")
+    heel: StringProperty(name="Heel", description="A bone that lies at the heel, if there is one")
+    thigh: StringProperty(name="Thigh", options={"HIDDEN"})
+    shank: StringProperty(name="Shank", options={"HIDDEN"})
+
+
+class DesirePathSettings(bpy.types.PropertyGroup):
+    # ---- a ground
+    is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
+    soil: _soil("What the ground is made of where nothing else is painted")
+    cell_size: FloatProperty(
+        name="Cell Size [m]", default=0.01, soft_min=0.002, soft_max=0.1, step=0.1, precision=4,
+        description="Side of a cell of the pressed ground, in metres: smaller shows finer prints")
+    frame_start: IntProperty(name="Start", default=1, update=_frames_by_hand,
+                             description="First frame that is baked")
+    frame_end: IntProperty(name="End", default=250, update=_frames_by_hand,
+                           description="Last frame that is baked")
+    frames_auto: BoolProperty(default=True, options={"HIDDEN"},
+                              description="The frames follow the walkers until set by hand")
+    folder: StringProperty(
+        name="Folder", subtype="DIR_PATH", update=_folder_by_hand,
+        description="Where the baked frames, maps and the report are written")
+    folder_auto: BoolProperty(default=True, options={"HIDDEN"},
+                              description="The folder follows the file until set by hand")
+    painted: CollectionProperty(type=DesirePathPaint, name="Painted Soils",
+                                description="Soils that lie where a vertex group is painted")
+    painted_index: IntProperty(options={"HIDDEN"})
+    vertex_group: BoolProperty(
+        name="Vertex Groups", description="Also fill vertex groups with plant strength and "
+        "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play")
+    attributes: BoolProperty(
+        name="Attributes", default=True, description="Also write the final compression, heap, "
+        "pressure and plant strength as attributes of the mesh, for materials and nodes")
+    law: EnumProperty(
+        name="Contact", description="How a sole presses the ground",
+        items=(("sole", "Rigid sole", "A tread prints its tread, a tilted sole digs in its edge"),
+               ("uniform", "Even pressure", "The same pressure under the whole sole")))
+    heap: EnumProperty(
+        name="Rims", description="How displaced soil is laid around a print",
+        items=(("rest", "At rest", "At once in the shape it comes to rest in"),
+               ("paper", "Falling off", "On the rim, falling off over its width, then sliding")))
+    threads: IntProperty(name="Threads", min=0, max=64, default=0,
+                         description="Processors to bake with, 0 = all; the result is the same")
+    made_groups: StringProperty(options={"HIDDEN"})
+    made_attributes: StringProperty(options={"HIDDEN"})
+    summary: StringProperty(options={"HIDDEN"}, description="What the last bake did")
+    missing: StringProperty(options={"HIDDEN"}, description="What a stopped bake lacks")
+
+    # ---- a walker
+    is_walker: BoolProperty(name="Walker", description="This armature leaves prints")
+    ground: PointerProperty(name="Ground", type=bpy.types.Object, poll=is_ground,
+                            description="The mesh this armature walks on")
+    mass: FloatProperty(name="Mass [kg]", default=75.0, soft_min=1.0, soft_max=1000.0, precision=1,
+                        description="How heavy the walker is, in kilograms")
+    load_model: EnumProperty(
+        name="Load", description="How the weight on each foot is found",
+        items=(("inertia", "Body in motion",
+                "From how the body's mass centre moves: walks, runs, jumps, landings"),
+               ("impulse", "Impulse", "Weight, and an impulse at every touch-down")))
+    subframes: IntProperty(
+        name="Samples a Frame", default=1, min=1, max=16,
+        description="How often the armature is looked at in a frame; between, it is interpolated")
+    feet: CollectionProperty(type=DesirePathFoot, name="Feet",
+                             description="The bones of the walker's feet, found by Add Walker")
+    hips: StringProperty(name="Hips", description="The bone the body hangs on")
+
+
+def default_folder(obj):
+    """Where an object's bake goes when nobody chose: beside the .blend, else a temporary place."""
+    name = bpy.path.clean_name(obj.name)
+    if bpy.data.filepath:
+        return f"//desire_path/{name}"
+    return os.path.join(tempfile.gettempdir(), f"desire_path_{os.getpid()}", name)
+
+
+def set_auto(settings, **values):
+    """Set what follows by itself, without taking it for a choice made by hand."""
+    for name, value in values.items():
+        setattr(settings, name, value)
+        flag = "folder_auto" if name == "folder" else "frames_auto"
+        setattr(settings, flag, True)
+
+
+CLASSES = (DesirePathPaint, DesirePathFoot, DesirePathSettings)
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    bpy.types.Object.desire_path = PointerProperty(name="Desire Path", type=DesirePathSettings)
+
+
+def unregister():
+    del bpy.types.Object.desire_path
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

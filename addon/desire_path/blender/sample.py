@@ -1,0 +1,256 @@
+"""sample.py - Blender is asked what the armature did, once, in a scene of its own.
+
+    armature --private scene, whole frames--> Skeleton, Motion, Skin --body.py--> Gait
+
+The private scene holds only the armature (Blender brings along what it depends on), so that a heavy
+character costs nothing and the user's frame stays where it is.
+"""
+import math
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from .. import body, rigs
+from ..errors import DesirePathError
+from ..gait import Gait
+from . import axes, compat, playback
+
+
+@contextmanager
+def private_scene(scene, obj):
+    """A scene with one object in it and the clock of `scene`; gone afterwards."""
+    own = bpy.data.scenes.new("desire_path sampling")
+    try:
+        for name in ("fps", "fps_base", "frame_map_old", "frame_map_new"):
+            setattr(own.render, name, getattr(scene.render, name))
+        own.collection.objects.link(obj)
+        yield own
+    finally:
+        bpy.data.scenes.remove(own)
+
+
+def evaluated(own, obj, frame):
+    """The object as it is at a frame (a float: sub-frames are evaluated) of a private scene."""
+    whole = math.floor(frame)
+    own.frame_set(whole, subframe=frame - whole)
+    found = obj.evaluated_get(own.view_layers[0].depsgraph)
+    if not found.is_evaluated:
+        raise DesirePathError(f"'{obj.name}' is disabled in viewports: enable it (the screen icon in "
+                              "the Outliner) and try again.")
+    return found
+
+
+@contextmanager
+def still(grounds):
+    """Grounds as they were before any bake, for rigs that are bound to the ground's surface."""
+    ours = [m for m in map(playback.modifier, grounds) if m is not None and m.show_viewport]
+    for each in ours:
+        each.show_viewport = False
+    try:
+        yield
+    finally:
+        for each in ours:
+            each.show_viewport = True
+
+
+def frame_rate(scene):
+    """Frames in a second [1/s]."""
+    return scene.render.fps / scene.render.fps_base
+
+
+def frame_range(scene, obj):
+    """First and last frame of what an armature does: its own animation, else the scene's range."""
+    found = []
+    while obj is not None:
+        found.append(compat.action_range(obj.animation_data))
+        obj = obj.parent
+    found = [each for each in found if each is not None]
+    if found:
+        first = math.ceil(min(each[0] for each in found) - 1e-3)
+        last = math.floor(max(each[1] for each in found) + 1e-3)
+        if last > first:
+            return first, last
+    return scene.frame_start, scene.frame_end
+
+
+# ---- the armature ----------------------------------------------------------------------------------
+
+
+def skeleton(armature, world, scale):
+    """The rest pose in the armature's own axes, as large as the object's scale makes it.
+
+    world: the object's matrix (4, 4)
+    """
+    bones = list(armature.data.bones)
+    if not bones:
+        raise DesirePathError(f"'{armature.name}' has no bones: choose the armature that walks.")
+    number = {bone.name: i for i, bone in enumerate(bones)}
+    size = axes.sizes(world)
+    local = np.array([bone.matrix_local for bone in bones], np.float64)
+    parents = [number[bone.parent.name] if bone.parent else -1 for bone in bones]
+    reach = (size @ local)[:, :3, 1] * np.array([bone.length for bone in bones])[:, None]
+    return body.Skeleton(tuple(number), np.array(parents, np.int32), axes.rigid(size @ local, scale),
+                         np.linalg.norm(reach, axis=1) * scale)
+
+
+def motion(own, armature, names, frames, rate, scale):
+    """World matrices of bones at frames (floats), scale taken out; time counts from the first."""
+    out = np.empty((len(frames), len(names), 4, 4))
+    for t, frame in enumerate(frames):
+        pose = evaluated(own, armature, frame)
+        world = np.array(pose.matrix_world, np.float64)
+        bones = pose.pose.bones
+        for b, name in enumerate(names):
+            out[t, b] = world @ np.array(bones[name].matrix, np.float64)
+    bad = ~(np.abs(out) < axes.FAR).all(axis=(2, 3))
+    bad |= ~(np.linalg.norm(out[..., :3, :3], axis=2) > 0.0).all(axis=2)
+    if bad.any():
+        t, b = np.argwhere(bad)[0]
+        raise DesirePathError(
+            f"Bone '{names[b]}' of '{armature.name}' has no usable transform at frame "
+            f"{frames[t]:g} (NaN, infinite, or scaled to nothing): look at its keys and drivers there.")
+    time = (np.asarray(frames, np.float64) - frames[0]) / rate
+    return body.Motion(time, tuple(names), axes.rigid(out, scale))
+
+
+def rig(armature, shape):
+    """The feet chosen for this walker, else those the rig table finds."""
+    settings = armature.desire_path
+    if not settings.feet:
+        return rigs.detect(shape)
+    feet = []
+    for each in settings.feet:
+        names = {name: getattr(each, name) or None
+                 for name in ("foot", "toe", "heel", "thigh", "shank")}
+        for name in filter(None, list(names.values()) + [settings.hips]):
+            if name not in shape.names:
+                raise DesirePathError(
+                    f"'{armature.name}' has no bone '{name}' any more, it was renamed or removed: "
+                    "press Add Walker again to find the feet anew, or choose the bone by hand.")
+        if names["foot"] is None:
+            raise DesirePathError(f"The {each.limb} foot of '{armature.name}' has no foot bone: "
+                                  "choose one, or press Add Walker again.")
+        feet.append(rigs.Foot(each.limb, **names))
+    return rigs.build(shape, feet, settings.hips or None)
+
+
+# ---- what the feet wear -----------------------------------------------------------------------------
+
+
+def skin(scene, armature, feet, world, scale):
+    """Meshes bound to the feet, in the skeleton's rest space; None where there are none.
+
+    Skins, clothes and shoes count alike. A bone below a foot or toe (a toe's tip, single toes)
+    counts for the nearest one above it.
+    """
+    owner = _owners(armature, feet)
+    size = axes.sizes(world)
+    to_armature = np.linalg.inv(np.array(armature.matrix_world, np.float64))
+    vertices, triangles, weights, count = [], [], [], 0
+    for obj in scene.objects:
+        if obj.type != "MESH" or obj.hide_render or obj.desire_path.is_ground:
+            continue
+        bound = _bound(obj, armature, owner, to_armature)
+        if bound is None:
+            continue
+        rest, share = bound
+        faces = compat.triangles(obj.data)
+        any_share = np.zeros(len(rest), bool)
+        for each in share.values():
+            any_share |= each > 0.0
+        faces = faces[any_share[faces].any(axis=1)]
+        if not len(faces):
+            continue
+        used, faces = np.unique(faces, return_inverse=True)
+        vertices.append(axes.points(size, rest[used], scale))
+        triangles.append(faces.reshape(-1, 3) + count)
+        weights.append({name: each[used] for name, each in share.items()})
+        count += len(used)
+    if not vertices:
+        return None
+    names = sorted(set().union(*weights))
+    joined = {name: np.concatenate([w.get(name, np.zeros(len(v), np.float32))
+                                    for w, v in zip(weights, vertices)]) for name in names}
+    vertices = np.concatenate(vertices)
+    if not (np.abs(vertices) < axes.FAR).all():
+        raise DesirePathError(f"A mesh on '{armature.name}' has NaN or infinite vertices at its feet: "
+                              "repair the mesh.")
+    return body.Skin(vertices, np.concatenate(triangles).astype(np.int32), joined)
+
+
+def _owners(armature, feet):
+    """Bone name -> the foot, toe or heel bone it moves with."""
+    ends = {name for foot in feet for name in (foot.foot, foot.toe, foot.heel) if name}
+    owner = {}
+    for bone in armature.data.bones:
+        above = bone
+        while above is not None and above.name not in ends:
+            above = above.parent
+        if above is not None:
+            owner[bone.name] = above.name
+    return owner
+
+
+def _bound(obj, armature, owner, to_armature):
+    """Rest positions in armature space and weights per foot bone of a mesh, or None."""
+    modifier = any(m.type == "ARMATURE" and m.object == armature for m in obj.modifiers)
+    if not modifier and obj.parent != armature:
+        return None
+    mesh = obj.data
+    if not modifier and obj.parent_type == "BONE":
+        name = owner.get(obj.parent_bone)
+        if name is None:
+            return None
+        bone = armature.data.bones[obj.parent_bone]
+        local = np.array(obj.matrix_parent_inverse, np.float64) @ np.array(obj.matrix_basis)
+        if not bone.use_relative_parent:
+            tail = np.array(bone.matrix_local, np.float64)
+            tail[:3, 3] += tail[:3, 1] * bone.length
+            local = tail @ local
+        return axes.points(local, compat.positions(mesh), 1.0), {
+            name: np.ones(len(mesh.vertices), np.float32)}
+    group = {g.index: owner[g.name] for g in obj.vertex_groups if g.name in owner}
+    if not group:
+        return None
+    share = {name: np.zeros(len(mesh.vertices), np.float32) for name in set(group.values())}
+    for vertex in mesh.vertices:
+        for member in vertex.groups:
+            name = group.get(member.group)
+            if name is not None:
+                share[name][vertex.index] += member.weight
+    local = to_armature @ np.array(obj.matrix_world, np.float64)
+    return axes.points(local, compat.positions(mesh), 1.0), share
+
+
+# ---- all of it --------------------------------------------------------------------------------------
+
+
+def record(scene, armature, frame_start, frame_end, samples=None):
+    """What one armature did from frame to frame, as a Gait of one walker."""
+    if armature is None or armature.type != "ARMATURE":
+        raise DesirePathError("There is no armature to record: select the one that walks.")
+    if frame_end <= frame_start:
+        raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
+                              "after the start.")
+    settings = armature.desire_path
+    if not (math.isfinite(settings.mass) and settings.mass > 0.0):
+        raise DesirePathError(f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0.")
+    samples = samples or settings.subframes
+    scale, rate = axes.unit_scale(scene), frame_rate(scene)
+    frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
+    grounds = [obj for obj in scene.objects if obj.type == "MESH" and obj.desire_path.is_ground]
+    with still(grounds), private_scene(scene, armature) as own:
+        world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
+        shape = skeleton(armature, world, scale)
+        found = rig(armature, shape)
+        moved = motion(own, armature, found.bones, frames, rate, scale)
+    worn = skin(scene, armature, found.feet, world, scale)
+    return body.gait_from_bones(shape, moved, mass=settings.mass, name=armature.name, rig=found,
+                                skin=worn, frame_rate=rate, frame_start=frame_start)
+
+
+def gaits(scene, walkers, frame_start, frame_end):
+    """All walkers of a ground as one recording."""
+    samples = max(each.desire_path.subframes for each in walkers)
+    return Gait.join([record(scene, each, frame_start, frame_end, samples) for each in walkers])

@@ -1,0 +1,129 @@
+"""Any mesh is ground, as it looks; walls, holes and broken meshes are refused in a sentence."""
+import bpy
+import numpy as np
+
+from desire_path.blender import compat, ground, playback
+from scenes import meshes
+from test_playback import frames, index, play
+from test_sample import ids, refused
+
+
+def read(obj, cell=0.02, **more):
+    return ground.read(bpy.context.scene, obj, cell, 1, **more)
+
+
+def mesh_of(surface):
+    """Vertices, triangles and weights as the core gets them."""
+    return surface.ground.native[1:]
+
+
+def test_world_metres():
+    obj = meshes.grid(5, 4, 10.0)
+    obj.location, obj.scale, obj.rotation_euler = (100, 0, 50), (2, 2, 1), (0, 0.3, 0)
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    surface = read(obj)
+    vertices, triangles, weights = mesh_of(surface)
+    bpy.context.view_layer.update()
+    wanted = [np.array(obj.matrix_world @ v.co) * 0.01 for v in obj.data.vertices]
+    np.testing.assert_allclose(vertices, wanted, atol=1e-6)
+    assert len(triangles) == 2 * 4 * 3 and weights is None
+    assert surface.scale == 0.009999999776482582
+
+
+def test_modifiers_count_but_ours_does_not(folder):
+    frames(folder)
+    obj = meshes.grid(9, 9, 0.1)
+    obj.modifiers.new("Fine", "SUBSURF").levels = 2
+    obj.modifiers["Fine"].subdivision_type = "SIMPLE"
+    lift = obj.modifiers.new("Lift", "DISPLACE")
+    lift.strength, lift.mid_level, lift.direction = 0.25, 0.0, "Z"
+    plain, _, _ = mesh_of(read(obj))
+    assert len(plain) == 33 * 33
+    np.testing.assert_allclose(plain[:, 2], 0.25, atol=1e-6)
+    play(obj, folder, index())
+    bpy.context.scene.frame_set(12)
+    before = ids()
+    again, _, _ = mesh_of(read(obj))
+    assert again.tobytes() == plain.tobytes()
+    assert ids() == before and playback.modifier(obj) is not None
+
+
+def test_cells_meet_a_regular_mesh():
+    obj = meshes.grid(40, 30, 0.02, 0.313, -7.77)
+    surface = read(obj)
+    assert not ground.smooth(surface.vertices, 0.02, surface.origin)
+    coarse = meshes.grid(40, 30, 0.06, 0.313, -7.77)
+    surface = read(coarse)
+    assert not ground.smooth(surface.vertices, 0.02, surface.origin)
+    odd = meshes.grid(40, 30, 0.0317)
+    surface = read(odd)
+    assert ground.smooth(surface.vertices, 0.02, surface.origin) and surface.origin == (0.0, 0.0)
+
+
+def test_painted_soils_through_modifiers():
+    obj = meshes.grid(11, 11, 0.1)
+    obj.modifiers.new("Fine", "SUBSURF").levels = 1
+    obj.modifiers["Fine"].subdivision_type = "SIMPLE"
+    for name, low in (("snow", 0.35), ("mud", 0.75)):
+        group = obj.vertex_groups.new(name=name)
+        group.add([v.index for v in obj.data.vertices if v.co.x > low], 1.0, "REPLACE")
+        each = obj.desire_path.painted.add()
+        each.vertex_group, each.soil = name, name
+    obj.vertex_groups["snow"].remove([v.index for v in obj.data.vertices if v.co.x > 0.75])
+    before = ids()
+    vertices, _, weights = mesh_of(read(obj))
+    assert ids() == before and weights.shape == (3, 21 * 21)
+    x = vertices[:, 0]
+    winner = weights.argmax(axis=0)
+    assert (winner[x < 0.32] == 0).all()
+    assert (winner[(x > 0.38) & (x < 0.72)] == 1).all()
+    assert (winner[x > 0.78] == 2).all()
+    assert ground.soils(obj) == ["dry-sand", "snow", "mud"]
+    obj.desire_path.painted[0].vertex_group = "lost"
+    refused(lambda: read(obj), "lost", "vertex group")
+    assert ids() == before
+
+
+def test_refusals():
+    before_scenes = len(bpy.data.scenes)
+    refused(lambda: read(None), "ground")
+    points = meshes.link(bpy.data.objects.new("Points", bpy.data.meshes.new("Points")))
+    refused(lambda: read(points), "no faces", "Points")
+    wall = meshes.grid(4, 4, 1.0, name="Wall")
+    wall.rotation_euler.x = np.pi / 2
+    refused(lambda: read(wall), "upright", "Wall")
+    ceiling = meshes.grid(4, 4, 1.0, name="Ceiling")
+    ceiling.rotation_euler.x = 2.5
+    refused(lambda: read(ceiling), "normals", "Ceiling")
+    broken = meshes.grid(4, 4, 1.0, name="Broken")
+    for bad in (float("nan"), float("inf")):
+        broken.data.vertices[7].co.z = bad
+        refused(lambda: read(broken), "Vertex 7", "Broken")
+    lost = meshes.grid(4, 4, 1.0, name="Lost")
+    lost.location.x = float("inf")
+    refused(lambda: read(lost), "NaN or infinite", "Lost")
+    lost.location.x = 0.0
+    lost.scale.z = 0.0
+    refused(lambda: read(lost), "scale")
+    line = meshes.grid(4, 4, 0.0, name="Line")
+    refused(lambda: read(line), "no area")
+    assert len(bpy.data.scenes) == before_scenes
+
+
+def test_mirrored_ground_is_ground():
+    obj = meshes.grid(4, 4, 1.0)
+    obj.scale = (-1, 1, 1)
+    vertices, _, _ = mesh_of(read(obj))
+    assert vertices[:, 0].min() == -3.0
+
+
+def test_moving_ground_is_said():
+    obj = meshes.grid(4, 4, 1.0)
+    for frame, z in ((1, 0.0), (20, 1.0)):
+        obj.location.z = z
+        obj.keyframe_insert("location", frame=frame)
+    surface = read(obj, frame_end=20)
+    assert "moves" in surface.warnings[0]
+    assert compat.positions(obj.data)[:, 2].max() == 0.0
+    np.testing.assert_allclose(mesh_of(surface)[0][:, 2], 0.0, atol=1e-6)
+    assert not read(meshes.grid(4, 4, 1.0), frame_end=20).warnings

@@ -1,0 +1,120 @@
+"""people.py - walkers for Blender tests: a small biped built here, and the recordings in the data."""
+import builtins
+import math
+import os
+import pathlib
+
+import bpy
+import numpy as np
+
+from . import meshes
+
+MOCAP = ("cmu_12_01_walk", "cmu_02_03_run", "cmu_02_04_jump", "cmu_03_02_uneven")
+CHARACTERS = ("human_mixamo_names_inplace", "human_defrig_inplace")
+
+
+def data():
+    """The folder of reference data: DESIRE_PATH_DATA, else ../shared/data; None if it is not here."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    place = os.environ.get("DESIRE_PATH_DATA") or root.parent / "shared" / "data"
+    place = pathlib.Path(place)
+    return place if place.is_dir() else None
+
+
+# name, parent, head, tail [m]; the biped faces -Y as Blender's do
+BONES = (
+    ("hips", None, (0, 0, 0.95), (0, 0, 1.10)),
+    ("neck", "hips", (0, 0, 1.50), (0, 0, 1.60)),
+    ("thigh.L", "hips", (0.10, 0, 0.92), (0.10, -0.01, 0.50)),
+    ("shin.L", "thigh.L", (0.10, -0.01, 0.50), (0.10, 0.02, 0.08)),
+    ("foot.L", "shin.L", (0.10, 0.02, 0.08), (0.10, -0.11, 0.02)),
+    ("toe.L", "foot.L", (0.10, -0.11, 0.02), (0.10, -0.17, 0.02)),
+)
+
+
+def biped(name="Walker", size=1.0):
+    """An armature at rest with two legs; `size` units to a metre."""
+    armature = bpy.data.armatures.new(name)
+    obj = meshes.link(bpy.data.objects.new(name, armature))
+    bpy.ops.object.mode_set(mode="EDIT")
+    for bone, parent, head, tail in BONES:
+        for side in ((1.0, ".L"), (-1.0, ".R")) if bone.endswith(".L") else ((1.0, ""),):
+            def swap(text):
+                return text[:-2] + side[1] if text and text.endswith(".L") else text
+            made = armature.edit_bones.new(swap(bone))
+            made.head = (side[0] * head[0] * size, head[1] * size, head[2] * size)
+            made.tail = (side[0] * tail[0] * size, tail[1] * size, tail[2] * size)
+            if parent:
+                made.parent = armature.edit_bones[swap(parent)]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+def walk(obj, frames=48, period=24, speed=1.3, rate=24, size=1.0):
+    """Key a simple walk along -Y from frame 1 on: legs swing in turn, the stance foot stays low."""
+    obj.rotation_mode = "XYZ"
+    for bone in obj.pose.bones:
+        bone.rotation_mode = "XYZ"
+    for frame in range(1, frames + 1):
+        t = (frame - 1) / period
+        hips = obj.pose.bones["hips"]
+        hips.location = (0, 0.015 * size * math.cos(4 * math.pi * t), 0)
+        hips.keyframe_insert("location", frame=frame)
+        obj.location[1] = -speed * size * (frame - 1) / rate
+        obj.keyframe_insert("location", index=1, frame=frame)
+        for side, shift in ((".L", 0.0), (".R", 0.5)):
+            swing = math.sin(2 * math.pi * (t + shift))
+            lift = max(0.0, math.cos(2 * math.pi * (t + shift)))
+            for bone, angle in (("thigh", 0.45 * swing + 0.35 * lift), ("shin", -0.8 * lift),
+                                ("foot", -0.45 * swing + 0.3 * lift)):
+                pose = obj.pose.bones[bone + side]
+                pose.rotation_euler = (angle, 0, 0)
+                pose.keyframe_insert("rotation_euler", index=0, frame=frame)
+    return obj
+
+
+def bvh(path, **options):
+    """Import a BVH as an armature that stands upright in metres; returns the object."""
+    import importlib
+    for place in ("io_anim_bvh.import_bvh", "bl_ext.core.io_anim_bvh.import_bvh"):
+        try:
+            module = importlib.import_module(place)
+        except ImportError:
+            continue
+        # Debian's 3.4 opens files with a mode its Python no longer knows
+        module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r",
+                                                                 *a, **k)
+    addon("io_anim_bvh", "import_anim", "bvh")
+    before = set(bpy.data.objects)
+    bpy.ops.import_anim.bvh(filepath=str(path), use_fps_scale=False, update_scene_fps=True,
+                            update_scene_duration=True, **options)
+    obj = next(iter(set(bpy.data.objects) - before))
+    meshes.activate(obj)
+    return obj
+
+
+def glb(path):
+    """Import a glTF character; returns its armature."""
+    np.__dict__.setdefault("bool", bool)  # Debian's 3.4 uses an alias its NumPy no longer has
+    addon("io_scene_gltf2", "import_scene", "gltf")
+    before = set(bpy.data.objects)
+    bpy.ops.import_scene.gltf(filepath=str(path))
+    new = set(bpy.data.objects) - before
+    obj = next(each for each in new if each.type == "ARMATURE")
+    meshes.activate(obj)
+    return obj
+
+
+def addon(name, group, operator):
+    """Switch a bundled importer on if its operator is not there."""
+    if not hasattr(getattr(bpy.ops, group), operator) or not _known(group, operator):
+        import addon_utils
+        addon_utils.enable(name, default_set=False)
+
+
+def _known(group, operator):
+    try:
+        getattr(getattr(bpy.ops, group), operator).get_rna_type()
+    except KeyError:
+        return False
+    return True
