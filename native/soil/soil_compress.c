@@ -84,7 +84,7 @@ static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImpri
     const int    k = columns->count++;
     const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
     const double e = (double)patch->compression[p] - (double)patch->heap[p];
-    const double r = fmin(LET_GO_SHARE * e + LET_GO_LEAST, e);
+    const double r = soil_least(LET_GO_SHARE * e + LET_GO_LEAST, e);
     const double stiffness = (double)patch->modulus[p] / depth * (patch->cell * patch->cell);
     columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
     columns->pressed[k] = e;
@@ -193,8 +193,8 @@ static bool weigh(Balance* balance, Sole* sole, double load)
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k) {
-                stiffest = fmax(stiffest, sole->chunk[c].spring[k]);
-                highest = fmax(highest, sole->chunk[c].gap[k]);
+                stiffest = soil_most(stiffest, sole->chunk[c].spring[k]);
+                highest = soil_most(highest, sole->chunk[c].gap[k]);
             }
     if (!(stiffest > 0.0 && isfinite(stiffest) && isfinite(highest))) return false;
     const double slope_grid = soil_grid(RIGID_STIFFER * stiffest);
@@ -202,7 +202,7 @@ static bool weigh(Balance* balance, Sole* sole, double load)
         for (int c = 0; c < sole->filled; ++c) {
             const Columns* columns = &sole->chunk[c];
             for (int k = 0; k < columns->count; ++k) {
-                const double hang = columns->spring[k] * fmin(highest - columns->gap[k], 1.0);
+                const double hang = columns->spring[k] * soil_least(highest - columns->gap[k], 1.0);
                 share += soil_on_grid(columns->share[k], share_grid);
                 springs += soil_on_grid(columns->spring[k], slope_grid);
                 hanging += soil_on_grid(hang, slope_grid);
@@ -221,7 +221,7 @@ static bool weigh(Balance* balance, Sole* sole, double load)
 static double sink_of(Sole* sole, const Balance* balance, Answer* found)
 {
     double low = -balance->highest, high = INFINITY;  // nothing carries at low
-    double s = fmax(balance->guess, low), step = 0.01;
+    double s = soil_most(balance->guess, low), step = 0.01;
     for (int round = 0; round < 100; ++round) {
         *found = answer(sole, balance, s);
         const double missing = balance->load - found->force;
@@ -234,7 +234,7 @@ static double sink_of(Sole* sole, const Balance* balance, Answer* found)
         double next = found->slope > 0.0 ? s + missing / found->slope : low + step;
         if (!(next > low)) next = isinf(high) ? low + step : 0.5 * (low + high);
         if (isinf(high)) {
-            next = fmin(next, low + 64.0 * step);  // far out a single stiff column could mislead
+            next = soil_least(next, low + 64.0 * step);  // far out a single stiff column could mislead
             step *= 2.0;
         } else if (!(next < high) || found->force > 4.0 * balance->load) {
             next = 0.5 * (low + high);
@@ -258,9 +258,9 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     const DpSoil* soil = &patch->soils[patch->kind[p]];
     const float   c = patch->compression[p], b = patch->heap[p];
     const double  goal = target.share * target.depth;                             // TRAIL (10)
-    const double  rate = goal * fmin(dt / (double)soil->settle_time, 1.0);        // SOFT22 (11)
-    const double  press = fmax(fmin(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
-    const double  loose = fmin(press, (double)b);
+    const double  rate = goal * soil_least(dt / (double)soil->settle_time, 1.0);        // SOFT22 (11)
+    const double  press = soil_most(soil_least(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
+    const double  loose = soil_least(press, (double)b);
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + (press - loose));
     if (patch->pressure_time) patch->pressure_time[p] += (float)(target.stress * target.share * dt);
@@ -273,14 +273,14 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     pressed->firm += soil_on_grid(out_of_firm, PRESS_GRID);
     pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
                                        PRESS_GRID);
-    pressed->deepest = fmax(pressed->deepest, (double)patch->compression[p]);
+    pressed->deepest = soil_most(pressed->deepest, (double)patch->compression[p]);
 }
 
 // least contact area, so that a first touch is not a needle
 static double least_area(const Sole* sole, const Balance* balance)
 {
     const double area = sole->patch->cell * sole->patch->cell;
-    return fmin(fmax(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+    return soil_least(soil_most(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
 }
 
 // `sole`: balance, then press what carries
@@ -309,7 +309,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
                 const size_t p = columns->cell[k];
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
-                press_cell(patch, p, (Target){fmin(t, rigid), stress, columns->share[k]}, dt,
+                press_cell(patch, p, (Target){soil_least(t, rigid), stress, columns->share[k]}, dt,
                            pressed);
             }
         }
@@ -319,7 +319,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
 static double overlap(const Columns* columns, int k)
 {
     const double e = columns->pressed[k], share = columns->share[k];
-    return columns->gap[k] - (e > 0.0 ? fmin(e / share, columns->rigid[k]) : e);
+    return columns->gap[k] - (e > 0.0 ? soil_least(e / share, columns->rigid[k]) : e);
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
@@ -331,7 +331,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k)
-                highest = fmax(highest, overlap(&sole->chunk[c], k));
+                highest = soil_most(highest, overlap(&sole->chunk[c], k));
 
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
@@ -341,7 +341,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 imprint->ring[sole->chunk[c].cell[k]] = 0;
             }
     area *= patch->cell * patch->cell;
-    stress = balance->load / fmax(area, least_area(sole, balance));  // SOFT22 (9)
+    stress = balance->load / soil_most(area, least_area(sole, balance));  // SOFT22 (9)
 
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
@@ -351,7 +351,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 if (imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
                 const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
-                press_cell(patch, p, (Target){fmin(depth, rigid), stress, columns->share[k]}, dt,
+                press_cell(patch, p, (Target){soil_least(depth, rigid), stress, columns->share[k]}, dt,
                            pressed);  // SOFT22 (10)
             }
     pressed->sink = -highest;

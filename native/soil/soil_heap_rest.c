@@ -139,19 +139,30 @@ static void spread(const Heap* heap)
     }
 }
 
-DP_CLONES
-static int64_t row_volume(const int32_t* restrict fill, const int32_t* restrict surface, int count)
+// What lies over the present surface.
+typedef struct Laid
 {
-    int64_t sum = 0;
+    int64_t volume;  // [steps * cells]
+    int64_t cells;   // how many cells that is
+} Laid;
+
+DP_CLONES
+static void measure_row(const int32_t* restrict fill, const int32_t* restrict surface, int count,
+                        Laid* laid)
+{
+    int64_t volume = 0;
+    int32_t cells = 0;
     for (int i = 0; i < count; ++i) {
         const int32_t over = fill[i] - surface[i];
-        sum += over > 0 ? over : 0;
+        volume += over > 0 ? over : 0;
+        cells += over > 0 ? 1 : 0;
     }
-    return sum;
+    laid->volume += volume;
+    laid->cells += cells;
 }
 
-// lay cones of height T sqrt(omega), and measure what lies over the present surface [steps * cells]
-static double fill_to(const Heap* heap, double height)
+// lay cones of height T sqrt(omega), and measure what lies over the present surface
+static Laid fill_to(const Heap* heap, double height)
 {
     const Window* window = &heap->window;
     const size_t  cells = (size_t)window->row * (size_t)(window->ny + 2);
@@ -163,11 +174,11 @@ static double fill_to(const Heap* heap, double height)
             (int32_t)floor(top + 0.5);
     }
     spread(heap);
-    int64_t sum = 0;
+    Laid laid = {0, 0};
     for (int j = 0; j < window->ny; ++j)
-        sum += row_volume(row_of(window, window->fill, j), row_of(window, window->surface, j),
-                          window->nx);
-    return (double)sum;
+        measure_row(row_of(window, window->fill, j), row_of(window, window->surface, j), window->nx,
+                    &laid);
+    return laid;
 }
 
 // ---- window ----------------------------------------------------------------------------------
@@ -185,8 +196,8 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
             const size_t p = soil_at(patch, i, j);
             if (!soil_is_ground(patch->rest[p])) continue;
             const double firm = (double)patch->rest[p] - (double)patch->compression[p];
-            low = fmin(low, firm);
-            high = fmax(high, firm + (double)patch->heap[p]);
+            low = soil_least(low, firm);
+            high = soil_most(high, firm + (double)patch->heap[p]);
         }
     const double fall = slope * patch->cell * (double)(window->nx + window->ny);
     const double range = high - low + height + fall;
@@ -200,13 +211,14 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
 
     const size_t cells = (size_t)window->row * (size_t)(window->ny + 2);
     for (size_t k = 0; k < cells; ++k) window->surface[k] = WALL;
+    const double steps = 1.0 / heap->step;  // a power of two: exact
     for (int j = 0; j < window->ny; ++j) {
         int32_t* surface = row_of(window, window->surface, j);
         for (int i = 0; i < window->nx; ++i) {
             const size_t p = soil_at(patch, window->i0 + i, window->j0 + j);
             if (!soil_is_ground(patch->rest[p]) || heap->imprint->ring[p] == 0) continue;
             const double at = (double)patch->rest[p] - (double)patch->compression[p] - low;
-            surface[i] = (int32_t)floor((at + (double)patch->heap[p]) / heap->step + 0.5);
+            surface[i] = (int32_t)((at + (double)patch->heap[p]) * steps + 0.5);
         }
     }
     return true;
@@ -233,46 +245,50 @@ static bool reaches_out(const Heap* heap)
 
 // ---- height ----------------------------------------------------------------------------------
 
-// Find T so that the fill holds `goal` [steps * cells]: the volume of a heap grows with T^2, so the
-// secant is taken in T^2. Returns the volume of the fill left in the window.
+// Find T so that the fill holds `goal` [steps * cells]: Newton, kept inside a bracket. The volume is
+// convex in T and grows by sqrt(omega) of its cone on every cell that is raised; the mean of those
+// roots is learnt from the steps already made. Returns the volume of the fill left in the window.
 static double find_height(const Heap* heap, double goal, double width, double slope, double* height)
 {
-    // a bare border would need T^2 = 2 slope volume/width on top of what lies there
+    // on level ground a bare border would need T^2 = 2 slope volume/width on top of what lies there
     const double area = heap->patch->cell * heap->patch->cell;
     const double guess = 2.0 * slope * goal * heap->step * area / width;
     const double limit = 0.25 * (double)MOST_STEPS * heap->step;
-    double       low = -1.0, low_volume = 0.0, high = INFINITY, high_volume = 0.0;
-    double       square = *height * *height + guess, volume = 0.0;
-    double       known = *height * *height;  // believed to hold nothing new
+    const double share = width / (heap->patch->cell * (double)heap->apex_count);
+    double       low = -1.0, high = INFINITY, root = sqrt(share);  // low < 0: T = 0 not tried yet
+    double       t = soil_least(sqrt(*height * *height + guess), limit), step = sqrt(guess);
+    double       last_t = 0.0, last_volume = 0.0, last_cells = 0.0, volume = 0.0;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
-        *height = fmin(sqrt(square), limit);
-        volume = fill_to(heap, *height);
+        const Laid laid = fill_to(heap, t);
+        volume = (double)laid.volume;
+        *height = t;
         if (fabs(volume - goal) <= MATCH * goal) break;
         if (volume > goal) {
-            if (square <= 0.0) break;  // even flat cones hold more: they are laid thinner
-            high = square, high_volume = volume;
+            high = t;
+            if (t <= 0.0) break;  // even flat cones hold more: they are laid thinner
         } else {
-            if (*height >= limit) break;
-            low = square, low_volume = volume;
+            low = t;
+            if (t >= limit) break;  // the patch is full: it is laid thicker
         }
-        double next;
-        if (low >= 0.0 && !isinf(high) && high_volume > low_volume) {
-            next = low + (high - low) * (goal - low_volume) / (high_volume - low_volume);
-            const double inside = (high - low) * (round < 12 ? 0.01 : 0.5);  // then by halves
-            next = fmin(fmax(next, low + inside), high - inside);
-        } else if (isinf(high)) {
-            const double gain = low - known;
-            next = volume > 0.0 && gain > 0.0 ? known + gain * goal / volume : 0.0;
-            next = fmin(fmax(next, low + 0.25 * guess), low + 4.0 * (gain > guess ? gain : guess));
-        } else {
-            const double gain = high - known;
-            next = gain > 0.0 ? known + gain * goal / volume : 0.0;
-            if (!(next < high) || round > 2) next = round > 6 ? 0.0 : 0.25 * high;
+        if (low >= 0.0 && !isinf(high) && high - low <= 1e-9 * high) break;
+
+        const double cells = (double)laid.cells;
+        if (round > 0) {
+            const double raised = 0.5 * (cells + last_cells) * (t - last_t) / heap->step;
+            const double learnt = raised > 0.0 || raised < 0.0 ? (volume - last_volume) / raised : root;
+            root = soil_least(soil_most(learnt, 0.05), 1.0);
         }
-        if (!(high - low > 1e-15 * high) && !isinf(high) && low >= 0.0) break;
-        square = next;
+        last_t = t, last_volume = volume, last_cells = cells;
+        double next = volume > 0.0 ? t + (goal - volume) / (root * cells) * heap->step : t + step;
+        if (isinf(high)) next = soil_least(soil_most(next, low + 1e-3 * step), low + 4.0 * step);
+        else if (low < 0.0) next = round > 8 ? 0.0 : soil_most(next, 0.0);
+        else if (!(next > low && next < high) || round > 8) next = 0.5 * (low + high);
+        t = soil_least(next, limit);
+        step *= 2.0;
     }
-    return volume;
+    if (volume > 0.0 || isinf(high)) return volume;
+    *height = high;
+    return (double)fill_to(heap, high).volume;
 }
 
 DP_CLONES
@@ -337,9 +353,9 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
 
     // how far a heap like the last one, and this volume, goes on level ground; more where it falls
     const double likely = sqrt(*height * *height + 2.0 * slope * volume / width);
-    double       reach = fmin(likely / (slope * patch->cell) + 3.0, 30000.0);
+    double       reach = soil_least(likely / (slope * patch->cell) + 3.0, 30000.0);
     double       found = *height;
-    for (bool again = true; again; reach = fmin(2.0 * reach, 30000.0)) {
+    for (bool again = true; again; reach = soil_least(2.0 * reach, 30000.0)) {
         grow(box, border, (int)reach, patch);
         const size_t row = ((size_t)(box[1] - box[0]) + 2 + 15) / 16 * 16;
         const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);

@@ -32,6 +32,17 @@ static inline double soil_grid(double most)
     return ldexp(1.5, 52 + exponent - 32);
 }
 
+// Smaller and larger of two numbers, neither of them NaN; one instruction, where fmin is a call.
+static inline double soil_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double soil_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static inline bool soil_is_ground(float rest)
 {
     return rest == rest;
