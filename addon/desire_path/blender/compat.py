@@ -1,5 +1,10 @@
 """compat.py - what differs between Blender 3.4 and 5.2, asked for by feature, never by version."""
+import bpy
 import numpy as np
+
+# a path property takes Blender's `//` only when it says so, where it can say so
+RELATIVE = ({"PATH_SUPPORTS_BLEND_RELATIVE"}
+            if "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties else set())
 
 
 def positions(mesh):

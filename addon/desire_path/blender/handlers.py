@@ -18,9 +18,9 @@ def refresh(scene, obj):
         return
     try:
         index = read_index(op_bake.folder(obj))
-    except DesirePathError:
+    except DesirePathError as problem:
         if playback.modifier(obj) is not None:
-            settings.missing = "The baked files are not in the folder: bake again, or free the bake."
+            settings.missing = str(problem)
         return
     ours = playback.modifier(obj)
     if ours is not None and ours.node_group[playback.TAG] == playback.mark(index, index.frames):

@@ -7,6 +7,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        PointerProperty, StringProperty)
 
 from ..soil import SOILS
+from . import compat
 
 
 def _words(name):
@@ -70,7 +71,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     frames_auto: BoolProperty(default=True, options={"HIDDEN"},
                               description="The frames follow the walkers until set by hand")
     folder: StringProperty(
-        name="Folder", subtype="DIR_PATH", update=_folder_by_hand,
+        name="Folder", subtype="DIR_PATH", update=_folder_by_hand, options=compat.RELATIVE,
         description="Where the baked frames, maps and the report are written")
     folder_auto: BoolProperty(default=True, options={"HIDDEN"},
                               description="The folder follows the file until set by hand")
