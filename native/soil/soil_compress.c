@@ -112,32 +112,44 @@ static void from_the_start(Sole* sole)
     sole->j = sole->imprint->j0;
 }
 
-// read the next columns; false when all have been handed out since from_the_start()
-static bool next_columns(Sole* sole)
+// the next chunk with room for a column; NULL when all are full
+static Columns* with_room(Sole* sole)
+{
+    if (sole->filled > 0 && sole->chunk[sole->filled - 1].count < LANES)
+        return &sole->chunk[sole->filled - 1];
+    if (sole->filled == CHUNKS) return NULL;
+    sole->chunk[sole->filled].count = 0;
+    return &sole->chunk[sole->filled++];
+}
+
+// read columns from where the last reading stopped; true when the sole's end is reached
+static bool read_columns(Sole* sole)
 {
     const DpImprint* imprint = sole->imprint;
-    if (sole->whole) {
-        const bool more = !sole->shown;
-        sole->shown = true;
-        return more;
-    }
-    const bool first = sole->i == imprint->i0 && sole->j == imprint->j0;
-    int        filled = 0;
-    sole->chunk[0].count = 0;
     for (; sole->j < imprint->j1; ++sole->j, sole->i = imprint->i0)
         for (; sole->i < imprint->i1; ++sole->i) {
             const size_t p = soil_at(sole->patch, sole->i, sole->j);
             if (!(imprint->cover[p] > 0.0f) || !soil_is_ground(sole->patch->rest[p])) continue;
-            if (sole->chunk[filled].count == LANES) {
-                if (filled == CHUNKS - 1) goto full;
-                sole->chunk[++filled].count = 0;
-            }
-            put_column(&sole->chunk[filled], sole->patch, imprint, p);
+            Columns* columns = with_room(sole);
+            if (!columns) return false;
+            put_column(columns, sole->patch, imprint, p);
         }
-    sole->whole = sole->shown = first;
-full:
-    fill_up(&sole->chunk[filled]);
-    sole->filled = sole->chunk[filled].count > 0 ? filled + 1 : filled;
+    return true;
+}
+
+// have the next columns at hand; false when all have been handed out since from_the_start()
+static bool next_columns(Sole* sole)
+{
+    if (sole->whole) {
+        const bool more = !sole->shown && sole->filled > 0;
+        sole->shown = true;
+        return more;
+    }
+    const bool first = sole->i == sole->imprint->i0 && sole->j == sole->imprint->j0;
+    sole->filled = 0;
+    const bool end = read_columns(sole);
+    sole->whole = sole->shown = first && end;
+    if (sole->filled > 0) fill_up(&sole->chunk[sole->filled - 1]);
     return sole->filled > 0;
 }
 
@@ -234,7 +246,8 @@ static double sink_of(Sole* sole, const Balance* balance, Answer* found)
         double next = found->slope > 0.0 ? s + missing / found->slope : low + step;
         if (!(next > low)) next = isinf(high) ? low + step : 0.5 * (low + high);
         if (isinf(high)) {
-            next = soil_least(next, low + 64.0 * step);  // far out a single stiff column could mislead
+            next =
+                soil_least(next, low + 64.0 * step);  // far out a single stiff column could mislead
             step *= 2.0;
         } else if (!(next < high) || found->force > 4.0 * balance->load) {
             next = 0.5 * (low + high);
@@ -258,9 +271,10 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     const DpSoil* soil = &patch->soils[patch->kind[p]];
     const float   c = patch->compression[p], b = patch->heap[p];
     const double  goal = target.share * target.depth;                             // TRAIL (10)
-    const double  rate = goal * soil_least(dt / (double)soil->settle_time, 1.0);        // SOFT22 (11)
-    const double  press = soil_most(soil_least(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
-    const double  loose = soil_least(press, (double)b);
+    const double  rate = goal * soil_least(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
+    const double  press =
+        soil_most(soil_least(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
+    const double loose = soil_least(press, (double)b);
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + (press - loose));
     if (patch->pressure_time) patch->pressure_time[p] += (float)(target.stress * target.share * dt);
@@ -351,7 +365,8 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 if (imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
                 const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
-                press_cell(patch, p, (Target){soil_least(depth, rigid), stress, columns->share[k]}, dt,
+                press_cell(patch, p, (Target){soil_least(depth, rigid), stress, columns->share[k]},
+                           dt,
                            pressed);  // SOFT22 (10)
             }
     pressed->sink = -highest;

@@ -245,9 +245,10 @@ static bool reaches_out(const Heap* heap)
 
 // ---- height ----------------------------------------------------------------------------------
 
-// Find T so that the fill holds `goal` [steps * cells]: Newton, kept inside a bracket. The volume is
-// convex in T and grows by sqrt(omega) of its cone on every cell that is raised; the mean of those
-// roots is learnt from the steps already made. Returns the volume of the fill left in the window.
+// Find T so that the fill holds `goal` [steps * cells]: Newton, kept inside a bracket. The volume
+// is convex in T and grows by sqrt(omega) of its cone on every cell that is raised; the mean of
+// those roots is learnt from the steps already made. Returns the volume of the fill left in the
+// window.
 static double find_height(const Heap* heap, double goal, double width, double slope, double* height)
 {
     // on level ground a bare border would need T^2 = 2 slope volume/width on top of what lies there
@@ -275,14 +276,18 @@ static double find_height(const Heap* heap, double goal, double width, double sl
         const double cells = (double)laid.cells;
         if (round > 0) {
             const double raised = 0.5 * (cells + last_cells) * (t - last_t) / heap->step;
-            const double learnt = raised > 0.0 || raised < 0.0 ? (volume - last_volume) / raised : root;
+            const double learnt =
+                raised > 0.0 || raised < 0.0 ? (volume - last_volume) / raised : root;
             root = soil_least(soil_most(learnt, 0.05), 1.0);
         }
         last_t = t, last_volume = volume, last_cells = cells;
         double next = volume > 0.0 ? t + (goal - volume) / (root * cells) * heap->step : t + step;
-        if (isinf(high)) next = soil_least(soil_most(next, low + 1e-3 * step), low + 4.0 * step);
-        else if (low < 0.0) next = round > 8 ? 0.0 : soil_most(next, 0.0);
-        else if (!(next > low && next < high) || round > 8) next = 0.5 * (low + high);
+        if (isinf(high))
+            next = soil_least(soil_most(next, low + 1e-3 * step), low + 4.0 * step);
+        else if (low < 0.0)
+            next = round > 8 ? 0.0 : soil_most(next, 0.0);
+        else if (!(next > low && next < high) || round > 8)
+            next = 0.5 * (low + high);
         t = soil_least(next, limit);
         step *= 2.0;
     }

@@ -15,6 +15,10 @@
 //   by
 //     ring the result depends on the order. Here a cell gives each lower neighbour a share of its
 //     own excess over gamma_r. test_soil_stabilize.c, keeps_volume.
+//   A cell gives only while it stands steeper than gamma_r + half the tolerance: then it gives what
+//   is
+//     above gamma_r itself. Without that, slopes that are at rest creep on for as long as another
+//     part of the print slides. test_soil_stabilize.c, comes_to_rest.
 //   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets
 //     stand over one cell counts as at rest wherever it lies: soil that creeps down a steep wall of
 //     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
@@ -27,6 +31,7 @@
 #define FRAME 3        // cells around the window that only stand as walls
 #define BARRIER 1e30f  // height of what soil cannot go to
 #define ROOT2 1.41421356f
+#define HOLD 0.5f       // share of the tolerance below which a cell gives nothing
 #define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
 typedef struct Box
@@ -115,16 +120,15 @@ static int decide_row(float* restrict share, float* restrict give, const float* 
                             ((one_if(ne) + one_if(sw)) + (one_if(nw) + one_if(se)));
         const float sum = sides + edges, part = 1.0f / (lower + 1.0f);
         const float has = heap[i] / (sum * part + 1e-35f);
-        const float a = (has < 1.0f ? has : 1.0f) * part;  // TRAIL (15)
-        share[i] = a;
-        give[i] = a * sum;
-
         const float ew = e > w ? e : w, ns = n > s ? n : s;
         const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
-        const float steep = ew > ns ? ew : ns, across = up > down ? up : down;
-        const float over = steep > across * (1.0f / ROOT2) ? steep : across * (1.0f / ROOT2);
-        const float loose = heap[i] > film ? over : -1.0f;
-        restless |= loose > slack[i] ? 1 : 0;
+        const float steep = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
+        const float over = heap[i] > film ? (steep > across ? steep : across) : -1.0f;
+        const float all = (has < 1.0f ? has : 1.0f) * part;  // TRAIL (15)
+        const float a = over > HOLD * slack[i] ? all : 0.0f;
+        share[i] = a;
+        give[i] = a * sum;
+        restless |= over > slack[i] ? 1 : 0;
         moves |= a * sum > 0.0f ? 1 : 0;
     }
     return (moves ? ROW_MOVES : 0) | (restless ? ROW_RESTLESS : 0);

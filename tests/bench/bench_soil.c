@@ -2,10 +2,10 @@
 // stabilize.
 //
 //   cmake -S native -B build -DDP_MODULE=OFF && cmake --build build --target dp_soil dp_imprint
-//   cc -O3 -std=c11 -ffp-contract=off -fno-math-errno -D_POSIX_C_SOURCE=200809L -Inative
-//   -Itests/native \
-//      tests/bench/bench_soil.c build/libdp_soil.a build/libdp_imprint.a build/libdp_base.a \
-//      -lm -lpthread -o build/bench_soil && build/bench_soil
+//   flags="-O3 -std=c11 -ffp-contract=off -fno-math-errno -D_POSIX_C_SOURCE=200809L"
+//   rooms="build/libdp_soil.a build/libdp_imprint.a build/libdp_base.a"
+//   cc $flags -Inative tests/bench/bench_soil.c $rooms -lm -lpthread -o build/bench_soil
+//   build/bench_soil [prints]
 //
 // A 75 kg walker stands 36 frames at 60 Hz on a sole of 28 x 10 cm that rolls from heel to toe;
 // then the foot lifts off and everything comes to rest within 0.1 degrees. Times are per frame of

@@ -134,17 +134,18 @@ def test_anisotropy_trail_13():
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("standing", (False, True))
-def test_sweeps_trail_14_15_16(seed, standing):
+@pytest.mark.parametrize("tolerance", (1e-5, 0.02))
+def test_sweeps_trail_14_15_16(seed, standing, tolerance):
     both = Both(seed, loose=0.05)
     bottom, cover = both.sole()
     ring = np.where(cover > 0.5, 0, 32767).astype(np.int32)
     imprint = (bottom, cover, ring) if standing else None
-    for sweeps in (1, 1, 5):
-        settled = _native.soil_stabilize(both.patch(), imprint, None, 1e-5, sweeps)
-        assert settled["sweeps"] == sweeps and not settled["at_rest"]
-        for _ in range(sweeps):
-            twin.sweep(both.twin, ring == 0 if standing else None)
-        both.same("heap", 2e-7)
+    for _ in range(8):
+        both.twin["heap"] = both.native["heap"].astype(float)  # one sweep at a time: a tie may fall either way
+        settled = _native.soil_stabilize(both.patch(), imprint, None, tolerance, 1)
+        twin.sweep(both.twin, ring == 0 if standing else None, tolerance)
+        both.same("heap", 1e-7)
+        assert settled["sweeps"] == 1
 
 
 def test_at_rest_means_at_rest():

@@ -202,8 +202,9 @@ def accumulate_rest(patch, ring, foot, volume, threshold, slope):
     return high
 
 
-def sweep(patch, touched=None):
+def sweep(patch, touched=None, tolerance=1e-5):
     """One sweep of TRAIL (14)-(16) with both stencils, by loops."""
+    slack = math.tan(tolerance) * patch["cell"]
     ny, nx = patch["rest"].shape
     height = patch["rest"] - patch["compression"] + patch["heap"]
     stands = np.isnan(patch["rest"]) | (touched if touched is not None else False)
@@ -222,7 +223,8 @@ def sweep(patch, touched=None):
                     over = height[j, i] - height[q] - patch["rest_slope"][j, i] * far  # TRAIL (14)
                     if over > 0:
                         excess[q] = over
-            if not excess:
+            steepest = max((over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items()), default=0.0)
+            if steepest <= 0.5 * slack * (1 + patch["rest_slope"][j, i] ** 2) or patch["heap"][j, i] <= 0.1 * slack:
                 continue
             n = len(excess)
             out = sum(excess.values()) / (n + 1)

@@ -237,6 +237,21 @@ TEST(cells_do_not_matter)
     }
 }
 
+// a sole of more cells than are kept ready at once is read again, with the same result
+TEST(large_soles)
+{
+    for (int law = 0; law < 2; ++law) {
+        Ground          ground = ground_make(100, 80, 0.01, wet());
+        const BoxSole   sole = {.length = 0.80, .width = 0.60};
+        const DpPressed p = stand(&ground, sole, 12000.0, (DpContactLaw)law, 0.2, 0.01);
+        CHECK_CLOSE(p.area, 0.48, 1e-6);
+        CHECK_CLOSE(p.deepest, 12000.0 * 0.30 / (0.35e6 * 0.48), 1e-5);
+        CHECK_CLOSE(p.firm, 12000.0 * 0.30 / 0.35e6, 1e-5);
+        CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 12000.0 * 0.2, 1e-5);
+        ground_free(&ground);
+    }
+}
+
 // no load, no sole, no ground under it: nothing happens
 TEST(nothing_to_press)
 {
@@ -323,6 +338,7 @@ int main(void)
     RUN(rigid_below);
     RUN(first_touch_is_finite);
     RUN(cells_do_not_matter);
+    RUN(large_soles);
     RUN(nothing_to_press);
     RUN(mirrored_to_the_bit);
     return check_done();
