@@ -32,7 +32,7 @@ from .sim import LOAD_MODELS, TILE, Simulation, as_soils
 from .version import VERSION
 
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
-SAMPLE_RATE = 120.0  # at least so many steps a second, at most half as many again [1/s]
+SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
 
 

@@ -47,7 +47,9 @@ TRUNK = (0.678, 0.626)  # head, arms and trunk: hips to shoulders
 UPPER = (0.100, 0.433)  # thigh: hip to knee
 LOWER = (0.0465, 0.433)  # shank: knee to ankle
 SOLE = (0.0145, 0.500)  # foot: ankle to ball
-TRUNK_TO_LEG = 0.288 / 0.491  # hip to shoulder over hip to ankle, Drillis and Contini 1966
+# Without a neck: the trunk's centre over the hips, in hip-to-ankle lengths, that puts the mass centre
+# of a standing body at 0.56 of its height (Winter, chapter 4; leg 0.491, hip 0.530 of the height).
+TRUNK_LIFT = 0.296
 
 
 # ---- what comes out --------------------------------------------------------------------------------
@@ -391,7 +393,7 @@ def build(skeleton, feet, hips=None, *, warnings=()):
             end = ()
         legs = [np.linalg.norm(bones.head[bones.names.index(f.thigh or hip[0][0])]
                                - bones.head[bones.names.index(f.foot)]) for f in feet]
-        lift = TRUNK[1] * TRUNK_TO_LEG * float(np.mean(legs))
+        lift = TRUNK_LIFT * float(np.mean(legs))
         low = hip if end or len(tops) < len(feet) else tops  # straight up from between the hip joints
         segments.append(Segment("trunk", *TRUNK, low, end, 0.0 if end else lift))
     scale = 0.2 / len(feet) / (UPPER[0] + LOWER[0] + SOLE[0]) if many else 1.0

@@ -17,7 +17,7 @@
 
 #define SUPPORT_CUTOFF 8.0    // low-pass of a_com for the question whether it falls        [Hz]
 #define SUPPORT_SHORTEST 0.1  // shorter gaps without a foot may well be a flight's edge    [s]
-#define RISE_TO_SPEED 10.0    // a foot this much faster carries as little as one 1 m higher [1/s]
+#define RISE_TO_SPEED 5.0     // a foot this much faster carries as little as one 1 m higher [1/s]
 #define CLEARANCE_MOST 0.15   // a foot at rest this far above the lowest one hangs in the air [m]
 
 DpContactLimits dp_contact_limits_default(void)

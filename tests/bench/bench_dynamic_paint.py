@@ -1,0 +1,211 @@
+"""A whole bake beside Blender's own Dynamic Paint: same grid, same feet, same frames, one process.
+
+    python tests/bench/bench_dynamic_paint.py [--sizes 256,512,1024] [--frame-rate 30]
+
+Run it with a Python that has bpy (5.2 is the fair one: Dynamic Paint is 25 times slower in 3.4) and
+the built module in addon/desire_path. A recorded walk crosses a square ground of N x N vertices; ours
+samples, simulates and writes every frame; Dynamic Paint displaces the vertices into its disk cache
+(vertex bake) or writes an image sequence of N x N pixels (image bake). Feet of Dynamic Paint are the
+very soles that press our ground, keyed at every frame. Prints ms a frame, medians of --runs, and ratios.
+"""
+
+import argparse
+import os
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+REPO = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(REPO / "addon"), str(REPO)]
+
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+
+import desire_path  # noqa: E402
+from desire_path.gait import Gait  # noqa: E402
+
+SIDE = 4.6  # of the ground [m]
+WALK = REPO / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"
+SCALE = 0.056444  # m per unit of the clip
+
+
+def grid(name, count, centre):
+    """A flat square of count x count vertices with UVs."""
+    axis = np.linspace(-SIDE / 2, SIDE / 2, count, dtype=np.float32)
+    x, y = np.meshgrid(axis + centre[0], axis + centre[1])
+    corner = np.stack([x.ravel(), y.ravel(), np.zeros(count * count, np.float32)], axis=1)
+    a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)[None]).ravel()
+    faces = np.stack([a, a + 1, a + count + 1, a + count], axis=1).astype(np.int32)
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(corner))
+    mesh.loops.add(faces.size)
+    mesh.polygons.add(len(faces))
+    mesh.vertices.foreach_set("co", corner.ravel())
+    mesh.loops.foreach_set("vertex_index", faces.ravel())
+    mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 4, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    layer = mesh.uv_layers.new(name="UVMap")
+    uv = ((corner[faces.ravel(), :2] - centre) / SIDE + 0.5).astype(np.float32)
+    layer.data.foreach_set("uv", uv.ravel())
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
+def only(obj):
+    bpy.context.view_layer.update()
+    for other in bpy.context.view_layer.objects:
+        other.select_set(False)
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+
+
+def walker(frame_rate):
+    """The armature on the scene's frames, and its last frame."""
+    scene = bpy.context.scene
+    scene.render.fps, scene.render.fps_base = frame_rate, 1.0
+    bpy.ops.import_anim.bvh(filepath=str(WALK), global_scale=SCALE, use_fps_scale=True)
+    armature = bpy.context.object
+    last = int(armature.animation_data.action.frame_range[1])
+    scene.frame_start, scene.frame_end = 1, last
+    return armature, last
+
+
+def start(frame_rate):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return walker(frame_rate)
+
+
+def ours(count, frame_rate, folder, centre):
+    """Seconds of one whole bake, and what it says of itself."""
+    armature, last = start(frame_rate)
+    ground = grid("Ground", count, centre)
+    only(ground)
+    bpy.ops.object.desire_path_ground_add()
+    settings = ground.desire_path
+    settings.soil, settings.cell_size, settings.folder = "mud", SIDE / (count - 1), str(folder)
+    settings.frame_start, settings.frame_end = 1, last
+    only(armature)
+    bpy.ops.object.desire_path_walker_add()
+    only(ground)
+    begun = time.perf_counter()
+    bpy.ops.object.desire_path_bake()
+    seconds = time.perf_counter() - begun
+    return seconds, last
+
+
+def brushes(gait, last):
+    """One closed mesh a part, keyed at every frame."""
+    sampled = gait.resample(gait.frame_rate)
+    made = []
+    for part, sole in enumerate(gait.soles):
+        top = sole.vertices + np.array([0, 0, 0.05], np.float32)
+        count = len(sole.vertices)
+        edges = {}
+        for a, b, c in sole.triangles.tolist():
+            for pair in ((a, b), (b, c), (c, a)):
+                edges[frozenset(pair)] = None if frozenset(pair) in edges else pair
+        sides = [(p[1], p[0], p[0] + count, p[1] + count) for p in edges.values() if p]
+        mesh = bpy.data.meshes.new(f"Sole {part}")
+        faces = sole.triangles.tolist() + (sole.triangles[:, ::-1] + count).tolist() + sides
+        mesh.from_pydata(np.concatenate([sole.vertices, top]).tolist(), [], faces)
+        obj = bpy.data.objects.new(mesh.name, mesh)
+        bpy.context.scene.collection.objects.link(obj)
+        obj.rotation_mode = "QUATERNION"
+        for frame in range(1, last + 1):
+            pose = sampled.pose[part, min(frame - 1, len(sampled.time) - 1)]
+            obj.location = pose[:3] - [0, 0, 0.02]  # as deep as a print
+            obj.rotation_quaternion = pose[3:]
+            obj.keyframe_insert("location", frame=frame)
+            obj.keyframe_insert("rotation_quaternion", frame=frame)
+        obj.modifiers.new("Brush", "DYNAMIC_PAINT").ui_type = "BRUSH"
+        only(obj)
+        bpy.ops.dpaint.type_toggle(type="BRUSH")
+        obj.modifiers["Brush"].brush_settings.paint_source = "VOLUME"
+        made.append(obj)
+    return made
+
+
+def dynamic_paint(form, count, frame_rate, folder, centre, gait):
+    """Seconds of one Dynamic Paint bake; form VERTEX or IMAGE."""
+    armature, last = start(frame_rate)
+    bpy.data.objects.remove(armature)
+    bpy.context.view_layer.update()
+    brushes(gait, last)
+    ground = grid("Canvas", count, centre)
+    only(ground)
+    modifier = ground.modifiers.new("Canvas", "DYNAMIC_PAINT")
+    modifier.ui_type = "CANVAS"
+    bpy.ops.dpaint.type_toggle(type="CANVAS")
+    surface = modifier.canvas_settings.canvas_surfaces[0]
+    surface.surface_format = form
+    surface.surface_type = "DISPLACE"
+    surface.frame_start, surface.frame_end = 1, last
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "canvas.blend"))
+    if form == "IMAGE":
+        surface.image_resolution = count
+        surface.image_output_path = str(folder)
+        surface.uv_layer = "UVMap"
+        surface.image_fileformat = "OPENEXR"
+        begun = time.perf_counter()
+        bpy.ops.dpaint.bake()  # starts a job; it is done when its last image is there
+        pictures = 0
+        while pictures < last and time.perf_counter() - begun < 600:
+            time.sleep(0.005)
+            pictures = sum(name.endswith(".exr") for name in os.listdir(folder))
+        if pictures < last:
+            raise SystemExit("Dynamic Paint did not write its images.")
+    else:
+        cache = surface.point_cache
+        cache.frame_start, cache.frame_end, cache.use_disk_cache = 1, last, True
+        begun = time.perf_counter()
+        with bpy.context.temp_override(point_cache=cache, object=ground, active_object=ground):
+            bpy.ops.ptcache.bake(bake=True)
+        if not cache.is_baked:
+            raise SystemExit("Dynamic Paint did not bake its vertices.")
+    seconds = time.perf_counter() - begun
+    return seconds, last
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--sizes", default="256,512,1024")
+    parser.add_argument("--frame-rate", type=int, default=30)
+    parser.add_argument("--runs", type=int, default=3)
+    args = parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else None)
+
+    desire_path.register()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        armature, last = start(args.frame_rate)
+        only(grid("Ground", 8, (0, 0)))
+        bpy.ops.object.desire_path_ground_add()
+        only(armature)
+        bpy.ops.object.desire_path_walker_add()
+        bpy.ops.object.desire_path_record(filepath=str(folder / "walk.npz"))
+        gait = Gait.load(folder / "walk.npz")
+        at = gait.com[0, :, :2]
+        centre = (at.min(axis=0) + at.max(axis=0)) / 2
+        print(f"Blender {bpy.app.version_string}, {last} frames at {args.frame_rate}/s, ms a frame "
+              f"(median of {args.runs})")
+        print(f"{'grid':>6} {'ours':>8} {'vertex':>8} {'image':>8}   {'vertex/ours':>11} {'image/ours':>11}")
+        mine = {}
+        for count in map(int, args.sizes.split(",")):
+            found = {"ours": [], "VERTEX": [], "IMAGE": []}
+            for run in range(args.runs):
+                for what, times in found.items():
+                    place = folder / f"{what}_{count}_{run}"
+                    place.mkdir()
+                    seconds, frames = (ours(count, args.frame_rate, place, centre) if what == "ours" else
+                                       dynamic_paint(what, count, args.frame_rate, place, centre, gait))
+                    times.append(1000 * seconds / frames)
+            us, vertex, image = (statistics.median(times) for times in found.values())
+            mine[count] = us
+            print(f"{count:>6} {us:8.2f} {vertex:8.2f} {image:8.2f}   {vertex / us:10.1f}x {image / us:10.1f}x")
+        sizes = sorted(mine)
+        print(f"ours at {sizes[-1]} against {sizes[0]}: {mine[sizes[-1]] / mine[sizes[0]]:.2f}x a frame")
+
+
+main()
