@@ -141,10 +141,12 @@ def test_sweeps_trail_14_15_16(seed, standing, tolerance):
     ring = np.where(cover > 0.5, 0, 32767).astype(np.int32)
     imprint = (bottom, cover, ring) if standing else None
     for _ in range(8):
-        both.twin["heap"] = both.native["heap"].astype(float)  # one sweep at a time: a tie may fall either way
+        # fresh heaps each time: a sweep leaves ties, slopes of gamma_r to the last bit, that count either way
+        both.native["heap"] += (0.03 * both.random.random(both.shape) * (both.native["heap"] > 0)).astype(np.float32)
+        both.twin["heap"] = both.native["heap"].astype(float)
         settled = _native.soil_stabilize(both.patch(), imprint, None, tolerance, 1)
         twin.sweep(both.twin, ring == 0 if standing else None, tolerance)
-        both.same("heap", 1e-7)
+        both.same("heap", 2e-8)
         assert settled["sweeps"] == 1
 
 
