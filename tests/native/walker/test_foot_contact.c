@@ -1,0 +1,185 @@
+// Contact, TRAIL (4): calibration, hysteresis, ticks and gaps, who carries what does not fall.
+#include "check.h"
+#include "scene.h"
+
+enum { T = 360, LIMBS = 2 };
+#define RATE 120.0
+
+// Two feet that take turns: each rests for 0.6 s of a 1 s stride and swings 15 cm high; the whole
+// clip hovers by `hover`. The body walks along x.
+static Scene walking(double hover, double ramp)
+{
+    Scene s = scene_make(T, RATE, LIMBS, 1);
+    for (int t = 0; t < T; ++t) {
+        const double now = (double)t / RATE;
+        scene_com(&s, t, 1.2 * now, 0.0, 1.0 + hover);
+        for (int p = 0; p < LIMBS; ++p) {
+            const double phase = now + 0.5 * (double)p, stride = floor(phase), u = phase - stride;
+            const double swing = u < 0.6 ? 0.0 : (u - 0.6) / 0.4;
+            const double ease = swing * swing * (3.0 - 2.0 * swing);
+            const double x = 1.2 * (stride + ease) - 0.6 * (double)p;
+            scene_put(&s, T, p, t, x, p ? -0.1 : 0.1,
+                      hover + ramp * x + 0.15 * sin(3.14159265 * swing) * sin(3.14159265 * swing));
+            s.ground[p * T + t] = ramp * x;
+        }
+    }
+    return s;
+}
+
+static int share_touching(const uint8_t* on)
+{
+    int sum = 0;
+    for (int t = 0; t < T; ++t) sum += on[t];
+    return sum;
+}
+
+static void check_walk(double hover, double ramp)
+{
+    Scene   s = walking(hover, ramp);
+    uint8_t on[LIMBS * T];
+    double  clearance[LIMBS];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int p = 0; p < LIMBS; ++p) {
+        CHECK_NEAR(clearance[p], hover, 2e-3);
+        CHECK_CLOSE(share_touching(on + p * T), 0.6 * T, 0.12);
+        for (int t = 1; t < T - 1; ++t) {
+            const double phase = (double)t / RATE + 0.5 * (double)p, u = phase - floor(phase);
+            if (u > 0.02 && u < 0.58) CHECK(on[p * T + t] == 1);
+            if (u > 0.70 && u < 0.92) CHECK(on[p * T + t] == 0);
+        }
+    }
+    scene_free(&s);
+}
+
+TEST(resting_foot_touches)
+{
+    check_walk(0.0, 0.0);
+}
+
+TEST(hovering_clip_touches)
+{
+    check_walk(0.04, 0.0);
+    check_walk(-0.03, 0.0);
+}
+
+TEST(slope_given_as_ground_touches)
+{
+    check_walk(0.01, 0.2);
+}
+
+TEST(nothing_touches_where_there_is_no_ground)
+{
+    Scene s = walking(0.0, 0.0);
+    for (int k = 0; k < LIMBS * T; ++k) s.ground[k] = NAN;
+    uint8_t               on[LIMBS * T];
+    double                clearance[LIMBS];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int k = 0; k < LIMBS * T; ++k) CHECK(on[k] == 0);
+    for (int p = 0; p < LIMBS; ++p) CHECK(isfinite(clearance[p]));
+    scene_free(&s);
+}
+
+TEST(flight_carries_nobody)
+{
+    // a ball: rests, jumps for 0.6 s, rests
+    enum { N = 240 };
+    Scene        s = scene_make(N, RATE, 1, 1);
+    const double v0 = 9.81 * 0.3;
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE - 0.7;
+        const double z = now > 0.0 && now < 0.6 ? v0 * now - 0.5 * 9.81 * now * now : 0.0;
+        scene_com(&s, t, 0.0, 0.0, 1.0 + z);
+        scene_put(&s, N, 0, t, 0.0, 0.0, z);
+    }
+    uint8_t               on[N];
+    double                clearance[1];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE - 0.7;
+        if (now < -0.03 || now > 0.63) CHECK(on[t] == 1);
+        if (now > 0.05 && now < 0.55) CHECK(on[t] == 0);
+    }
+    scene_free(&s);
+}
+
+TEST(somebody_carries_what_does_not_fall)
+{
+    // the left foot stands on the ground for 1 s, then on a 30 cm block while the right swings
+    enum { N = 240 };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        const double up = t < N / 2 ? 0.0 : 0.3;
+        scene_com(&s, t, 0.0, 0.0, 1.0 + 0.3 * (double)t / N);
+        scene_put(&s, N, 0, t, 0.0, 0.1, up);
+        scene_put(&s, N, 1, t, 1.5 * sin(6.0 * (double)t / RATE), -0.1, t < N / 2 ? 0.25 : 0.55);
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    CHECK_NEAR(clearance[0], 0.0, 1e-3);
+    for (int t = 0; t < N; ++t) {
+        if (abs(t - N / 2) < 6) continue;
+        CHECK(on[t] == 1);
+        CHECK(on[N + t] == 0);
+    }
+    scene_free(&s);
+}
+
+TEST(short_ticks_and_gaps_close)
+{
+    // a foot at rest that is lifted for 2 samples, and one in the air that dips for 2
+    enum { N = 120 };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        scene_com(&s, t, 0.0, 0.0, 1.0);
+        scene_put(&s, N, 0, t, 0.0, 0.1, 0.0);
+        scene_put(&s, N, 1, t, 0.0, -0.1, 0.06);
+        s.ground[t] = t == 60 || t == 61 ? -0.05 : 0.0;
+        s.ground[N + t] = t > 20 && t < 23 ? 0.06 : t < 10 ? 0.06 : 0.0;
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 0; t < N; ++t) CHECK(on[t] == 1);
+    for (int t = 12; t < N; ++t) CHECK(on[N + t] == 0);
+    scene_free(&s);
+}
+
+TEST(refuses_uneven_times_and_missing_memory)
+{
+    Scene                 s = walking(0.0, 0.0);
+    uint8_t               on[LIMBS * T];
+    double                clearance[LIMBS];
+    const DpContactLimits limits = dp_contact_limits_default();
+    const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
+    for (long k = 0; k < 7; ++k) {
+        dp_alloc_fail_after(k);
+        CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_NO_MEMORY);
+    }
+    dp_alloc_fail_after(-1);
+    CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_OK);
+    s.pose[5] = NAN;
+    CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_BAD_ARGUMENT);
+    s.pose[5] = 0.0;
+    s.time[3] += 0.004;
+    CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_BAD_ARGUMENT);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    RUN(resting_foot_touches);
+    RUN(hovering_clip_touches);
+    RUN(slope_given_as_ground_touches);
+    RUN(nothing_touches_where_there_is_no_ground);
+    RUN(flight_carries_nobody);
+    RUN(somebody_carries_what_does_not_fall);
+    RUN(short_ticks_and_gaps_close);
+    RUN(refuses_uneven_times_and_missing_memory);
+    return check_done();
+}

@@ -1,0 +1,100 @@
+// Resampling: counts, exact cubics, uneven times, rotations the shortest way.
+#include "check.h"
+#include "scene.h"
+
+TEST(counts_samples_that_fit)
+{
+    CHECK(dp_gait_resample_count(0.0, 1.0, 120.0) == 121);
+    CHECK(dp_gait_resample_count(0.0, 0.999, 10.0) == 10);
+    CHECK(dp_gait_resample_count(2.0, 2.0, 24.0) == 1);
+    CHECK(dp_gait_resample_count(0.0, 7.0 / 24.0, 24.0) == 8);  // rounding keeps the last one
+    CHECK(dp_gait_resample_count(0.0, 1.0, 0.0) == 0);
+    CHECK(dp_gait_resample_count(1.0, 0.0, 24.0) == 0);
+    CHECK(dp_gait_resample_count(0.0, 1e9, 1e9) == 0);
+}
+
+static double cubic_path(double t)
+{
+    return 0.3 + 1.1 * t - 0.7 * t * t + 0.4 * t * t * t;
+}
+
+TEST(keeps_cubics_on_uneven_times)
+{
+    enum { T = 9 };
+    Scene  s = scene_make(T, 24.0, 1, 1);
+    double t = 0.0;
+    for (int k = 0; k < T; ++k) {
+        s.time[k] = t;
+        scene_com(&s, k, cubic_path(t), -cubic_path(t), 1.0);
+        scene_put(&s, T, 0, k, 2.0 * cubic_path(t), t, -t);
+        t += k % 2 ? 0.05 : 0.03;
+    }
+    const DpGait* gait = scene_gait(&s, T, 1, 1);
+    const double  last = s.time[T - 1];
+    enum { MOST = 200 };
+    double    time[MOST], com[3 * MOST], pose[7 * MOST];
+    const int count = dp_gait_resample_count(0.0, last, 240.0);
+    CHECK(count > 60 && count < MOST);
+    CHECK(dp_gait_resample(gait, 240.0, count, time, com, pose) == DP_OK);
+    for (int k = 0; k < count; ++k) {
+        CHECK_NEAR(time[k], (double)k / 240.0, 1e-12);
+        CHECK_NEAR(com[3 * k], cubic_path(time[k]), 1e-12);
+        CHECK_NEAR(com[3 * k + 1], -cubic_path(time[k]), 1e-12);
+        CHECK_NEAR(pose[7 * k], 2.0 * cubic_path(time[k]), 1e-12);
+        CHECK_NEAR(pose[7 * k + 2], -time[k], 1e-12);
+    }
+    CHECK(dp_gait_resample(gait, 240.0, count + 1, time, com, pose) == DP_BAD_ARGUMENT);
+    scene_free(&s);
+}
+
+TEST(turns_the_shortest_way)
+{
+    Scene s = scene_make(2, 1.0, 1, 1);
+    // 90 degrees about z; the second quaternion with its sign turned, which is the same rotation
+    const double h = sqrt(0.5);
+    double*      q = s.pose + 7 + 3;
+    q[0] = -h, q[3] = -h;
+    const DpGait* gait = scene_gait(&s, 2, 1, 1);
+    double        time[11], com[33], pose[77];
+    CHECK(dp_gait_resample(gait, 10.0, 11, time, com, pose) == DP_OK);
+    for (int k = 0; k < 11; ++k) {
+        const double angle = 0.5 * 3.14159265358979 / 2.0 * (double)k / 10.0;
+        CHECK_NEAR(fabs(pose[7 * k + 3]), cos(angle), 1e-9);
+        CHECK_NEAR(fabs(pose[7 * k + 6]), sin(angle), 1e-9);
+    }
+    scene_free(&s);
+}
+
+TEST(copies_a_single_sample)
+{
+    Scene s = scene_make(1, 24.0, 2, 1);
+    scene_put(&s, 1, 1, 0, 1.0, 2.0, 3.0);
+    scene_com(&s, 0, 4.0, 5.0, 6.0);
+    double time[1], com[3], pose[14];
+    CHECK(dp_gait_resample(scene_gait(&s, 1, 2, 1), 120.0, 1, time, com, pose) == DP_OK);
+    CHECK_NEAR(com[2], 6.0, 0.0);
+    CHECK_NEAR(pose[9], 3.0, 0.0);
+    CHECK_NEAR(pose[10], 1.0, 0.0);
+    scene_free(&s);
+}
+
+TEST(refuses_times_that_stand_still)
+{
+    Scene s = scene_make(3, 24.0, 1, 1);
+    s.time[1] = s.time[2];
+    double    time[9], com[27], pose[63];
+    const int count = dp_gait_resample_count(s.time[0], s.time[2], 24.0);
+    CHECK(dp_gait_resample(scene_gait(&s, 3, 1, 1), 24.0, count, time, com, pose) == DP_BAD_ARGUMENT);
+    CHECK(dp_gait_resample(NULL, 24.0, count, time, com, pose) == DP_BAD_ARGUMENT);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    RUN(counts_samples_that_fit);
+    RUN(keeps_cubics_on_uneven_times);
+    RUN(turns_the_shortest_way);
+    RUN(copies_a_single_sample);
+    RUN(refuses_times_that_stand_still);
+    return check_done();
+}
