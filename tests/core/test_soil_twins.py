@@ -146,7 +146,7 @@ def test_sweeps_trail_14_15_16(seed, standing, tolerance):
         both.twin["heap"] = both.native["heap"].astype(float)
         settled = _native.soil_stabilize(both.patch(), imprint, None, tolerance, 1)
         twin.sweep(both.twin, ring == 0 if standing else None, tolerance)
-        both.same("heap", 2e-8)
+        both.same("heap", 5e-8)
         assert settled["sweeps"] == 1
 
 
