@@ -37,7 +37,7 @@ CELL = 0.005  # [m]
 
 def shares(x, y):
     """How much sand, snow and mud there is at places, (3, ..), sum 1; the borders wander."""
-    wander = 0.10 * noise.rough(x, y, 0.9, 5) + 0.05 * x
+    wander = (0.26 - 0.18 * np.exp(-(x / 0.9) ** 2)) * noise.rough(x, y, 1.1, 5) + 0.05 * x
     soft = 0.10  # half the width of a border [m]
     below = [np.clip(0.5 + (y + wander - at) / (2 * soft), 0.0, 1.0) for at in BORDERS]
     below = [s * s * (3 - 2 * s) for s in below]
@@ -59,14 +59,18 @@ def height(x, y):
     phase = (y + 0.22 * x + 0.05 * noise.smooth(x, y, 0.55, 21)) / 0.085
     crest = 0.5 + 0.5 * np.cos(2 * np.pi * phase)
     ripples = 0.0042 * crest ** 1.5 * (0.65 + 0.35 * noise.smooth(x, y, 0.7, 22))
-    humps = 0.007 * noise.rough(x, y, 0.34, 31) + 0.0016 * noise.rough(x, y, 0.06, 33, octaves=2)
-    clods = 0.005 * noise.rough(x, y, 0.16, 41) + 0.0026 * noise.rough(x, y, 0.034, 43, octaves=2)
+    # what the mesh is too coarse for, off the walk, is left to the shader
+    near = np.exp(-(np.maximum(np.maximum(abs(x), abs(y + 0.55) - 2.2) - 0.3, 0.0) / 0.35) ** 2)
+    humps = 0.007 * noise.rough(x, y, 0.34, 31)
+    humps += 0.0016 * near * noise.rough(x, y, 0.06, 33, octaves=2)
+    clods = 0.005 * noise.rough(x, y, 0.16, 41)
+    clods += 0.0026 * near * noise.rough(x, y, 0.034, 43, octaves=2)
     # the snow lies on the sand and the mud, and thins out towards them
     blanket = 0.020 * snow * snow
     return waves(x, y) + sand * ripples + snow * humps + mud * clods + blanket
 
 
-def _lines(low, high, step, reach, grow=1.07):
+def _lines(low, high, step, reach, grow=1.06):
     """Coordinates: even between low and high, then farther and farther apart."""
     middle = np.arange(round(low / step), round(high / step) + 1) * step
     out, width = [], step
@@ -208,15 +212,14 @@ def add_sun():
 def light_and_cameras(scene):
     add_sun()
     materials.sky(scene)
-    still = add_camera("Still", (0.50, 1.16, 0.72), (-0.06, -0.62, 0.03), 31.0)
+    still = add_camera("Still", (0.53, 1.40, 0.74), (-0.03, -0.46, 0.0), 31.0)
     film = add_camera("Film", (1.55, 0.0, 0.62), (0.0, 0.0, 0.30), 32.0)
-    # the film's camera goes along with the walker, evenly
+    # the film's camera goes along with the walker, evenly, and falls behind a little
     span = scene.frame_end - scene.frame_start
     for frame in (scene.frame_start, scene.frame_end):
-        share = (frame - scene.frame_start) / span
-        y = 1.15 + share * (-2.15 - 1.15)
-        film.location = (1.22, y - 1.00, 0.86)
-        aim(film, (-0.03, y + 0.24, 0.19))
+        y = 1.34 - (frame - scene.frame_start) / span * 3.66
+        film.location = (1.42, y - 1.18, 0.98)
+        aim(film, (-0.03, y + 0.20, 0.27))
         film.keyframe_insert("location", frame=frame)
     for curve in film.animation_data.action.fcurves:
         for key in curve.keyframe_points:
@@ -231,16 +234,20 @@ def cycles(scene):
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = True
     scene.cycles.adaptive_threshold = 0.03
-    scene.cycles.max_bounces = 3
-    scene.cycles.diffuse_bounces = 2
-    scene.cycles.glossy_bounces = 2
+    scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 2
+    scene.cycles.glossy_bounces = 1
+    # what light does after its first bounce is guessed: shadows are quiet with few samples
+    scene.cycles.use_fast_gi = True
+    scene.cycles.fast_gi_method = "REPLACE"
+    scene.cycles.ao_bounces_render = 1
+    scene.world.light_settings.distance = 0.8
     scene.cycles.transmission_bounces = scene.cycles.transparent_max_bounces = 0
     scene.cycles.caustics_reflective = scene.cycles.caustics_refractive = False
     scene.cycles.sample_clamp_indirect = 3.0
     scene.render.resolution_x, scene.render.resolution_y = 1280, 720
     scene.cycles.samples = 48
-    scene.render.use_persistent_data = False
     scene.view_settings.view_transform = "Filmic"
+    scene.view_settings.exposure = -0.12
     scene.view_settings.look = "Medium High Contrast"
 
 
@@ -304,6 +311,7 @@ def main():
 
     begun = time.perf_counter()
     ground, walker = build(chosen.cell)
+    bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
     file = os.path.join(out, "desire_path_demo.blend")
     bpy.ops.wm.save_as_mainfile(filepath=file, compress=True)
     print(f"stage scene {time.perf_counter() - begun:.1f}")
