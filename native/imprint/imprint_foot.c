@@ -21,7 +21,8 @@ struct DpImprintScratch
     float*  low;     // samples
     float*  sum;     // one row of cells: heights summed down each column of samples
     float*  covered; // and how many there were
-    size_t  corners, lows, sums, covereds;  // room
+    DpReach* due;    // triangles of one sole
+    size_t   corners, lows, sums, covereds, dues;  // room
 };
 
 DpImprintScratch* dp_imprint_scratch_create(void)
@@ -36,6 +37,7 @@ void dp_imprint_scratch_destroy(DpImprintScratch* scratch)
     dp_free(scratch->low);
     dp_free(scratch->sum);
     dp_free(scratch->covered);
+    dp_free(scratch->due);
     dp_free(scratch);
 }
 
@@ -96,26 +98,43 @@ typedef struct Frame
     double x, y, per_metre;
 } Frame;
 
-// corners of one posed sole in sample steps; box grows around them
-static void pose_corners(const DpMesh* sole, DpPose pose, const Frame* frame, double* corner,
-                         DpBox* box)
+// a turn as rows of a matrix
+typedef struct Turn
 {
-    for (int n = 0; n < sole->vertex_count; ++n, corner += 3) {
-        const float* at = sole->vertex + 3 * (size_t)n;
-        const DpVec3 p = dp_place(pose, dp_vec3((double)at[0], (double)at[1], (double)at[2]));
-        const double u = (p.x - frame->x) * frame->per_metre;
-        const double v = (p.y - frame->y) * frame->per_metre;
-        corner[0] = u, corner[1] = v, corner[2] = p.z;
-        box->x0 = u < box->x0 ? u : box->x0, box->x1 = u > box->x1 ? u : box->x1;
-        box->y0 = v < box->y0 ? v : box->y0, box->y1 = v > box->y1 ? v : box->y1;
-        box->z0 = p.z < box->z0 ? p.z : box->z0, box->z1 = p.z > box->z1 ? p.z : box->z1;
-    }
+    DpVec3 x, y, z;
+} Turn;
+
+static Turn turn_of(DpQuat q)
+{
+    const Turn turn = {
+        {1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z), 2.0 * (q.x * q.z + q.w * q.y)},
+        {2.0 * (q.x * q.y + q.w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z - q.w * q.x)},
+        {2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)}};
+    return turn;
 }
 
-static bool all_finite(const double* value, size_t count)
+// corners of one posed sole in sample steps; box grows around them. False: one is not a number.
+static bool pose_corners(const DpMesh* sole, DpPose pose, const Frame* frame, double* corner,
+                         DpBox* box)
 {
-    double zero = 0.0;
-    for (size_t n = 0; n < count; ++n) zero += value[n] * 0.0;  // NaN and infinity do not go away
+    const Turn turn = turn_of(pose.turn);
+    DpBox      b = *box;
+    double     zero = 0.0;
+    for (int n = 0; n < sole->vertex_count; ++n, corner += 3) {
+        const float* at = sole->vertex + 3 * (size_t)n;
+        const double x = (double)at[0], y = (double)at[1], z = (double)at[2];
+        const double px = pose.at.x + (turn.x.x * x + turn.x.y * y + turn.x.z * z);
+        const double py = pose.at.y + (turn.y.x * x + turn.y.y * y + turn.y.z * z);
+        const double w = pose.at.z + (turn.z.x * x + turn.z.y * y + turn.z.z * z);
+        const double u = (px - frame->x) * frame->per_metre;
+        const double v = (py - frame->y) * frame->per_metre;
+        corner[0] = u, corner[1] = v, corner[2] = w;
+        b.x0 = u < b.x0 ? u : b.x0, b.x1 = u > b.x1 ? u : b.x1;
+        b.y0 = v < b.y0 ? v : b.y0, b.y1 = v > b.y1 ? v : b.y1;
+        b.z0 = w < b.z0 ? w : b.z0, b.z1 = w > b.z1 ? w : b.z1;
+        zero += ((u - u) + (v - v)) + (w - w);  // NaN and infinity do not go away
+    }
+    *box = b;
     return zero == 0.0;
 }
 
@@ -211,10 +230,12 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
 {
     if (!is_patch(patch) || count < 0 || samples < 1 || samples > MOST_SAMPLES)
         return DP_BAD_ARGUMENT;
-    size_t corners = 0;
+    size_t corners = 0, most = 0;
     for (int s = 0; s < count; ++s) {
         if (!is_mesh(&soles[s])) return DP_BAD_ARGUMENT;
         corners += (size_t)soles[s].vertex_count;
+        const size_t triangles = (size_t)soles[s].triangle_count;
+        most = triangles > most ? triangles : most;
     }
     if (corners && !make_room((void**)&scratch->corner, &scratch->corners, corners, 3 * sizeof(double)))
         return DP_NO_MEMORY;
@@ -225,10 +246,9 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
     DpBox   box = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
     double* corner = scratch->corner;
     for (int s = 0; s < count; ++s) {
-        pose_corners(&soles[s], poses[s], &frame, corner, &box);
+        if (!pose_corners(&soles[s], poses[s], &frame, corner, &box)) return DP_BAD_ARGUMENT;
         corner += 3 * (size_t)soles[s].vertex_count;
     }
-    if (!all_finite(scratch->corner, 3 * corners)) return DP_BAD_ARGUMENT;
     for (size_t n = 0; n < corners; ++n) scratch->corner[3 * n + 2] -= box.z0;
 
     // whole cells whose samples the box can hold
@@ -247,19 +267,21 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
     const int j0 = q0 / samples, j1 = q1 / samples + 1;
     window.p0 = i0 * samples, window.p1 = i1 * samples;
     window.q0 = j0 * samples, window.q1 = j1 * samples;
-    window.row = (window.p1 - window.p0 + 7) / 8 * 8;
+    window.row = (window.p1 - window.p0 + 15) / 8 * 8;
 
     const size_t size = (size_t)window.row * (size_t)(window.q1 - window.q0);
     if (!make_room((void**)&scratch->low, &scratch->lows, size, sizeof(float)) ||
         !make_room((void**)&scratch->sum, &scratch->sums, (size_t)window.row, sizeof(float)) ||
-        !make_room((void**)&scratch->covered, &scratch->covereds, (size_t)window.row, sizeof(float)))
+        !make_room((void**)&scratch->covered, &scratch->covereds, (size_t)window.row, sizeof(float)) ||
+        (most && !make_room((void**)&scratch->due, &scratch->dues, most, sizeof(DpReach))))
         return DP_NO_MEMORY;
     window.low = scratch->low;
     for (size_t n = 0; n < size; ++n) window.low[n] = INFINITY;
 
     corner = scratch->corner;
     for (int s = 0; s < count; ++s) {
-        dp_samples_lower(&window, corner, soles[s].triangle, soles[s].triangle_count);
+        dp_samples_lower(&window, corner, soles[s].triangle, soles[s].triangle_count,
+                         scratch->due);
         corner += 3 * (size_t)soles[s].vertex_count;
     }
 

@@ -4,6 +4,9 @@
 // Spans are closed at both ends. An edge's crossing is computed from the edge alone, so two
 // neighbours end and begin at the same number and no sample falls between them; a sample on their
 // edge belongs to both, which a minimum does not mind. A sample exactly on the sole's outline counts.
+//
+// No sample depends on the order of the triangles, so the side that is likely to be the underside goes
+// first, and a triangle of the other side is left out when all samples about it are lower already.
 #include "imprint/imprint_raster.h"
 
 #include <string.h>
@@ -11,6 +14,7 @@
 #include "base/wide.h"
 
 #define LANES 8  // samples at a time; two registers where one holds four
+#define ASKED 64     // triangles that are asked which side is up
 #define STEEPEST 1e4  // m per half sample: a needle seen edge-on, its lowest corner stands for it
 
 typedef float   Wide __attribute__((vector_size(LANES * sizeof(float))));
@@ -21,10 +25,9 @@ typedef struct Corner
     double u, v, z;
 } Corner;
 
-// where an edge crosses rows; from its middle, so that up and down are alike
+// where an edge crosses rows between its ends: from its middle, so that up and down are alike
 typedef struct Edge
 {
-    Corner a, b;  // a.v <= b.v
     double u, v;  // middle
     double lean;  // du/dv
 } Edge;
@@ -37,109 +40,123 @@ DP_INLINE double held(double x, double limit)
 // x is held, so that it fits an int and the shifted sums below stay positive
 DP_INLINE int first_at(double x, int past)
 {
-    const double near = held(x, (double)past + 2.0);
-    const int    whole = (int)near;
-    const int    up = whole + ((double)whole < near);
+    const int whole = (int)x;
+    const int up = whole + ((double)whole < x);
     return ((up + past + 3) >> 1) - 1;
 }
 
 DP_INLINE int last_at(double x, int past)
 {
-    const double near = held(x, (double)past + 2.0);
-    const int    whole = (int)near;
-    const int    down = whole - ((double)whole > near);
+    const int whole = (int)x;
+    const int down = whole - ((double)whole > x);
     return ((down + past + 2) >> 1) - 1;
 }
 
 int dp_samples_first(double x, int past)
 {
-    return first_at(x, past);
+    return first_at(held(x, (double)past + 2.0), past);
 }
 
 int dp_samples_last(double x, int past)
 {
-    return last_at(x, past);
+    return last_at(held(x, (double)past + 2.0), past);
 }
 
-DP_INLINE Edge edge_between(Corner a, Corner b)
+DP_INLINE Edge edge_between(const Corner* a, const Corner* b)
 {
-    Edge edge = {a, b, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), 0.0};
-    if (b.v > a.v) edge.lean = (b.u - a.u) / (b.v - a.v);
+    const double rise = b->v - a->v;
+    const Edge   edge = {0.5 * (a->u + b->u), 0.5 * (a->v + b->v),
+                         (b->u - a->u) / (rise > 0.0 ? rise : 1.0)};
     return edge;
 }
 
-// exact at both ends, so that all triangles about a corner meet in it
 DP_INLINE double crossing(const Edge* edge, double v)
 {
-    const double u = edge->u + (v - edge->v) * edge->lean;
-    return v <= edge->a.v ? edge->a.u : v >= edge->b.v ? edge->b.u : u;
+    return edge->u + (v - edge->v) * edge->lean;
 }
 
-DP_INLINE void order(Corner* a, Corner* b)
+// three numbers in rising order, by the three comparisons of them; of equals the first comes first
+static const uint8_t rising[8][3] = {{2, 1, 0}, {2, 0, 1}, {1, 2, 0}, {0, 1, 2},
+                                     {0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {0, 1, 2}};
+
+DP_INLINE const uint8_t* order_of(double a, double b, double c)
 {
-    const Corner was = *a;
-    if (b->v < was.v) {
-        *a = *b;
-        *b = was;
-    }
+    return rising[(a <= b) | (b <= c) << 1 | (a <= c) << 2];
 }
 
-// height over (u, v): from one corner, with slopes. Which corner is told by heights alone, and the
+// Height over (u, v): from one corner, with slopes. Which corner is told by heights alone, and the
 // slopes are quotients of two determinants: no order of the corners changes a bit.
 typedef struct Plane
 {
-    Corner from;
+    double u, v, z;
     double du, dv;  // slopes [m per half sample]
-    double lowest;
 } Plane;
 
-DP_INLINE int plane_through(Plane* plane, Corner a, Corner b, Corner c)
+DP_INLINE int plane_through(Plane* plane, const Corner* const* corner)
 {
-    Corner from = a, one = b, two = c;
-    if (b.z < from.z) from = b, one = a, two = c;
-    if (c.z < from.z) from = c, one = a, two = b;
-    plane->lowest = from.z;
-    if (one.z == from.z || two.z == from.z) {  // the lowest is not alone: the highest is, or all are
-        if (one.z > from.z) {
-            const Corner was = from;
-            from = one;
-            one = was;
-        } else if (two.z > from.z) {
-            const Corner was = from;
-            from = two;
-            two = was;
-        }
-    }
-    const double u1 = one.u - from.u, v1 = one.v - from.v, z1 = one.z - from.z;
-    const double u2 = two.u - from.u, v2 = two.v - from.v, z2 = two.z - from.z;
-    const double twice = u1 * v2 - u2 * v1;
+    const uint8_t* by_z = order_of(corner[0]->z, corner[1]->z, corner[2]->z);
+    const Corner*  least = corner[by_z[0]];
+    const Corner*  one = corner[by_z[1]];
+    const Corner*  most = corner[by_z[2]];
+    const int      alone = least->z < one->z;  // the lowest, or else the highest
+    const Corner*  from = alone ? least : most;
+    const Corner*  two = alone ? most : least;
+    const double   u1 = one->u - from->u, v1 = one->v - from->v, z1 = one->z - from->z;
+    const double   u2 = two->u - from->u, v2 = two->v - from->v, z2 = two->z - from->z;
+    const double   twice = u1 * v2 - u2 * v1;
     if (twice == 0.0) return 0;
     const double du = (z1 * v2 - z2 * v1) / twice;
     const double dv = (u1 * z2 - u2 * z1) / twice;
-    plane->from = from;
-    plane->du = du, plane->dv = dv;
-    if (!(du < STEEPEST && du > -STEEPEST && dv < STEEPEST && dv > -STEEPEST)) {
-        plane->from.z = plane->lowest;
-        plane->du = plane->dv = 0.0;
-    }
+    const int    fair = (du < STEEPEST) & (du > -STEEPEST) & (dv < STEEPEST) & (dv > -STEEPEST);
+    plane->u = from->u, plane->v = from->v;
+    plane->z = fair ? from->z : least->z;
+    plane->du = fair ? du : 0.0;
+    plane->dv = fair ? dv : 0.0;
     return 1;
 }
 
 // a where the mask says so, else b
 #define PICK(mask, a, b) ((Wide)(((WideMask)(a) & (mask)) | ((WideMask)(b) & ~(mask))))
 
-// keep the lowest along samples first..last of one row, `LANES` at a time
-DP_INLINE void lower_span(const DpSamples* samples, int first, int last, int q, double v,
-                          const Plane* plane)
+// which samples a triangle can cover; 0 where there are none
+DP_INLINE int reach_of(DpReach* reach, const DpSamples* samples, const Corner* const* corner)
 {
+    const double u0 = corner[0]->u, u1 = corner[1]->u, u2 = corner[2]->u;
+    const double v0 = corner[0]->v, v1 = corner[1]->v, v2 = corner[2]->v;
+    double       u_min = u0 < u1 ? u0 : u1, u_max = u0 > u1 ? u0 : u1;
+    double       v_min = v0 < v1 ? v0 : v1, v_max = v0 > v1 ? v0 : v1;
+    u_min = u2 < u_min ? u2 : u_min, u_max = u2 > u_max ? u2 : u_max;
+    v_min = v2 < v_min ? v2 : v_min, v_max = v2 > v_max ? v2 : v_max;
+    const double u_end = (double)samples->past_u + 2.0, v_end = (double)samples->past_v + 2.0;
+    const int    p0 = first_at(held(u_min, u_end), samples->past_u);
+    const int    p1 = last_at(held(u_max, u_end), samples->past_u);
+    const int    q0 = first_at(held(v_min, v_end), samples->past_v);
+    const int    q1 = last_at(held(v_max, v_end), samples->past_v);
+    reach->p0 = p0 > samples->p0 ? p0 : samples->p0;
+    reach->p1 = p1 < samples->p1 ? p1 : samples->p1 - 1;
+    reach->q0 = q0 > samples->q0 ? q0 : samples->q0;
+    reach->q1 = q1 < samples->q1 ? q1 : samples->q1 - 1;
+    return (reach->p0 <= reach->p1) & (reach->q0 <= reach->q1);
+}
+
+// keep the lowest along one row between two crossings, LANES at a time
+DP_INLINE void lower_span(const DpSamples* samples, const DpReach* reach, int q, double v, double one,
+                          double two, const Plane* plane)
+{
+    double left = one < two ? one : two, right = one < two ? two : one;
+    const double p_left = (double)(2 * reach->p0 - samples->past_u);
+    const double p_right = (double)(2 * reach->p1 - samples->past_u);
+    left = left > p_left ? left : p_left;
+    right = right < p_right ? right : p_right;
+    if (!(left <= right)) return;
+    const int first = first_at(left, samples->past_u), last = last_at(right, samples->past_u);
+    if (first > last) return;
+
     // heights are measured from the span's middle: short distances, small rounding, no side preferred
     const int   middle = first + last - samples->past_u;
-    const float z0 = (float)(plane->from.z + (v - plane->from.v) * plane->dv +
-                             ((double)middle - plane->from.u) * plane->du);
-    const float slope = (float)plane->du;
-    const float d0 = (float)(2 * first - samples->past_u - middle);
-    const float d1 = (float)(2 * last - samples->past_u - middle);
-    const Wide  floor = (Wide){0.0f} + (float)plane->lowest;
+    const float z0 = (float)(plane->z + (v - plane->v) * plane->dv +
+                             ((double)middle - plane->u) * plane->du);
+    const float slope = (float)plane->du, reached = (float)(last - first);
     const Wide  lanes = {0.0f, 2.0f, 4.0f, 6.0f, 8.0f, 10.0f, 12.0f, 14.0f};
 
     const int begin = (first - samples->p0) & ~(LANES - 1);
@@ -148,61 +165,111 @@ DP_INLINE void lower_span(const DpSamples* samples, int first, int last, int q, 
     for (int p = begin; p <= last - samples->p0; p += LANES, d += 2.0f * LANES) {
         Wide was;
         memcpy(&was, low + p, sizeof was);
-        const Wide plain = z0 + d * slope;
-        const Wide z = PICK(plain > floor, plain, floor);
-        const Wide now = PICK((d >= d0) & (d <= d1) & (z < was), z, was);
+        const Wide z = z0 + d * slope;
+        const Wide now = PICK((d >= -reached) & (d <= reached) & (z < was), z, was);
         memcpy(low + p, &now, sizeof now);
     }
 }
 
-DP_INLINE void lower_triangle(const DpSamples* samples, Corner a, Corner b, Corner c)
+// Rows that meet a corner end in it exactly, so that all triangles about a corner meet there.
+DP_INLINE void lower_triangle(const DpSamples* samples, const DpReach* reach,
+                              const Corner* const* corner)
 {
-    const double u_min = a.u < b.u ? (a.u < c.u ? a.u : c.u) : (b.u < c.u ? b.u : c.u);
-    const double u_max = a.u > b.u ? (a.u > c.u ? a.u : c.u) : (b.u > c.u ? b.u : c.u);
-    int          p_min = first_at(u_min, samples->past_u);
-    int          p_max = last_at(u_max, samples->past_u);
-    if (p_min < samples->p0) p_min = samples->p0;
-    if (p_max >= samples->p1) p_max = samples->p1 - 1;
-    if (p_min > p_max) return;
-
-    Corner low = a, mid = b, top = c;
-    order(&low, &mid);
-    order(&mid, &top);
-    order(&low, &mid);
-    int q_min = first_at(low.v, samples->past_v);
-    int q_max = last_at(top.v, samples->past_v);
-    if (q_min < samples->q0) q_min = samples->q0;
-    if (q_max >= samples->q1) q_max = samples->q1 - 1;
-    if (q_min > q_max) return;
-
     Plane plane;
-    if (!plane_through(&plane, a, b, c)) return;  // upright or without area: others share its edges
-
-    const Edge whole = edge_between(low, top);
-    const Edge lower = edge_between(low, mid), upper = edge_between(mid, top);
-    for (int q = q_min; q <= q_max; ++q) {
+    if (!plane_through(&plane, corner)) return;  // upright or without area: others share its edges
+    const uint8_t* by_v = order_of(corner[0]->v, corner[1]->v, corner[2]->v);
+    const Corner*  low = corner[by_v[0]];
+    const Corner*  mid = corner[by_v[1]];
+    const Corner*  top = corner[by_v[2]];
+    const Edge     whole = edge_between(low, top);
+    const Edge     lower = edge_between(low, mid), upper = edge_between(mid, top);
+    for (int q = reach->q0; q <= reach->q1; ++q) {
         const double v = (double)(2 * q - samples->past_v);
-        const double one = crossing(&whole, v);
-        const double two = v < mid.v ? crossing(&lower, v) : v > mid.v ? crossing(&upper, v) : mid.u;
-        int          first = first_at(one < two ? one : two, samples->past_u);
-        int          last = last_at(one < two ? two : one, samples->past_u);
-        if (first < p_min) first = p_min;
-        if (last > p_max) last = p_max;
-        if (first <= last) lower_span(samples, first, last, q, v, &plane);
+        double       one = crossing(&whole, v);
+        double       two = crossing(v < mid->v ? &lower : &upper, v);
+        if (v <= low->v || v >= top->v || v == mid->v) {
+            one = v <= low->v ? low->u : v >= top->v ? top->u : one;
+            two = v == mid->v ? mid->u : one;
+        }
+        lower_span(samples, reach, q, v, one, two, &plane);
     }
 }
 
-DP_CLONES static void lower_triangles(const DpSamples* samples, const Corner* at,
-                                      const int32_t* triangle, int count)
+// ---- the side that cannot be seen from below -----------------------------------------------------
+
+DP_INLINE double seen_from_above(const Corner* const* corner)  // twice the area, < 0 clockwise
 {
+    return (corner[1]->u - corner[0]->u) * (corner[2]->v - corner[0]->v) -
+           (corner[2]->u - corner[0]->u) * (corner[1]->v - corner[0]->v);
+}
+
+#define CORNERS(at, triangle, t)                                                              \
+    {&(at)[(triangle)[3 * (size_t)(t)]], &(at)[(triangle)[3 * (size_t)(t) + 1]],              \
+     &(at)[(triangle)[3 * (size_t)(t) + 2]]}
+
+// +1 if triangles that run clockwise are more likely below, -1 if above: a guess from some of them
+static double guess_below(const Corner* at, const int32_t* triangle, int count)
+{
+    double volume = 0.0;
+    for (int t = 0; t < count; t += 1 + count / ASKED) {
+        const Corner* const corner[3] = CORNERS(at, triangle, t);
+        volume += seen_from_above(corner) * (corner[0]->z + corner[1]->z + corner[2]->z);
+    }
+    return volume < 0.0 ? -1.0 : 1.0;
+}
+
+// no sample of the triangle can be lower than what is there: rows from its first sample on, what is
+// beyond its last does not count
+DP_INLINE int is_hidden(const DpSamples* samples, const DpReach* reach, const Corner* const* corner)
+{
+    const double   z0 = corner[0]->z, z1 = corner[1]->z, z2 = corner[2]->z;
+    double         least = z0 < z1 ? z0 : z1, most = z0 < z1 ? z1 : z0;
+    least = z2 < least ? z2 : least, most = z2 > most ? z2 : most;
+    const float    bottom = (float)(least - 1e-6 * most);  // no rounding of a sample goes so far
+    const WideMask lanes = {0, 1, 2, 3, 4, 5, 6, 7};
+    WideMask       open = {0, 0, 0, 0, 0, 0, 0, 0};
+    for (int q = reach->q0; q <= reach->q1; ++q) {
+        const float* low = samples->low + (size_t)(q - samples->q0) * (size_t)samples->row;
+        for (int p = reach->p0; p <= reach->p1; p += LANES) {
+            Wide was;
+            memcpy(&was, low + (p - samples->p0), sizeof was);
+            open |= (was > bottom) & (lanes <= reach->p1 - p);
+        }
+    }
+    int64_t any[LANES / 2];
+    memcpy(any, &open, sizeof any);
+    return (any[0] | any[1] | any[2] | any[3]) == 0;
+}
+
+DP_CLONES static void lower_triangles(const DpSamples* samples, const Corner* at,
+                                      const int32_t* triangle, int count, DpReach* due)
+{
+    // who is due: first those that are likely below from the front, then the others from the back
+    const double below = guess_below(at, triangle, count);
+    int          front = 0, back = count;
     for (int t = 0; t < count; ++t) {
-        const int32_t* of = triangle + 3 * (size_t)t;
-        lower_triangle(samples, at[of[0]], at[of[1]], at[of[2]]);
+        const Corner* const corner[3] = CORNERS(at, triangle, t);
+        DpReach             reach;
+        const int           meets = reach_of(&reach, samples, corner);
+        const int           above = seen_from_above(corner) * below > 0.0;
+        reach.triangle = t;
+        due[front] = reach;
+        due[back - 1] = reach;
+        front += meets & !above;
+        back -= meets & above;
+    }
+    for (int n = 0; n < front; ++n) {
+        const Corner* const corner[3] = CORNERS(at, triangle, due[n].triangle);
+        lower_triangle(samples, &due[n], corner);
+    }
+    for (int n = back; n < count; ++n) {
+        const Corner* const corner[3] = CORNERS(at, triangle, due[n].triangle);
+        if (!is_hidden(samples, &due[n], corner)) lower_triangle(samples, &due[n], corner);
     }
 }
 
 void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
-                      int count)
+                      int count, DpReach* due)
 {
-    lower_triangles(samples, (const Corner*)(const void*)corner, triangle, count);
+    lower_triangles(samples, (const Corner*)(const void*)corner, triangle, count, due);
 }

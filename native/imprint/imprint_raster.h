@@ -12,7 +12,7 @@ typedef struct DpSamples
 {
     int    p0, p1, q0, q1;  // window: p0 <= p < p1, q0 <= q < q1
     int    past_u, past_v;  // samples along the whole grid, less one
-    int    row;             // floats from one row to the next, a multiple of 8
+    int    row;             // floats from one row to the next, a multiple of 8, 8 or more to spare
     float* low;             // lowest height of the sole above its lowest point, +inf where none [m]
 } DpSamples;
 
@@ -20,6 +20,13 @@ typedef struct DpSamples
 int dp_samples_first(double x, int past);
 int dp_samples_last(double x, int past);
 
+// Rectangle of samples that a triangle can cover, both ends included.
+typedef struct DpReach
+{
+    int32_t triangle, p0, p1, q0, q1;
+} DpReach;
+
 // Lower the samples under `count` triangles over corners (u, v, z). z >= 0 above the lowest point.
+// `due` is scratch for `count` of them.
 void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
-                      int count);
+                      int count, DpReach* due);

@@ -462,7 +462,7 @@ TEST(bad_soles_are_refused_and_leave_the_imprint)
     CHECK(press(&ground, &box, &stand, 1, 2) == DP_BAD_ARGUMENT);
     ground.patch.cell = 0.01;
 
-    for (int left = 0; left < 4; ++left) {  // after the scratch itself
+    for (int left = 0; left < 5; ++left) {  // after the scratch itself
         DpImprintScratch* scratch = dp_imprint_scratch_create();
         dp_alloc_fail_after(left);
         CHECK(dp_imprint_foot(&ground.imprint, &ground.patch, &box, &stand, 1, 2, scratch) ==
