@@ -11,7 +11,7 @@
 #include "terrain/terrain_inside.h"
 
 #define NEEDLE 1e-10         // twice the area seen from above, over the longest edge squared
-#define SLACK (2.0 * NEEDLE) // how far it reaches beyond its edges, over the longest edge
+#define SLACK (2.0 * NEEDLE)  // how far it reaches beyond its edges, over the longest edge
 #define BIN_SHARE 6          // entries in bins, per triangle, before bins are made coarser
 #define MOST_BINS 30000      // along one side
 
@@ -24,19 +24,20 @@ typedef struct Facet
     double slack;                       // least value of a side [m^2] < 0
 } Facet;
 
-static double least(const double* v)
+static inline double least(const double* v)
 {
     const double low = v[0] < v[1] ? v[0] : v[1];
     return low < v[2] ? low : v[2];
 }
 
-static double most(const double* v)
+static inline double most(const double* v)
 {
     const double high = v[0] > v[1] ? v[0] : v[1];
     return high > v[2] ? high : v[2];
 }
 
-static Facet facet_of(const MeshGround* mesh, int32_t triangle)
+// its corners and its box
+static inline Facet facet_box(const MeshGround* mesh, int32_t triangle)
 {
     Facet          facet;
     const int32_t* of = mesh->triangle + 3 * (size_t)triangle;
@@ -44,26 +45,47 @@ static Facet facet_of(const MeshGround* mesh, int32_t triangle)
         const double* at = mesh->vertex + 3 * (size_t)of[k];
         facet.x[k] = at[0], facet.y[k] = at[1], facet.z[k] = at[2];
     }
+    const double x_min = least(facet.x), x_max = most(facet.x);
+    const double y_min = least(facet.y), y_max = most(facet.y);
+    const double reach = SLACK * ((x_max - x_min) + (y_max - y_min));
+    facet.x_min = x_min - reach, facet.x_max = x_max + reach;
+    facet.y_min = y_min - reach, facet.y_max = y_max + reach;
+    facet.sign = facet.slack = 0.0;
+    return facet;
+}
+
+// which way it runs and how far it reaches beyond its edges
+static inline void facet_finish(Facet* facet)
+{
     double longest = 0.0;  // squared
     for (int k = 0; k < 3; ++k) {
-        const double dx = facet.x[(k + 1) % 3] - facet.x[k], dy = facet.y[(k + 1) % 3] - facet.y[k];
-        longest = fmax(longest, dx * dx + dy * dy);
+        const int    n = (k + 1) % 3;
+        const double dx = facet->x[n] - facet->x[k], dy = facet->y[n] - facet->y[k];
+        const double squared = dx * dx + dy * dy;
+        longest = squared > longest ? squared : longest;
     }
-    const double twice = (facet.x[1] - facet.x[0]) * (facet.y[2] - facet.y[0]) -
-                         (facet.x[2] - facet.x[0]) * (facet.y[1] - facet.y[0]);
-    facet.sign = twice > NEEDLE * longest ? 1.0 : twice < -NEEDLE * longest ? -1.0 : 0.0;
-    facet.slack = -SLACK * longest;
-    const double reach = SLACK * sqrt(longest);
-    facet.x_min = least(facet.x) - reach, facet.x_max = most(facet.x) + reach;
-    facet.y_min = least(facet.y) - reach, facet.y_max = most(facet.y) + reach;
+    const double twice = (facet->x[1] - facet->x[0]) * (facet->y[2] - facet->y[0]) -
+                         (facet->x[2] - facet->x[0]) * (facet->y[1] - facet->y[0]);
+    facet->sign = twice > NEEDLE * longest ? 1.0 : twice < -NEEDLE * longest ? -1.0 : 0.0;
+    facet->slack = -SLACK * longest;
+}
+
+static inline Facet facet_of(const MeshGround* mesh, int32_t triangle)
+{
+    Facet facet = facet_box(mesh, triangle);
+    facet_finish(&facet);
     return facet;
+}
+
+static inline bool in_box(const Facet* facet, double x, double y)
+{
+    return x >= facet->x_min && x <= facet->x_max && y >= facet->y_min && y <= facet->y_max;
 }
 
 // height of a triangle over (x, y) and the shares of its corners; false where it is not
 static inline bool facet_at(const Facet* facet, double x, double y, double* z, double share[3])
 {
-    if (!(x >= facet->x_min && x <= facet->x_max && y >= facet->y_min && y <= facet->y_max))
-        return false;
+    if (!in_box(facet, x, y)) return false;
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
         const int    a = (k + 1) % 3, b = (k + 2) % 3;
@@ -255,8 +277,10 @@ double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
     const size_t bin = (size_t)at.y0 * (size_t)mesh->nx + (size_t)at.x0;
     Highest      top = {NAN, -1};
     for (size_t n = mesh->start[bin]; n < mesh->start[bin + 1]; ++n) {
-        const Facet facet = facet_of(mesh, mesh->item[n]);
-        double      z, share[3];
+        Facet  facet = facet_box(mesh, mesh->item[n]);
+        double z, share[3];
+        if (!in_box(&facet, x, y)) continue;
+        facet_finish(&facet);
         if (facet_at(&facet, x, y, &z, share)) rise(&top, z, mesh->item[n]);
     }
     if (kind) *kind = kind_of(rest, top.triangle, x, y);
@@ -264,7 +288,7 @@ double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
 }
 
 // cells whose centres can lie in low..high; facet_at has the last word
-static void cell_range(double low, double high, double origin, double cell, long from, int* first,
+static inline void cell_range(double low, double high, double origin, double cell, long from, int* first,
                        int* last)
 {
     const double before = dp_clamp((low - origin) / cell - 1.5 - (double)from, 0.0, DP_TILE);
@@ -303,12 +327,13 @@ void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
         for (int bx = under.x0; bx <= under.x1; ++bx) {
             const size_t bin = (size_t)by * (size_t)mesh->nx + (size_t)bx;
             for (size_t n = mesh->start[bin]; n < mesh->start[bin + 1]; ++n) {
-                const Facet facet = facet_of(mesh, mesh->item[n]);
-                const Bins  at = facet_bins(mesh, &facet);
-                const int   once_x = at.x0 > under.x0 ? at.x0 : under.x0;
-                const int   once_y = at.y0 > under.y0 ? at.y0 : under.y0;
-                if (bx == once_x && by == once_y)  // it stands in other bins too
-                    raise_cells(&facet, mesh->item[n], grid, top);
+                Facet      facet = facet_box(mesh, mesh->item[n]);
+                const Bins at = facet_bins(mesh, &facet);
+                const int  once_x = at.x0 > under.x0 ? at.x0 : under.x0;
+                const int  once_y = at.y0 > under.y0 ? at.y0 : under.y0;
+                if (bx != once_x || by != once_y) continue;  // it stands in other bins too
+                facet_finish(&facet);
+                raise_cells(&facet, mesh->item[n], grid, top);
             }
         }
 

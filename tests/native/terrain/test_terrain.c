@@ -143,6 +143,9 @@ TEST(changed_tiles_are_told_once_and_in_order)
     CHECK(write_cells(terrain, 65, 66, 131, 132, 2.0f, 0.0f, 0.0f) == DP_OK);
     dp_terrain_changed(terrain, visit, &visits);
     CHECK(visits.count == 7 && visits.tx[6] == 1 && visits.ty[6] == 2);
+    CHECK(write_cells(terrain, 65, 66, 131, 132, 2.0f, 0.0f, 0.0f) == DP_OK);  // nothing new
+    dp_terrain_changed(terrain, visit, &visits);
+    CHECK(visits.count == 7);
     dp_terrain_destroy(terrain);
 }
 
