@@ -6,6 +6,8 @@
 //   TRAIL (4): a point touches below a height and a speed, and lets go above others, each over the
 //   clip's own resting clearance; one fixed height loses most contacts of real recordings.
 //   test_foot_contact.c, hovering_clip_touches.
+//   TRAIL (4): what comes down steeper than 45 degrees touches at any speed; falls and landings would
+//   begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
 //   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.
 #include <math.h>
 #include <stdlib.h>
@@ -44,6 +46,7 @@ typedef struct Watch
     double                 rate;
     double*                height;   // over the ground; NaN = no ground [m]   (K, T)
     double*                speed;    // [m/s]                                  (K, T)
+    double*                drop;     // downward speed over sideways speed [m/s]  (K, T)
     double*                gate;     // speed below which a point may touch [m/s] (W, T)
     double*                fall;     // a_com upward [m/s^2]                   (W, T)
     uint8_t*               on;       // the point touches                      (K, T)
@@ -53,7 +56,7 @@ typedef struct Watch
 
 static void close_watch(Watch* w)
 {
-    dp_free(w->height), dp_free(w->speed), dp_free(w->gate), dp_free(w->fall);
+    dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->gate), dp_free(w->fall);
     dp_free(w->on), dp_free(w->scratch), dp_free(w->line);
 }
 
@@ -63,12 +66,13 @@ static bool open_watch(Watch* w)
     const size_t walkers = (size_t)w->gait->walkers;
     w->height = dp_alloc(points * times, sizeof(double));
     w->speed = dp_alloc(points * times, sizeof(double));
+    w->drop = dp_alloc(points * times, sizeof(double));
     w->gate = dp_alloc(walkers * times, sizeof(double));
     w->fall = dp_alloc(walkers * times, sizeof(double));
     w->on = dp_alloc(points * times, 1);
     w->scratch = dp_alloc(3 * times + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
-    return w->height && w->speed && w->gate && w->fall && w->on && w->scratch && w->line;
+    return w->height && w->speed && w->drop && w->gate && w->fall && w->on && w->scratch && w->line;
 }
 
 static int limb_of(const DpGait* gait, int point)
@@ -81,16 +85,19 @@ static int walker_of(const DpGait* gait, int point)
     return gait->limb_walker[limb_of(gait, point)];
 }
 
-// the size of the change in time of three smoothed signals
-static void speed_of(const Watch* w, double cutoff, double* speed)
+// the size of the change in time of three smoothed signals, and by how much it is downward
+static void speed_of(const Watch* w, double cutoff, double* speed, double* drop)
 {
     const int times = w->gait->times;
     double*   axis[3] = {w->line, w->line + times, w->line + 2 * (size_t)times};
     for (int c = 0; c < 3; ++c) walker_low_pass(axis[c], times, w->rate, cutoff, w->scratch);
-    for (int t = 0; t < times; ++t)
-        speed[t] = dp_length(dp_vec3(walker_velocity(axis[0], times, t, w->rate),
-                                     walker_velocity(axis[1], times, t, w->rate),
-                                     walker_velocity(axis[2], times, t, w->rate)));
+    for (int t = 0; t < times; ++t) {
+        const DpVec3 v = dp_vec3(walker_velocity(axis[0], times, t, w->rate),
+                                 walker_velocity(axis[1], times, t, w->rate),
+                                 walker_velocity(axis[2], times, t, w->rate));
+        speed[t] = dp_length(v);
+        if (drop) drop[t] = -v.z - dp_length(dp_vec3(v.x, v.y, 0.0));
+    }
 }
 
 static void watch_point(Watch* w, int k, const double* ground)
@@ -103,7 +110,7 @@ static void watch_point(Watch* w, int k, const double* ground)
         w->line[t] = at.x, w->line[t + times] = at.y, w->line[t + 2 * times] = at.z;
         w->height[row + (size_t)t] = at.z - ground[row + (size_t)t];
     }
-    speed_of(w, w->limits->point_cutoff, w->speed + row);
+    speed_of(w, w->limits->point_cutoff, w->speed + row, w->drop + row);
 }
 
 static void watch_walker(Watch* w, int walker)
@@ -118,7 +125,7 @@ static void watch_walker(Watch* w, int walker)
         const DpVec3 com = walker_com(w->gait, walker, t);
         w->line[t] = com.x, w->line[t + times] = com.y, w->line[t + 2 * times] = com.z;
     }
-    speed_of(w, w->limits->com_cutoff, gate);
+    speed_of(w, w->limits->com_cutoff, gate, NULL);
     for (int t = 0; t < times; ++t)
         gate[t] = w->limits->touch_speed + w->limits->touch_speed_share * gate[t];
 }
@@ -191,6 +198,7 @@ static void touch_point(Watch* w, int k, double clearance)
     const int              times = w->gait->times;
     const double*          height = w->height + (size_t)k * (size_t)times;
     const double*          speed = w->speed + (size_t)k * (size_t)times;
+    const double*          drop = w->drop + (size_t)k * (size_t)times;
     const double*          gate = w->gate + (size_t)walker_of(w->gait, k) * (size_t)times;
     uint8_t*               on = w->on + (size_t)k * (size_t)times;
     const double           release = w->gait->point_role[k] == DP_POINT_HEEL
@@ -200,7 +208,8 @@ static void touch_point(Watch* w, int k, double clearance)
     for (int t = 0; t < times; ++t) {
         const double d = height[t] - clearance;  // TRAIL (4)
         if (!touches) {
-            touches = d < limits->touch_height && speed[t] < gate[t];
+            // what drops steeply onto the ground will not be held up by its speed
+            touches = d < limits->touch_height && (speed[t] < gate[t] || drop[t] > 0.0);
             came_to_rest = false;
         }
         // a foot that lands fast lets go by speed only once it has been slower

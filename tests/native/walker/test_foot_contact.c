@@ -105,6 +105,26 @@ TEST(flight_carries_nobody)
     scene_free(&s);
 }
 
+TEST(falling_ball_touches_in_time)
+{
+    enum { N = 240 };
+    Scene        s = scene_make(N, RATE, 1, 1);
+    const double fall = sqrt(2.0 * 2.5 / 9.81);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE;
+        const double z = now < fall ? 2.5 - 0.5 * 9.81 * now * now : 0.0;
+        scene_com(&s, t, 0.0, 0.0, z);
+        scene_put(&s, N, 0, t, 0.0, 0.0, z);
+    }
+    uint8_t               on[N];
+    double                clearance[1];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 0; t < N; ++t)
+        if (fabs((double)t / RATE - fall) > 1.5 / RATE) CHECK(on[t] == ((double)t / RATE > fall));
+    scene_free(&s);
+}
+
 TEST(somebody_carries_what_does_not_fall)
 {
     // the left foot stands on the ground for 1 s, then on a 30 cm block while the right swings
@@ -157,7 +177,7 @@ TEST(refuses_uneven_times_and_missing_memory)
     double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
-    for (long k = 0; k < 7; ++k) {
+    for (long k = 0; k < 8; ++k) {
         dp_alloc_fail_after(k);
         CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_NO_MEMORY);
     }
@@ -178,6 +198,7 @@ int main(void)
     RUN(slope_given_as_ground_touches);
     RUN(nothing_touches_where_there_is_no_ground);
     RUN(flight_carries_nobody);
+    RUN(falling_ball_touches_in_time);
     RUN(somebody_carries_what_does_not_fall);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
