@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/assert.h"
 #include "base/parallel.h"
+#include "base/wide.h"
 #include "terrain/terrain_inside.h"
 
 #define ROW_STEP 16              // cells; whole cache lines of floats
@@ -148,20 +149,28 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
     return DP_OK;
 }
 
-// cells without ground keep what they have: nothing; says whether any other cell is new
+// one row of one grid; cells without ground keep what they have: nothing. Not 0 if any cell is new.
+DP_CLONES static int copy_row(float* restrict target, const float* restrict source,
+                              const float* restrict rest, int count)
+{
+    int differs = 0;
+    for (int i = 0; i < count; ++i) {
+        const float was = target[i];
+        const float now = rest[i] == rest[i] ? source[i] : was;
+        differs |= now != was;
+        target[i] = now;
+    }
+    return differs;
+}
+
+// says whether any cell is new
 static bool copy_out(const DpLoan* loan, size_t from, Tile* tile, size_t to, int count)
 {
-    const float* rest = tile->rest + to;
-    const float* source[3] = {loan->patch.compression + from, loan->patch.heap + from,
-                              loan->patch.pressure_time + from};
-    float*       target[3] = {tile->compression + to, tile->heap + to, tile->pressure_time + to};
-    int differs = 0;
-    for (int g = 0; g < 3; ++g)
-        for (int i = 0; i < count; ++i) {
-            const float now = isnan(rest[i]) ? target[g][i] : source[g][i];
-            differs |= now != target[g][i];
-            target[g][i] = now;
-        }
+    const DpSoilPatch* patch = &loan->patch;
+    const float*       rest = tile->rest + to;
+    int differs = copy_row(tile->compression + to, patch->compression + from, rest, count);
+    differs |= copy_row(tile->heap + to, patch->heap + from, rest, count);
+    differs |= copy_row(tile->pressure_time + to, patch->pressure_time + from, rest, count);
     return differs != 0;
 }
 
