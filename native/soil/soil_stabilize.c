@@ -19,6 +19,9 @@
 //   is
 //     above gamma_r itself. Without that, slopes that are at rest creep on for as long as another
 //     part of the print slides. test_soil_stabilize.c, comes_to_rest.
+//   An excess counts as less than one neighbour while it is smaller than a tenth of the tolerance:
+//     heaps laid at rest stand at gamma_r to the last bit, and what rounding does there must not
+//     decide among how many a cell shares. test_soil_stabilize.c, rounding_does_not_matter.
 //   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets
 //     stand over one cell counts as at rest wherever it lies: soil that creeps down a steep wall of
 //     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
@@ -31,7 +34,7 @@
 #define FRAME 3        // cells around the window that only stand as walls
 #define BARRIER 1e30f  // height of what soil cannot go to
 #define ROOT2 1.41421356f
-#define HOLD 0.5f       // share of the tolerance below which a cell gives nothing
+#define HOLD 0.25f      // share of the tolerance below which a cell gives nothing; twice that: all
 #define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
 typedef struct Box
@@ -91,9 +94,9 @@ static inline float above_zero(float x)
     return x > 0.0f ? x : 0.0f;
 }
 
-static inline float one_if(float x)
+static inline float at_most_one(float x)
 {
-    return x > 0.0f ? 1.0f : 0.0f;
+    return x < 1.0f ? x : 1.0f;
 }
 
 // What one row wants, as bits.
@@ -106,29 +109,36 @@ static int decide_row(float* restrict share, float* restrict give, const float* 
                       const float* restrict heap, const float* restrict fall,
                       const float* restrict slack, ptrdiff_t row, int count, float film)
 {
-    int moves = 0, restless = 0;
+    const float one = 1.0f / film;  // an excess as large as a film counts as one neighbour
+    int         moves = 0, restless = 0;
     for (int i = 0; i < count; ++i) {
         const float* c = h + i;
         const float  at = *c, straight = fall[i], diagonal = fall[i] * ROOT2;
-        const float  e = (at - c[1]) - straight, w = (at - c[-1]) - straight;  // TRAIL (14)
-        const float  n = (at - c[row]) - straight, s = (at - c[-row]) - straight;
-        const float  ne = (at - c[row + 1]) - diagonal, sw = (at - c[-row - 1]) - diagonal;
-        const float  nw = (at - c[row - 1]) - diagonal, se = (at - c[-row + 1]) - diagonal;
-        const float  sides = (above_zero(e) + above_zero(w)) + (above_zero(n) + above_zero(s));
-        const float  edges = (above_zero(ne) + above_zero(sw)) + (above_zero(nw) + above_zero(se));
-        const float  lower = ((one_if(e) + one_if(w)) + (one_if(n) + one_if(s))) +
-                            ((one_if(ne) + one_if(sw)) + (one_if(nw) + one_if(se)));
-        const float sum = sides + edges, part = 1.0f / (lower + 1.0f);
+        const float  e = above_zero((at - c[1]) - straight);  // TRAIL (14)
+        const float  w = above_zero((at - c[-1]) - straight);
+        const float  n = above_zero((at - c[row]) - straight);
+        const float  s = above_zero((at - c[-row]) - straight);
+        const float  ne = above_zero((at - c[row + 1]) - diagonal);
+        const float  sw = above_zero((at - c[-row - 1]) - diagonal);
+        const float  nw = above_zero((at - c[row - 1]) - diagonal);
+        const float  se = above_zero((at - c[-row + 1]) - diagonal);
+        const float  sides = (e + w) + (n + s), corners = (ne + sw) + (nw + se);
+        const float  by_sides = (at_most_one(e * one) + at_most_one(w * one)) +
+                               (at_most_one(n * one) + at_most_one(s * one));
+        const float by_corners = (at_most_one(ne * one) + at_most_one(sw * one)) +
+                                 (at_most_one(nw * one) + at_most_one(se * one));
+        const float sum = sides + corners, part = 1.0f / ((by_sides + by_corners) + 1.0f);
         const float has = heap[i] / (sum * part + 1e-35f);
         const float ew = e > w ? e : w, ns = n > s ? n : s;
         const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
         const float steep = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
-        const float over = heap[i] > film ? (steep > across ? steep : across) : -1.0f;
-        const float all = (has < 1.0f ? has : 1.0f) * part;  // TRAIL (15)
-        const float a = over > HOLD * slack[i] ? all : 0.0f;
+        const float over = steep > across ? steep : across, hold = HOLD * slack[i];
+        const float eager = at_most_one(above_zero(over - hold) / (hold + 1e-35f));
+        const float a =
+            at_most_one(has) * part * (eager * at_most_one(heap[i] * one));  // TRAIL (15)
         share[i] = a;
         give[i] = a * sum;
-        restless |= over > slack[i] ? 1 : 0;
+        restless |= (heap[i] > film ? over : 0.0f) > slack[i] ? 1 : 0;
         moves |= a * sum > 0.0f ? 1 : 0;
     }
     return (moves ? ROW_MOVES : 0) | (restless ? ROW_RESTLESS : 0);

@@ -223,12 +223,14 @@ def sweep(patch, touched=None, tolerance=1e-5):
                     over = height[j, i] - height[q] - patch["rest_slope"][j, i] * far  # TRAIL (14)
                     if over > 0:
                         excess[q] = over
-            steepest = max((over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items()), default=0.0)
-            if steepest <= 0.5 * slack * (1 + patch["rest_slope"][j, i] ** 2) or patch["heap"][j, i] <= 0.1 * slack:
+            if not excess:
                 continue
-            n = len(excess)
+            steepest = max(over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items())
+            hold = 0.25 * slack * (1 + patch["rest_slope"][j, i] ** 2)
+            eager = min(max(steepest - hold, 0.0) / hold, 1.0) * min(patch["heap"][j, i] / (0.1 * slack), 1.0)
+            n = sum(min(1.0, over / (0.1 * slack)) for over in excess.values())
             out = sum(excess.values()) / (n + 1)
-            a = min(1.0, patch["heap"][j, i] / out) / (n + 1)  # TRAIL (15)
+            a = min(1.0, patch["heap"][j, i] / out) / (n + 1) * eager  # TRAIL (15)
             for q, over in excess.items():  # TRAIL (16)
                 moved[q] += a * over
                 moved[j, i] -= a * over
