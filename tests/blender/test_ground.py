@@ -27,7 +27,7 @@ def test_world_metres():
     wanted = [np.array(obj.matrix_world @ v.co) * 0.01 for v in obj.data.vertices]
     np.testing.assert_allclose(vertices, wanted, atol=1e-6)
     assert len(triangles) == 2 * 4 * 3 and weights is None
-    assert surface.scale == 0.009999999776482582
+    assert surface.scale == 0.01
 
 
 def test_modifiers_count_but_ours_does_not(folder):

@@ -10,10 +10,15 @@ from ..errors import DesirePathError
 FAR = 1e30  # Blender stores an infinite number as the largest it knows
 
 
+def typed(value):
+    """The number a user typed: Blender keeps 0.01 as 0.0099999998."""
+    return float(f"{value:.7g}")
+
+
 def unit_scale(scene):
     """Metres in one unit of the scene [m]."""
     units = scene.unit_settings
-    return 1.0 if units.system == "NONE" else float(units.scale_length)
+    return 1.0 if units.system == "NONE" else typed(units.scale_length)
 
 
 def matrix(value, name):

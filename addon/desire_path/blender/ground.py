@@ -81,6 +81,15 @@ def read(scene, obj, cell, frame_start, frame_end=None):
                    _cell_corner(vertices, cell), tuple(warnings))
 
 
+def under(obj, surface, gait):
+    """Refuse a walk that never comes over the ground."""
+    feet = gait.pose[..., :2].reshape(-1, 2)
+    low, high = surface.vertices[:, :2].min(axis=0), surface.vertices[:, :2].max(axis=0)
+    if not ((feet >= low) & (feet <= high)).all(axis=1).any():
+        raise DesirePathError(f"The walk passes beside the ground '{obj.name}': move the walker or the "
+                              "ground so that one lies over the other.")
+
+
 def _faces_up(obj, world, vertices, triangles):
     """Refuse walls and ceilings."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))

@@ -1,7 +1,7 @@
-"""handlers.py - after a file is loaded, grounds play what is whole of their bake.
+"""handlers.py - after loading and undoing, grounds play what is whole of their bake.
 
-A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of. This
-is the only handler; playing and rendering need none.
+A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
+undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
 import bpy
 from bpy.app.handlers import persistent
@@ -41,11 +41,24 @@ def after_load(*_):
                 refresh(scene, obj)
 
 
+@persistent
+def after_undo(*_):
+    for scene in bpy.data.scenes:
+        for obj in scene.objects:
+            if (obj.type == "MESH" and obj.desire_path.is_ground
+                    and playback.modifier(obj) is not None):
+                refresh(scene, obj)
+
+
 def register():
     bpy.app.handlers.load_post.append(after_load)
+    bpy.app.handlers.undo_post.append(after_undo)
+    bpy.app.handlers.redo_post.append(after_undo)
     if hasattr(bpy.data, "scenes"):  # not while Blender itself starts
         after_load()
 
 
 def unregister():
+    bpy.app.handlers.redo_post.remove(after_undo)
+    bpy.app.handlers.undo_post.remove(after_undo)
     bpy.app.handlers.load_post.remove(after_load)

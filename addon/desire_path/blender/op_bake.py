@@ -13,7 +13,7 @@ import time
 import bpy
 
 from ..errors import DesirePathError
-from . import cover, ground, playback, props, sample
+from . import axes, cover, ground, playback, props, sample
 from .op_walkers import Refusal, active, grounds, sentence, walkers
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -74,16 +74,17 @@ class Job:
         from ..bake import Bake  # the core is loaded when it is first needed
         scene, obj = bpy.data.scenes[self.scene_name], self.object()
         settings = obj.desire_path
-        self.surface = ground.read(scene, obj, settings.cell_size, settings.frame_start,
-                                   settings.frame_end)
+        cell = axes.typed(settings.cell_size)
+        self.surface = ground.read(scene, obj, cell, settings.frame_start, settings.frame_end)
         self.warnings += self.surface.warnings
         yield
         there = [bpy.data.objects[name] for name in self.walkers]
         gait = sample.gaits(scene, there, settings.frame_start, settings.frame_end)
         self.recorded = time.perf_counter() - self.begun
+        ground.under(obj, self.surface, gait)
         yield
         self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path,
-                         cell_size=settings.cell_size, frame_start=settings.frame_start,
+                         cell_size=cell, frame_start=settings.frame_start,
                          frame_end=settings.frame_end, load_model=self.model, law=settings.law,
                          heap=settings.heap, threads=settings.threads, origin=self.surface.origin)
         self.text = "Baking"

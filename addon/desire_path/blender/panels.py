@@ -57,26 +57,31 @@ def draw_ground(layout, context, obj):
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
         row.operator("object.desire_path_free", text="Free", icon="TRASH")
-    draw_result(layout, settings)
+    draw_result(layout, context, settings)
 
 
-def draw_result(layout, settings):
+def draw_result(layout, context, settings):
     """What the last bake did, and what is missing."""
+    width = _letters(context)
     if settings.missing:
-        _lines(layout, settings.missing, "ERROR")
+        _lines(layout, settings.missing, "ERROR", width)
     if not settings.summary:
         return
     found = json.loads(settings.summary)
     column = layout.column(align=True)
-    column.label(text=f"{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm",
-                 icon="CHECKMARK")
-    column.label(text=f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l "
-                      f"in rims, {found['seconds_in_all']:.1f} s", icon="BLANK1")
+    _lines(column, f"{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
+                   f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
+                   f"rims, baked in {found['seconds_in_all']:.1f} s", "CHECKMARK", width)
     for each in found["warnings"]:
-        _lines(column, each, "ERROR")
+        _lines(column, each, "ERROR", width)
 
 
-def _lines(layout, text, icon, width=52):
+def _letters(context):
+    """About how many letters fit into a line of the panel."""
+    return max(16, int((context.region.width / context.preferences.system.ui_scale - 70) / 6.5))
+
+
+def _lines(layout, text, icon, width):
     """A sentence over several lines, since labels do not wrap."""
     column = layout.column(align=True)
     line = ""
@@ -127,8 +132,8 @@ def draw_walker(layout, obj):
         feet.prop_search(foot, "toe", obj.data, "bones")
     column.prop_search(settings, "hips", obj.data, "bones")
     row = layout.row(align=True)
-    row.operator("object.desire_path_walker_add", text="Find Feet Again", icon="FILE_REFRESH")
-    row.operator("object.desire_path_record", icon="REC")
+    row.operator("object.desire_path_walker_add", text="Find Feet", icon="FILE_REFRESH")
+    row.operator("object.desire_path_record", text="Record", icon="REC")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
@@ -155,7 +160,6 @@ class _Sidebar:
 
 class _Main:
     bl_label = "Desire Path"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
@@ -201,7 +205,7 @@ class PHYSICS_PT_desire_path_output(_Physics, _Output, bpy.types.Panel):
 
 
 class VIEW3D_PT_desire_path(_Sidebar, _Main, bpy.types.Panel):
-    bl_options = set()
+    pass
 
 
 class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):

@@ -246,7 +246,7 @@ def record(scene, armature, frame_start, frame_end, samples=None):
         found = rig(armature, shape)
         moved = motion(own, armature, found.bones, frames, rate, scale)
     worn = skin(scene, armature, found.feet, world, scale)
-    return body.gait_from_bones(shape, moved, mass=settings.mass, name=armature.name, rig=found,
+    return body.gait_from_bones(shape, moved, mass=axes.typed(settings.mass), name=armature.name, rig=found,
                                 skin=worn, frame_rate=rate, frame_start=frame_start)
 
 

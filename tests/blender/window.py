@@ -1,0 +1,120 @@
+"""window.py - run by test_window.py in a Blender with a window: presses what a user presses."""
+import pathlib
+import sys
+import time
+import traceback
+
+import bpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
+bpy.context.preferences.view.show_splash = False
+import desire_path  # noqa: E402
+desire_path.register()
+from desire_path import bake  # noqa: E402
+from desire_path.blender import op_bake, playback  # noqa: E402
+from scenes import meshes, people  # noqa: E402
+
+FOLDER = pathlib.Path(sys.argv[-1])
+write_frame = bake.Simulation.write_frame
+
+
+def slowly(self, path, moment):
+    """Bakes in a test are over before anybody could press ESC."""
+    write_frame(self, path, moment)
+    time.sleep(0.02)
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def press_bake():
+    screen = window().screen
+    with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
+        assert bpy.ops.object.desire_path_bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    assert op_bake.running() is not None
+    assert not bpy.ops.object.desire_path_free.poll()
+
+
+def until(condition, seconds=40):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited too long"
+        yield 0.05
+
+
+def shot(name):
+    with bpy.context.temp_override(window=window(), screen=window().screen):
+        bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
+
+
+def story():
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    ground = meshes.grid(120, 260, 0.01, -0.6, -2.2)
+    bpy.ops.object.desire_path_ground_add()
+    ground.desire_path.folder = str(FOLDER / "bake")
+    meshes.activate(people.walk(people.biped(), frames=60))
+    bpy.ops.object.desire_path_walker_add()
+    meshes.activate(ground)
+    for area in window().screen.areas:
+        if area.type == "PROPERTIES":
+            area.spaces[0].context = "PHYSICS"
+    yield 0.5
+
+    # ESC: what was baked stays and plays
+    bake.Simulation.write_frame = slowly
+    press_bake()
+    yield from until(lambda: op_bake.running() is None or op_bake.running().fraction > 0.3)
+    job = op_bake.running()
+    assert job is not None and job.fraction < 0.9, "it ran in one go"
+    shot("baking")
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type="ESC", value=value, x=10, y=10)
+    yield from until(lambda: op_bake.running() is None)
+    ground = bpy.data.objects["Ground"]
+    index = bake.read_index(str(FOLDER / "bake"))
+    assert not index.complete and index.frames >= 18
+    assert f"frames 1 to {index.frames} play" in ground.desire_path.missing
+    assert playback.modifier(ground) is not None
+    yield 0.3
+
+    # the Cancel button, then once more to the end
+    press_bake()
+    yield from until(lambda: op_bake.running() is None or op_bake.running().fraction > 0.6)
+    assert bpy.ops.object.desire_path_cancel() == {"FINISHED"}
+    yield from until(lambda: op_bake.running() is None)
+    index = bake.read_index(str(FOLDER / "bake"))
+    assert not index.complete and index.frames >= 36
+    bake.Simulation.write_frame = write_frame
+    yield 0.3
+    press_bake()
+    yield from until(lambda: op_bake.running() is None)
+    ground = bpy.data.objects["Ground"]
+    assert bake.read_index(str(FOLDER / "bake")).complete
+    assert not ground.desire_path.missing and "contacts" in ground.desire_path.summary
+    yield 0.5
+    shot("done")
+    meshes.activate(bpy.data.objects["Walker"])
+    yield 0.5
+    shot("walker")
+    print("all seen", flush=True)
+
+
+steps = story()
+
+
+def tick():
+    try:
+        return next(steps)
+    except StopIteration:
+        pass
+    except Exception:
+        traceback.print_exc()
+    sys.stdout.flush()
+    bpy.ops.wm.quit_blender()
+    return None
+
+
+bpy.app.timers.register(tick, first_interval=1.0)
