@@ -17,11 +17,11 @@
 
 struct DpImprintScratch
 {
-    double* corner;  // posed corners (u, v, z)
-    float*  low;     // samples
-    float*  sum;     // one row of cells: heights summed down each column of samples
-    float*  covered; // and how many there were
-    DpReach* due;    // triangles of one sole
+    double*  corner;   // posed corners (u, v, z)
+    float*   low;      // samples
+    float*   sum;      // one row of cells: heights summed down each column of samples
+    float*   covered;  // and how many there were
+    DpReach* due;      // triangles of one sole
     size_t   corners, lows, sums, covereds, dues;  // room
 };
 
@@ -106,10 +106,12 @@ typedef struct Turn
 
 static Turn turn_of(DpQuat q)
 {
-    const Turn turn = {
-        {1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z), 2.0 * (q.x * q.z + q.w * q.y)},
-        {2.0 * (q.x * q.y + q.w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z - q.w * q.x)},
-        {2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)}};
+    const Turn turn = {{1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z),
+                        2.0 * (q.x * q.z + q.w * q.y)},
+                       {2.0 * (q.x * q.y + q.w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z),
+                        2.0 * (q.y * q.z - q.w * q.x)},
+                       {2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x),
+                        1.0 - 2.0 * (q.x * q.x + q.y * q.y)}};
     return turn;
 }
 
@@ -181,17 +183,26 @@ DP_INLINE void mean_cells(const float* sum, const float* covered, int cells, int
 }
 
 DP_CLONES static void mean_row(const DpSamples* window, const float* low, int cells, int samples,
-                               double lowest, DpImprintScratch* scratch, float* bottom, float* cover)
+                               double lowest, DpImprintScratch* scratch, float* bottom,
+                               float* cover)
 {
     const int width = cells * samples;
     sum_columns(low, window->row, width, samples, scratch->sum, scratch->covered);
     const float* sum = scratch->sum;
     const float* covered = scratch->covered;
     switch (samples) {  // said four times, so that each is built with its number known
-        case 1: mean_cells(sum, covered, cells, 1, lowest, bottom, cover); break;
-        case 2: mean_cells(sum, covered, cells, 2, lowest, bottom, cover); break;
-        case 3: mean_cells(sum, covered, cells, 3, lowest, bottom, cover); break;
-        default: mean_cells(sum, covered, cells, MOST_SAMPLES, lowest, bottom, cover); break;
+        case 1:
+            mean_cells(sum, covered, cells, 1, lowest, bottom, cover);
+            break;
+        case 2:
+            mean_cells(sum, covered, cells, 2, lowest, bottom, cover);
+            break;
+        case 3:
+            mean_cells(sum, covered, cells, 3, lowest, bottom, cover);
+            break;
+        default:
+            mean_cells(sum, covered, cells, MOST_SAMPLES, lowest, bottom, cover);
+            break;
     }
 }
 
@@ -237,14 +248,15 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
         const size_t triangles = (size_t)soles[s].triangle_count;
         most = triangles > most ? triangles : most;
     }
-    if (corners && !make_room((void**)&scratch->corner, &scratch->corners, corners, 3 * sizeof(double)))
+    if (corners &&
+        !make_room((void**)&scratch->corner, &scratch->corners, corners, 3 * sizeof(double)))
         return DP_NO_MEMORY;
 
     const Frame frame = {patch->x0 + 0.5 * (double)(patch->nx - 1) * patch->cell,
                          patch->y0 + 0.5 * (double)(patch->ny - 1) * patch->cell,
                          2.0 * (double)samples / patch->cell};
-    DpBox   box = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
-    double* corner = scratch->corner;
+    DpBox       box = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    double*     corner = scratch->corner;
     for (int s = 0; s < count; ++s) {
         if (!pose_corners(&soles[s], poses[s], &frame, corner, &box)) return DP_BAD_ARGUMENT;
         corner += 3 * (size_t)soles[s].vertex_count;
@@ -272,7 +284,8 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
     const size_t size = (size_t)window.row * (size_t)(window.q1 - window.q0);
     if (!make_room((void**)&scratch->low, &scratch->lows, size, sizeof(float)) ||
         !make_room((void**)&scratch->sum, &scratch->sums, (size_t)window.row, sizeof(float)) ||
-        !make_room((void**)&scratch->covered, &scratch->covereds, (size_t)window.row, sizeof(float)) ||
+        !make_room((void**)&scratch->covered, &scratch->covereds, (size_t)window.row,
+                   sizeof(float)) ||
         (most && !make_room((void**)&scratch->due, &scratch->dues, most, sizeof(DpReach))))
         return DP_NO_MEMORY;
     window.low = scratch->low;
@@ -280,8 +293,7 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
 
     corner = scratch->corner;
     for (int s = 0; s < count; ++s) {
-        dp_samples_lower(&window, corner, soles[s].triangle, soles[s].triangle_count,
-                         scratch->due);
+        dp_samples_lower(&window, corner, soles[s].triangle, soles[s].triangle_count, scratch->due);
         corner += 3 * (size_t)soles[s].vertex_count;
     }
 

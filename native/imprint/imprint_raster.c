@@ -3,18 +3,18 @@
 //
 // Spans are closed at both ends. An edge's crossing is computed from the edge alone, so two
 // neighbours end and begin at the same number and no sample falls between them; a sample on their
-// edge belongs to both, which a minimum does not mind. A sample exactly on the sole's outline counts.
+// edge belongs to both, which a minimum does not mind. A sample on the sole's outline counts.
 //
-// No sample depends on the order of the triangles, so the side that is likely to be the underside goes
-// first, and a triangle of the other side is left out when all samples about it are lower already.
+// No sample depends on the order of the triangles, so the likely underside goes first, and a
+// triangle of the other side is left out when all samples about it are lower already.
 #include "imprint/imprint_raster.h"
 
 #include <string.h>
 
 #include "base/wide.h"
 
-#define LANES 8  // samples at a time; two registers where one holds four
-#define ASKED 64     // triangles that are asked which side is up
+#define LANES 8       // samples at a time; two registers where one holds four
+#define ASKED 64      // triangles that are asked which side is up
 #define STEEPEST 1e4  // m per half sample: a needle seen edge-on, its lowest corner stands for it
 
 typedef float   Wide __attribute__((vector_size(LANES * sizeof(float))));
@@ -140,22 +140,22 @@ DP_INLINE int reach_of(DpReach* reach, const DpSamples* samples, const Corner* c
 }
 
 // keep the lowest along one row between two crossings, LANES at a time
-DP_INLINE void lower_span(const DpSamples* samples, const DpReach* reach, int q, double v, double one,
-                          double two, const Plane* plane)
+DP_INLINE void lower_span(const DpSamples* samples, int q, double v, double one, double two,
+                          const Plane* plane)
 {
-    double left = one < two ? one : two, right = one < two ? two : one;
-    const double p_left = (double)(2 * reach->p0 - samples->past_u);
-    const double p_right = (double)(2 * reach->p1 - samples->past_u);
-    left = left > p_left ? left : p_left;
-    right = right < p_right ? right : p_right;
+    double       left = one < two ? one : two, right = one < two ? two : one;
+    const double u0 = (double)(2 * samples->p0 - samples->past_u);
+    const double u1 = (double)(2 * samples->p1 - 2 - samples->past_u);
+    left = left > u0 ? left : u0;
+    right = right < u1 ? right : u1;
     if (!(left <= right)) return;
     const int first = first_at(left, samples->past_u), last = last_at(right, samples->past_u);
     if (first > last) return;
 
-    // heights are measured from the span's middle: short distances, small rounding, no side preferred
+    // heights go out from the span's middle: short ways, small rounding, no side preferred
     const int   middle = first + last - samples->past_u;
-    const float z0 = (float)(plane->z + (v - plane->v) * plane->dv +
-                             ((double)middle - plane->u) * plane->du);
+    const float z0 =
+        (float)(plane->z + (v - plane->v) * plane->dv + ((double)middle - plane->u) * plane->du);
     const float slope = (float)plane->du, reached = (float)(last - first);
     const Wide  lanes = {0.0f, 2.0f, 4.0f, 6.0f, 8.0f, 10.0f, 12.0f, 14.0f};
 
@@ -191,11 +191,11 @@ DP_INLINE void lower_triangle(const DpSamples* samples, const DpReach* reach,
             one = v <= low->v ? low->u : v >= top->v ? top->u : one;
             two = v == mid->v ? mid->u : one;
         }
-        lower_span(samples, reach, q, v, one, two, &plane);
+        lower_span(samples, q, v, one, two, &plane);
     }
 }
 
-// ---- the side that cannot be seen from below -----------------------------------------------------
+// ---- the side that cannot be seen from below --------------------------------------------------
 
 DP_INLINE double seen_from_above(const Corner* const* corner)  // twice the area, < 0 clockwise
 {
@@ -203,9 +203,11 @@ DP_INLINE double seen_from_above(const Corner* const* corner)  // twice the area
            (corner[2]->u - corner[0]->u) * (corner[1]->v - corner[0]->v);
 }
 
-#define CORNERS(at, triangle, t)                                                              \
-    {&(at)[(triangle)[3 * (size_t)(t)]], &(at)[(triangle)[3 * (size_t)(t) + 1]],              \
-     &(at)[(triangle)[3 * (size_t)(t) + 2]]}
+#define CORNERS(at, triangle, t)                                                    \
+    {                                                                               \
+        &(at)[(triangle)[3 * (size_t)(t)]], &(at)[(triangle)[3 * (size_t)(t) + 1]], \
+            &(at)[(triangle)[3 * (size_t)(t) + 2]]                                  \
+    }
 
 // +1 if triangles that run clockwise are more likely below, -1 if above: a guess from some of them
 static double guess_below(const Corner* at, const int32_t* triangle, int count)
@@ -222,8 +224,8 @@ static double guess_below(const Corner* at, const int32_t* triangle, int count)
 // beyond its last does not count
 DP_INLINE int is_hidden(const DpSamples* samples, const DpReach* reach, const Corner* const* corner)
 {
-    const double   z0 = corner[0]->z, z1 = corner[1]->z, z2 = corner[2]->z;
-    double         least = z0 < z1 ? z0 : z1, most = z0 < z1 ? z1 : z0;
+    const double z0 = corner[0]->z, z1 = corner[1]->z, z2 = corner[2]->z;
+    double       least = z0 < z1 ? z0 : z1, most = z0 < z1 ? z1 : z0;
     least = z2 < least ? z2 : least, most = z2 > most ? z2 : most;
     const float    bottom = (float)(least - 1e-6 * most);  // no rounding of a sample goes so far
     const WideMask lanes = {0, 1, 2, 3, 4, 5, 6, 7};

@@ -16,7 +16,7 @@ typedef struct DpSamples
     float* low;             // lowest height of the sole above its lowest point, +inf where none [m]
 } DpSamples;
 
-// First sample at or after position x, last sample at or before it; one step beyond the grid at most.
+// First sample at or after position x, last sample at or before it; at most one beyond the grid.
 int dp_samples_first(double x, int past);
 int dp_samples_last(double x, int past);
 

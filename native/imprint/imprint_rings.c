@@ -82,6 +82,6 @@ void dp_imprint_rings(DpImprint* imprint, const DpSoilPatch* patch, int rings)
     const int j0 = touched.j0 > rings ? touched.j0 - rings : 0;
     const int i1 = patch->nx - touched.i1 > rings ? touched.i1 + rings : patch->nx;
     const int j1 = patch->ny - touched.j1 > rings ? touched.j1 + rings : patch->ny;
-    int32_t* from = imprint->ring + (size_t)j0 * (size_t)patch->row + (size_t)i0;
+    int32_t*  from = imprint->ring + (size_t)j0 * (size_t)patch->row + (size_t)i0;
     number(from, patch->row, i1 - i0, j1 - j0, rings);
 }

@@ -26,7 +26,7 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     ground.kind = DP_GROUND_MESH;
     ground.vertex_count = (int)corners.n[0], ground.triangle_count = (int)faces.n[0];
     ground.vertex = vertex, ground.triangle = triangle;
-    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f};  // heights do not ask for it
+    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f};  // does not matter
     const DpTerrainOptions options = {1.0, 0.0, 0.0, &soil, 1, 1};
     DpTerrain*             terrain = NULL;
     DpStatus               status;
@@ -45,5 +45,5 @@ PyMethodDef dp_py_terrain_methods[] = {
     {"terrain_rest", terrain_rest, METH_VARARGS,
      "terrain_rest(vertices, triangles, xy, height)\n\n"
      "Height of the upper envelope of a mesh at points: vertices float64 (n, 3) [m], triangles\n"
-     "int32 (m, 3), xy float64 (k, 2) [m]; fills height float64 (k,) [m], NaN where there is none."},
+     "int32 (m, 3), xy float64 (k, 2) [m]; fills height float64 (k,) [m], NaN without ground."},
     {NULL, NULL, 0, NULL}};

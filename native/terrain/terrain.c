@@ -14,8 +14,8 @@
 
 static bool is_soil(const DpSoil* soil)
 {
-    return isfinite(soil->young_modulus) && soil->young_modulus > 0.0f &&
-           soil->rest_angle > 0.0f && (double)soil->rest_angle < acos(0.0);
+    return isfinite(soil->young_modulus) && soil->young_modulus > 0.0f && soil->rest_angle > 0.0f &&
+           (double)soil->rest_angle < acos(0.0);
 }
 
 static bool are_options(const DpTerrainOptions* options)
@@ -51,7 +51,8 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
         return status;
     }
     memcpy(made->soils, options->soils, soils * sizeof *made->soils);
-    for (size_t s = 0; s < soils; ++s) made->slope[s] = (float)tan((double)made->soils[s].rest_angle);
+    for (size_t s = 0; s < soils; ++s)
+        made->slope[s] = (float)tan((double)made->soils[s].rest_angle);
     *terrain = made;
     return DP_OK;
 }
@@ -95,7 +96,7 @@ size_t dp_terrain_tile_count(const DpTerrain* terrain)
     return terrain->tiles;
 }
 
-// ---- finding and making tiles --------------------------------------------------------------------
+// ---- finding and making tiles -----------------------------------------------------------------
 
 static size_t first_slot(long tx, long ty, size_t slots)
 {
@@ -228,7 +229,7 @@ DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1
     return DP_OK;
 }
 
-// ---- what changed, and how much ------------------------------------------------------------------
+// ---- what changed, and how much ---------------------------------------------------------------
 
 static int by_row(const void* a, const void* b)
 {

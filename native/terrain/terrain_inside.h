@@ -12,14 +12,14 @@
 #define MOST_CELL_INDEX (1L << 30)
 #endif
 
-// ---- ground, terrain_rest.c and terrain_mesh.c --------------------------------------------------
+// ---- ground, terrain_rest.c and terrain_mesh.c ------------------------------------------------
 
 // triangles in a uniform grid of bins: those of bin b are item[start[b]] .. item[start[b + 1] - 1]
 typedef struct MeshGround
 {
     int      vertex_count, triangle_count;
-    double*  vertex;    // [m] (vertex_count, 3)
-    int32_t* triangle;  // (triangle_count, 3)
+    double*  vertex;       // [m] (vertex_count, 3)
+    int32_t* triangle;     // (triangle_count, 3)
     double   x0, y0, bin;  // corner and side of bin (0, 0) [m]
     int      nx, ny;       // bins
     size_t*  start;        // (nx * ny + 1)
@@ -63,7 +63,8 @@ void     mesh_destroy(MeshGround* mesh);
 double   mesh_at(const Rest* rest, double x, double y, uint8_t* kind);
 void     mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
 
-// Heaviest of the kinds, the first of equals; kind k weighs sum of share[n] * kind_weight[k][of[n]].
+// Heaviest of the kinds, the first of equals; kind k weighs sum of share[n] *
+// kind_weight[k][of[n]].
 uint8_t heaviest_kind(const Rest* rest, int count, const size_t* of, const double* share);
 
 static inline double cell_at(double origin, double cell, long index)
@@ -71,7 +72,7 @@ static inline double cell_at(double origin, double cell, long index)
     return origin + ((double)index + 0.5) * cell;
 }
 
-// ---- tiles, terrain.c ----------------------------------------------------------------------------
+// ---- tiles, terrain.c -------------------------------------------------------------------------
 
 typedef struct Tile
 {
@@ -86,11 +87,11 @@ typedef struct Tile
 
 struct DpTerrain
 {
-    double   cell, origin_x, origin_y;
-    int      soil_count, workers;
-    DpSoil*  soils;
-    float*   slope;  // tan(rest_angle) of each soil
-    Rest     rest;
+    double  cell, origin_x, origin_y;
+    int     soil_count, workers;
+    DpSoil* soils;
+    float*  slope;  // tan(rest_angle) of each soil
+    Rest    rest;
 
     Tile**        slot;  // hash of (tx, ty): a power of two of slots, at most half of them full
     size_t        slots;

@@ -8,8 +8,8 @@
 #include "base/wide.h"
 #include "terrain/terrain_inside.h"
 
-#define ROW_STEP 16              // cells; whole cache lines of floats
-#define MOST_CELLS (1L << 28)    // of one patch
+#define ROW_STEP 16            // cells; whole cache lines of floats
+#define MOST_CELLS (1L << 28)  // of one patch
 #define FLOAT_GRIDS 6
 
 struct DpLoan
@@ -89,8 +89,8 @@ static Part part_of(long tx, long ty, long i0, long i1, long j0, long j1)
 static void fill_padding(const DpTerrain* terrain, DpLoan* loan, float* const* grid)
 {
     const DpSoilPatch* patch = &loan->patch;
-    const float        pad[FLOAT_GRIDS] = {NAN, 0.0f, 0.0f, 0.0f, terrain->soils[0].young_modulus,
-                                           terrain->slope[0]};
+    const float        pad[FLOAT_GRIDS] = {
+               NAN, 0.0f, 0.0f, 0.0f, terrain->soils[0].young_modulus, terrain->slope[0]};
     for (int j = 0; j < patch->ny; ++j) {
         const size_t row = (size_t)j * (size_t)patch->row;
         for (int i = patch->nx; i < patch->row; ++i) {
@@ -122,7 +122,8 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
 {
     if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
     const long nx = i1 - i0, ny = j1 - j0;
-    if (nx > MOST_CELLS || ny > MOST_CELLS || nx + ROW_STEP > MOST_CELLS / ny) return DP_BAD_ARGUMENT;
+    if (nx > MOST_CELLS || ny > MOST_CELLS || nx + ROW_STEP > MOST_CELLS / ny)
+        return DP_BAD_ARGUMENT;
     const DpStatus status = dp_terrain_touch(terrain, i0, i1, j0, j1);
     if (status != DP_OK) return status;
 
@@ -131,11 +132,21 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
     if (!make_room(loan, cells)) return DP_NO_MEMORY;
     float* grid[FLOAT_GRIDS];
     for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = loan->grid + g * loan->room;
-    const DpSoilPatch lent = {(int)nx, (int)ny, row, terrain->cell,
+    const DpSoilPatch lent = {(int)nx,
+                              (int)ny,
+                              row,
+                              terrain->cell,
                               cell_at(terrain->origin_x, terrain->cell, i0),
                               cell_at(terrain->origin_y, terrain->cell, j0),
-                              grid[0], grid[1], grid[2], grid[3], grid[4], grid[5],
-                              loan->kind, terrain->soils, terrain->soil_count};
+                              grid[0],
+                              grid[1],
+                              grid[2],
+                              grid[3],
+                              grid[4],
+                              grid[5],
+                              loan->kind,
+                              terrain->soils,
+                              terrain->soil_count};
     loan->patch = lent;
     loan->i0 = i0;
     loan->j0 = j0;
@@ -192,15 +203,15 @@ void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, in
             Tile*      tile = tile_find(terrain, tx, ty);
             bool       differs = false;
             for (int j = 0; j < part.ny; ++j) {
-                const size_t from = (size_t)(dj0 + part.j + j) * (size_t)loan->patch.row +
-                                    (size_t)(di0 + part.i);
+                const size_t from =
+                    (size_t)(dj0 + part.j + j) * (size_t)loan->patch.row + (size_t)(di0 + part.i);
                 differs |= copy_out(loan, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
             }
             if (differs) mark(terrain, tile);
         }
 }
 
-// ---- reading -------------------------------------------------------------------------------------
+// ---- reading ----------------------------------------------------------------------------------
 
 typedef struct Reading
 {
@@ -216,13 +227,20 @@ static float read_cell(const Reading* reading, const Tile* tile, const float* re
                        const uint8_t* kind, size_t at)
 {
     switch (reading->field) {
-        case DP_FIELD_COMPRESSION: return tile ? tile->compression[at] : 0.0f;
-        case DP_FIELD_HEAP: return tile ? tile->heap[at] : 0.0f;
-        case DP_FIELD_PRESSURE_TIME: return tile ? tile->pressure_time[at] : 0.0f;
-        case DP_FIELD_REST: return rest[at];
-        case DP_FIELD_MODULUS: return reading->terrain->soils[kind[at]].young_modulus;
-        case DP_FIELD_KIND: return (float)kind[at];
-        case DP_FIELD_PLANT_STRENGTH: return 0.0f;
+        case DP_FIELD_COMPRESSION:
+            return tile ? tile->compression[at] : 0.0f;
+        case DP_FIELD_HEAP:
+            return tile ? tile->heap[at] : 0.0f;
+        case DP_FIELD_PRESSURE_TIME:
+            return tile ? tile->pressure_time[at] : 0.0f;
+        case DP_FIELD_REST:
+            return rest[at];
+        case DP_FIELD_MODULUS:
+            return reading->terrain->soils[kind[at]].young_modulus;
+        case DP_FIELD_KIND:
+            return (float)kind[at];
+        case DP_FIELD_PLANT_STRENGTH:
+            return 0.0f;
     }
     return 0.0f;
 }

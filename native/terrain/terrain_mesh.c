@@ -1,8 +1,8 @@
 // Ground made of triangles: the upper envelope, seen from straight above.
 //
-// Triangles lie in a uniform grid of bins. A point asks the triangles of its bin, a tile those of the
-// bins under it; both use facet_at, so both get the same bits. A triangle reaches a hair beyond its
-// edges: a point on a shared edge, or on a needle too thin to be kept, is never lost between two.
+// Triangles lie in a uniform grid of bins. A point asks the triangles of its bin, a tile those of
+// the bins under it; both use facet_at, so both get the same bits. A triangle reaches a hair beyond
+// its edges: a point on an edge, or on a needle too thin to be kept, is never lost between two.
 #include <math.h>
 #include <string.h>
 
@@ -10,10 +10,10 @@
 #include "base/vec.h"
 #include "terrain/terrain_inside.h"
 
-#define NEEDLE 1e-10         // twice the area seen from above, over the longest edge squared
+#define NEEDLE 1e-10          // twice the area seen from above, over the longest edge squared
 #define SLACK (2.0 * NEEDLE)  // how far it reaches beyond its edges, over the longest edge
-#define BIN_SHARE 6          // entries in bins, per triangle, before bins are made coarser
-#define MOST_BINS 30000      // along one side
+#define BIN_SHARE 6           // entries in bins, per triangle, before bins are made coarser
+#define MOST_BINS 30000       // along one side
 
 // a triangle seen from above
 typedef struct Facet
@@ -101,7 +101,7 @@ static inline bool facet_at(const Facet* facet, double x, double y, double* z, d
     return true;
 }
 
-// ---- bins ----------------------------------------------------------------------------------------
+// ---- bins -------------------------------------------------------------------------------------
 
 static int bin_of(double at, double from, double bin, int bins)
 {
@@ -148,8 +148,8 @@ static size_t count_entries(const MeshGround* mesh)
     return entries;
 }
 
-// a few triangles a bin and a few bins a triangle; a huge triangle among small ones asks for coarser
-// bins, one bin for all at the worst
+// a few triangles a bin and a few bins a triangle; a huge triangle among small ones asks for
+// coarser bins, one bin for all at the worst
 static size_t choose_bins(MeshGround* mesh, const double bounds[4], size_t facing)
 {
     const double wide = bounds[2] - bounds[0], high = bounds[3] - bounds[1];
@@ -171,8 +171,10 @@ static void count_or_place(MeshGround* mesh, int32_t triangle, bool place)
     for (int by = at.y0; by <= at.y1; ++by)
         for (int bx = at.x0; bx <= at.x1; ++bx) {
             size_t* start = &mesh->start[(size_t)by * (size_t)mesh->nx + (size_t)bx];
-            if (place) mesh->item[--*start] = triangle;
-            else ++*start;
+            if (place)
+                mesh->item[--*start] = triangle;
+            else
+                ++*start;
         }
 }
 
@@ -242,7 +244,7 @@ void mesh_destroy(MeshGround* mesh)
     dp_free(mesh->item);
 }
 
-// ---- asking --------------------------------------------------------------------------------------
+// ---- asking -----------------------------------------------------------------------------------
 
 // the highest so far; of equals the first triangle, whichever comes first
 typedef struct Highest
@@ -288,8 +290,8 @@ double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
 }
 
 // cells whose centres can lie in low..high; facet_at has the last word
-static inline void cell_range(double low, double high, double origin, double cell, long from, int* first,
-                       int* last)
+static inline void cell_range(double low, double high, double origin, double cell, long from,
+                              int* first, int* last)
 {
     const double before = dp_clamp((low - origin) / cell - 1.5 - (double)from, 0.0, DP_TILE);
     const double after = dp_clamp((high - origin) / cell + 0.5 - (double)from, -1.0, DP_TILE - 1);

@@ -77,7 +77,8 @@ DpStatus rest_create(Rest* rest, const DpGround* ground)
             status = mesh_create(&rest->mesh, ground, rest->bounds);
             weights = (size_t)rest->mesh.vertex_count;
             break;
-        default: return DP_BAD_ARGUMENT;
+        default:
+            return DP_BAD_ARGUMENT;
     }
     if (status == DP_OK) status = copy_weights(rest, ground, weights);
     if (status != DP_OK) rest_destroy(rest);
@@ -144,7 +145,8 @@ static double heights_at(const Rest* rest, double x, double y, uint8_t* kind)
 double rest_at(const Rest* rest, double x, double y, uint8_t* kind)
 {
     if (kind) *kind = 0;
-    if (rest->kind == DP_GROUND_FLAT) return isfinite(x) && isfinite(y) ? rest->height : (double)NAN;
+    if (rest->kind == DP_GROUND_FLAT)
+        return isfinite(x) && isfinite(y) ? rest->height : (double)NAN;
     if (rest->kind == DP_GROUND_HEIGHTS) return heights_at(rest, x, y, kind);
     return mesh_at(rest, x, y, kind);
 }
@@ -164,7 +166,7 @@ void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
     }
 }
 
-// ---- the doors that ask for heights --------------------------------------------------------------
+// ---- the doors that ask for heights -----------------------------------------------------------
 
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4])
 {

@@ -1,4 +1,5 @@
-// tests/bench/bench_terrain.c - what imprints, windows and ground meshes cost. Best of several runs.
+// tests/bench/bench_terrain.c - what imprints, windows and ground meshes cost. Best of several
+// runs.
 //
 //   cmake -S native -B build && cmake --build build --target bench_terrain && build/bench_terrain
 #include <math.h>
@@ -17,14 +18,14 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-#define BEST_OF(best, runs, each, work)                       \
-    do {                                                      \
-        best = INFINITY;                                      \
-        for (int run_ = 0; run_ < (runs); ++run_) {           \
-            const double from_ = now();                       \
+#define BEST_OF(best, runs, each, work)                        \
+    do {                                                       \
+        best = INFINITY;                                       \
+        for (int run_ = 0; run_ < (runs); ++run_) {            \
+            const double from_ = now();                        \
             for (int each_ = 0; each_ < (each); ++each_) work; \
-            best = fmin(best, (now() - from_) / (each));      \
-        }                                                     \
+            best = fmin(best, (now() - from_) / (each));       \
+        }                                                      \
     } while (0)
 
 // a closed shoe of 28 x 10 cm, flat below, round about: around x along x 2 triangles
@@ -51,7 +52,11 @@ static DpMesh shoe(int around, int along)
 
 static void bench_imprint(void)
 {
-    enum { NX = 64, NY = 48 };
+    enum
+    {
+        NX = 64,
+        NY = 48
+    };
     static float   bottom[NX * NY], cover[NX * NY];
     static int32_t ring[NX * NY];
     DpSoilPatch    patch = {0};
@@ -133,11 +138,14 @@ static void bench_mesh(int side, double size)
     printf("mesh     %7d triangles on %g m: built in    %8.1f ms, %.1f bytes a triangle\n",
            ground.triangle_count, size, 1e3 * seconds,
            (double)(dp_bytes_live() - before) / ground.triangle_count);
-    const long middle = (long)(size / 0.02);
+    const long   middle = (long)(size / 0.02);
     static float cells[512 * 512];
     BEST_OF(best, 3, 1, dp_terrain_read(terrain, DP_FIELD_REST, middle, middle, 512, 512, cells));
     printf("         one tile of heights, mean over 512 x 512 %8.1f us\n", 1e6 * best / 64.0);
-    enum { POINTS = 4096 };
+    enum
+    {
+        POINTS = 4096
+    };
     static double xy[2 * POINTS], height[POINTS];
     for (int n = 0; n < POINTS; ++n)
         xy[2 * n] = 0.5 * size + 0.01 * (n % 64), xy[2 * n + 1] = 0.5 * size + 0.01 * (n / 64);

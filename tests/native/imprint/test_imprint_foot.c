@@ -58,9 +58,9 @@ static DpPose turned(double angle, DpVec3 axis, DpVec3 at)
 }
 
 // a closed box, 12 triangles
-static const float   box_vertex[] = {-0.1f, -0.05f, 0.0f, 0.1f, -0.05f, 0.0f,  0.1f,  0.05f,
-                                     0.0f,  -0.1f,  0.05f, 0.0f, -0.1f, -0.05f, 0.03f, 0.1f,
-                                     -0.05f, 0.03f, 0.1f,  0.05f, 0.03f, -0.1f, 0.05f,  0.03f};
+static const float   box_vertex[] = {-0.1f,  -0.05f, 0.0f,  0.1f,  -0.05f, 0.0f,   0.1f,  0.05f,
+                                     0.0f,   -0.1f,  0.05f, 0.0f,  -0.1f,  -0.05f, 0.03f, 0.1f,
+                                     -0.05f, 0.03f,  0.1f,  0.05f, 0.03f,  -0.1f,  0.05f, 0.03f};
 static const int32_t box_triangle[] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                        1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
 static const DpMesh  box = {8, 12, box_vertex, box_triangle};
@@ -125,7 +125,8 @@ typedef struct Slow
     double mean, sure, unsure;  // mean height over sure samples; how many are, or may be, covered
 } Slow;
 
-static Slow slow_cell(const Ground* ground, const DpMesh* sole, DpPose pose, int i, int j, int samples)
+static Slow slow_cell(const Ground* ground, const DpMesh* sole, DpPose pose, int i, int j,
+                      int samples)
 {
     Slow         slow = {0.0, 0.0, 0.0};
     const double cell = ground->patch.cell;
@@ -181,13 +182,16 @@ static void check_slow(const Ground* ground, const DpMesh* sole, DpPose pose, in
                 continue;
             }
             CHECK_NEAR(got, slow.sure, 1e-4);
-            if (slow.sure > 0.0) CHECK_NEAR(ground->bottom[at], slow.mean, 2e-6);
-            else CHECK(ground->bottom[at] == INFINITY);
+            if (slow.sure > 0.0)
+                CHECK_NEAR(ground->bottom[at], slow.mean, 2e-6);
+            else
+                CHECK(ground->bottom[at] == INFINITY);
         }
 }
 
 // a heap of triangles that share nothing
-static DpMesh random_mesh(unsigned* seed, float* vertex, int32_t* triangle, int triangles, double size)
+static DpMesh random_mesh(unsigned* seed, float* vertex, int32_t* triangle, int triangles,
+                          double size)
 {
     for (int n = 0; n < 3 * triangles; ++n) {
         vertex[3 * n] = (float)((check_random(seed) - 0.5) * size);
@@ -201,14 +205,13 @@ static DpMesh random_mesh(unsigned* seed, float* vertex, int32_t* triangle, int 
 
 TEST(agrees_with_asking_every_sample)
 {
-    static Ground ground;
+    static Ground  ground;
     static float   vertex[900];
     static int32_t triangle[300];
     unsigned       seed = 3;
     for (int round = 0; round < 24; ++round) {
         const int    triangles = 1 + round;
-        const DpMesh mesh =
-            random_mesh(&seed, vertex, triangle, triangles, round % 2 ? 0.5 : 0.15);
+        const DpMesh mesh = random_mesh(&seed, vertex, triangle, triangles, round % 2 ? 0.5 : 0.15);
         const DpPose pose = turned(6.0 * check_random(&seed),
                                    dp_vec3(check_random(&seed), check_random(&seed), 1.0),
                                    dp_vec3(0.1 * check_random(&seed), 0.05, 2.0));
@@ -238,7 +241,7 @@ static DpMesh sheet(unsigned* seed, double shake, float* vertex, int32_t* triang
     int t = 0;
     for (int j = 0; j < SIDE; ++j)
         for (int i = 0; i < SIDE; ++i) {
-            const bool inner = i > 0 && j > 0 && i < SIDE - 1 && j < SIDE - 1;
+            const bool   inner = i > 0 && j > 0 && i < SIDE - 1 && j < SIDE - 1;
             const double dx = inner ? shake * (check_random(seed) - 0.5) : 0.0;
             const double dy = inner ? shake * (check_random(seed) - 0.5) : 0.0;
             float*       v = vertex + 3 * (j * SIDE + i);
@@ -260,7 +263,7 @@ static DpMesh sheet(unsigned* seed, double shake, float* vertex, int32_t* triang
 
 TEST(shared_edges_do_not_leak)
 {
-    static Ground ground;
+    static Ground  ground;
     static float   vertex[3 * SIDE * SIDE];
     static int32_t triangle[6 * SIDE * SIDE];
     unsigned       seed = 11;
@@ -311,7 +314,7 @@ TEST(a_mirrored_sole_leaves_a_mirrored_print_to_the_bit)
         const DpPose pose = turned(2.0 * check_random(&seed),
                                    dp_vec3(check_random(&seed), -check_random(&seed), 0.4),
                                    dp_vec3(0.03, 0.02, 0.1));
-        DpPose other = pose;
+        DpPose       other = pose;
         if (across) {
             other.at.y = -pose.at.y;
             other.turn.x = -pose.turn.x, other.turn.z = -pose.turn.z;
@@ -328,8 +331,8 @@ TEST(a_mirrored_sole_leaves_a_mirrored_print_to_the_bit)
         for (int j = 0; j < ny; ++j)
             for (int i = 0; i < nx; ++i) {
                 const int a = j * left.patch.row + i;
-                const int b = across ? (ny - 1 - j) * left.patch.row + i
-                                     : j * left.patch.row + nx - 1 - i;
+                const int b =
+                    across ? (ny - 1 - j) * left.patch.row + i : j * left.patch.row + nx - 1 - i;
                 CHECK(same(left.cover[a], right.cover[b]));
                 CHECK(same(left.bottom[a], right.bottom[b]));
                 touched += left.cover[a] > 0.0f;
@@ -381,8 +384,10 @@ TEST(parts_of_a_limb_are_one_sole)
         if (n % ground.patch.row >= 40) continue;
         CHECK(ground.cover[n] == fmaxf(one.cover[n], two.cover[n]));
         const float low = fminf(one.bottom[n], two.bottom[n]);
-        if (low < INFINITY) CHECK_NEAR(ground.bottom[n], low, 2e-8);
-        else CHECK(ground.bottom[n] == INFINITY);
+        if (low < INFINITY)
+            CHECK_NEAR(ground.bottom[n], low, 2e-8);
+        else
+            CHECK(ground.bottom[n] == INFINITY);
     }
 }
 

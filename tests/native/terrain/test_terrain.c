@@ -16,8 +16,8 @@ static void visit(void* context, long tx, long ty)
 }
 
 // lend cells, write three numbers into all of them and give them back
-static DpStatus write_cells(DpTerrain* terrain, long i0, long i1, long j0, long j1, float compression,
-                            float heap, float pressure_time)
+static DpStatus write_cells(DpTerrain* terrain, long i0, long i1, long j0, long j1,
+                            float compression, float heap, float pressure_time)
 {
     DpLoan*      loan = dp_loan_create();
     DpSoilPatch* patch = NULL;
@@ -174,8 +174,8 @@ TEST(totals_do_not_depend_on_who_came_first)
         const DpGround ground = ground_flat(0.0);
         DpTerrain*     terrain = ground_terrain(&ground, 0.02, 0.0, 0.0);
         for (int n = 0; n < 40; ++n) {
-            const int  step = way ? 39 - n : n;
-            const long i = 97 * step - 1000, j = 61 * ((step * 7) % 40) - 1200;
+            const int      step = way ? 39 - n : n;
+            const long     i = 97 * step - 1000, j = 61 * ((step * 7) % 40) - 1200;
             const DpStatus status =
                 write_cells(terrain, i, i + 9, j, j + 7, 0.1f + 0.01f * (float)step,
                             1.0f / (float)(3 + step), 0.0f);
@@ -210,7 +210,8 @@ TEST(many_tiles_are_all_found_again)
     CHECK(dp_terrain_tile_count(terrain) == 300);
     for (int n = 0; n < 300; ++n) {
         float got[4];
-        CHECK(dp_terrain_read(terrain, DP_FIELD_COMPRESSION, at[n][0], at[n][1], 2, 2, got) == DP_OK);
+        CHECK(dp_terrain_read(terrain, DP_FIELD_COMPRESSION, at[n][0], at[n][1], 2, 2, got) ==
+              DP_OK);
         CHECK(got[0] == (float)n + 1.0f && got[1] == 0.0f && got[2] == 0.0f);
     }
     dp_terrain_destroy(terrain);
@@ -218,16 +219,16 @@ TEST(many_tiles_are_all_found_again)
 
 TEST(bad_arguments_are_refused)
 {
-    DpTerrain* terrain = NULL;
-    DpGround   ground = ground_flat(0.0);
+    DpTerrain*       terrain = NULL;
+    DpGround         ground = ground_flat(0.0);
     DpTerrainOptions options = ground_options(0.01, 0.0, 0.0);
-#define REFUSED(what)                                                                  \
-    do {                                                                               \
-        what;                                                                          \
-        CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_BAD_ARGUMENT);      \
-        CHECK(terrain == NULL);                                                        \
-        ground = ground_flat(0.0);                                                     \
-        options = ground_options(0.01, 0.0, 0.0);                                      \
+#define REFUSED(what)                                                             \
+    do {                                                                          \
+        what;                                                                     \
+        CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_BAD_ARGUMENT); \
+        CHECK(terrain == NULL);                                                   \
+        ground = ground_flat(0.0);                                                \
+        options = ground_options(0.01, 0.0, 0.0);                                 \
     } while (0)
     DpSoil soil = ground_soils[0];
     REFUSED(options.cell = 0.0);

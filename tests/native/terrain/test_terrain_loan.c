@@ -3,8 +3,8 @@
 #include "base/parallel.h"
 #include "terrain/ground.h"
 
-#define SIDE 48        // cells of a window: several of them share a tile
-#define WINDOWS 64     // 8 x 8 of them, side by side
+#define SIDE 48     // cells of a window: several of them share a tile
+#define WINDOWS 64  // 8 x 8 of them, side by side
 
 typedef struct Many
 {
@@ -102,7 +102,8 @@ TEST(cells_without_ground_are_never_written)
 TEST(each_soil_brings_its_modulus_and_slope)
 {
     const float height[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-    const float weight[12] = {1.0f, 0.0f, 0.0f, 0.2f, 0.0f, 1.0f, 0.0f, 0.2f, 0.0f, 0.0f, 1.0f, 0.2f};
+    const float weight[12] = {1.0f, 0.0f, 0.0f, 0.2f, 0.0f, 1.0f,
+                              0.0f, 0.2f, 0.0f, 0.0f, 1.0f, 0.2f};
     DpGround    ground = ground_heights(2, 2, 0.0, 0.0, 1.0, height);
     ground.kind_count = 3;
     ground.kind_weight = weight;

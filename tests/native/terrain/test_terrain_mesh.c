@@ -113,11 +113,14 @@ TEST(shared_edges_have_no_pinholes)
         DpTerrain*     terrain = ground_terrain(&ground, 1.0 / 64.0, at, at);
         unsigned       seed = 5;
         for (int n = 0; n < 4000; ++n) {
-            const int    i = 1 + (int)(31.0 * check_random(&seed)), j = 1 + (int)(31.0 * check_random(&seed));
-            const int    di = (int)(3.0 * check_random(&seed)) - 1, dj = (int)(3.0 * check_random(&seed)) - 1;
-            const double w = n % 3 ? check_random(&seed) : 0.0;
+            const int i = 1 + (int)(31.0 * check_random(&seed)),
+                      j = 1 + (int)(31.0 * check_random(&seed));
+            const int di = (int)(3.0 * check_random(&seed)) - 1,
+                      dj = (int)(3.0 * check_random(&seed)) - 1;
+            const double  w = n % 3 ? check_random(&seed) : 0.0;
             const double* a = vertex + 3 * (j * GRID + i);
-            const double* b = vertex + 3 * ((j + dj) * GRID + i + di);  // along an edge, from a corner
+            const double* b =
+                vertex + 3 * ((j + dj) * GRID + i + di);  // along an edge, from a corner
             CHECK(height_at(terrain, a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])) == 0.1);
         }
         if (round < 8 && at == 0.0) {
@@ -131,9 +134,11 @@ TEST(shared_edges_have_no_pinholes)
 
 TEST(a_needle_between_two_triangles_leaves_no_gap)
 {
-    // the middle of the long edge is off it by less than anybody can see: T-junctions look like this
+    // the middle of the long edge is off it by less than anybody can see: T-junctions look like
+    // this
     const double   off = 1e-13;
-    const double   vertex[] = {0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.5, off, 0.5, 0.5, 1.0, 0.5, 0.5, -1.0, 0.5};
+    const double   vertex[] = {0.0, 0.0, 0.0, 1.0, 0.0, 1.0,  0.5, off,
+                               0.5, 0.5, 1.0, 0.5, 0.5, -1.0, 0.5};
     const int32_t  triangle[] = {0, 1, 2, 0, 2, 3, 2, 1, 3, 1, 0, 4};
     const DpGround ground = ground_mesh(5, vertex, 4, triangle);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
@@ -175,11 +180,11 @@ TEST(slopes_join_and_cells_agree)
 TEST(paint_follows_the_highest_triangle)
 {
     // two squares, the upper one painted with soil 2; the lower one from soil 0 to soil 1 along x
-    const double  vertex[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
+    const double  vertex[] = {0, 0,   0, 1, 0,   0, 1, 1, 0, 0, 1, 0,
                               0, 0.5, 1, 1, 0.5, 1, 1, 1, 1, 0, 1, 1};
     const int32_t triangle[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
-    const float   weight[] = {1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1};
-    DpGround      ground = ground_mesh(8, vertex, 4, triangle);
+    const float weight[] = {1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1};
+    DpGround    ground = ground_mesh(8, vertex, 4, triangle);
     ground.kind_count = 3;
     ground.kind_weight = weight;
     DpTerrain* terrain = ground_terrain(&ground, 1.0 / 16.0, 0.0, 0.0);

@@ -76,12 +76,14 @@ TEST(holes_are_holes)
 TEST(normal_fits_the_slope)
 {
     float height[21 * 21];
-    for (int n = 0; n < 441; ++n) height[n] = 0.3f * (float)(n % 21) * 0.1f - 0.2f * (float)(n / 21) * 0.1f;
+    for (int n = 0; n < 441; ++n)
+        height[n] = 0.3f * (float)(n % 21) * 0.1f - 0.2f * (float)(n / 21) * 0.1f;
     DpGround     ground = ground_heights(21, 21, 0.0, 0.0, 0.1, height);
     DpTerrain*   terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
     const DpVec3 want = dp_unit(dp_vec3(-0.3, 0.2, 1.0));
     const DpVec3 middle = dp_terrain_normal(terrain, 0.93, 1.12, 0.25);
-    const DpVec3 edge = dp_terrain_normal(terrain, 0.0, 0.05, 0.25);  // half the disc is off the ground
+    const DpVec3 edge =
+        dp_terrain_normal(terrain, 0.0, 0.05, 0.25);  // half the disc is off the ground
     CHECK_NEAR(middle.x, want.x, 1e-6);
     CHECK_NEAR(middle.y, want.y, 1e-6);
     CHECK_NEAR(middle.z, want.z, 1e-6);
