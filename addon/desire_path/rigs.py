@@ -14,10 +14,10 @@ from .errors import DesirePathError
 
 # ---- the tables ----------------------------------------------------------------------------------
 
-FOOT = ("foot", "ankle", "paw", "hoof", "feet", "足首", "足ＩＫ")
+FOOT = ("foot", "ankle", "paw", "hoof", "feet", "足首")
 TOE = ("toe base", "toebase", "toes", "toe", "ball", "toe 0", "toes 01", "toe 01", "toes 1", "toe 1",
        "big toe", "bigtoe", "bigtoe 1", "big toe 1", "toe 1 1", "toe 2 1", "toe 3 1", "toes 001",
-       "つま先", "足先ex", "足先")
+       "つま先", "足先 ex", "足先")
 HEEL = ("heel 02", "heel", "heel 01", "calcaneus", "かかと")
 THIGH = ("up leg", "upleg", "upper leg", "upperleg", "thigh", "femur", "leg upper", "thigh stretch",
          "hip", "足")
@@ -321,9 +321,7 @@ def detect(skeleton):
             found = [("left" if bones.head[foot, 0] > middle else "right", None, None, foot, toe,
                       heel) for foot, toe, heel in chains]
             if len(found) > 2:
-                found = [(f"{word} {i // 2 + 1}",) + rest
-                         for i, (word, *rest) in enumerate(map(tuple, found))]
-                found = [(f[0],) + tuple(f[1:]) for f in found]
+                found = [(f"{f[0]} {i // 2 + 1}",) + f[1:] for i, f in enumerate(found)]
             warnings.append("The feet were found by the shape of the rig, not by name: check that "
                             + ", ".join(bones.names[f[3]] for f in found) + " are the feet.")
     if not found:
