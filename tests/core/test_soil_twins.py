@@ -116,14 +116,14 @@ def test_accumulate_rest_is_the_envelope_of_cones(seed, push):
     i, j = round((0.01 - both.x0) / both.cell), round((-0.005 - both.y0) / both.cell)
     slope = float(both.native["rest_slope"][j, i])
     height = 0.0
-    for volume in (2e-5, 4e-4, 1e-4):
+    for volume in (1e-4, 4e-4, 1e-4):
         before = both.native["heap"].sum(dtype=float)
         height = _native.soil_accumulate(both.patch(), (bottom, cover, ring), foot, volume, REST, 0.04, 200.0, height)
         expected = twin.accumulate_rest(both.twin, ring, foot, volume, 200.0, slope)
         assert (both.native["heap"].sum(dtype=float) - before) * both.cell**2 == pytest.approx(volume, rel=1e-5)
         # the kernel stops within 0.02 % of the volume and scales what it lays
         assert height == pytest.approx(expected, rel=0.001)
-        both.same("heap", 2e-5)
+        both.same("heap", 5e-6)
     assert both.native["heap"].max() > 0.01
 
 
