@@ -362,6 +362,12 @@ def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, warning
     shape, flat = foot.shape(time, up_rest, ahead_rest, skin is not None)
     if skin is None and not flat.any() and len(time) > 2:
         warnings.append(f"{foot.slots.foot} never stands flat: its sole was laid by the rest pose.")
+    soles = None
+    if skin is not None:
+        soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
+        if soles is None:
+            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in "
+                            "sole.")
     heel_turn = bones.turn(foot.slots.foot) @ shape.foot_turn
     ankle, ball, _ = foot.joints()
     heel_at = ankle - heel_turn[:, :, 2] * shape.ankle_height
@@ -375,12 +381,6 @@ def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, warning
         low = 0.25 * (shape.tip - shape.heel)
         toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
         toe_at = under
-    soles = None
-    if skin is not None:
-        soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
-        if soles is None:
-            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in "
-                            "sole.")
     heel_x, tip_x = shape.heel, shape.tip
     if soles is None:
         soles = sole.built_in(shape.heel, shape.ball, shape.tip, left)

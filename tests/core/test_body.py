@@ -1,0 +1,354 @@
+"""From bones to a recording: mass centre, soles, parts; any scale, pose and rest orientation."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from desire_path import body, rigs, sole, walker
+from desire_path.body import Motion, Skeleton, Skin
+from desire_path.errors import DesirePathError
+from desire_path.gait import BALL, HEEL, TIP
+
+NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
+PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
+
+
+def joints(side):
+    """Hip, knee, ankle, ball, tip of one leg of a person who faces -Y."""
+    return np.array([(0.1 * side, 0, 0.92), (0.1 * side, -0.01, 0.5), (0.1 * side, 0.02, 0.09),
+                     (0.1 * side, -0.12, 0.025), (0.1 * side, -0.18, 0.02)])
+
+
+def person(toes=True, scale=1.0, turn=np.eye(3), roll=0.0):
+    """A Skeleton; bones roll about themselves by `roll`, rest space is turned by `turn`."""
+    heads, tails = [(0, 0, 1.0), (0, 0, 1.5)], [(0, 0, 1.2), (0, 0, 1.65)]
+    for side in (1, -1):  # the left is at +X of one who faces -Y
+        leg = joints(side)
+        heads += list(leg[:4])
+        tails += list(leg[1:])
+    heads, tails = np.array(heads, float), np.array(tails, float)
+    keep = [k for k, n in enumerate(NAMES) if toes or not n.startswith("toe")]
+    rest = np.tile(np.eye(4), (len(keep), 1, 1))
+    for row, k in enumerate(keep):
+        y = (tails[k] - heads[k]) / np.linalg.norm(tails[k] - heads[k])
+        x = np.cross(y, [0.2, 0.3, 0.9])
+        x /= np.linalg.norm(x)
+        z = np.cross(x, y)
+        x, z = np.cos(roll) * x + np.sin(roll) * z, -np.sin(roll) * x + np.cos(roll) * z
+        rest[row, :3, :3] = turn @ np.stack([x, y, z], axis=1)
+        rest[row, :3, 3] = turn @ heads[k] * scale
+    length = np.linalg.norm(tails - heads, axis=1)[keep] * scale
+    parents = [keep.index(PARENTS[k]) if PARENTS[k] >= 0 else -1 for k in keep]
+    return Skeleton(tuple(NAMES[k] for k in keep), np.array(parents, "i4"), rest, length)
+
+
+def about_x(angle):
+    c, s = np.cos(angle), np.sin(angle)
+    o, l = np.zeros_like(c), np.ones_like(c)
+    return np.moveaxis(np.array([[l, o, o], [o, c, -s], [o, s, c]]), -1, 0)
+
+
+def walk(skeleton, turn=np.eye(3), scale=1.0, toes_bend=True, count=240, rate=120.0, facing=0.0):
+    """World matrices of a person who walks along -Y (turned by `facing`) with flat stances and raised
+    heels; `turn` is what person() was turned by."""
+    time = np.arange(count) / rate
+    world = np.tile(skeleton.rest, (count, 1, 1, 1))
+    world[..., :3, :] = turn.T @ world[..., :3, :]
+    ahead = 1.1 * scale * time
+    for b, name in enumerate(skeleton.names):
+        side = 1 if name.endswith(".L") else -1 if name.endswith(".R") else 0
+        if not side:
+            world[:, b, 1, 3] -= ahead
+            continue
+        phase = time * 0.9 + (0.5 if side < 0 else 0.0)
+        step, u = np.floor(phase), phase % 1.0
+        swing = np.clip((u - 0.62) / 0.38, 0, 1)
+        at = 1.1 * scale / 0.9 * (step + swing ** 2 * (3 - 2 * swing) - phase[0])
+        lift = 0.10 * scale * np.sin(np.pi * swing) ** 2
+        pitch = 0.6 * np.clip((u - 0.45) / 0.17, 0, 1) * (1 - swing) - 0.2 * np.sin(np.pi * swing) ** 2
+        ball = joints(side)[3] * scale
+        roll = about_x(pitch)  # heel up about the ball
+        turned = roll if name.startswith(("foot", "shin")) or not toes_bend and name.startswith("toe") \
+            else about_x(0 * pitch)
+        if name.startswith("thigh"):
+            world[:, b, 1, 3] -= ahead
+            continue
+        world[:, b, :3, 3] = np.einsum("tij,tj->ti", turned, world[:, b, :3, 3] - ball) + ball
+        world[:, b, :3, :3] = turned @ world[:, b, :3, :3]
+        world[:, b, 1, 3] -= at
+        world[:, b, 2, 3] += lift
+    c, s = np.cos(facing), np.sin(facing)
+    around = np.eye(4)
+    around[:2, :2] = [[c, -s], [s, c]]
+    return Motion(time, skeleton.names, around @ world)
+
+
+def gait(skeleton, motion, **more):
+    return body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, **more)
+
+
+def places(g, part):
+    """A part's sole in the world (T, n, 3)."""
+    p = np.broadcast_to(g.soles[part].vertices.astype(float), (len(g.time),) + g.soles[part].vertices.shape)
+    u, w = g.pose[part, :, None, 4:], g.pose[part, :, None, 3:4]
+    t = 2 * np.cross(u, p)
+    return g.pose[part, :, None, :3] + p + w * t + np.cross(u, t)
+
+
+def flat_sample(g, limb=0):
+    """A sample in the middle of a stance."""
+    phase = g.time * 0.9 + 0.5 * limb
+    return int(np.argmin(abs(phase % 1.0 - 0.25) + 10 * (g.time < 0.3)))
+
+
+# ---- parts and soles ------------------------------------------------------------------------------------
+
+
+def test_a_walk_becomes_a_gait():
+    bones = person()
+    g = gait(bones, walk(bones))
+    assert g.pose.shape == (4, 240, 7) and g.part_limb.tolist() == [0, 0, 1, 1]
+    assert g.limb_name == ("foot.L", "foot.R") and g.part_name == ("heel", "toe") * 2
+    assert g.point_role.tolist() == [HEEL, BALL, BALL, TIP] * 2
+    assert not g.warnings
+    # Winter's segments put the mass centre of a standing body near 0.57 of its height
+    assert 0.9 < g.com[0, :, 2].mean() < 1.1
+    loads = walker.loads(g)
+    on = loads.touching[:2].any(axis=0)
+    assert 0.45 < on.mean() < 0.8
+
+
+@pytest.mark.parametrize("roll", [0.0, 1.0, 2.5])
+@pytest.mark.parametrize("facing", [0.0, 2.0])
+def test_flat_soles_are_level_and_point_ahead(roll, facing):
+    bones = person(roll=roll)
+    g = gait(bones, walk(bones, facing=facing))
+    for limb in (0, 1):
+        t = flat_sample(g, limb)
+        heel, toe = (places(g, 2 * limb + k)[t] for k in (0, 1))
+        both = np.concatenate([heel, toe])
+        flat_heel = heel[g.soles[2 * limb].vertices[:, 2] < 1e-4]
+        flat_toe = toe[g.soles[2 * limb + 1].vertices[:, 2] < 1e-4]
+        assert np.ptp(np.concatenate([flat_heel, flat_toe])[:, 2]) < 2e-3  # one plane
+        ahead = np.array([np.sin(facing), -np.cos(facing)])
+        assert (toe.mean(axis=0) - heel.mean(axis=0))[:2] @ ahead > 0.1
+        length, across = np.ptp(both[:, :2] @ ahead), np.ptp(both[:, :2] @ [ahead[1], -ahead[0]])
+        assert length == pytest.approx(1.17 * 0.20, rel=0.03)
+        assert across == pytest.approx(0.36 * length, rel=0.05)
+        assert -0.03 < both[:, 2].min() < 0.03  # near where the ground of the clip is
+
+
+def test_parts_tile_without_a_gap():
+    heel, toe = sole.built_in(-0.05, 0.15, 0.22, True)
+    split = toe.vertices[:, 0] + 0.15
+    assert heel.vertices[:, 0].max() == pytest.approx(0.15, abs=1e-6)
+    assert split.min() < 0.15 - 0.008  # the toe part laps behind the ball
+    at_split = [np.ptp(heel.vertices[abs(heel.vertices[:, 0] - 0.15) < 1e-6, 1]),
+                np.ptp(toe.vertices[abs(split - 0.15) < 1e-6, 1])]
+    assert at_split[0] == pytest.approx(at_split[1], abs=1e-6)
+    assert 150 <= len(heel.triangles) + len(toe.triangles) <= 400
+
+
+def test_built_in_sole_is_a_shoe():
+    heel, toe = sole.built_in(-0.05, 0.15, 0.22, True)
+    v = np.concatenate([heel.vertices, toe.vertices + [0.15, 0, 0]])
+    width = lambda a, b: np.ptp(v[(v[:, 0] >= a) & (v[:, 0] <= b), 1])
+    assert width(-0.02, 0.0) < width(0.12, 0.18) and width(0.03, 0.08) < width(0.12, 0.18)
+    assert v[:, 2].min() == 0.0 and v[:, 2].max() == pytest.approx(0.008, abs=1e-6)
+    waist = (v[:, 0] > 0.04) & (v[:, 0] < 0.08) & (v[:, 2] < 0.0079) & (v[:, 2] > 0)
+    assert v[waist, 1].min() < 0  # the arch is on the inner side, which is a left foot's right
+    for part in (heel, toe):
+        corner = part.vertices[part.triangles]
+        down = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2]
+        assert (down < 0).all()  # faces look at the ground
+    other = sole.built_in(-0.05, 0.15, 0.22, False)
+    for a, b in zip((heel, toe), other):
+        assert np.array_equal(a.vertices * [1, -1, 1], b.vertices)
+        corner = b.vertices[b.triangles]
+        assert (np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2] < 0).all()
+
+
+def test_toe_parts_stay_level_while_the_heel_rises():
+    for toes, bend in ((True, True), (True, False), (False, False)):
+        bones = person(toes)
+        g = gait(bones, walk(bones, toes_bend=bend))
+        phase = g.time * 0.9
+        rising = (phase % 1.0 > 0.52) & (phase % 1.0 < 0.6) & (g.time > 0.3)
+        up = lambda part: 1 - 2 * (g.pose[part, :, 4] ** 2 + g.pose[part, :, 5] ** 2)  # cos of the tilt
+        assert (up(0)[rising] < np.cos(0.2)).all()
+        assert (up(1)[rising] > np.cos(0.08)).all()
+        swing = (phase % 1.0 > 0.78) & (phase % 1.0 < 0.85)
+        assert (up(1)[swing] > np.cos(0.35)).all()
+
+
+def test_feet_without_toe_bones_have_two_parts_of_the_same_foot():
+    with_toes, without = person(True), person(False)
+    a, b = gait(with_toes, walk(with_toes)), gait(without, walk(without))
+    assert b.pose.shape == a.pose.shape
+    la = np.ptp(np.concatenate([places(a, 0)[30], places(a, 1)[30]])[:, 1])
+    lb = np.ptp(np.concatenate([places(b, 0)[30], places(b, 1)[30]])[:, 1])
+    assert lb == pytest.approx(la, rel=0.1)
+
+
+# ---- robustness ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("turn", [np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]),
+                                  np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]])])
+def test_any_rest_orientation(turn):
+    plain, turned = person(), person(turn=turn)
+    a, b = gait(plain, walk(plain)), gait(turned, walk(turned, turn=turn))
+    assert b.com == pytest.approx(a.com, abs=1e-9)
+    for part in range(4):
+        assert places(b, part)[40] == pytest.approx(places(a, part)[40], abs=2e-3)
+
+
+@pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
+def test_any_scale(scale):
+    bones = person(scale=scale)
+    motion = walk(bones, scale=scale)
+    g = gait(bones, motion)
+    length = np.ptp(np.concatenate([places(g, 0)[40], places(g, 1)[40]])[:, 1])
+    assert length == pytest.approx(0.234 * scale, rel=0.1)
+    assert np.isfinite(g.pose).all()
+
+
+def test_scaled_matrices_leave_rotations_alone():
+    bones = person()
+    motion = walk(bones)
+    big = replace(motion, matrix=motion.matrix * np.array([2, 2, 2, 1.0]))
+    a, b = gait(bones, motion), gait(bones, big)
+    assert b.pose[:, :, 3:] == pytest.approx(a.pose[:, :, 3:], abs=1e-9)
+
+
+def test_a_still_pose_and_a_single_frame():
+    bones = person()
+    for count in (1, 2, 5, 60):
+        motion = Motion(np.arange(count) / 24, bones.names, np.tile(bones.rest, (count, 1, 1, 1)))
+        g = gait(bones, motion)
+        both = np.concatenate([places(g, 0)[0], places(g, 1)[0]])
+        assert both[:, 2].min() == pytest.approx(0.0, abs=0.04)
+        loads = walker.loads(g)
+        assert loads.touching.any()
+        total = -loads.force[:, :, 2].sum(axis=0) / (70 * 9.81)
+        assert total == pytest.approx(np.ones(count), abs=1e-6)
+
+
+def poison(motion, bone, sample, value):
+    matrix = motion.matrix.copy()
+    matrix[sample, list(motion.bones).index(bone)] = value
+    return replace(motion, matrix=matrix)
+
+
+def test_bad_recordings_get_a_sentence():
+    bones = person()
+    motion = walk(bones)
+    with pytest.raises(DesirePathError, match="Bone foot.L has no finite position at frame 18:"):
+        gait(bones, poison(motion, "foot.L", 17, np.nan))
+    with pytest.raises(DesirePathError, match="Bone toe.R has no finite position at frame 101"):
+        gait(bones, poison(motion, "toe.R", 0, np.inf), frame_start=101)
+    with pytest.raises(DesirePathError, match="Bone foot.R is scaled to nothing at frame 4:"):
+        gait(bones, poison(motion, "foot.R", 3, np.diag([0.0, 0, 0, 1])))
+    with pytest.raises(DesirePathError, match="Bone foot.L has no length"):
+        gait(replace(bones, length=np.where(np.array(bones.names) == "foot.L", 0, bones.length)), motion)
+    with pytest.raises(DesirePathError, match="no frames"):
+        gait(bones, Motion(np.zeros(0), bones.names, np.zeros((0, 10, 4, 4))))
+    with pytest.raises(DesirePathError, match="mass of -1 kg"):
+        body.gait_from_bones(bones, motion, mass=-1.0, frame_rate=24)
+    with pytest.raises(DesirePathError, match="mass of nan kg"):
+        body.gait_from_bones(bones, motion, mass=float("nan"), frame_rate=24)
+    with pytest.raises(DesirePathError, match="frame rate"):
+        body.gait_from_bones(bones, motion, mass=70, frame_rate=0)
+    with pytest.raises(DesirePathError, match="do not increase"):
+        gait(bones, replace(motion, time=motion.time[::-1]))
+    renamed = replace(motion, bones=tuple(n.replace("foot", "fuss") for n in motion.bones))
+    with pytest.raises(DesirePathError, match="foot.L was not recorded"):
+        gait(bones, renamed)
+
+
+def test_mass_centre_is_the_segments():
+    bones = person()
+    motion = Motion(np.arange(3) / 24, bones.names, np.tile(bones.rest, (3, 1, 1, 1)))
+    com = gait(bones, motion).com[0, 0]
+    want = 0.678 * np.array([0, 0, 1.0 + 0.626 * 0.5])
+    for side in (1, -1):
+        hip, knee, ankle, ball, _ = joints(side)
+        want = want + 0.100 * (hip + 0.433 * (knee - hip)) + 0.0465 * (knee + 0.433 * (ankle - knee))
+        want = want + 0.0145 * (ankle + 0.5 * (ball - ankle))
+    assert com == pytest.approx(want, abs=1e-9)
+    rig = rigs.detect(bones)
+    only_hips = rigs.Rig(rig.feet, rig.hips, ())
+    assert gait(bones, motion, rig=only_hips).com[0, 0] == pytest.approx([0, 0, 1.0])
+
+
+# ---- skins -----------------------------------------------------------------------------------------------------
+
+
+def boots(depth=0.02):
+    """A skin of two boots: a box under each heel and toe, the heels with a tread, and a leg above."""
+    vertices, triangles, weights = [], [], {n: [] for n in ("foot.L", "toe.L", "foot.R", "toe.R", "shin.L")}
+    box = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
+             (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+
+    def add(low, high, owner):
+        first = len(vertices)
+        vertices.extend((np.array(low) + box * (np.array(high) - low)).tolist())
+        triangles.extend((np.array(faces) + first).tolist())
+        for name in weights:
+            weights[name] += [1.0 if name == owner else 0.0] * 8
+
+    for side, mark in ((1, "L"), (-1, "R")):
+        a, b = sorted((0.05 * side, 0.15 * side))
+        add((a, -0.12, 0.0), (b, 0.07, 0.05), f"foot.{mark}")
+        add((a, -0.22, 0.0), (b, -0.12, 0.04), f"toe.{mark}")
+        add((a + 0.03, 0.02, -depth), (b - 0.03, 0.05, 0.0), f"foot.{mark}")
+    add((0.05, 0.0, 0.12), (0.15, 0.05, 0.5), "shin.L")
+    return Skin(np.array(vertices), np.array(triangles), {n: np.array(w) for n, w in weights.items()})
+
+
+def test_a_boot_leaves_a_boot_print():
+    bones = person()
+    g = gait(bones, walk(bones), skin=boots())
+    assert not g.warnings
+    for limb in (0, 1):
+        heel, toe = g.soles[2 * limb], g.soles[2 * limb + 1]
+        assert len(heel.triangles) == 24 and len(toe.triangles) == 12
+        t = flat_sample(g, limb)
+        h, f = places(g, 2 * limb)[t], places(g, 2 * limb + 1)[t]
+        assert np.ptp(np.concatenate([h, f])[:, 1]) == pytest.approx(0.29, abs=5e-3)
+        assert h[:, 2].min() == pytest.approx(-0.02, abs=2e-3)  # the tread, where the skin has it
+        assert f[:, 2].min() == pytest.approx(0.0, abs=2e-3)
+    marks = g.point[g.point_role == HEEL]
+    assert (marks[:, 0] < -0.03).all()
+
+
+def test_a_skin_without_toe_weights_is_split_at_the_ball():
+    bones = person(toes=False)
+    skin = boots()
+    fold = {n: skin.weights[n] + (skin.weights[n.replace("foot", "toe")] if "foot" in n else 0)
+            for n in ("foot.L", "foot.R", "shin.L")}
+    g = gait(bones, walk(bones), skin=replace(skin, weights=fold))
+    assert not g.warnings
+    assert len(g.soles[0].triangles) + len(g.soles[1].triangles) == 36
+    assert len(g.soles[1].triangles) >= 10
+
+
+def test_a_skin_without_feet_falls_back():
+    bones = person()
+    skin = boots()
+    g = gait(bones, walk(bones), skin=replace(skin, weights={"shin.L": skin.weights["shin.L"]}))
+    assert "built-in sole" in g.warnings[0]
+    assert len(g.soles[0].triangles) > 50
+
+
+def test_quaternions_come_back():
+    random = np.random.default_rng(2)
+    q = random.normal(size=(200, 4))
+    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    w, x, y, z = q.T
+    turn = np.moveaxis(np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                                 [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                                 [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]), -1, 0)
+    assert abs((body.quaternion(turn) * q).sum(axis=1)) == pytest.approx(np.ones(200), abs=1e-12)
