@@ -298,7 +298,13 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
     const int    times = gait->times;
     const double shortest = limits->shortest * w.rate - 1e-6;
     for (int k = 0; k < gait->points; ++k) watch_point(&w, k, ground);
-    for (int walker = 0; walker < gait->walkers; ++walker) watch_walker(&w, walker);
+    for (int walker = 0; walker < gait->walkers; ++walker) {
+        watch_walker(&w, walker);
+        if (walker_level_floor(gait, walker, w.height, w.speed, limits->slow_speed, w.rate) == DP_OK)
+            continue;
+        close_watch(&w);
+        return DP_NO_MEMORY;
+    }
     calibrate(&w, clearance);
     for (int k = 0; k < gait->points; ++k) {
         touch_point(&w, k, clearance[k]);

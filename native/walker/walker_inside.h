@@ -40,6 +40,12 @@ static inline DpVec3 walker_point(const DpGait* gait, int point)
     return at;
 }
 
+// Take a slight slope of the recorded floor out of the heights of a walker's points.
+// @param height  over the given ground, changed; NaN = no ground [m]   (K, T)
+// @param speed   [m/s] (K, T);  slow: a point below this rests   [m/s]
+DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, const double* speed,
+                            double slow, double rate);
+
 // How much of the weight each of `count` supports carries: ramps first, corrected by the
 // zero-moment point where the supports are far apart. Design 4.3.
 // @param share   in: s_i of the ramps, sum 1; out: a_i >= 0, sum 1  [-] (count)

@@ -33,9 +33,10 @@ static int share_touching(const uint8_t* on)
     return sum;
 }
 
-static void check_walk(double hover, double ramp)
+static void check_walk(double hover, double ramp, double drift)
 {
     Scene   s = walking(hover, ramp);
+    for (int k = 0; k < LIMBS * T; ++k) s.pose[7 * k + 2] += drift * (s.pose[7 * k] - s.com[3 * (T / 2)]);
     uint8_t on[LIMBS * T];
     double  clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
@@ -54,18 +55,25 @@ static void check_walk(double hover, double ramp)
 
 TEST(resting_foot_touches)
 {
-    check_walk(0.0, 0.0);
+    check_walk(0.0, 0.0, 0.0);
 }
 
 TEST(hovering_clip_touches)
 {
-    check_walk(0.04, 0.0);
-    check_walk(-0.03, 0.0);
+    check_walk(0.04, 0.0, 0.0);
+    check_walk(-0.03, 0.0, 0.0);
 }
 
 TEST(slope_given_as_ground_touches)
 {
-    check_walk(0.01, 0.2);
+    check_walk(0.01, 0.2, 0.0);
+}
+
+// a capture floor that drops 10 cm over the walk
+TEST(leaning_floor_touches)
+{
+    check_walk(0.02, 0.0, -0.03);
+    check_walk(0.0, 0.0, 0.02);
 }
 
 TEST(nothing_touches_where_there_is_no_ground)
@@ -177,7 +185,7 @@ TEST(refuses_uneven_times_and_missing_memory)
     double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
-    for (long k = 0; k < 8; ++k) {
+    for (long k = 0; k < 10; ++k) {
         dp_alloc_fail_after(k);
         CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_NO_MEMORY);
     }
@@ -196,6 +204,7 @@ int main(void)
     RUN(resting_foot_touches);
     RUN(hovering_clip_touches);
     RUN(slope_given_as_ground_touches);
+    RUN(leaning_floor_touches);
     RUN(nothing_touches_where_there_is_no_ground);
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
