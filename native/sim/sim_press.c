@@ -5,6 +5,7 @@
 #include "sim/sim_inside.h"
 
 #define BORDER_RINGS 1
+#define SLIDING_SWEEPS 16  // of one step: slides take time; all comes to rest when the foot has left
 #define SETTLE_MARGIN 8  // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32 // cells more on each side when it wants to go further
 
@@ -98,9 +99,10 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
 
     DpSettled  settled;
     const bool stands_here = bench->imprint.i0 < bench->imprint.i1;
+    const int  most = sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps
+                                                                : SLIDING_SWEEPS;
     status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
-                               sim->options.tolerance, sim->options.most_sweeps,
-                               bench->soil_scratch, &settled);
+                               sim->options.tolerance, most, bench->soil_scratch, &settled);
     if (status != DP_OK) return status;
     dp_terrain_give_back(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
     limb->spills = settled.at_edge;
