@@ -47,10 +47,12 @@ static void print_tile(float* rgba, double shift)
     }
 }
 
-// frames in which two tiles change, after a trail of `trail` tiles; [s] a frame, bytes of the last
-static double walk(int tiles, int trail, const char* path, double* whole, long* size)
+// frames in which two tiles change, after a trail of `trail` tiles, each a new file as in a bake;
+// [s] a frame, bytes of the last
+static double walk(int tiles, int trail, const char* stem, double* whole, long* size)
 {
     enum { COUNT = 60 };
+    char          path[4200];
     static float  rgba[DP_TILE * DP_TILE * 4];
     double        took[COUNT];
     DpFrames*     frames;
@@ -60,10 +62,13 @@ static double walk(int tiles, int trail, const char* path, double* whole, long* 
         print_tile(rgba, 0.01 * k);
         dp_frames_set_tile(frames, k % tiles, k / tiles, rgba, 0);
     }
+    snprintf(path, sizeof path, "%s.first", stem);
     dp_frames_write(frames, path, 0.0);
     *whole = seconds() - start;
+    unlink(path);
     for (int k = 0; k < COUNT; ++k) {
         print_tile(rgba, 0.1 * k);
+        snprintf(path, sizeof path, "%s.%d", stem, k);
         const double from = seconds();
         dp_frames_set_tile(frames, k % tiles, (k / 4) % tiles, rgba, 0);
         dp_frames_set_tile(frames, (k + 1) % tiles, (k / 4) % tiles, rgba, 0);
@@ -72,7 +77,10 @@ static double walk(int tiles, int trail, const char* path, double* whole, long* 
     }
     struct stat about;
     *size = stat(path, &about) == 0 ? (long)about.st_size : -1;
-    unlink(path);
+    for (int k = 0; k < COUNT; ++k) {
+        snprintf(path, sizeof path, "%s.%d", stem, k);
+        unlink(path);
+    }
     dp_frames_destroy(frames);
     return median(took, COUNT);
 }
