@@ -34,6 +34,8 @@ from .version import VERSION
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
+NEAR = 1.0  # ground this far around the feet is looked at [m]
+BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
 @dataclass(frozen=True)
@@ -150,7 +152,7 @@ class Bake:
             )
         gait.check()
         self.gait = gait
-        self.ground = ground
+        self.ground = self._under(gait, ground)
         self.soils = as_soils(soils)
         self.folder = os.path.abspath(os.fspath(folder))
         self.frame_rate = float(gait.frame_rate)
@@ -170,6 +172,15 @@ class Bake:
         self.threads = threads
         self.loads = None
         self.report = None
+
+    @staticmethod
+    def _under(gait, ground):
+        """The ground the feet come near, with room for heaps and slopes."""
+        feet = gait.pose[..., :2].reshape(-1, 2)
+        ground = ground.near(*(feet.min(axis=0) - NEAR), *(feet.max(axis=0) + NEAR))
+        if ground.native[0] == "mesh" and not len(ground.native[2]):
+            raise DesirePathError(BESIDE)
+        return ground
 
     # ---- what is baked --------------------------------------------------------------------------
 
@@ -223,9 +234,7 @@ class Bake:
             j0 = max(j0, math.floor((y0 - oy) / cell))
             j1 = min(j1, math.ceil((y1 - oy) / cell))
         if i0 >= i1 or j0 >= j1:
-            raise DesirePathError(
-                "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
-            )
+            raise DesirePathError(BESIDE)
         tx0, ty0 = i0 // TILE, j0 // TILE
         tx1, ty1 = -(-i1 // TILE), -(-j1 // TILE)
         if (tx1 - tx0) * (ty1 - ty0) * TILE * TILE > MOST_PIXELS:

@@ -37,8 +37,11 @@ def matrix(value, name):
 
 def points(world, local, scale):
     """Local points (n, 3) to the world, float64 [m]."""
-    out = np.asarray(local, np.float64) @ (world[:3, :3].T * scale)
-    out += world[:3, 3] * scale
+    x, y, z = np.asarray(local, np.float64).reshape(-1, 3).T.copy()
+    out = np.empty((len(x), 3))
+    for axis in range(3):  # written out: a matrix product's last bits differ from machine to machine
+        a, b, c, at = world[axis] * scale
+        out[:, axis] = x * a + y * b + z * c + at
     return out
 
 

@@ -82,19 +82,24 @@ def _planes(index):
 def _sample(plane, at, index):
     """Values at world points (n, 2) [m], between cell centres in proportion; 0 outside."""
     ny, nx = plane.shape
-    place = (at - (index.x0, index.y0)) / index.cell - 0.5
+    out = np.zeros(len(at), np.float32)
+    low, high = (index.x0, index.y0), (index.x0 + nx * index.cell, index.y0 + ny * index.cell)
+    inside = np.flatnonzero((at[:, 0] > low[0]) & (at[:, 0] < high[0])
+                            & (at[:, 1] > low[1]) & (at[:, 1] < high[1]))
+    place = (at[inside] - low) / index.cell - 0.5
     near = np.round(place)
     place = np.where(np.abs(place - near) < playback.ALIGNED, near, place)
-    low = np.floor(place).astype(np.int64)
-    part = (place - low).astype(np.float32)
-    out = np.zeros(len(at), np.float32)
+    base = np.floor(place).astype(np.int64)
+    part = (place - base).astype(np.float32)
+    value = np.zeros(len(inside), np.float32)
     for dj in (0, 1):
         for di in (0, 1):
-            i, j = low[:, 0] + di, low[:, 1] + dj
+            i, j = base[:, 0] + di, base[:, 1] + dj
             there = (i >= 0) & (i < nx) & (j >= 0) & (j < ny)
             share = ((part[:, 0] if di else 1.0 - part[:, 0])
                      * (part[:, 1] if dj else 1.0 - part[:, 1]))
-            out[there] += share[there] * plane[j[there], i[there]]
+            value[there] += share[there] * plane[j[there], i[there]]
+    out[inside] = value
     return out
 
 

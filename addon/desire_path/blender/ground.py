@@ -12,6 +12,7 @@ from ..errors import DesirePathError
 from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
+BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
 
@@ -91,19 +92,25 @@ def under(obj, surface, gait):
 
 
 def _faces_up(obj, world, vertices, triangles):
-    """Refuse walls and ceilings."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    normal = np.cross(b - a, c - a) * np.sign(np.linalg.det(world[:3, :3]))
-    area = np.linalg.norm(normal, axis=1)
-    if not (area > 0.0).any():
+    """Refuse walls and ceilings: look at faces until one can be walked on."""
+    hand = np.sign(np.linalg.det(world[:3, :3]))
+    has_area = looks_down = False
+    for first in range(0, len(triangles), BLOCK):
+        a, b, c = (vertices[triangles[first:first + BLOCK, k]] for k in range(3))
+        normal = np.cross(b - a, c - a) * hand
+        area = np.linalg.norm(normal, axis=1)
+        rise = normal[:, 2] / np.maximum(area, 1e-300)
+        if (rise > STEEP).any():
+            return
+        has_area |= bool((area > 0.0).any())
+        looks_down |= bool((rise < -STEEP).any())
+    if not has_area:
         raise DesirePathError(f"The faces of '{obj.name}' have no area: give it faces to walk on.")
-    rise = normal[:, 2] / np.maximum(area, 1e-300)
-    if not (rise > STEEP).any():
-        if (rise < -STEEP).any():
-            raise DesirePathError(f"All faces of '{obj.name}' look down or sideways: flip its normals "
-                                  "(Mesh > Normals > Flip) or turn it over.")
-        raise DesirePathError(f"'{obj.name}' stands upright like a wall: turn it so that it can be "
-                              "walked on.")
+    if looks_down:
+        raise DesirePathError(f"All faces of '{obj.name}' look down or sideways: flip its normals "
+                              "(Mesh > Normals > Flip) or turn it over.")
+    raise DesirePathError(f"'{obj.name}' stands upright like a wall: turn it so that it can be "
+                          "walked on.")
 
 
 def _cell_corner(vertices, cell):
