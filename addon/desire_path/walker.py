@@ -14,6 +14,7 @@ RATE_KEPT = 100.0  # .. unless the recording is even and at least this fine
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
+SLIDE = 0.4  # feet that stand do not slide faster [m/s]
 
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
 LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
@@ -136,7 +137,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     _native.foot_force(_native_gait(even), touching, below, MODELS[model], float(settle_time),
                        bool(half_sine), force, point, _numbers(OPTIONS, options))
     mean, warnings = _weigh(even, touching, force) if model == "inertia" else (None, [])
-    warnings = _sinks(even, below) + warnings
+    warnings = _sinks(even, below) + _slides(even, touching) + warnings
     if not same:
         touching, force, point = _at(gait.time, even.time, touching, force, point)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
@@ -166,6 +167,22 @@ def _sinks(gait, below):
             raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time: move the "
                                   "ground down or the walker up.")
     return []
+
+
+def _slides(gait, touching):
+    """A sentence for each walker whose feet slide while they carry: it walks in place."""
+    warnings = []
+    if len(gait.time) < 3:
+        return warnings
+    rush = np.linalg.norm(np.gradient(point_places(gait)[..., :2], gait.time, axis=1), axis=2)
+    on = touching[gait.point_part] != 0
+    for w, name in enumerate(gait.walker_name):
+        mine = (gait.limb_walker[gait.part_limb[gait.point_part]] == w)[:, None] & on
+        speed = float(np.median(rush[mine])) if mine.any() else 0.0
+        if speed > SLIDE:
+            warnings.append(f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
+                            "that walks in place: move the character forward at that speed.")
+    return warnings
 
 
 def _cycle(on, count):

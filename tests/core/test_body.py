@@ -235,6 +235,23 @@ def test_a_still_pose_and_a_single_frame():
         assert total == pytest.approx(np.ones(count), abs=1e-6)
 
 
+def test_a_clip_that_walks_in_place_is_told():
+    bones = person()
+    motion = walk(bones)
+    still = motion.matrix.copy()
+    still[:, :, 1, 3] += 1.1 * motion.time[:, None]
+    g = gait(bones, replace(motion, matrix=still))
+    loads = walker.loads(g)
+    assert any("slide at 1.1 m/s" in w and "in place" in w for w in loads.warnings)
+    on = np.stack([loads.touching[:2].any(axis=0), loads.touching[2:].any(axis=0)])
+    assert on.any(axis=0).mean() > 0.9
+    for limb in (0, 1):
+        phase = (g.time * 0.9 + 0.5 * limb) % 1.0
+        middle = (phase > 0.2) & (phase < 0.35) & (g.time > 0.1) & (g.time < 1.9)
+        assert on[limb, middle].mean() > 0.9
+    assert not any("slide" in w for w in walker.loads(gait(bones, motion)).warnings)
+
+
 def poison(motion, bone, sample, value):
     matrix = motion.matrix.copy()
     matrix[sample, list(motion.bones).index(bone)] = value
