@@ -15,6 +15,8 @@ HEEL_BEHIND = 0.17  # the heel lies this share of ankle-to-tip behind the ankle,
 ANKLE_HEIGHT = 0.039 / 0.152  # ankle over the sole, in foot lengths; Winter, figure 4.1
 TOE_SHARE = (0.25, 0.75)  # plausible ball-to-tip in shares of ankle-to-ball; else TOE_GUESS
 TOE_GUESS = 0.42
+FOOT_OF_LEG = 0.285  # foot length in shares of hips bone to ankle: 0.152 of 0.53 statures, Winter, Fig. 4.1
+SHORT_FOOT = 0.8  # a person's foot is no shorter than this share of that; toe bones that end early are
 FOOT_TO_LEG = 0.22  # a foot bone longer than this share of the leg ends at the tip, not at the ball
 BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
 STIFF = np.radians(3.0)  # a toe bone that turns less than this against its foot never bends
@@ -225,7 +227,7 @@ class _FootShape:
 class _Foot:
     """The bones of one foot over the clip."""
 
-    def __init__(self, bones, foot, leg):
+    def __init__(self, bones, foot, leg, person):
         self.bones, self.slots = bones, foot
         length = bones.length[bones.row[foot.foot]]
         self.toe = foot.toe
@@ -237,6 +239,7 @@ class _Foot:
                 raise DesirePathError(f"Bone {foot.foot} has no length up to {self.toe}: choose "
                                       "another toe bone or none.")
         self.leg = leg
+        self.person = person  # walks on two legs below its hips
         self.tip = None  # a far "toe" bone: its head is the tip
         if self.toe and self._far():
             self.tip, self.toe = self.toe, None
@@ -332,6 +335,10 @@ class _Foot:
         tip_x = reach + toes
         heel_x = -HEEL_BEHIND * tip_x
         length = tip_x - heel_x
+        if self.person and not skinned and length < SHORT_FOOT * FOOT_OF_LEG * self.leg:
+            more = FOOT_OF_LEG * self.leg - length  # joints tell where it bends, not where it ends
+            tip_x, heel_x = tip_x + 0.55 * more, heel_x - 0.45 * more
+            length += more
         # the sole lies under the lowest joint, the ankle no lower over it than in people
         ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
         return _FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2],
@@ -464,7 +471,8 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     ankles = np.array([bones.rest_point(f.foot) for f in rig.feet])
     leg = float(np.median(ankles @ -up_rest)) + float(
         bones.rest_point(rig.hips) @ up_rest if rig.hips else ankles.mean(axis=0) @ up_rest + 0.9)
-    feet = [_Foot(bones, f, leg) for f in rig.feet]
+    person = len(rig.feet) == 2 and bool(rig.hips)
+    feet = [_Foot(bones, f, leg, person) for f in rig.feet]
     ahead_rest = _ahead(bones, rig, feet, up_rest)
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis

@@ -20,7 +20,8 @@
 #define SUPPORT_CUTOFF 8.0    // low-pass of a_com for the question whether it falls        [Hz]
 #define SUPPORT_SHORTEST 0.1  // shorter gaps without a foot may well be a flight's edge    [s]
 #define RISE_TO_SPEED 5.0     // a foot this much faster carries as little as one 1 m higher [1/s]
-#define CLEARANCE_MOST 0.15   // a foot at rest this far above the lowest one hangs in the air [m]
+#define CLEARANCE_MOST 0.08   // a foot at rest this far above the lowest one hangs in the air [m]
+#define IN_PLACE 0.4          // feet of a walker that stays slide at least this fast     [m/s]
 
 DpContactLimits dp_contact_limits_default(void)
 {
@@ -47,6 +48,7 @@ typedef struct Watch
     double*                height;   // over the ground; NaN = no ground [m]   (K, T)
     double*                speed;    // [m/s]                                  (K, T)
     double*                drop;     // downward speed over sideways speed [m/s]  (K, T)
+    DpVec3*                belt;     // the surface under a walker that stays in place [m/s] (W)
     double*                gate;     // speed below which a point may touch [m/s] (W, T)
     double*                fall;     // a_com upward [m/s^2]                   (W, T)
     uint8_t*               on;       // the point touches                      (K, T)
@@ -57,6 +59,7 @@ typedef struct Watch
 static void close_watch(Watch* w)
 {
     dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->gate), dp_free(w->fall);
+    dp_free(w->belt);
     dp_free(w->on), dp_free(w->scratch), dp_free(w->line);
 }
 
@@ -67,12 +70,14 @@ static bool open_watch(Watch* w)
     w->height = dp_alloc(points * times, sizeof(double));
     w->speed = dp_alloc(points * times, sizeof(double));
     w->drop = dp_alloc(points * times, sizeof(double));
+    w->belt = dp_alloc(walkers, sizeof(DpVec3));
     w->gate = dp_alloc(walkers * times, sizeof(double));
     w->fall = dp_alloc(walkers * times, sizeof(double));
     w->on = dp_alloc(points * times, 1);
     w->scratch = dp_alloc(3 * times + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
-    return w->height && w->speed && w->drop && w->gate && w->fall && w->on && w->scratch && w->line;
+    return w->height && w->speed && w->drop && w->belt && w->gate && w->fall && w->on && w->scratch &&
+           w->line;
 }
 
 static int limb_of(const DpGait* gait, int point)
@@ -85,22 +90,23 @@ static int walker_of(const DpGait* gait, int point)
     return gait->limb_walker[limb_of(gait, point)];
 }
 
-// the size of the change in time of three smoothed signals, and by how much it is downward
-static void speed_of(const Watch* w, double cutoff, double* speed, double* drop)
+static DpVec3 line_velocity(const Watch* w, int t)
 {
     const int times = w->gait->times;
-    double*   axis[3] = {w->line, w->line + times, w->line + 2 * (size_t)times};
-    for (int c = 0; c < 3; ++c) walker_low_pass(axis[c], times, w->rate, cutoff, w->scratch);
-    for (int t = 0; t < times; ++t) {
-        const DpVec3 v = dp_vec3(walker_velocity(axis[0], times, t, w->rate),
-                                 walker_velocity(axis[1], times, t, w->rate),
-                                 walker_velocity(axis[2], times, t, w->rate));
-        speed[t] = dp_length(v);
-        if (drop) drop[t] = -v.z - dp_length(dp_vec3(v.x, v.y, 0.0));
-    }
+    return dp_vec3(walker_velocity(w->line, times, t, w->rate),
+                   walker_velocity(w->line + times, times, t, w->rate),
+                   walker_velocity(w->line + 2 * (size_t)times, times, t, w->rate));
 }
 
-static void watch_point(Watch* w, int k, const double* ground)
+static void smooth_line(const Watch* w, double cutoff)
+{
+    const int times = w->gait->times;
+    for (int c = 0; c < 3; ++c)
+        walker_low_pass(w->line + (size_t)c * (size_t)times, times, w->rate, cutoff, w->scratch);
+}
+
+// heights of a point, and its smoothed places left in the line
+static void watch_places(Watch* w, int k, const double* ground)
 {
     const int    times = w->gait->times;
     const size_t row = (size_t)k * (size_t)times;
@@ -110,7 +116,69 @@ static void watch_point(Watch* w, int k, const double* ground)
         w->line[t] = at.x, w->line[t + times] = at.y, w->line[t + 2 * times] = at.z;
         w->height[row + (size_t)t] = at.z - ground[row + (size_t)t];
     }
-    speed_of(w, w->limits->point_cutoff, w->speed + row, w->drop + row);
+    smooth_line(w, w->limits->point_cutoff);
+}
+
+// speeds of a point relative to the surface
+static void watch_point(Watch* w, int k, const double* ground)
+{
+    const size_t row = (size_t)k * (size_t)w->gait->times;
+    watch_places(w, k, ground);
+    for (int t = 0; t < w->gait->times; ++t) {
+        const DpVec3 v = dp_sub(line_velocity(w, t), w->belt[walker_of(w->gait, k)]);
+        w->speed[row + (size_t)t] = dp_length(v);
+        w->drop[row + (size_t)t] = -v.z - dp_length(dp_vec3(v.x, v.y, 0.0));
+    }
+}
+
+static int by_value(const void* a, const void* b)
+{
+    const double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double* value, size_t count)
+{
+    qsort(value, count, sizeof *value, by_value);
+    return value[count / 2];
+}
+
+// A walker that stays while its low feet slide walks in place: the surface moves as they do.
+static DpStatus find_belt(Watch* w, int walker, const double* ground)
+{
+    const DpGait* gait = w->gait;
+    const int     times = gait->times;
+    const DpVec3  way = dp_sub(walker_com(gait, walker, times - 1), walker_com(gait, walker, 0));
+    const double  lasts = (double)(times - 1) / w->rate;
+    if (times < 3) return DP_OK;
+    double* low = dp_alloc(3 * (size_t)gait->points * (size_t)times, sizeof(double));
+    if (!low) return DP_NO_MEMORY;
+    double *x = low, *y = low + (size_t)gait->points * (size_t)times, *sorted = y + (y - x);
+    size_t  count = 0;
+    for (int k = 0; k < gait->points; ++k) {
+        if (walker_of(gait, k) != walker) continue;
+        const double* height = w->height + (size_t)k * (size_t)times;
+        size_t        n = 0;
+        watch_places(w, k, ground);
+        for (int t = 0; t < times; ++t)
+            if (isfinite(height[t])) sorted[n++] = height[t];
+        if (n == 0) continue;
+        qsort(sorted, n, sizeof *sorted, by_value);
+        const double most = sorted[n / 20] + 0.5 * w->limits->touch_height;
+        for (int t = 0; t < times; ++t) {
+            if (!(height[t] <= most)) continue;
+            const DpVec3 v = line_velocity(w, t);
+            x[count] = v.x, y[count++] = v.y;
+        }
+    }
+    if (count > 0) {
+        const DpVec3 belt = dp_vec3(median(x, count), median(y, count), 0.0);
+        const double speed = dp_length(belt);
+        if (speed > IN_PLACE && dp_length(dp_vec3(way.x, way.y, 0.0)) < 0.25 * speed * lasts)
+            w->belt[walker] = belt;
+    }
+    dp_free(low);
+    return DP_OK;
 }
 
 static void watch_walker(Watch* w, int walker)
@@ -125,18 +193,13 @@ static void watch_walker(Watch* w, int walker)
         const DpVec3 com = walker_com(w->gait, walker, t);
         w->line[t] = com.x, w->line[t + times] = com.y, w->line[t + 2 * times] = com.z;
     }
-    speed_of(w, w->limits->com_cutoff, gate, NULL);
+    smooth_line(w, w->limits->com_cutoff);
     for (int t = 0; t < times; ++t)
-        gate[t] = w->limits->touch_speed + w->limits->touch_speed_share * gate[t];
+        gate[t] = w->limits->touch_speed +
+                  w->limits->touch_speed_share * dp_length(dp_sub(line_velocity(w, t), w->belt[walker]));
 }
 
 // ---- the clip's own resting clearance ------------------------------------------------------------
-
-static int by_value(const void* a, const void* b)
-{
-    const double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
 
 // median of the lowest band of heights at slow samples; NaN if the point is never slow
 static double resting_height(const Watch* w, int k, const double* gate)
@@ -297,13 +360,17 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
     }
     const int    times = gait->times;
     const double shortest = limits->shortest * w.rate - 1e-6;
+    DpStatus     status = DP_OK;
+    for (int walker = 0; walker < gait->walkers && status == DP_OK; ++walker)
+        status = find_belt(&w, walker, ground);
     for (int k = 0; k < gait->points; ++k) watch_point(&w, k, ground);
-    for (int walker = 0; walker < gait->walkers; ++walker) {
+    for (int walker = 0; walker < gait->walkers && status == DP_OK; ++walker) {
         watch_walker(&w, walker);
-        if (walker_level_floor(gait, walker, w.height, w.speed, limits->slow_speed, w.rate) == DP_OK)
-            continue;
+        status = walker_level_floor(gait, walker, w.height, w.speed, limits->slow_speed, w.rate);
+    }
+    if (status != DP_OK) {
         close_watch(&w);
-        return DP_NO_MEMORY;
+        return status;
     }
     calibrate(&w, clearance);
     for (int k = 0; k < gait->points; ++k) {

@@ -188,7 +188,7 @@ def test_feet_without_toe_bones_have_two_parts_of_the_same_foot():
     assert b.pose.shape == a.pose.shape
     la = np.ptp(np.concatenate([places(a, 0)[30], places(a, 1)[30]])[:, 1])
     lb = np.ptp(np.concatenate([places(b, 0)[30], places(b, 1)[30]])[:, 1])
-    assert lb == pytest.approx(la, rel=0.1)
+    assert lb == pytest.approx(la, rel=0.15)
 
 
 # ---- robustness ----------------------------------------------------------------------------------------------

@@ -76,6 +76,25 @@ TEST(leaning_floor_touches)
     check_walk(0.0, 0.0, 0.02);
 }
 
+TEST(walker_in_place_touches)
+{
+    Scene   s = walking(0.01, 0.0);
+    uint8_t there[LIMBS * T], here[LIMBS * T];
+    double  clearance[LIMBS];
+    const DpContactLimits limits = dp_contact_limits_default();
+    const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
+    CHECK(dp_foot_contact(gait, s.ground, &limits, there, clearance) == DP_OK);
+    for (int t = 0; t < T; ++t) {
+        for (int p = 0; p < LIMBS; ++p) s.pose[7 * (p * T + t)] -= s.com[3 * t];
+        s.com[3 * t] = 0.0;
+    }
+    CHECK(dp_foot_contact(gait, s.ground, &limits, here, clearance) == DP_OK);
+    int other = 0;
+    for (int k = 0; k < LIMBS * T; ++k) other += there[k] != here[k];
+    CHECK(other < 12);
+    scene_free(&s);
+}
+
 TEST(nothing_touches_where_there_is_no_ground)
 {
     Scene s = walking(0.0, 0.0);
@@ -185,7 +204,7 @@ TEST(refuses_uneven_times_and_missing_memory)
     double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
-    for (long k = 0; k < 10; ++k) {
+    for (long k = 0; k < 12; ++k) {
         dp_alloc_fail_after(k);
         CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_NO_MEMORY);
     }
@@ -205,6 +224,7 @@ int main(void)
     RUN(hovering_clip_touches);
     RUN(slope_given_as_ground_touches);
     RUN(leaning_floor_touches);
+    RUN(walker_in_place_touches);
     RUN(nothing_touches_where_there_is_no_ground);
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
