@@ -5,7 +5,8 @@
 #include "python/door.h"
 #include "walker/walker.h"
 
-// A gait as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part, point_role).
+// A gait as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part,
+// point_role).
 static int open_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
 {
     if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != 9) {
@@ -16,16 +17,22 @@ static int open_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
     }
     PyObject* item[9];
     for (int k = 0; k < 9; ++k) item[k] = PyTuple_GetItem(tuple, k);
-    DpShape time = {1, {-1}}, mass = {1, {-1}}, limb = {1, {-1}}, part = {1, {-1}}, point = {1, {-1}};
+    DpShape time = {1, {-1}}, mass = {1, {-1}}, limb = {1, {-1}}, part = {1, {-1}},
+            point = {1, {-1}};
     if (!(gait->time = dp_door_open(door, item[0], "time", 'd', &time, false))) return -1;
     if (!(gait->mass = dp_door_open(door, item[2], "mass", 'd', &mass, false))) return -1;
-    if (!(gait->limb_walker = dp_door_open(door, item[4], "limb_walker", 'i', &limb, false))) return -1;
+    if (!(gait->limb_walker = dp_door_open(door, item[4], "limb_walker", 'i', &limb, false)))
+        return -1;
     if (!(gait->part_limb = dp_door_open(door, item[5], "part_limb", 'i', &part, false))) return -1;
-    if (!(gait->point_part = dp_door_open(door, item[7], "point_part", 'i', &point, false))) return -1;
+    if (!(gait->point_part = dp_door_open(door, item[7], "point_part", 'i', &point, false)))
+        return -1;
     const Py_ssize_t T = time.n[0], W = mass.n[0], P = part.n[0], K = point.n[0];
-    if (!(gait->com = dp_door_open(door, item[1], "com", 'd', DP_SHAPE3(W, T, 3), false))) return -1;
-    if (!(gait->pose = dp_door_open(door, item[3], "pose", 'd', DP_SHAPE3(P, T, 7), false))) return -1;
-    if (!(gait->point = dp_door_open(door, item[6], "point", 'd', DP_SHAPE2(K, 3), false))) return -1;
+    if (!(gait->com = dp_door_open(door, item[1], "com", 'd', DP_SHAPE3(W, T, 3), false)))
+        return -1;
+    if (!(gait->pose = dp_door_open(door, item[3], "pose", 'd', DP_SHAPE3(P, T, 7), false)))
+        return -1;
+    if (!(gait->point = dp_door_open(door, item[6], "point", 'd', DP_SHAPE2(K, 3), false)))
+        return -1;
     if (!(gait->point_role = dp_door_open(door, item[8], "point_role", 'i', DP_SHAPE1(K), false)))
         return -1;
     if (T > 100000000 || W > 100000 || limb.n[0] > 1000000 || P > 1000000 || K > 1000000) {
@@ -59,11 +66,12 @@ static PyObject* resample(PyObject* self, PyObject* args)
     (void)self;
     PyObject *time, *com, *pose, *new_time, *new_com, *new_pose;
     double    rate;
-    if (!PyArg_ParseTuple(args, "OOOdOOO", &time, &com, &pose, &rate, &new_time, &new_com, &new_pose))
+    if (!PyArg_ParseTuple(args, "OOOdOOO", &time, &com, &pose, &rate, &new_time, &new_com,
+                          &new_pose))
         return NULL;
-    DpDoor    door = {0};
-    DpGait    gait = {0};
-    DpShape   times = {1, {-1}}, count = {1, {-1}}, coms = {3, {-1, -1, 3}}, poses = {3, {-1, -1, 7}};
+    DpDoor  door = {0};
+    DpGait  gait = {0};
+    DpShape times = {1, {-1}}, count = {1, {-1}}, coms = {3, {-1, -1, 3}}, poses = {3, {-1, -1, 7}};
     PyObject* result = NULL;
     double *  out_time, *out_com, *out_pose;
     if (!(gait.time = dp_door_open(&door, time, "time", 'd', &times, false))) goto done;
@@ -74,7 +82,8 @@ static PyObject* resample(PyObject* self, PyObject* args)
     const Py_ssize_t n = count.n[0];
     if (!(out_com = dp_door_open(&door, new_com, "new com", 'd', DP_SHAPE3(coms.n[0], n, 3), true)))
         goto done;
-    if (!(out_pose = dp_door_open(&door, new_pose, "new pose", 'd', DP_SHAPE3(poses.n[0], n, 7), true)))
+    if (!(out_pose =
+              dp_door_open(&door, new_pose, "new pose", 'd', DP_SHAPE3(poses.n[0], n, 7), true)))
         goto done;
     if (times.n[0] > 100000000 || n > 100000000) {
         PyErr_SetString(PyExc_ValueError, "resampling: too many samples");
@@ -82,11 +91,10 @@ static PyObject* resample(PyObject* self, PyObject* args)
     }
     if (dp_door_finite(gait.time, times.n[0], "time") < 0) goto done;
     gait.times = (int)times.n[0], gait.walkers = (int)coms.n[0], gait.parts = (int)poses.n[0];
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
-    Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "resampling");
+    DpStatus               status;
+    Py_BEGIN_ALLOW_THREADS status =
+        dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
+    Py_END_ALLOW_THREADS result = dp_door_result(status, "resampling");
 done:
     dp_door_close(&door);
     return result;
@@ -117,25 +125,23 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     DpDoor          door = {0};
     DpGait          gait = {0};
     DpContactLimits l = dp_contact_limits_default();
-    double  n[11] = {l.touch_height, l.release_height, l.release_height_toe, l.touch_speed,
-                     l.touch_speed_share, l.release_speed, l.slow_speed, l.shortest,
-                     l.point_cutoff, l.com_cutoff, l.support_fall};
+    double    n[11] = {l.touch_height,      l.release_height, l.release_height_toe, l.touch_speed,
+                       l.touch_speed_share, l.release_speed,  l.slow_speed,         l.shortest,
+                       l.point_cutoff,      l.com_cutoff,     l.support_fall};
     PyObject* result = NULL;
     if (open_gait(&door, tuple, &gait) < 0) goto done;
-    const double* below = dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times),
-                                       false);
+    const double* below =
+        dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
     uint8_t* on = below ? dp_door_open(&door, touching, "touching", 'B',
                                        DP_SHAPE2(gait.parts, gait.times), true)
                         : NULL;
-    double* rest = on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true)
-                      : NULL;
+    double*  rest =
+        on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true) : NULL;
     if (!rest || read_numbers(&door, numbers, "limits", n, 11) < 0) goto done;
     l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_foot_contact(&gait, below, &l, on, rest);
-    Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "finding contacts");
+    DpStatus               status;
+    Py_BEGIN_ALLOW_THREADS status = dp_foot_contact(&gait, below, &l, on, rest);
+    Py_END_ALLOW_THREADS   result = dp_door_result(status, "finding contacts");
 done:
     dp_door_close(&door);
     return result;
@@ -153,32 +159,39 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpDoor        door = {0};
     DpGait        gait = {0};
     DpLoadOptions o = dp_load_options_default();
-    double        n[8] = {o.cutoff_share, o.cutoff_low, o.cutoff_high, o.overlap_most,
-                          o.ramp_standing, o.ramp_alone, o.ramp_trust, o.reach};
+    double        n[8] = {o.cutoff_share,  o.cutoff_low, o.cutoff_high, o.overlap_most,
+                          o.ramp_standing, o.ramp_alone, o.ramp_trust,  o.reach};
     PyObject*     result = NULL;
     double *      out_force = NULL, *out_point = NULL;
     if (open_gait(&door, tuple, &gait) < 0) goto done;
-    const uint8_t* on = dp_door_open(&door, touching, "touching", 'B',
-                                     DP_SHAPE2(gait.parts, gait.times), false);
+    const uint8_t* on =
+        dp_door_open(&door, touching, "touching", 'B', DP_SHAPE2(gait.parts, gait.times), false);
     if (!on) goto done;
-    const double* below = dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times),
-                                       false);
+    const double* below =
+        dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
     if (!below) goto done;
     DpShape shape = {3, {gait.parts, gait.times, 3}};
     if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
     if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
     if (read_numbers(&door, numbers, "options", n, 8) < 0) goto done;
-    o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA, settle_time, half_sine != 0,
-                        n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+    o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA,
+                        settle_time,
+                        half_sine != 0,
+                        n[0],
+                        n[1],
+                        n[2],
+                        n[3],
+                        n[4],
+                        n[5],
+                        n[6],
+                        n[7]};
     if (model != 0 && model != 1) {
         PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
         goto done;
     }
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
-    Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "finding loads");
+    DpStatus               status;
+    Py_BEGIN_ALLOW_THREADS status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
+    Py_END_ALLOW_THREADS   result = dp_door_result(status, "finding loads");
 done:
     dp_door_close(&door);
     return result;
@@ -203,7 +216,8 @@ PyMethodDef dp_py_walker_methods[] = {
      "foot_contact(gait, ground, touching, clearance, limits=None): fill touching and clearance. "
      "TRAIL (4)"},
     {"foot_force", foot_force, METH_VARARGS,
-     "foot_force(gait, touching, ground, model, settle_time, half_sine, force, point, options=None): "
+     "foot_force(gait, touching, ground, model, settle_time, half_sine, force, point, "
+     "options=None): "
      "fill force and point. TRAIL (3)"},
     {"foot_share", foot_share, METH_VARARGS,
      "foot_share(com, left, right): weight share of the right foot. SOFT22 (5)"},

@@ -6,8 +6,8 @@
 //   TRAIL (4): a point touches below a height and a speed, and lets go above others, each over the
 //   clip's own resting clearance; one fixed height loses most contacts of real recordings.
 //   test_foot_contact.c, hovering_clip_touches.
-//   TRAIL (4): what comes down steeper than 45 degrees touches at any speed; falls and landings would
-//   begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
+//   TRAIL (4): what comes down steeper than 45 degrees touches at any speed; falls and landings
+//   would begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
 //   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.
 #include <math.h>
 #include <stdlib.h>
@@ -76,8 +76,8 @@ static bool open_watch(Watch* w)
     w->on = dp_alloc(points * times, 1);
     w->scratch = dp_alloc(3 * times + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
-    return w->height && w->speed && w->drop && w->belt && w->gate && w->fall && w->on && w->scratch &&
-           w->line;
+    return w->height && w->speed && w->drop && w->belt && w->gate && w->fall && w->on &&
+           w->scratch && w->line;
 }
 
 static int limb_of(const DpGait* gait, int point)
@@ -195,11 +195,13 @@ static void watch_walker(Watch* w, int walker)
     }
     smooth_line(w, w->limits->com_cutoff);
     for (int t = 0; t < times; ++t)
-        gate[t] = w->limits->touch_speed +
-                  w->limits->touch_speed_share * dp_length(dp_sub(line_velocity(w, t), w->belt[walker]));
+        gate[t] =
+            w->limits->touch_speed +
+            w->limits->touch_speed_share * dp_length(dp_sub(line_velocity(w, t), w->belt[walker]));
 }
 
-// ---- the clip's own resting clearance ------------------------------------------------------------
+// ---- the clip's own resting clearance
+// ------------------------------------------------------------
 
 // median of the lowest band of heights at slow samples; NaN if the point is never slow
 static double resting_height(const Watch* w, int k, const double* gate)
@@ -253,7 +255,8 @@ static void calibrate(const Watch* w, double* clearance)
     }
 }
 
-// ---- touching and letting go ---------------------------------------------------------------------
+// ---- touching and letting go
+// ---------------------------------------------------------------------
 
 static void touch_point(Watch* w, int k, double clearance)
 {
@@ -264,10 +267,9 @@ static void touch_point(Watch* w, int k, double clearance)
     const double*          drop = w->drop + (size_t)k * (size_t)times;
     const double*          gate = w->gate + (size_t)walker_of(w->gait, k) * (size_t)times;
     uint8_t*               on = w->on + (size_t)k * (size_t)times;
-    const double           release = w->gait->point_role[k] == DP_POINT_HEEL
-                                         ? limits->release_height
-                                         : limits->release_height_toe;
-    bool touches = false, came_to_rest = false;
+    const double release = w->gait->point_role[k] == DP_POINT_HEEL ? limits->release_height
+                                                                   : limits->release_height_toe;
+    bool         touches = false, came_to_rest = false;
     for (int t = 0; t < times; ++t) {
         const double d = height[t] - clearance;  // TRAIL (4)
         if (!touches) {
@@ -301,12 +303,14 @@ static void tidy(uint8_t* on, int times, double most)
     close_runs(on, times, 1, most);
 }
 
-// ---- somebody carries what does not fall ----------------------------------------------------------
+// ---- somebody carries what does not fall
+// ----------------------------------------------------------
 
 static bool limb_on(const Watch* w, int walker, int t)
 {
     for (int k = 0; k < w->gait->points; ++k)
-        if (walker_of(w->gait, k) == walker && w->on[(size_t)k * (size_t)w->gait->times + (size_t)t])
+        if (walker_of(w->gait, k) == walker &&
+            w->on[(size_t)k * (size_t)w->gait->times + (size_t)t])
             return true;
     return false;
 }
@@ -384,7 +388,8 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
         const uint8_t* on = w.on + (size_t)k * (size_t)times;
         for (int t = 0; t < times; ++t) part[t] |= on[t];
     }
-    for (int p = 0; p < gait->parts; ++p) tidy(touching + (size_t)p * (size_t)times, times, shortest);
+    for (int p = 0; p < gait->parts; ++p)
+        tidy(touching + (size_t)p * (size_t)times, times, shortest);
     close_watch(&w);
     return DP_OK;
 }

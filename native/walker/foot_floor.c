@@ -1,8 +1,8 @@
 // walker/foot_floor.c - a recorded floor that slopes a little against the given ground.
 //
 // Capture volumes are rarely level: over a few metres their floor leaves the ground by centimetres,
-// more than a contact may hover. Where the feet's resting places lie on one line along the way, the line is
-// the floor; where they do not (stairs, blocks), the ground as given is.
+// more than a contact may hover. Where the feet's resting places lie on one line along the way, the
+// line is the floor; where they do not (stairs, blocks), the ground as given is.
 #include <math.h>
 #include <stdlib.h>
 
@@ -109,15 +109,16 @@ DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, cons
 {
     const DpVec3 way = way_of(gait, walker);
     if (dp_length(way) < 0.5) return DP_OK;
-    const size_t most = (size_t)gait->points * ((size_t)((double)gait->times / (REST_SHORTEST * rate)) + 2);
-    Rest*        rest = dp_alloc(most, sizeof(Rest));
-    double*      scratch = dp_alloc(most * PARTNERS, sizeof(double));
+    const size_t most =
+        (size_t)gait->points * ((size_t)((double)gait->times / (REST_SHORTEST * rate)) + 2);
+    Rest*   rest = dp_alloc(most, sizeof(Rest));
+    double* scratch = dp_alloc(most * PARTNERS, sizeof(double));
     if (!rest || !scratch) {
         dp_free(rest), dp_free(scratch);
         return DP_NO_MEMORY;
     }
     const int    count = find_rests(gait, walker, height, speed, slow, rate, way, rest,
-                                    most < 1000000 ? (int)most : 1000000);
+                                 most < 1000000 ? (int)most : 1000000);
     const double slope = slope_of(rest, count, scratch);
     dp_free(rest), dp_free(scratch);
     if (slope == 0.0) return DP_OK;

@@ -5,9 +5,9 @@
 //
 // Departures
 //   TRAIL (3): `inertia` replaces weight and landing impulse by Newton's law for the whole body, so
-//   that runs, jumps and push-offs carry what they really carry. test_foot_force.c, jump_weighs_right.
-//   SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share.
-//   TRAIL (3): v(t0 - dt) is measured over a fixed 1/30 s before touch-down, so that the landing does not
+//   that runs, jumps and push-offs carry what they really carry. test_foot_force.c,
+//   jump_weighs_right. SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share. TRAIL (3):
+//   v(t0 - dt) is measured over a fixed 1/30 s before touch-down, so that the landing does not
 //   depend on the frame rate. test_foot_force.c, impulse_of_fall.
 #include <math.h>
 #include <stdlib.h>
@@ -86,8 +86,8 @@ static bool open_load(Load* l)
     l->accel = dp_alloc(3 * times, sizeof(double));
     l->landing = dp_alloc(limbs, sizeof(DpVec3));
     l->landed = dp_alloc(limbs, sizeof(int));
-    return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on && l->point_on &&
-           l->limb_weight && l->point_weight && l->accel && l->landing && l->landed;
+    return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on &&
+           l->point_on && l->limb_weight && l->point_weight && l->accel && l->landing && l->landed;
 }
 
 // Which points of a limb carry: those of touching parts, near the height of the limb's lowest one.
@@ -138,8 +138,8 @@ static void gather(Load* l, int walker, const uint8_t* touching)
         l->first[i + 1] = l->points;
         gather_points(l, i, touching);
         const size_t row = (size_t)l->first[i] * times;
-        walker_ramps(l->point_on + row, l->first[i + 1] - l->first[i], gait->times, l->rate, l->options,
-                     true, l->point_weight + row);
+        walker_ramps(l->point_on + row, l->first[i + 1] - l->first[i], gait->times, l->rate,
+                     l->options, true, l->point_weight + row);
     }
     walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, false, l->limb_weight);
 }
@@ -213,7 +213,8 @@ static DpStatus accelerate(Load* l)
         return DP_NO_MEMORY;
     }
     const double step = step_time(l, line);
-    const double cutoff = step > 0.0 ? dp_clamp(o->cutoff_share / step, o->cutoff_low, o->cutoff_high)
+    const double cutoff = step > 0.0
+                              ? dp_clamp(o->cutoff_share / step, o->cutoff_low, o->cutoff_high)
                           : flies(l) ? o->cutoff_high
                                      : o->cutoff_low;
     for (int c = 0; c < 3; ++c) {
@@ -229,7 +230,8 @@ static DpStatus accelerate(Load* l)
     return DP_OK;
 }
 
-// ---- landing ---------------------------------------------------------------------------------------
+// ---- landing
+// ---------------------------------------------------------------------------------------
 
 // the velocity of the mass centre at a sample, from the parabola through the last 1/30 s
 static DpVec3 latched_velocity(const Load* l, int t)
@@ -269,9 +271,13 @@ static DpVec3 landing_push(const Load* l, int limb, int t)
     return dp_scale(l->landing[limb], shape / tau);
 }
 
-// ---- sharing ---------------------------------------------------------------------------------------
+// ---- sharing
+// ---------------------------------------------------------------------------------------
 
-enum { MOST = 64 };  // limbs of a walker, or points of a limb, that share at one time
+enum
+{
+    MOST = 64
+};  // limbs of a walker, or points of a limb, that share at one time
 
 // those among which a load is shared at one sample
 typedef struct Supports
@@ -303,7 +309,8 @@ static void share_out(const Load* l, Supports* s, DpVec3 accel, DpVec3 target)
     if (by_ramps)
         walker_share(s->share, s->at, s->count, target, trust(l, s, accel), l->options->reach);
     else if (s->count == 2) {
-        const DpVec3 a = dp_vec3(s->at[0].x, s->at[0].y, 0.0), b = dp_vec3(s->at[1].x, s->at[1].y, 0.0);
+        const DpVec3 a = dp_vec3(s->at[0].x, s->at[0].y, 0.0),
+                     b = dp_vec3(s->at[1].x, s->at[1].y, 0.0);
         s->share[1] = dp_foot_share(dp_vec3(target.x, target.y, 0.0), a, b);  // SOFT22 (5)
         s->share[0] = 1.0 - s->share[1];                                      // SOFT22 (4)
     } else
@@ -390,7 +397,8 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));
     share_out(l, &limbs, accel, zmp);
     DpVec3 miss = zmp;  // what the limbs' centres leave to their points
-    for (int k = 0; k < limbs.count; ++k) miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));
+    for (int k = 0; k < limbs.count; ++k)
+        miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));
     for (int k = 0; k < limbs.count; ++k) {
         const int i = limbs.index[k];
         DpVec3    force = dp_vec3(-accel.x, -accel.y, -pull);  // of a mass of 1, on the ground
@@ -405,8 +413,8 @@ static bool options_ok(const DpLoadOptions* o)
 {
     return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
            o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->overlap_most > 0.0 &&
-           o->ramp_standing > 0.0 && o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->reach > 0.0 &&
-           (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
+           o->ramp_standing > 0.0 && o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 &&
+           o->reach > 0.0 && (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
 }
 
 DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double* ground,

@@ -1,4 +1,5 @@
-// walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5), design 4.3.
+// walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5),
+// design 4.3.
 #include <math.h>
 
 #include "base/assert.h"
@@ -32,9 +33,13 @@ static double spread(const double* s, const DpVec3* at, int count)
 
 // Each pair trades weight until nobody gains: for two supports that is the closed form
 //   a = (mu s + 2 lambda q a*) / (mu + 2 lambda q),  q = s (1 - s),  a* = SOFT22 (5).
-void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu, double reach)
+void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu,
+                  double reach)
 {
-    enum { MOST = 64 };  // more supports than that keep their ramps
+    enum
+    {
+        MOST = 64
+    };  // more supports than that keep their ramps
     if (count < 2 || count > MOST) return;
     const double square = spread(share, at, count);
     if (!(square > 1e-12)) return;
@@ -54,8 +59,8 @@ void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, dou
                 // whom the ramps give nothing gets nothing
                 if (held[i] <= 0.0 || held[j] <= 0.0) continue;
                 const DpVec3 d = dp_vec3(at[i].x - at[j].x, at[i].y - at[j].y, 0.0);
-                const double slope = pull[i] * (share[i] - held[i]) - pull[j] * (share[j] - held[j]) +
-                                     lambda * dp_dot(d, miss);
+                const double slope = pull[i] * (share[i] - held[i]) -
+                                     pull[j] * (share[j] - held[j]) + lambda * dp_dot(d, miss);
                 const double curve = pull[i] + pull[j] + lambda * dp_dot(d, d);
                 const double give = dp_clamp(-slope / curve, -share[i], share[j]);
                 share[i] += give, share[j] -= give;
@@ -66,7 +71,8 @@ void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, dou
     }
 }
 
-// ---- ramps ---------------------------------------------------------------------------------------
+// ---- ramps
+// ---------------------------------------------------------------------------------------
 
 // first sample after t at which the support's state has changed, or `times`
 static int run_end(const uint8_t* on, int times, int t)
@@ -129,8 +135,9 @@ void walker_ramps(const uint8_t* touching, int count, int times, double rate,
             // a stance cut by the clip's ends was there before and stays after
             const double up =
                 t > 0 ? ramp_time(touching, count, times, i, t, true, rate, options, rolls) : 0.0;
-            const double down =
-                end < times ? ramp_time(touching, count, times, i, end - 1, false, rate, options, rolls) : 0.0;
+            const double down = end < times ? ramp_time(touching, count, times, i, end - 1, false,
+                                                        rate, options, rolls)
+                                            : 0.0;
             for (int s = t; s < end; ++s) {
                 const double since = ((double)(s - t) + 0.5) / rate;
                 const double left = ((double)(end - s) - 0.5) / rate;

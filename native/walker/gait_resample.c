@@ -41,19 +41,21 @@ static int slope_weights(const double* time, int count, int at, double weight[5]
 // Everything that depends on time alone, for one new sample between old ones i and i + 1.
 typedef struct Between
 {
-    int    i;            // the old sample before
-    double u;            // 0 at i, 1 at i + 1
-    double step;         // time from i to i + 1 [s]
-    int    from0, n0;    // samples that give the slope at i
-    int    from1, n1;    // and at i + 1
+    int    i;          // the old sample before
+    double u;          // 0 at i, 1 at i + 1
+    double step;       // time from i to i + 1 [s]
+    int    from0, n0;  // samples that give the slope at i
+    int    from1, n1;  // and at i + 1
     double w0[5], w1[5];
 } Between;
 
 static double cubic(const Between* b, const double* value, int stride)
 {
     double slope0 = 0.0, slope1 = 0.0;
-    for (int k = 0; k < b->n0; ++k) slope0 += b->w0[k] * value[(size_t)(b->from0 + k) * (size_t)stride];
-    for (int k = 0; k < b->n1; ++k) slope1 += b->w1[k] * value[(size_t)(b->from1 + k) * (size_t)stride];
+    for (int k = 0; k < b->n0; ++k)
+        slope0 += b->w0[k] * value[(size_t)(b->from0 + k) * (size_t)stride];
+    for (int k = 0; k < b->n1; ++k)
+        slope1 += b->w1[k] * value[(size_t)(b->from1 + k) * (size_t)stride];
     const double p0 = value[(size_t)b->i * (size_t)stride];
     const double p1 = value[(size_t)(b->i + 1) * (size_t)stride];
     const double u = b->u, u2 = u * u, u3 = u2 * u;

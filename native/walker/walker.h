@@ -11,12 +11,13 @@
 
 // ---- design 3: a recording at another rate ---------------------------------------------------
 
-// How many samples a recording from first to last [s] has at `rate` [1/s]: every k / rate that fits.
+// How many samples a recording from first to last [s] has at `rate` [1/s]: every k / rate that
+// fits.
 int dp_gait_resample_count(double first, double last, double rate);
 
-// Fill com (W, count, 3) and pose (P, count, 7) at times first + k / rate (written to time (count)):
-// cubic in time for positions, slerp for rotations. One sample in: copied to all. Needs memory for
-// nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
+// Fill com (W, count, 3) and pose (P, count, 7) at times first + k / rate (written to time
+// (count)): cubic in time for positions, slerp for rotations. One sample in: copied to all. Needs
+// memory for nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
 DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* time, double* com,
                           double* pose);
 
@@ -63,14 +64,14 @@ typedef struct DpLoadOptions
     bool        half_sine;    // `impulse`: spread J as a half-sine, else evenly [-]
 
     // `inertia`, design 4.3
-    double cutoff_share;  // low-pass of a_com in step frequencies               [-]  > 0
-    double cutoff_low;    // and its bounds                                      [Hz] > 0
-    double cutoff_high;   //                                                     [Hz] >= cutoff_low
-    double overlap_most;  // longer overlaps are standing, not a change of feet  [s]  > 0
-    double ramp_standing; // ramp of a limb that joins others that stay          [s]  > 0
-    double ramp_alone;    // ramp of a limb that relieves none                   [s]  > 0
-    double ramp_trust;    // mu, trust in ramps against the zero-moment point    [-]  >= 0
-    double reach;         // spread at which that point gets half its say        [m]  > 0
+    double cutoff_share;   // low-pass of a_com in step frequencies               [-]  > 0
+    double cutoff_low;     // and its bounds                                      [Hz] > 0
+    double cutoff_high;    //                                                     [Hz] >= cutoff_low
+    double overlap_most;   // longer overlaps are standing, not a change of feet  [s]  > 0
+    double ramp_standing;  // ramp of a limb that joins others that stay          [s]  > 0
+    double ramp_alone;     // ramp of a limb that relieves none                   [s]  > 0
+    double ramp_trust;     // mu, trust in ramps against the zero-moment point    [-]  >= 0
+    double reach;          // spread at which that point gets half its say        [m]  > 0
 } DpLoadOptions;
 
 DpLoadOptions dp_load_options_default(void);

@@ -3,8 +3,8 @@
 #include "walker/walker.h"
 
 // Low-pass value (count) in place without phase: a 2nd-order Butterworth forward and backward, on
-// a signal continued beyond its ends by turning it about its end points, so that a clip may begin and
-// end in full motion. A cut-off too near to half the rate leaves the signal as it is.
+// a signal continued beyond its ends by turning it about its end points, so that a clip may begin
+// and end in full motion. A cut-off too near to half the rate leaves the signal as it is.
 // @param scratch  (walker_low_pass_scratch(count, ..)) doubles
 void   walker_low_pass(double* value, int count, double rate, double cutoff, double* scratch);
 size_t walker_low_pass_scratch(int count, double rate, double cutoff);

@@ -15,7 +15,8 @@ typedef struct Scene
     int32_t *limb_walker, *part_limb, *point_part, *point_role;
 } Scene;
 
-// `limbs` limbs of one part with `points` contact points each (all at the part's origin until moved)
+// `limbs` limbs of one part with `points` contact points each (all at the part's origin until
+// moved)
 static inline Scene scene_make(int times, double rate, int limbs, int points)
 {
     Scene     s = {.mass = 70.0};
@@ -41,10 +42,20 @@ static inline Scene scene_make(int times, double rate, int limbs, int points)
 // the gait of the scene; call it once the scene is where it stays
 static inline const DpGait* scene_gait(Scene* s, int times, int limbs, int points)
 {
-    s->gait = (DpGait){.times = times, .walkers = 1, .limbs = limbs, .parts = limbs,
-                       .points = limbs * points, .time = s->time, .com = s->com, .mass = &s->mass,
-                       .pose = s->pose, .limb_walker = s->limb_walker, .part_limb = s->part_limb,
-                       .point = s->point, .point_part = s->point_part, .point_role = s->point_role};
+    s->gait = (DpGait){.times = times,
+                       .walkers = 1,
+                       .limbs = limbs,
+                       .parts = limbs,
+                       .points = limbs * points,
+                       .time = s->time,
+                       .com = s->com,
+                       .mass = &s->mass,
+                       .pose = s->pose,
+                       .limb_walker = s->limb_walker,
+                       .part_limb = s->part_limb,
+                       .point = s->point,
+                       .point_part = s->point_part,
+                       .point_role = s->point_role};
     return &s->gait;
 }
 

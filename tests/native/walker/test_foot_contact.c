@@ -2,7 +2,11 @@
 #include "check.h"
 #include "scene.h"
 
-enum { T = 360, LIMBS = 2 };
+enum
+{
+    T = 360,
+    LIMBS = 2
+};
 #define RATE 120.0
 
 // Two feet that take turns: each rests for 0.6 s of a 1 s stride and swings 15 cm high; the whole
@@ -35,10 +39,11 @@ static int share_touching(const uint8_t* on)
 
 static void check_walk(double hover, double ramp, double drift)
 {
-    Scene   s = walking(hover, ramp);
-    for (int k = 0; k < LIMBS * T; ++k) s.pose[7 * k + 2] += drift * (s.pose[7 * k] - s.com[3 * (T / 2)]);
-    uint8_t on[LIMBS * T];
-    double  clearance[LIMBS];
+    Scene s = walking(hover, ramp);
+    for (int k = 0; k < LIMBS * T; ++k)
+        s.pose[7 * k + 2] += drift * (s.pose[7 * k] - s.com[3 * (T / 2)]);
+    uint8_t               on[LIMBS * T];
+    double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, on, clearance) == DP_OK);
     for (int p = 0; p < LIMBS; ++p) {
@@ -78,9 +83,9 @@ TEST(leaning_floor_touches)
 
 TEST(walker_in_place_touches)
 {
-    Scene   s = walking(0.01, 0.0);
-    uint8_t there[LIMBS * T], here[LIMBS * T];
-    double  clearance[LIMBS];
+    Scene                 s = walking(0.01, 0.0);
+    uint8_t               there[LIMBS * T], here[LIMBS * T];
+    double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
     CHECK(dp_foot_contact(gait, s.ground, &limits, there, clearance) == DP_OK);
@@ -111,7 +116,10 @@ TEST(nothing_touches_where_there_is_no_ground)
 TEST(flight_carries_nobody)
 {
     // a ball: rests, jumps for 0.6 s, rests
-    enum { N = 240 };
+    enum
+    {
+        N = 240
+    };
     Scene        s = scene_make(N, RATE, 1, 1);
     const double v0 = 9.81 * 0.3;
     for (int t = 0; t < N; ++t) {
@@ -134,7 +142,10 @@ TEST(flight_carries_nobody)
 
 TEST(falling_ball_touches_in_time)
 {
-    enum { N = 240 };
+    enum
+    {
+        N = 240
+    };
     Scene        s = scene_make(N, RATE, 1, 1);
     const double fall = sqrt(2.0 * 2.5 / 9.81);
     for (int t = 0; t < N; ++t) {
@@ -155,7 +166,10 @@ TEST(falling_ball_touches_in_time)
 TEST(somebody_carries_what_does_not_fall)
 {
     // the left foot stands on the ground for 1 s, then on a 30 cm block while the right swings
-    enum { N = 240 };
+    enum
+    {
+        N = 240
+    };
     Scene s = scene_make(N, RATE, 2, 1);
     for (int t = 0; t < N; ++t) {
         const double up = t < N / 2 ? 0.0 : 0.3;
@@ -179,7 +193,10 @@ TEST(somebody_carries_what_does_not_fall)
 TEST(short_ticks_and_gaps_close)
 {
     // a foot at rest that is lifted for 2 samples, and one in the air that dips for 2
-    enum { N = 120 };
+    enum
+    {
+        N = 120
+    };
     Scene s = scene_make(N, RATE, 2, 1);
     for (int t = 0; t < N; ++t) {
         scene_com(&s, t, 0.0, 0.0, 1.0);

@@ -5,11 +5,11 @@
 #define RATE 120.0
 #define PI 3.14159265358979
 
-static void run(Scene* s, int times, int limbs, int points, const uint8_t* on, DpLoadOptions options,
-                double* force, double* point)
+static void run(Scene* s, int times, int limbs, int points, const uint8_t* on,
+                DpLoadOptions options, double* force, double* point)
 {
-    CHECK(dp_foot_force(scene_gait(s, times, limbs, points), on, s->ground, &options, force, point) ==
-          DP_OK);
+    CHECK(dp_foot_force(scene_gait(s, times, limbs, points), on, s->ground, &options, force,
+                        point) == DP_OK);
 }
 
 TEST(share_is_the_projection)
@@ -26,7 +26,10 @@ TEST(share_is_the_projection)
 static void stand(int limbs, const double (*feet)[2], double x, double y, int model, double* fz,
                   double* balance_x, double* balance_y)
 {
-    enum { N = 60 };
+    enum
+    {
+        N = 60
+    };
     Scene s = scene_make(N, RATE, limbs, 1);
     for (int t = 0; t < N; ++t) {
         scene_com(&s, t, x, y, 1.0);
@@ -85,7 +88,10 @@ TEST(one_foot_carries_all)
 // a body that bobs: F = m (g - a) at every sample, braking and pushing with it
 TEST(newton_holds_for_a_bobbing_body)
 {
-    enum { N = 240 };
+    enum
+    {
+        N = 240
+    };
     Scene        s = scene_make(N, RATE, 2, 1);
     const double w = 2.0 * PI * 1.0, high = 0.03, wide = 0.02;
     for (int t = 0; t < N; ++t) {
@@ -100,7 +106,8 @@ TEST(newton_holds_for_a_bobbing_body)
     run(&s, N, 2, 1, on, dp_load_options_default(), force, point);
     for (int t = 40; t < N - 40; ++t) {
         const double now = (double)t / RATE;
-        const double fx = force[3 * t] + force[3 * (N + t)], fz = force[3 * t + 2] + force[3 * (N + t) + 2];
+        const double fx = force[3 * t] + force[3 * (N + t)],
+                     fz = force[3 * t + 2] + force[3 * (N + t) + 2];
         CHECK_NEAR(fz, -s.mass * (9.81 - high * w * w * cos(w * now)), 0.01 * s.mass * 9.81);
         CHECK_NEAR(fx, s.mass * wide * w * w * sin(w * now), 0.01 * s.mass * 9.81);
     }
@@ -110,14 +117,21 @@ TEST(newton_holds_for_a_bobbing_body)
 TEST(jump_weighs_right)
 {
     // stand, push, fly, land, stand: what the ground gives over the clip is what gravity takes
-    enum { N = 360 };
+    enum
+    {
+        N = 360
+    };
     Scene   s = scene_make(N, RATE, 1, 1);
     uint8_t on[N];
     double  v = 0.0, z = 1.0;
     for (int t = 0; t < N; ++t) {
         const double now = (double)t / RATE;
         // 0.3 s push at 1.8 g, 0.48928 s flight, 0.3 s landing at 1.8 g
-        const double a = now < 0.8 ? 0.0 : now < 1.1 ? 7.848 : now < 1.58 ? -9.81 : now < 1.88 ? 7.848 : 0.0;
+        const double a = now < 0.8    ? 0.0
+                         : now < 1.1  ? 7.848
+                         : now < 1.58 ? -9.81
+                         : now < 1.88 ? 7.848
+                                      : 0.0;
         scene_com(&s, t, 0.0, 0.0, z);
         z += v / RATE + 0.5 * a / RATE / RATE;
         v += a / RATE;
@@ -141,7 +155,10 @@ TEST(jump_weighs_right)
 TEST(ramps_ease_from_foot_to_foot)
 {
     // a body over the middle of two feet 20 cm apart, 0.2 s of both down
-    enum { N = 240 };
+    enum
+    {
+        N = 240
+    };
     Scene   s = scene_make(N, RATE, 2, 1);
     uint8_t on[2 * N];
     for (int t = 0; t < N; ++t) {
@@ -202,7 +219,8 @@ TEST(impulse_of_fall)
     for (double rate = 60.0; rate < 500.0; rate *= 2.0) {
         CHECK_CLOSE(fall_force(rate, false, &impulse), 2241.0, 0.025);
         CHECK_CLOSE(impulse, 50.0 * 7.0036, 0.03);
-        CHECK_CLOSE(fall_force(rate, true, &impulse), 50.0 * (9.81 + PI / 2.0 * 7.0036 / 0.2), 0.03);
+        CHECK_CLOSE(fall_force(rate, true, &impulse), 50.0 * (9.81 + PI / 2.0 * 7.0036 / 0.2),
+                    0.03);
         CHECK_CLOSE(impulse, 50.0 * 7.0036, 0.03);
     }
 }
@@ -210,14 +228,20 @@ TEST(impulse_of_fall)
 TEST(pressure_rolls_from_heel_to_ball)
 {
     // one sole of three points that comes down on its heel, lies flat and lifts off over its ball
-    enum { N = 120 };
+    enum
+    {
+        N = 120
+    };
     Scene s = scene_make(N, RATE, 1, 3);
     s.point[3] = 0.18, s.point[6] = 0.25;
-    s.point_role[0] = DP_POINT_HEEL, s.point_role[1] = DP_POINT_BALL, s.point_role[2] = DP_POINT_TIP;
+    s.point_role[0] = DP_POINT_HEEL, s.point_role[1] = DP_POINT_BALL,
+    s.point_role[2] = DP_POINT_TIP;
     uint8_t on[N];
     for (int t = 0; t < N; ++t) {
         on[t] = t >= 10 && t < 110;
-        const double tilt = t < 30 ? -0.35 * (30.0 - t) / 20.0 : t > 70 ? 0.5 * (t - 70.0) / 40.0 : 0.0;
+        const double tilt = t < 30   ? -0.35 * (30.0 - t) / 20.0
+                            : t > 70 ? 0.5 * (t - 70.0) / 40.0
+                                     : 0.0;
         double*      q = s.pose + 7 * t + 3;
         q[0] = cos(tilt / 2.0), q[2] = sin(tilt / 2.0);  // about y: nose down is positive
         scene_com(&s, t, 0.1, 0.0, 1.0);
@@ -235,7 +259,10 @@ TEST(pressure_rolls_from_heel_to_ball)
 
 TEST(refuses_bad_options_and_missing_memory)
 {
-    enum { N = 30 };
+    enum
+    {
+        N = 30
+    };
     Scene   s = scene_make(N, RATE, 1, 1);
     uint8_t on[N];
     memset(on, 1, sizeof on);

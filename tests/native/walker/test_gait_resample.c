@@ -20,7 +20,10 @@ static double cubic_path(double t)
 
 TEST(keeps_cubics_on_uneven_times)
 {
-    enum { T = 9 };
+    enum
+    {
+        T = 9
+    };
     Scene  s = scene_make(T, 24.0, 1, 1);
     double t = 0.0;
     for (int k = 0; k < T; ++k) {
@@ -31,7 +34,10 @@ TEST(keeps_cubics_on_uneven_times)
     }
     const DpGait* gait = scene_gait(&s, T, 1, 1);
     const double  last = s.time[T - 1];
-    enum { MOST = 200 };
+    enum
+    {
+        MOST = 200
+    };
     double    time[MOST], com[3 * MOST], pose[7 * MOST];
     const int count = dp_gait_resample_count(0.0, last, 240.0);
     CHECK(count > 60 && count < MOST);
@@ -84,7 +90,8 @@ TEST(refuses_times_that_stand_still)
     s.time[1] = s.time[2];
     double    time[9], com[27], pose[63];
     const int count = dp_gait_resample_count(s.time[0], s.time[2], 24.0);
-    CHECK(dp_gait_resample(scene_gait(&s, 3, 1, 1), 24.0, count, time, com, pose) == DP_BAD_ARGUMENT);
+    CHECK(dp_gait_resample(scene_gait(&s, 3, 1, 1), 24.0, count, time, com, pose) ==
+          DP_BAD_ARGUMENT);
     CHECK(dp_gait_resample(NULL, 24.0, count, time, com, pose) == DP_BAD_ARGUMENT);
     scene_free(&s);
 }
