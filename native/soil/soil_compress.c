@@ -11,10 +11,6 @@
 //   step
 //     is cut to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
 //     frame_rate_does_not_matter.
-//   A sole that rises off pressed ground is let go over r = 5 % of the depth + 0.1 mm: soils give
-//   back
-//     a few per cent of what they were pressed, and a spring that lets go at once would make the
-//     load balance jump. The ground itself does not come back.
 //   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
 //   A cell that the sole covers by the share a is pressed by a times its column, so that volume
 //     and stress do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
@@ -27,8 +23,6 @@
 #define LANES 32             // columns worked on at once
 #define CHUNKS 40            // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
-#define LET_GO_SHARE 0.05    // r = LET_GO_SHARE e + LET_GO_LEAST
-#define LET_GO_LEAST 1e-4    // [m]
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
 #define FLOOR_CELLS 4.0      // least contact area: so many cells
 #define FLOOR_SHARE 0.05     // .. or this share of the sole
@@ -40,7 +34,6 @@ typedef struct Columns
 {
     double gap[LANES];      // g = h0 - underside of the sole, before it sinks     [m]
     double pressed[LANES];  // e = compression - heap                              [m]
-    double let_go[LANES];   // e/r: how much stiffer a column unloads              [-] >= 1
     double rigid[LANES];    // 0.95 L0                                             [m]
     double share[LANES];    // a                                                   [-]
     double spring[LANES];   // a E/L0 cell^2                                       [N/m]
@@ -84,11 +77,9 @@ static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImpri
     const int    k = columns->count++;
     const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
     const double e = (double)patch->compression[p] - (double)patch->heap[p];
-    const double r = soil_least(LET_GO_SHARE * e + LET_GO_LEAST, e);
     const double stiffness = (double)patch->modulus[p] / depth * (patch->cell * patch->cell);
     columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
     columns->pressed[k] = e;
-    columns->let_go[k] = e > 0.0 ? e / r : 1.0;
     columns->rigid[k] = SOIL_RIGID * depth;
     columns->share[k] = (double)imprint->cover[p];
     columns->spring[k] = (double)imprint->cover[p] * stiffness;
@@ -100,7 +91,7 @@ static void fill_up(Columns* columns)
     for (int k = columns->count; k < LANES; ++k) {
         columns->gap[k] = columns->pressed[k] = 0.0;
         columns->share[k] = columns->spring[k] = 0.0;
-        columns->let_go[k] = columns->rigid[k] = 1.0;
+        columns->rigid[k] = 1.0;
     }
 }
 
@@ -153,12 +144,11 @@ static bool next_columns(Sole* sole)
     return sole->filled > 0;
 }
 
-// Length by which a column's spring is pressed when its target lies t below h0: t itself, less when
-// the sole rises off ground that is already pressed, more when it meets the rigid ground.
-static inline double spring_length(double t, double e, double let_go, double rigid)
+// Length by which a column's spring is pressed when its target lies t below h0: t itself, more when it
+// meets the rigid ground.
+static inline double spring_length(double t, double rigid)
 {
-    const double soft = t >= e ? t : e - (e - t) * let_go;
-    const double hard = soft > rigid ? rigid + RIGID_STIFFER * (soft - rigid) : soft;
+    const double hard = t > rigid ? rigid + RIGID_STIFFER * (t - rigid) : t;
     return hard > 0.0 ? hard : 0.0;
 }
 
@@ -170,11 +160,9 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
     const double load = balance->load, force_grid = balance->force_grid;
     const double slope_grid = balance->slope_grid, share_grid = ldexp(1.5, 52 - 30);
     for (int k = 0; k < LANES; ++k) {
-        const double t = columns->gap[k] + s, e = columns->pressed[k];
-        const double x = spring_length(t, e, columns->let_go[k], columns->rigid[k]);
+        const double x = spring_length(columns->gap[k] + s, columns->rigid[k]);
         const double push = columns->spring[k] * x;
-        const double steep = t >= e ? 1.0 : columns->let_go[k];
-        const double stiff = (x > columns->rigid[k] ? RIGID_STIFFER : steep) * columns->spring[k];
+        const double stiff = (x > columns->rigid[k] ? RIGID_STIFFER : 1.0) * columns->spring[k];
         force[k] += soil_on_grid(push < load ? push : load, force_grid);
         slope[k] += soil_on_grid(x > 0.0 ? stiff : 0.0, slope_grid);
         share[k] += soil_on_grid(x > 0.0 ? columns->share[k] : 0.0, share_grid);
@@ -277,7 +265,8 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     const double loose = soil_least(press, (double)b);
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + (press - loose));
-    if (patch->pressure_time) patch->pressure_time[p] += (float)(target.stress * target.share * dt);
+    if (patch->pressure_time)
+        patch->pressure_time[p] += (float)(target.stress * target.share * dt);  // TRAIL (17)
 
     // the ledger counts what the float grids really hold
     const double out_of_heap = (double)b - (double)patch->heap[p];
@@ -318,7 +307,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
             const Columns* columns = &sole->chunk[c];
             for (int k = 0; k < columns->count; ++k) {
                 const double t = columns->gap[k] + s, rigid = columns->rigid[k];
-                const double x = spring_length(t, columns->pressed[k], columns->let_go[k], rigid);
+                const double x = spring_length(t, rigid);
                 if (x <= 0.0) continue;
                 const size_t p = columns->cell[k];
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);

@@ -111,7 +111,7 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const Part* part
         for (int g = 0; g < 4; ++g) memcpy(grid[g] + to, from[g] + at, wide * sizeof(float));
         memcpy(loan->kind + to, tile->kind + at, wide);
         for (size_t i = 0; i < wide; ++i) {
-            grid[4][to + i] = terrain->soils[tile->kind[at + i]].young_modulus;
+            grid[4][to + i] = terrain->soils[tile->kind[at + i]].young_modulus;  // TRAIL (9), E_g
             grid[5][to + i] = terrain->slope[tile->kind[at + i]];
         }
     }

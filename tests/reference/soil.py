@@ -13,16 +13,10 @@ RIGID = 0.95  # share of L0 that can be pressed
 STIFFER = 100.0  # how much harder the ground is below it
 
 
-def spring(t, e, depth):
-    """Length by which a column is pressed when its target lies t below h0 and e is pressed already."""
-    if t >= e:
-        x = t
-    else:  # the sole rises off pressed ground: let go over r
-        r = min(0.05 * e + 1e-4, e) if e > 0 else 1.0
-        x = e - (e - t) * (e / r if e > 0 else 1.0)
+def spring(t, depth):
+    """Length by which a column is pressed when its target lies t below h0."""
     rigid = RIGID * depth
-    if x > rigid:
-        x = rigid + STIFFER * (x - rigid)
+    x = t if t <= rigid else rigid + STIFFER * (t - rigid)
     return max(x, 0.0)
 
 
@@ -36,7 +30,7 @@ def _push_back(patch, bottom, cover, sink):
     """Force of the ground on the sole, and the area that carries."""
     force = area = 0.0
     for j, i, a, gap, e in _columns(patch, bottom, cover):
-        x = spring(gap + sink, e, patch["depth"][j, i])
+        x = spring(gap + sink, patch["depth"][j, i])
         sigma = patch["modulus"][j, i] / patch["depth"][j, i] * x
         force += a * sigma * patch["cell"] ** 2
         area += a * patch["cell"] ** 2 * (x > 0)
@@ -95,7 +89,7 @@ def compress(patch, bottom, cover, load, dt, law="sole"):
         stiffness = patch["modulus"][j, i] / patch["depth"][j, i]  # E/L0
         if law == "sole":
             t = gap + sink
-            sigma = stiffness * spring(t, e, patch["depth"][j, i])
+            sigma = stiffness * spring(t, patch["depth"][j, i])
             carries = sigma > 0
         else:
             sigma = sigma_all
