@@ -8,7 +8,7 @@
 #   -DDP_CACHE=/path                                   where fetched archives are kept
 set(DP_OPENEXR_VERSION 3.3.14)
 set(DP_OPENEXR_SHA256 de0c6a441fca71c869b3f00b55d1a33f5cf93ee49cb2a77fa0006dc06934f50a)
-set(DP_OPENEXR_ARCHIVE "" CACHE FILEPATH "openexr-${DP_OPENEXR_VERSION}.tar.gz, if it is here already")
+set(DP_OPENEXR_ARCHIVE "" CACHE FILEPATH "The archive of OpenEXR, if it is here already")
 
 if(DEFINED ENV{XDG_CACHE_HOME})
   set(dp_cache_default "$ENV{XDG_CACHE_HOME}/desire_path")
@@ -19,8 +19,8 @@ else()
 endif()
 set(DP_CACHE "${dp_cache_default}" CACHE PATH "Where fetched archives are kept")
 
-# Put the checked archive's path into `result`, fetching it when it is not here. One configure run at
-# a time does so; it appears under its name only when whole.
+# Put the checked archive's path into `result`, fetching it when it is not here. One configure run
+# at a time does so; it appears under its name only when whole.
 function(dp_fetch_openexr result)
   set(name openexr-${DP_OPENEXR_VERSION}.tar.gz)
   if(DP_OPENEXR_ARCHIVE)

@@ -66,7 +66,9 @@ def write(path, planes, notes=()):
         grids[name] = grid
     if len({grid.shape for grid in grids.values()}) > 1:
         shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
-        raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
+        raise DesirePathError(
+            f"The maps for {path} differ in shape ({shapes}): give all the same."
+        )
     pairs = list(notes.items() if isinstance(notes, dict) else notes)
     pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
     try:
@@ -77,9 +79,9 @@ def write(path, planes, notes=()):
         ) from None
     except ValueError as problem:
         raise DesirePathError(
-            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28 cells,"
-            " and maps and notes with different names of 1 to 31 characters that OpenEXR does not"
-            " use itself."
+            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28"
+            " cells, and maps and notes with different names of 1 to 31 characters that OpenEXR"
+            " does not use itself."
         ) from None
 
 

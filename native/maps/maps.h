@@ -3,9 +3,9 @@
 //   tiles changed ---DpFrames---> frames/0001.exr ..   one RGBA file per frame, for playback
 //   grids         ---dp_maps_write---> maps_final.exr  named channels, for everybody
 //
-// The one file format is OpenEXR, through OpenEXRCore. Files are 32-bit float, ZIP. A file is written
-// as <path>.<process>-<number>.part beside its target and renamed when whole; what a killed process
-// leaves behind ends in .part.
+// The one file format is OpenEXR, through OpenEXRCore. Files are 32-bit float, ZIP. A file is
+// written as <path>.<process>-<number>.part beside its target and renamed when whole; what a killed
+// process leaves behind ends in .part.
 #pragma once
 #include "base/status.h"
 #include "base/types.h"

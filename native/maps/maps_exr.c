@@ -61,8 +61,9 @@ static bool is_name(const char* name)
 // names that mean something to readers of OpenEXR
 static bool is_taken(exr_const_context_t context, const char* name)
 {
-    static const char* const meant[] = {"name",  "type",      "version", "chunkCount", "view",
-                                        "tiles", "multiView", "preview", "dwaCompressionLevel"};
+    static const char* const meant[] = {"name",       "type",    "version",
+                                        "chunkCount", "view",    "tiles",
+                                        "multiView",  "preview", "dwaCompressionLevel"};
     for (size_t k = 0; k < sizeof meant / sizeof *meant; ++k)
         if (strcmp(name, meant[k]) == 0) return true;
     const exr_attribute_t* there;
@@ -86,8 +87,8 @@ static DpStatus add_channel(exr_context_t context, const char* name)
     if (exr_get_channels(context, 0, &list) == EXR_ERR_SUCCESS)
         for (int k = 0; k < list->num_channels; ++k)
             if (strcmp(list->entries[k].name.str, name) == 0) return DP_BAD_ARGUMENT;
-    const exr_result_t done = exr_add_channel(context, 0, name, EXR_PIXEL_FLOAT,
-                                              EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    const exr_result_t done =
+        exr_add_channel(context, 0, name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1);
     return done == EXR_ERR_SUCCESS ? DP_OK : DP_NO_MEMORY;
 }
 
@@ -125,13 +126,13 @@ DpStatus dp_exr_begin(exr_context_t* context, DpBytes* out, int nx, int ny, bool
     out->size = 0;
     if (exr_start_write(context, "memory", EXR_WRITE_FILE_DIRECTLY, &setup) != EXR_ERR_SUCCESS)
         return DP_NO_MEMORY;
-    const DpStatus status = fill_header(*context, nx, ny, tiled, channel, channel_count, notes,
-                                        note_count, time);
+    const DpStatus status =
+        fill_header(*context, nx, ny, tiled, channel, channel_count, notes, note_count, time);
     if (status != DP_OK) exr_finish(context);
     return status;
 }
 
-// ---- named channels, scan line by scan line -------------------------------------------------------
+// ---- named channels, scan line by scan line -----------------------------------------------------
 
 // one chunk of 16 lines; image row 0 is the grid's last row
 static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t* pipe, bool first,
@@ -166,8 +167,8 @@ static DpStatus pack_maps(DpBytes* out, int nx, int ny, const DpMapChannel* chan
     if (!names) return DP_NO_MEMORY;
     for (int k = 0; k < channel_count; ++k) names[k] = channels[k].name;
     exr_context_t context;
-    DpStatus      status = dp_exr_begin(&context, out, nx, ny, false, names, channel_count, notes,
-                                        note_count, NULL);
+    DpStatus      status =
+        dp_exr_begin(&context, out, nx, ny, false, names, channel_count, notes, note_count, NULL);
     dp_free(names);
     if (status != DP_OK) return status;
 

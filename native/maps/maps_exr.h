@@ -18,7 +18,7 @@ DpStatus dp_bytes_put(DpBytes* bytes, size_t offset, const void* from, size_t co
 void     dp_bytes_free(DpBytes* bytes);
 
 // Write a whole file: under `<path>.<process>-<number>.part` beside the target first, renamed when
-// every byte and the closing have gone well. Else the temporary file is gone and the target as it was.
+// every byte and the closing have gone well. Else it is gone and the target as it was.
 DpStatus dp_file_save(const char* path, const void* data, size_t size);
 
 // Most pixels an image may have, written or read.
@@ -31,8 +31,8 @@ exr_context_initializer_t dp_exr_setup(void* user);
 // True once if this thread was refused memory inside OpenEXR since it was last asked.
 bool dp_exr_starved(void);
 
-// Start a file that grows in `out`: float channels, ZIP, the notes, `time` [s] unless NULL. Then its
-// chunks follow, and exr_finish. Bad sizes, names or notes: DP_BAD_ARGUMENT.
+// Start a file that grows in `out`: float channels, ZIP, the notes, `time` [s] unless NULL. Its
+// chunks follow, then exr_finish. Bad sizes, names or notes: DP_BAD_ARGUMENT.
 // @param tiled  in tiles of DP_TILE x DP_TILE instead of scan lines
 DpStatus dp_exr_begin(exr_context_t* context, DpBytes* out, int nx, int ny, bool tiled,
                       const char* const* channel, int channel_count, const DpNote* notes,

@@ -1,8 +1,8 @@
 // maps/maps_frames.c - frames for playback: tiled RGBA files whose unchanged tiles stay packed.
 //
-// A frame of 1024^2 would take 44 ms to encode whole. A walker changes a tile or two of it, so every
-// tile's packed bytes are kept, and a frame is its header and those bytes in a row. Tiles that never
-// changed share one packed tile of zeros.
+// A frame of 1024^2 would take 44 ms to encode whole. A walker changes a tile or two of it, so
+// every tile's packed bytes are kept, and a frame is its header and those bytes in a row. Tiles
+// that never changed share one packed tile of zeros.
 #include <libdeflate.h>
 #include <string.h>
 
@@ -40,7 +40,7 @@ struct DpFrames
 
 static const char* const rgba_names[4] = {"R", "G", "B", "A"};
 
-// ---- packing one tile, OpenEXR's ZIP -------------------------------------------------------------
+// ---- packing one tile, OpenEXR's ZIP ------------------------------------------------------------
 // Departures
 //   OpenEXR's own encode pipeline makes a new compressor for every tile, which costs as much as the
 //   compressing. The format is short enough to be written here; test_maps_frames.c reads it with
@@ -129,9 +129,9 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
 {
     if (!frames || !path || !*path) return DP_BAD_ARGUMENT;
     exr_context_t context;
-    DpStatus      status = dp_exr_begin(&context, &frames->file, frames->tiles_x * DP_TILE,
-                                        frames->tiles_y * DP_TILE, true, rgba_names, 4,
-                                        frames->notes, frames->note_count, &time);
+    DpStatus      status =
+        dp_exr_begin(&context, &frames->file, frames->tiles_x * DP_TILE, frames->tiles_y * DP_TILE,
+                     true, rgba_names, 4, frames->notes, frames->note_count, &time);
     if (status != DP_OK) return status;
     exr_result_t done = EXR_ERR_SUCCESS;
     for (int row = 0; !done && row < frames->tiles_y; ++row) {
@@ -177,9 +177,9 @@ static DpStatus fill(DpFrames* frames, const DpNote* notes, int note_count)
     if (status != DP_OK) return status;
     const double  no_time = 0.0;
     exr_context_t trial;
-    status = dp_exr_begin(&trial, &frames->file, frames->tiles_x * DP_TILE,
-                          frames->tiles_y * DP_TILE, true, rgba_names, 4, frames->notes,
-                          frames->note_count, &no_time);
+    status =
+        dp_exr_begin(&trial, &frames->file, frames->tiles_x * DP_TILE, frames->tiles_y * DP_TILE,
+                     true, rgba_names, 4, frames->notes, frames->note_count, &no_time);
     if (status != DP_OK) return status;
     exr_finish(&trial);
 
@@ -201,8 +201,10 @@ DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const DpN
     fresh->tiles_x = tiles_x;
     fresh->tiles_y = tiles_y;
     const DpStatus status = fill(fresh, notes, note_count);
-    if (status == DP_OK) *frames = fresh;
-    else dp_frames_destroy(fresh);
+    if (status == DP_OK)
+        *frames = fresh;
+    else
+        dp_frames_destroy(fresh);
     return status;
 }
 

@@ -26,8 +26,8 @@ static int64_t read_bytes(exr_const_context_t context, void* user, void* into, u
     uint64_t      got = 0;
     if (offset > (uint64_t)source->size) return -1;
     while (got < count) {
-        const ssize_t step = pread(source->file, (char*)into + got, (size_t)(count - got),
-                                   (off_t)(offset + got));
+        const ssize_t step =
+            pread(source->file, (char*)into + got, (size_t)(count - got), (off_t)(offset + got));
         if (step < 0 && errno == EINTR) continue;
         if (step < 0) return -1;
         if (step == 0) break;
@@ -188,8 +188,7 @@ static exr_result_t read_tiles(exr_const_context_t context, exr_decode_pipeline_
         for (int tx = 0; !done && tx < count_x; ++tx) {
             exr_chunk_info_t chunk;
             done = exr_read_tile_chunk_info(context, 0, tx, ty, 0, 0, &chunk);
-            if (!done)
-                done = read_chunk(context, pipe, &ready, &chunk, map, tx * wide, ty * high);
+            if (!done) done = read_chunk(context, pipe, &ready, &chunk, map, tx * wide, ty * high);
         }
     }
     return done;
@@ -208,8 +207,8 @@ static DpStatus read_pixels(exr_const_context_t context, const exr_attr_chlist_t
         if (!map->channel[c]) return DP_NO_MEMORY;
     }
     exr_decode_pipeline_t pipe = {.pipe_size = sizeof pipe};
-    const exr_result_t    done = tiled ? read_tiles(context, &pipe, map)
-                                       : read_lines(context, &pipe, map);
+    const exr_result_t    done =
+        tiled ? read_tiles(context, &pipe, map) : read_lines(context, &pipe, map);
     exr_decoding_destroy(context, &pipe);
     return done ? DP_BAD_FILE : DP_OK;
 }
@@ -223,15 +222,15 @@ static DpStatus read_all(Source* source, DpMapFile* map)
     setup.max_image_height = DP_MAPS_PIXELS;
     setup.max_tile_width = LARGEST_TILE;
     setup.max_tile_height = LARGEST_TILE;
-    setup.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE |
-                  EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    setup.flags =
+        EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_context_t context = NULL;
     dp_exr_starved();
     if (exr_start_read(&context, "file", &setup) != EXR_ERR_SUCCESS)
         return dp_exr_starved() ? DP_NO_MEMORY : DP_BAD_FILE;
     const exr_attr_chlist_t* list;
     bool                     tiled;
-    DpStatus status = read_shape(context, source->size, map, &list, &tiled);
+    DpStatus                 status = read_shape(context, source->size, map, &list, &tiled);
     if (status == DP_OK) status = read_notes(context, map);
     if (status == DP_OK) status = read_pixels(context, list, tiled, map);
     exr_finish(&context);
@@ -254,8 +253,10 @@ DpStatus dp_maps_read(const char* path, DpMapFile** file)
         status = map ? read_all(&source, map) : DP_NO_MEMORY;
     }
     close(source.file);
-    if (status == DP_OK) *file = map;
-    else dp_map_file_destroy(map);
+    if (status == DP_OK)
+        *file = map;
+    else
+        dp_map_file_destroy(map);
     return status;
 }
 

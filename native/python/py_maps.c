@@ -62,8 +62,8 @@ static int fill_channels(PyObject* names, PyObject* planes, DpDoor* door, DpMapC
     for (Py_ssize_t k = 0; k < count; ++k) {
         channels[k].name = text_of(PyTuple_GetItem(names, k), "a plane's name");
         if (!channels[k].name) return -1;
-        channels[k].value = dp_door_open(door, PyTuple_GetItem(planes, k), channels[k].name, 'f',
-                                         shape, false);
+        channels[k].value =
+            dp_door_open(door, PyTuple_GetItem(planes, k), channels[k].name, 'f', shape, false);
         if (!channels[k].value) return -1;
     }
     return 0;
@@ -72,9 +72,9 @@ static int fill_channels(PyObject* names, PyObject* planes, DpDoor* door, DpMapC
 static PyObject* maps_write(PyObject* module, PyObject* arguments)
 {
     (void)module;
-    PyObject *path = NULL, *names, *planes, *notes, *done = NULL;
-    DpNote*   note = NULL;
-    DpDoor    door = {.count = 0};
+    PyObject *   path = NULL, *names, *planes, *notes, *done = NULL;
+    DpNote*      note = NULL;
+    DpDoor       door = {.count = 0};
     DpMapChannel channel[DP_DOOR_MOST];
     DpShape      shape = {2, {-1, -1}};
     if (!PyArg_ParseTuple(arguments, "O&OOO:maps_write", PyUnicode_FSConverter, &path, &names,
@@ -99,13 +99,11 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
         dp_door_result(DP_BAD_ARGUMENT, "writing maps");
         goto leave;
     }
-    const char* file = PyBytes_AsString(path);
-    DpStatus    status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel, (int)count, note,
-                           (int)note_count);
-    Py_END_ALLOW_THREADS
-    done = dp_door_result(status, "writing maps");
+    const char*            file = PyBytes_AsString(path);
+    DpStatus               status;
+    Py_BEGIN_ALLOW_THREADS status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel,
+                                                  (int)count, note, (int)note_count);
+    Py_END_ALLOW_THREADS   done = dp_door_result(status, "writing maps");
 leave:
     dp_door_close(&door);
     dp_free(note);
@@ -138,8 +136,8 @@ static PyObject* notes_of(const DpMapFile* map)
     PyObject* notes = PyTuple_New(map->note_count);
     for (int k = 0; notes && k < map->note_count; ++k) {
         PyObject* name = str_of(map->note_name[k]);
-        PyObject* value = map->note_text[k] ? str_of(map->note_text[k])
-                                            : PyFloat_FromDouble(map->note_number[k]);
+        PyObject* value =
+            map->note_text[k] ? str_of(map->note_text[k]) : PyFloat_FromDouble(map->note_number[k]);
         PyObject* pair = name && value ? PyTuple_Pack(2, name, value) : NULL;
         Py_XDECREF(name);
         Py_XDECREF(value);
@@ -153,22 +151,19 @@ static PyObject* maps_read(PyObject* module, PyObject* path)
     (void)module;
     PyObject* name = NULL;
     if (!PyUnicode_FSConverter(path, &name)) return NULL;
-    const char* file = PyBytes_AsString(name);
-    DpMapFile*  map = NULL;
-    DpStatus    status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_maps_read(file, &map);
-    Py_END_ALLOW_THREADS
-    Py_DECREF(name);
+    const char*            file = PyBytes_AsString(name);
+    DpMapFile*             map = NULL;
+    DpStatus               status;
+    Py_BEGIN_ALLOW_THREADS status = dp_maps_read(file, &map);
+    Py_END_ALLOW_THREADS   Py_DECREF(name);
     if (status != DP_OK) return dp_door_result(status, "reading maps");
 
     const size_t size = (size_t)map->channel_count * (size_t)map->ny * (size_t)map->nx * 4;
     PyObject*    names = names_of(map);
     PyObject*    notes = names ? notes_of(map) : NULL;
-    PyObject*    data = notes ? PyByteArray_FromStringAndSize((const char*)map->value,
-                                                              (Py_ssize_t)size)
-                              : NULL;
-    PyObject*    all = data ? Py_BuildValue("(iiOOO)", map->nx, map->ny, names, data, notes) : NULL;
+    PyObject*    data =
+        notes ? PyByteArray_FromStringAndSize((const char*)map->value, (Py_ssize_t)size) : NULL;
+    PyObject* all = data ? Py_BuildValue("(iiOOO)", map->nx, map->ny, names, data, notes) : NULL;
     Py_XDECREF(names);
     Py_XDECREF(notes);
     Py_XDECREF(data);
@@ -178,7 +173,8 @@ static PyObject* maps_read(PyObject* module, PyObject* path)
 
 PyMethodDef dp_py_maps_methods[] = {
     {"maps_write", maps_write, METH_VARARGS,
-     "maps_write(path, names, planes, notes)\n\nWrite float32 (ny, nx) planes, row 0 = lowest y, as "
+     "maps_write(path, names, planes, notes)\n\nWrite float32 (ny, nx) planes, row 0 = lowest y, "
+     "as "
      "channels of one OpenEXR file; notes is a list of (name, str or float) for its header."},
     {"maps_read", maps_read, METH_O,
      "maps_read(path) -> (nx, ny, names, data, notes)\n\ndata is a bytearray of float32 "

@@ -28,7 +28,7 @@ static double median(double* value, int count)
     return value[count / 2];
 }
 
-// a tile with one print: a deep sole, a rim that falls off, pressure under it, bare ground elsewhere
+// a tile with one print: a deep sole, a rim that falls off, pressure under it, bare ground around
 static void print_tile(float* rgba, double shift)
 {
     memset(rgba, 0, DP_TILE * DP_TILE * 4 * sizeof *rgba);
@@ -51,12 +51,15 @@ static void print_tile(float* rgba, double shift)
 // [s] a frame, bytes of the last
 static double walk(int tiles, int trail, const char* stem, double* whole, long* size)
 {
-    enum { COUNT = 60 };
-    char          path[4200];
-    static float  rgba[DP_TILE * DP_TILE * 4];
-    double        took[COUNT];
-    DpFrames*     frames;
-    const double  start = seconds();
+    enum
+    {
+        COUNT = 60
+    };
+    char         path[4200];
+    static float rgba[DP_TILE * DP_TILE * 4];
+    double       took[COUNT];
+    DpFrames*    frames;
+    const double start = seconds();
     if (dp_frames_create(&frames, tiles, tiles, NULL, 0) != DP_OK) exit(1);
     for (int k = 0; k < trail; ++k) {
         print_tile(rgba, 0.01 * k);
@@ -109,14 +112,15 @@ int main(int count, char** word)
         double       whole;
         long         size;
         const double frame = walk(sides[s][0] / DP_TILE, sides[s][1], path, &whole, &size);
-        printf("%4d^2, %3d tiles walked  %8.3f ms a frame of two tiles, %8.3f ms whole, %ld bytes\n",
-               sides[s][0], sides[s][1], 1e3 * frame, 1e3 * whole, size);
+        printf(
+            "%4d^2, %3d tiles walked  %8.3f ms a frame of two tiles, %8.3f ms whole, %ld bytes\n",
+            sides[s][0], sides[s][1], 1e3 * frame, 1e3 * whole, size);
     }
 
     const int          n = 1024;
     float*             grid = calloc((size_t)n * (size_t)n, sizeof *grid);
-    const DpMapChannel channels[] = {{"compression", grid}, {"heap", grid},
-                                     {"plant_strength", grid}, {"pressure_time", grid}};
+    const DpMapChannel channels[] = {
+        {"compression", grid}, {"heap", grid}, {"plant_strength", grid}, {"pressure_time", grid}};
     if (!grid) return 1;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {

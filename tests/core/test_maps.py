@@ -67,8 +67,8 @@ def test_a_file_of_oiiotool_is_read(tmp_path):
         pytest.skip("oiiotool is not installed")
     path = tmp_path / "theirs.exr"
     subprocess.run(["oiiotool", "--pattern", "fill:topleft=0,0.5,1:topright=1,0.5,0:"
-                    "bottomleft=0,0,0:bottomright=1,1,1", "65x33", "3", "-d", "half", "--tile", "16",
-                    "16", "--compression", "piz", "-o", str(path)], check=True)
+                    "bottomleft=0,0,0:bottomright=1,1,1", "65x33", "3", "-d", "half", "--tile",
+                    "16", "16", "--compression", "piz", "-o", str(path)], check=True)
     picture = maps.read(path)
     assert picture.shape == (33, 65) and sorted(picture.planes) == ["B", "G", "R"]
     red, blue = picture.planes["R"], picture.planes["B"]

@@ -45,7 +45,8 @@ def test_one_name():
 def test_the_manifest_keeps_blenders_rules():
     found = manifest()
     assert found["schema_version"] == "1.0.0" and found["type"] == "add-on"
-    assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*[A-Za-z0-9]", found["id"]) and "__" not in found["id"]
+    assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*[A-Za-z0-9]", found["id"])
+    assert "__" not in found["id"]
     assert len(found["tagline"]) <= 64 and re.search(r"[\w)\]}]$", found["tagline"])
     assert tuple(map(int, found["blender_version_min"].split("."))) >= (4, 2, 0)
     assert found["license"] == ["SPDX:GPL-3.0-or-later"]
@@ -69,7 +70,8 @@ def test_the_binary_stands_alone():
     assert "libc.so.6" in needed and {n for n in needed if not n.startswith("ld-linux")} <= system
     assert "RPATH" not in told.stdout and "RUNPATH" not in told.stdout
     # nothing of ours is left to be found elsewhere
-    told = subprocess.run(["nm", "-D", "--undefined-only", str(path)], capture_output=True, text=True)
+    told = subprocess.run(["nm", "-D", "--undefined-only", str(path)], capture_output=True,
+                          text=True)
     names = [line.split()[-1].split("@")[0] for line in told.stdout.splitlines()]
     ours = [name for name in names if name.startswith(("dp_", "exr_", "libdeflate", "imath"))]
     assert not ours

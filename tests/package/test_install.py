@@ -1,6 +1,6 @@
 """The zip in every Blender, the wheel in a Python without Blender.
 
-scripts/test package runs this; it takes about a minute. DESIRE_PATH_PY313 names a Python with bpy 5.2.
+scripts/test package runs this, in about a minute. DESIRE_PATH_PY313 names a Python with bpy 5.2.
 """
 
 import os
@@ -27,7 +27,8 @@ lists = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)]
 handlers = lambda: sum(len(entry) for entry in lists if isinstance(entry, list))
 count = handlers()
 if bpy.app.version >= (4, 2):
-    bpy.ops.extensions.package_install_files(filepath=path, repo="user_default", enable_on_install=False)
+    bpy.ops.extensions.package_install_files(filepath=path, repo="user_default",
+                                             enable_on_install=False)
     module = "bl_ext.user_default.desire_path"
 else:
     bpy.ops.preferences.addon_install(filepath=path)
@@ -37,8 +38,8 @@ for turn in range(3):
     bpy.ops.preferences.addon_enable(module=module)
     assert module in bpy.context.preferences.addons
     assert hasattr(bpy.types.Object, "desire_path")
-    assert {"desire_path_bake", "desire_path_free", "desire_path_ground_add", "desire_path_walker_add",
-            "desire_path_record"} <= ops(), ops()
+    assert {"desire_path_bake", "desire_path_free", "desire_path_ground_add",
+            "desire_path_walker_add", "desire_path_record"} <= ops(), ops()
     maps = importlib.import_module(module + ".maps")  # the core is there, not only its buttons
     maps.write("a.exr", {"heap": [[1.0, 2.0]]})
     assert maps.read("a.exr").planes["heap"].tolist() == [[1.0, 2.0]]
@@ -53,8 +54,8 @@ print("INSTALLED")
 @pytest.fixture(scope="module")
 def zipped(tmp_path_factory):
     out = tmp_path_factory.mktemp("dist")
-    subprocess.run([sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out", str(out)],
-                   check=True)
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out",
+                    str(out)], check=True)
     return next(out.glob("*.zip"))
 
 
@@ -73,12 +74,20 @@ def clean(home):
             "XDG_CACHE_HOME": str(home / "cache"), "LANG": "C.UTF-8"}
 
 
+def folder_of(python, package):
+    """Where this Python keeps a package."""
+    code = f"import importlib.util as u; print(u.find_spec({package!r}).origin)"
+    told = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True)
+    return Path(told.stdout.strip()).parent
+
+
 @pytest.mark.parametrize("version", BLENDERS)
 def test_the_zip_installs(zipped, tmp_path, version):
     script = tmp_path / "install.py"
     script.write_text(INSTALL)
-    told = subprocess.run(blender_command(version, script, str(zipped), version), env=clean(tmp_path),
-                          cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    told = subprocess.run(blender_command(version, script, str(zipped), version),
+                          env=clean(tmp_path), cwd=tmp_path, capture_output=True, text=True,
+                          timeout=300)
     assert "INSTALLED" in told.stdout, told.stdout + told.stderr
     assert "Traceback" not in told.stdout + told.stderr
 
@@ -88,10 +97,9 @@ def test_blender_calls_the_zip_valid(zipped, version):
     python = BLENDERS[version]
     if not python:
         pytest.skip("there is no Python with bpy 5.2")
-    where = subprocess.run([python, "-c", "import importlib.util as u; print(u.find_spec('bpy').origin)"],
-                           capture_output=True, text=True, check=True).stdout.strip()
-    tool = next(Path(where).parent.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
-    told = subprocess.run([python, str(tool), "validate", str(zipped)], capture_output=True, text=True)
+    tool = next(folder_of(python, "bpy").glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+    told = subprocess.run([python, str(tool), "validate", str(zipped)], capture_output=True,
+                          text=True)
     assert told.returncode == 0 and "Success" in told.stdout, told.stdout + told.stderr
 
 
@@ -99,9 +107,10 @@ def test_blender_calls_the_zip_valid(zipped, version):
 def wheel(tmp_path_factory):
     out = tmp_path_factory.mktemp("wheel")
     tree = tmp_path_factory.mktemp("tree")
-    subprocess.run(["git", "clone", "-q", "--no-hardlinks", str(ROOT), str(tree / "clone")], check=True)
-    told = subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check",
-                           "--no-deps", "-w", str(out), str(tree / "clone")],
+    subprocess.run(["git", "clone", "-q", "--no-hardlinks", str(ROOT), str(tree / "clone")],
+                   check=True)
+    told = subprocess.run([sys.executable, "-m", "pip", "wheel", "-q",
+                           "--disable-pip-version-check", "--no-deps", "-w", str(out), str(tree / "clone")],
                           capture_output=True, text=True)
     assert told.returncode == 0, told.stdout + told.stderr
     return next(out.glob("*.whl"))
@@ -122,13 +131,10 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
 def test_the_wheel_runs_without_blender(wheel, tmp_path, python):
     if not python:
         pytest.skip("there is no Python 3.13")
-    subprocess.run([python, "-m", "venv", "--system-site-packages", str(tmp_path / "env")], check=True)
-    inside = tmp_path / "env" / "bin" / "python"
-    # NumPy is that of the environment around; bpy, which is there too, must not be asked for
-    base = subprocess.run([python, "-c", "import numpy, os; print(os.path.dirname(os.path.dirname("
-                           "numpy.__file__)))"], capture_output=True, text=True, check=True).stdout.strip()
-    subprocess.run([str(inside), "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps",
-                    str(wheel)], check=True)
+    subprocess.run([python, "-m", "venv", str(tmp_path / "env")], check=True)
+    inside = str(tmp_path / "env" / "bin" / "python")
+    subprocess.run([inside, "-m", "pip", "install", "-q", "--disable-pip-version-check",
+                    "--no-deps", str(wheel)], check=True)
     code = """
 import sys
 sys.modules["bpy"] = None   # importing it would fail
@@ -139,9 +145,11 @@ maps.write("a.exr", {"heap": np.eye(3)})
 assert (maps.read("a.exr").planes["heap"] == np.eye(3)).all()
 print(desire_path.__file__)
 """
-    env = {**clean(tmp_path), "PYTHONPATH": base}
-    told = subprocess.run([str(inside), "-c", code], capture_output=True, text=True, cwd=tmp_path, env=env)
+    # NumPy is that of the environment around; bpy, which is there too, must not be asked for
+    env = {**clean(tmp_path), "PYTHONPATH": str(folder_of(python, "numpy").parent)}
+    told = subprocess.run([inside, "-c", code], capture_output=True, text=True, cwd=tmp_path,
+                          env=env)
     assert told.returncode == 0 and str(tmp_path) in told.stdout, told.stdout + told.stderr
-    told = subprocess.run([str(inside), "-m", "desire_path", "--version"], capture_output=True, text=True,
-                          cwd=tmp_path, env=env)
+    told = subprocess.run([inside, "-m", "desire_path", "--version"], capture_output=True,
+                          text=True, cwd=tmp_path, env=env)
     assert told.returncode == 0 and told.stdout.strip()[:1].isdigit(), told.stdout + told.stderr

@@ -30,10 +30,12 @@ static inline exr_result_t foreign_chunk(exr_context_t file, const exr_chunk_inf
         value[c] = malloc((size_t)w * (size_t)h * sizeof *value[c]);
         for (int j = 0; j < h; ++j)
             for (int i = 0; i < w; ++i) {
-                const float v = foreign_value(x + i, row + j, c);
+                const float    v = foreign_value(x + i, row + j, c);
                 const unsigned whole = (unsigned)v;
-                if (as->type[c] == EXR_PIXEL_UINT) memcpy(&value[c][j * w + i], &whole, 4);
-                else value[c][j * w + i] = v;
+                if (as->type[c] == EXR_PIXEL_UINT)
+                    memcpy(&value[c][j * w + i], &whole, 4);
+                else
+                    value[c][j * w + i] = v;
             }
         exr_coding_channel_info_t* from = &pipe.channels[c];
         from->encode_from_ptr = (const uint8_t*)value[c];
@@ -79,14 +81,13 @@ static inline exr_result_t foreign_pixels(exr_context_t file, const Foreign* as)
 // 0 when the file stands at `path`
 static inline int foreign_write(const char* path, const Foreign* as)
 {
-    static const char* const names[] = {"A", "B", "C"};
+    static const char* const  names[] = {"A", "B", "C"};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     exr_context_t             file;
     int                       part;
-    const exr_attr_box2i_t    window = {{as->x0, as->y0},
-                                        {as->x0 + as->nx - 1, as->y0 + as->ny - 1}};
-    const exr_attr_v2f_t      centre = {0.0f, 0.0f};
-    exr_result_t done = exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &setup);
+    const exr_attr_box2i_t window = {{as->x0, as->y0}, {as->x0 + as->nx - 1, as->y0 + as->ny - 1}};
+    const exr_attr_v2f_t   centre = {0.0f, 0.0f};
+    exr_result_t           done = exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &setup);
     if (done) return done;
     done = exr_add_part(file, NULL, as->tile ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part);
     if (!done)

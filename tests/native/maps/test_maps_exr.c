@@ -16,8 +16,8 @@ static void fill(void)
 TEST(what_is_written_is_what_is_read)
 {
     const char*        path = world_path("maps.exr");
-    const DpMapChannel channels[] = {{"pressure_time", grid[0]}, {"compression", grid[1]},
-                                     {"heap", grid[2]}};
+    const DpMapChannel channels[] = {
+        {"pressure_time", grid[0]}, {"compression", grid[1]}, {"heap", grid[2]}};
     const DpNote notes[] = {{"cell", NULL, 0.005}, {"unit.heap", "m", 0}, {"empty", "", 0}};
     static const char* const sorted[] = {"compression", "heap", "pressure_time"};
     static const int         from[] = {1, 2, 0};

@@ -24,7 +24,8 @@ static long differences(const DpMapFile* map, int tiles_x, int tiles_y, const un
 {
     static const char names[] = "ABGR";
     static const int  at[] = {3, 2, 1, 0};
-    if (map->nx != tiles_x * SIDE || map->ny != tiles_y * SIDE || map->channel_count != 4) return -1;
+    if (map->nx != tiles_x * SIDE || map->ny != tiles_y * SIDE || map->channel_count != 4)
+        return -1;
     long bad = 0;
     for (int c = 0; c < 4; ++c) {
         if (map->channel[c][0] != names[c] || map->channel[c][1]) return -2;
@@ -32,9 +33,10 @@ static long differences(const DpMapFile* map, int tiles_x, int tiles_y, const un
             for (int i = 0; i < map->nx; ++i) {
                 const unsigned seed = seeds[j / SIDE * tiles_x + i / SIDE];
                 const float    want = seed ? world_value(i, j, at[c], seed) : 0.0f;
-                bad += !same(map->value[((size_t)c * (size_t)map->ny + (size_t)j) * (size_t)map->nx +
-                                        (size_t)i],
-                             want);
+                bad +=
+                    !same(map->value[((size_t)c * (size_t)map->ny + (size_t)j) * (size_t)map->nx +
+                                     (size_t)i],
+                          want);
             }
     }
     return bad;
@@ -48,7 +50,11 @@ TEST(what_is_set_is_what_is_read)
     DpFrames*    frames;
     const DpNote notes[] = {{"cell", NULL, 0.01}, {"soil", "dry-sand \xc3\xa9", 0}};
     CHECK(dp_frames_create(&frames, 3, 2, notes, 2) == DP_OK);
-    const struct { int tx, ty; unsigned seed; } steps[] = {{0, 0, 1}, {2, 1, 2}, {1, 0, 3}, {0, 0, 4}};
+    const struct
+    {
+        int      tx, ty;
+        unsigned seed;
+    } steps[] = {{0, 0, 1}, {2, 1, 2}, {1, 0, 3}, {0, 0, 4}};
     for (int k = 0; k < 4; ++k) {
         paint(rgba, steps[k].tx, steps[k].ty, steps[k].seed);
         CHECK(dp_frames_set_tile(frames, steps[k].tx, steps[k].ty, rgba, k) == DP_OK);
@@ -128,7 +134,8 @@ TEST(the_same_bytes_for_any_number_of_workers)
 TEST(bad_arguments_are_refused)
 {
     DpFrames*    frames = NULL;
-    const DpNote nameless = {NULL, "x", 0}, taken = {"compression", "x", 0}, twice = {"time", "x", 0};
+    const DpNote nameless = {NULL, "x", 0}, taken = {"compression", "x", 0},
+                 twice = {"time", "x", 0};
     const DpNote empty = {"", "x", 0}, endless = {"a-name-of-more-than-thirty-one-letters", "x", 0};
     CHECK(dp_frames_create(&frames, 0, 4, NULL, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_frames_create(&frames, 4, -1, NULL, 0) == DP_BAD_ARGUMENT);

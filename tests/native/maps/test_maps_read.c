@@ -99,10 +99,14 @@ TEST(mutations_do_no_harm)
                 const size_t reach = check_random(&state) < 0.7 && size > 600 ? 600 : size;
                 const size_t at = (size_t)(check_random(&state) * (double)reach);
                 const double how = check_random(&state);
-                if (how < 0.4) hurt[at] ^= (unsigned char)(1u << (int)(8.0 * check_random(&state)));
-                else if (how < 0.7) hurt[at] = (unsigned char)(256.0 * check_random(&state));
-                else if (how < 0.85) hurt[at] = 0xff;
-                else if (at + 4 < size) memset(hurt + at, how < 0.93 ? 0x7f : 0, 4);
+                if (how < 0.4)
+                    hurt[at] ^= (unsigned char)(1u << (int)(8.0 * check_random(&state)));
+                else if (how < 0.7)
+                    hurt[at] = (unsigned char)(256.0 * check_random(&state));
+                else if (how < 0.85)
+                    hurt[at] = 0xff;
+                else if (at + 4 < size)
+                    memset(hurt + at, how < 0.93 ? 0x7f : 0, 4);
             }
             read_hurt(path, size, &refused);
         }
