@@ -103,13 +103,13 @@ def ground():
 
     # roughness: mud is damp, wet where it was pressed
     wet = n.math("MAXIMUM", pressed, n.between(wide, 0.50, 0.66, 0.0, 0.35))
-    mud_rough = n.between(wet, 0.0, 1.0, 0.75, 0.36)
+    mud_rough = n.between(wet, 0.0, 1.0, 0.78, 0.33)
     roughness = n.mix(mud, n.mix(snow, 0.95, 0.60), mud_rough)
-    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.22, 0.50))
+    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.20, 0.36))
 
     # heights too small for the mesh [m]: how high the grain, the clods and the lumps are, by soil
     crumbs = n.math("MULTIPLY", heap, 0.0035)
-    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.6))
+    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.78))
     grain_high = n.math("MULTIPLY", n.mix(shares["Green"], 0.0011, 0.0004), flat)
     clod_high = n.math("ADD", n.mix(shares["Blue"], n.mix(shares["Green"], 0.0010, 0.0018), 0.0060),
                        crumbs)
