@@ -127,3 +127,40 @@ def test_moving_ground_is_said():
     assert compat.positions(obj.data)[:, 2].max() == 0.0
     np.testing.assert_allclose(mesh_of(surface)[0][:, 2], 0.0, atol=1e-6)
     assert not read(meshes.grid(4, 4, 1.0), frame_end=20).warnings
+
+
+def area(surface):
+    vertices, triangles, _ = mesh_of(surface)
+    a, b, c = (vertices[triangles[:, k], :2] for k in range(3))
+    return 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum()
+
+
+def polygons(name, points, faces):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    return meshes.link(bpy.data.objects.new(name, mesh))
+
+
+def test_faces_of_any_size():
+    # a dented quad and a dented pentagon keep their area
+    dart = polygons("Dart", [(0, 0, 0), (1, 1, 0), (0, 3, 0), (-1, 1, 0), (0, 2, 0)], [(0, 1, 4, 3)])
+    assert abs(area(read(dart)) - 2.0) < 1e-6
+    turned = polygons("Turned", [(0, 0, 0), (1, 1, 0), (0, 2, 0), (-1, 1, 0)], [(1, 2, 3, 0)])
+    assert abs(area(read(turned)) - 2.0) < 1e-6
+    dent = polygons("Dent", [(0, 0, 0), (2, 0, 0), (2, 2, 0), (1, 0.5, 0), (0, 2, 0)],
+                    [(0, 1, 2, 3, 4)])
+    assert abs(area(read(dent)) - 2.5) < 1e-6
+    mixed = polygons("Mixed", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)],
+                     [(0, 1, 2, 3), (1, 4, 2)])
+    assert abs(area(read(mixed)) - 1.5) < 1e-6
+
+
+def test_only_what_reaches_into_the_box():
+    obj = meshes.grid(101, 101, 0.1)
+    obj.location.x = 2.0
+    part = read(obj, box=(3.05, 1.05, 4.02, 2.02))
+    vertices, triangles, _ = mesh_of(part)
+    assert len(triangles) == 2 * 11 * 11 and abs(vertices[:, 0].min() - 3.0) < 1e-5
+    large = polygons("Large", [(-90, -90, 0), (90, -90, 0), (90, 90, 0), (-90, 90, 0)], [(0, 1, 2, 3)])
+    assert len(mesh_of(read(large, box=(3, 3, 4, 4)))[1]) == 2
+    refused(lambda: read(obj, box=(30, 1, 40, 2)), "beside the ground")

@@ -18,7 +18,7 @@ def test_modal_bake(folder):
     if shutil.which("Xvfb") is None:
         raise Skip("there is no Xvfb")
     read, write = os.pipe()
-    screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1300x1500x24"],
+    screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "900x900x24"],
                               pass_fds=(write,), stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL)
     os.close(write)
@@ -30,7 +30,7 @@ def test_modal_bake(folder):
         with open(log, "w", encoding="utf-8") as out:
             child = subprocess.Popen(
                 [bpy.app.binary_path, "--factory-startup", "--enable-event-simulate", "-noaudio", "-p",
-                 "0", "0", "1300", "1500", "--python-exit-code", "1", "--python", str(SCRIPT), "--",
+                 "0", "0", "900", "900", "--python-exit-code", "1", "--python", str(SCRIPT), "--",
                  str(folder)],
                 env={**os.environ, "PATH": "/usr/bin:/bin", "DISPLAY": f":{display}"}, stdout=out,
                 stderr=subprocess.STDOUT)

@@ -86,7 +86,7 @@ def story():
     assert bpy.ops.object.desire_path_cancel() == {"FINISHED"}
     yield from until(lambda: op_bake.running() is None)
     index = bake.read_index(str(FOLDER / "bake"))
-    assert not index.complete and index.frames >= 36
+    assert not index.complete and index.frames >= 36, index
     bake.Simulation.write_frame = write_frame
     yield 0.3
     press_bake()

@@ -45,6 +45,19 @@ def points(world, local, scale):
     return out
 
 
+def beyond(world, local, scale, box):
+    """On which sides of a rectangle (x0, y0, x1, y1) [m] local points lie: a bit a side, 0 inside;
+    uint8 (n,). To float32."""
+    out = np.zeros(len(local), np.uint8)
+    turn = (world[:2] * scale).astype(np.float32)
+    for axis in (0, 1):
+        a, b, c, at = turn[axis]
+        along = local[:, 0] * a + local[:, 1] * b + local[:, 2] * c + at
+        out |= (along < box[axis]).view(np.uint8) << 2 * axis
+        out |= (along > box[axis + 2]).view(np.uint8) << 2 * axis + 1
+    return out
+
+
 def sizes(world):
     """The scale of an object's axes as a matrix (4, 4); a mirrored object is mirrored along X."""
     out = np.eye(4)

@@ -29,6 +29,21 @@ def triangles(mesh):
     return out
 
 
+def faces(mesh):
+    """Vertex index of every corner, int32 (c,), and where each face's corners begin, int32 (f + 1,)."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    starts = np.empty(len(mesh.polygons) + 1, np.int32)
+    starts[-1] = len(corners)
+    if len(corners):
+        attribute = mesh.attributes.get(".corner_vert")
+        if attribute is not None:
+            attribute.data.foreach_get("value", corners)
+        else:
+            mesh.loops.foreach_get("vertex_index", corners)
+        mesh.polygons.foreach_get("loop_start", starts[:-1])
+    return corners, starts
+
+
 def float_attribute(mesh, name):
     """Values of a float point attribute, float32 (n,), or None where there is none."""
     attribute = mesh.attributes.get(name)

@@ -35,8 +35,14 @@ def fill(obj, surface, index, depth):
         return [f"The mesh of '{obj.name}' is linked from another file: no attributes were written."]
     planes = _planes(index)
     local = compat.positions(mesh)
-    at = axes.points(surface.world, local, surface.scale)[:, :2]
-    value = {name: _sample(plane, at, index) for name, plane in planes.items()}
+    box = (index.x0 - index.cell, index.y0 - index.cell, index.x0 + (index.nx + 1) * index.cell,
+           index.y0 + (index.ny + 1) * index.cell)
+    over = np.flatnonzero(axes.beyond(surface.world, local, surface.scale, box) == 0)
+    at = axes.points(surface.world, local[over], surface.scale)[:, :2]
+    value = {}
+    for name, plane in planes.items():
+        value[name] = np.zeros(len(local), np.float32)
+        value[name][over] = _sample(plane, at, index)
     warnings = []
     if settings.attributes:
         made = []
@@ -82,24 +88,19 @@ def _planes(index):
 def _sample(plane, at, index):
     """Values at world points (n, 2) [m], between cell centres in proportion; 0 outside."""
     ny, nx = plane.shape
-    out = np.zeros(len(at), np.float32)
-    low, high = (index.x0, index.y0), (index.x0 + nx * index.cell, index.y0 + ny * index.cell)
-    inside = np.flatnonzero((at[:, 0] > low[0]) & (at[:, 0] < high[0])
-                            & (at[:, 1] > low[1]) & (at[:, 1] < high[1]))
-    place = (at[inside] - low) / index.cell - 0.5
+    place = (at - (index.x0, index.y0)) / index.cell - 0.5
     near = np.round(place)
     place = np.where(np.abs(place - near) < playback.ALIGNED, near, place)
-    base = np.floor(place).astype(np.int64)
-    part = (place - base).astype(np.float32)
-    value = np.zeros(len(inside), np.float32)
+    low = np.floor(place).astype(np.int64)
+    part = (place - low).astype(np.float32)
+    out = np.zeros(len(at), np.float32)
     for dj in (0, 1):
         for di in (0, 1):
-            i, j = base[:, 0] + di, base[:, 1] + dj
+            i, j = low[:, 0] + di, low[:, 1] + dj
             there = (i >= 0) & (i < nx) & (j >= 0) & (j < ny)
             share = ((part[:, 0] if di else 1.0 - part[:, 0])
                      * (part[:, 1] if dj else 1.0 - part[:, 1]))
-            value[there] += share[there] * plane[j[there], i[there]]
-    out[inside] = value
+            out[there] += share[there] * plane[j[there], i[there]]
     return out
 
 

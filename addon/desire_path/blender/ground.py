@@ -4,6 +4,7 @@ The mesh is taken as it stands at the first frame, with every modifier but the o
 bake: a subdivided or displaced ground is walked on as it looks.
 """
 from dataclasses import dataclass
+from itertools import product
 
 import bpy
 import numpy as np
@@ -12,6 +13,7 @@ from ..errors import DesirePathError
 from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
+NEAR = 1.5  # ground this far around the feet is read [m]
 BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
@@ -29,8 +31,11 @@ class Surface:
     warnings: tuple
 
 
-def read(scene, obj, cell, frame_start, frame_end=None):
-    """The ground an object is, or a sentence that says why it is none."""
+def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
+    """The ground an object is, or a sentence that says why it is none.
+
+    box: (x0, y0, x1, y1) of the world: faces that do not reach into it are left out [m]
+    """
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
     scale = axes.unit_scale(scene)
@@ -58,37 +63,62 @@ def read(scene, obj, cell, frame_start, frame_end=None):
                 warnings.append(f"'{obj.name}' moves between the frames: it is walked on as it lies "
                                 f"at frame {frame_start}.")
             local = compat.positions(found.data)
-            triangles = compat.triangles(found.data)
+            faces = len(found.data.polygons)
+            finite = not len(local) or (local.min() > -axes.FAR and local.max() < axes.FAR)
+            triangles = _triangles(found.data, world, scale, box) if finite else None
             weights = [compat.float_attribute(found.data, WEIGHT.format(k))
                        for k in range(len(groups))]
     finally:
         bpy.data.objects.remove(copy)
         if tree is not None:
             bpy.data.node_groups.remove(tree)
-    if not len(triangles):
+    if not faces:
         raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
-    bad = np.flatnonzero(~(np.abs(local) < axes.FAR).all(axis=1))
-    if len(bad):
+    if not finite:
+        bad = np.flatnonzero(~(np.abs(local) < axes.FAR).all(axis=1))
         raise DesirePathError(f"Vertex {bad[0]} of '{obj.name}' is NaN or infinite: move or remove "
                               "it in Edit Mode.")
-    vertices = axes.points(world, local, scale)
+    ends = [(local[:, k].min(), local[:, k].max()) for k in range(3)]
+    if not len(triangles):
+        raise DesirePathError(f"The walk passes beside the ground '{obj.name}': move the walker or "
+                              "the ground so that one lies over the other.")
+    used = np.zeros(len(local), bool)
+    used[triangles] = True
+    triangles = (np.cumsum(used, dtype=np.int32) - 1)[triangles]
+    vertices = axes.points(world, local[used], scale)
     _faces_up(obj, world, vertices, triangles)
-    kinds = _kinds(weights, len(vertices)) if groups else None
+    kinds = _kinds([w[used] if w is not None else None for w in weights],
+                   len(vertices)) if groups else None
     from ..sim import Ground  # the core is loaded when it is first needed
-    low, high = local.min(axis=0), local.max(axis=0)
-    corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])
-                        for z in (low[2], high[2])], np.float64)
-    return Surface(Ground.mesh(vertices, triangles, kinds), world, scale, vertices, corners,
-                   _cell_corner(vertices, cell), tuple(warnings))
+    return Surface(Ground.mesh(vertices, triangles, kinds), world, scale, vertices,
+                   np.array(list(product(*ends)), np.float64), _cell_corner(vertices, cell),
+                   tuple(warnings))
 
 
-def under(obj, surface, gait):
-    """Refuse a walk that never comes over the ground."""
+def under(gait):
+    """The rectangle of the world the feet come near (x0, y0, x1, y1) [m]."""
     feet = gait.pose[..., :2].reshape(-1, 2)
-    low, high = surface.vertices[:, :2].min(axis=0), surface.vertices[:, :2].max(axis=0)
-    if not ((feet >= low) & (feet <= high)).all(axis=1).any():
-        raise DesirePathError(f"The walk passes beside the ground '{obj.name}': move the walker or the "
-                              "ground so that one lies over the other.")
+    return (*(feet.min(axis=0) - NEAR), *(feet.max(axis=0) + NEAR))
+
+
+def _triangles(mesh, world, scale, box):
+    """The mesh's faces cut into triangles, int32 (m, 3), without those beyond the box."""
+    local = compat.positions(mesh)
+    side = axes.beyond(world, local, scale, box) if box is not None else None
+    corners, starts = compat.faces(mesh)
+    sizes = np.diff(starts)
+    if len(sizes) and sizes.max() > 4:
+        out = compat.triangles(mesh)
+        return out if box is None else out[np.bitwise_and.reduce(side[out], axis=1) == 0]
+    wanted = np.ones(len(sizes), bool)
+    if box is not None and len(sizes):
+        wanted = np.bitwise_and.reduceat(side[corners], starts[:-1]) == 0
+    three = corners[starts[:-1][wanted & (sizes == 3)][:, None] + np.arange(3)]
+    four = corners[starts[:-1][wanted & (sizes == 4)][:, None] + np.arange(4)]
+    a, b, c, d = (local[four[:, k]] for k in range(4))
+    dent = np.sum(np.cross(b - a, c - a) * np.cross(c - a, d - a), axis=1) < 0.0
+    four[dent] = np.roll(four[dent], -1, axis=1)  # along the diagonal that lies inside
+    return np.concatenate((three, four[:, (0, 1, 2)], four[:, (0, 2, 3)]))
 
 
 def _faces_up(obj, world, vertices, triangles):

@@ -27,7 +27,9 @@ def refresh(scene, obj):
         settings.missing = op_bake.missing(index)
         return
     try:
-        surface = ground.read(scene, obj, index.cell, index.frame_start)
+        box = (index.x0, index.y0, index.x0 + index.nx * index.cell,
+               index.y0 + index.ny * index.cell)
+        surface = ground.read(scene, obj, index.cell, index.frame_start, box=box)
         op_bake.play(obj, surface)
     except DesirePathError as problem:
         settings.missing = str(problem)

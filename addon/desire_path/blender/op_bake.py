@@ -9,6 +9,7 @@ runs); with a window the same steps run in slices, so that Blender stays awake a
 import json
 import os
 import time
+from contextlib import closing
 
 import bpy
 
@@ -74,24 +75,25 @@ class Job:
         from ..bake import Bake  # the core is loaded when it is first needed
         scene, obj = bpy.data.scenes[self.scene_name], self.object()
         settings = obj.desire_path
-        cell = axes.typed(settings.cell_size)
-        self.surface = ground.read(scene, obj, cell, settings.frame_start, settings.frame_end)
-        self.warnings += self.surface.warnings
-        yield
         there = [bpy.data.objects[name] for name in self.walkers]
         gait = sample.gaits(scene, there, settings.frame_start, settings.frame_end)
+        yield
+        cell = axes.typed(settings.cell_size)
+        self.surface = ground.read(scene, obj, cell, settings.frame_start, settings.frame_end,
+                                   box=ground.under(gait))
+        self.warnings += self.surface.warnings
         self.recorded = time.perf_counter() - self.begun
-        ground.under(obj, self.surface, gait)
         yield
         self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path,
                          cell_size=cell, frame_start=settings.frame_start,
                          frame_end=settings.frame_end, load_model=self.model, law=settings.law,
                          heap=settings.heap, threads=settings.threads, origin=self.surface.origin)
         self.text = "Baking"
-        for progress in self.bake.run():
-            self.fraction = progress.fraction
-            self.text = f"Baking frame {progress.frame}"
-            yield
+        with closing(self.bake.run()) as frames:
+            for progress in frames:
+                self.fraction = progress.fraction
+                self.text = f"Baking frame {progress.frame}"
+                yield
 
     def finish(self):
         """Play what was baked and say what it is; returns a sentence."""
