@@ -322,6 +322,19 @@ def test_user_frame_and_selection_stay(folder):
     assert {each for each in ids() - known} == {("node_groups", "Desire Path Ground")}
 
 
+def test_rig_on_the_grounds_surface(folder):
+    # feet that cling to the ground must not cling to the print they are about to make
+    ground, walker = scene(folder, frames=16)
+    for side in "LR":
+        cling = walker.pose.bones["foot." + side].constraints.new("SHRINKWRAP")
+        cling.target, cling.shrinkwrap_type, cling.distance = ground, "PROJECT", 0.08
+        cling.project_axis, cling.project_axis_space = "NEG_Z", "WORLD"
+    first = pressed(ground)
+    again = pressed(ground)
+    assert again.tobytes() == first.tobytes() and first.max() > 0.003
+    assert playback.modifier(ground).show_viewport
+
+
 # ---- what is wrong is said in a sentence ------------------------------------------------------------
 
 

@@ -7,7 +7,7 @@ import pathlib
 import bpy
 import numpy as np
 
-from desire_path import bake, maps, sim
+from desire_path import bake, maps, sim, walker
 from desire_path.blender import sample
 from desire_path.gait import Gait
 from run import Skip
@@ -64,11 +64,11 @@ def check(report, ground, folder, contacts, deepest=(0.004, 0.12)):
 
 
 def clip(name, folder, contacts, lift=0.0, **more):
-    walker = people.bvh(data("mocap", name + ".bvh"), global_scale=CMU)
-    ground, gait = ground_under(walker, lift)
-    first, last = sample.frame_range(bpy.context.scene, walker)
+    person = people.bvh(data("mocap", name + ".bvh"), global_scale=CMU)
+    ground, gait = ground_under(person, lift)
+    first, last = sample.frame_range(bpy.context.scene, person)
     assert gait.frame_start == first and len(gait.time) == last - first + 1
-    report = walk_over(walker, ground, folder)
+    report = walk_over(person, ground, folder)
     settings = ground.desire_path
     assert (settings.frame_start, settings.frame_end) == (first, last)
     check(report, ground, folder, contacts, **more)
@@ -138,20 +138,53 @@ def test_character_in_place(folder):
     assert report["contacts"] >= 2 and 0.002 < report["deepest_m"] < 0.1, report
 
 
-def test_measured_walks_are_recorded(folder):
-    for name, rate, mass in (("gait_bmc_walk1", 150.0, 77.3), ("gait_opensim_walk", None, None)):
+PLATES = (("gait_bmc_walk1", 77.3, (0.31, 2.42)), ("gait_opensim_walk", 72.6, (0.05, 2.45)))
+
+
+def test_measured_walks_agree_with_force_plates(folder):
+    for name, mass, window in PLATES:
         place = data(name)
-        meta = json.loads((place / "meta.json").read_text())
-        walker = people.bvh(place / "armature.bvh")
-        assert bpy.ops.object.desire_path_record(filepath=str(folder / f"{name}.npz")) == {"FINISHED"}
-        gait = Gait.load(str(folder / f"{name}.npz"))
-        first, last = sample.frame_range(bpy.context.scene, walker)
+        walker_object = people.bvh(place / "armature.bvh")
+        walker_object.desire_path.mass = mass
+        path = str(folder / f"{name}.npz")
+        assert bpy.ops.object.desire_path_record(filepath=path) == {"FINISHED"}
+        gait = Gait.load(path)
+        first, last = sample.frame_range(bpy.context.scene, walker_object)
         assert len(gait.time) == last - first + 1 and gait.time[0] == 0.0
-        if rate:
-            assert abs(gait.frame_rate - rate) < 1e-2, gait.frame_rate
-        print(f"        {name}: {len(gait.time)} frames at {gait.frame_rate:.4f}, "
-              f"limbs {gait.limb_name}, {sorted(meta)[:6]}")
-        bpy.data.objects.remove(walker)
+        table = np.genfromtxt(place / "grf.csv", delimiter=",", names=True)
+        for model in ("inertia", "impulse"):
+            loads = walker.loads(gait, model)
+            inside = (loads.time >= window[0]) & (loads.time <= window[1])
+            total, edges = 0.0, []
+            for limb, bone in enumerate(gait.limb_name):
+                parts = gait.part_limb == limb
+                force = -loads.force[parts, :, 2].sum(axis=0) / (mass * 9.81)
+                there = table[f"{bone[0]}_fz"]
+                true = np.interp(loads.time, table["time"], there) / (mass * 9.81)
+                rmse = np.sqrt(np.mean((force - true)[inside] ** 2))
+                r = np.corrcoef(force[inside], true[inside])[0, 1]
+                total += force[inside].mean()
+                on = loads.touching[parts].any(axis=0)
+                down = np.interp(loads.time, table["time"], (there > 20) * 1.0) > 0.5
+                edges += late(on, down, loads.time, inside)
+                print(f"        {name} {bone} {model}: RMSE {rmse:.3f} body weights, r {r:.3f}")
+                if model == "inertia":
+                    assert rmse <= 0.10 and r >= 0.97
+            print(f"        {name} {model}: mean total {total:.3f} body weights, {len(edges)} contact "
+                  f"times within {1000 * max(edges):.0f} ms")
+            if model == "inertia":
+                assert 0.97 <= total <= 1.05 and len(edges) >= 5 and max(edges) <= 0.060
+        bpy.data.objects.remove(walker_object)
+
+
+def late(on, down, time, inside):
+    """Seconds between each touch-down or lift-off of the plates and the nearest of ours."""
+    out = []
+    for way in (1, -1):
+        ours, plates = (np.flatnonzero(np.diff(each.astype(int)) == way) + 1 for each in (on, down))
+        out += [np.abs(time[ours] - time[edge]).min() for edge in plates
+                if inside[edge] and 2 < edge < len(time) - 2]
+    return out
 
 
 def test_recordings_agree_in_every_blender():

@@ -250,7 +250,11 @@ def test_no_feet():
 
 
 def test_recording_again_is_the_same():
-    obj = everything()
-    first, second = (sample.record(bpy.context.scene, obj, *FRAMES) for _ in range(2))
-    assert first.pose.tobytes() == second.pose.tobytes()
-    assert first.com.tobytes() == second.com.tobytes()
+    # wherever arrays happen to lie in memory: a stopped bake goes on only from the very same walk
+    obj = people.walk(people.biped(), frames=60)
+    held, found = [], set()
+    for turn in range(12):
+        held.append(bytearray(1 + 777 * turn))
+        gait = sample.record(bpy.context.scene, obj, 1, 60)
+        found.add(gait.pose.tobytes() + gait.com.tobytes())
+    assert len(found) == 1

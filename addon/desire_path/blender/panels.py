@@ -53,10 +53,10 @@ def draw_ground(layout, context, obj):
             row.label(text=f"{job.text}, {100 * job.fraction:.0f} %")
         row.operator("object.desire_path_cancel", text="", icon="X")
     else:
-        row = layout.row(align=True)
+        row = layout.row()
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
-        row.operator("object.desire_path_free", text="Free", icon="TRASH")
+        layout.operator("object.desire_path_free", icon="TRASH")
     draw_result(layout, context, settings)
 
 
@@ -78,7 +78,7 @@ def draw_result(layout, context, settings):
 
 def _letters(context):
     """About how many letters fit into a line of the panel."""
-    return max(16, int((context.region.width / context.preferences.system.ui_scale - 70) / 6.5))
+    return max(16, int((context.region.width / context.preferences.system.ui_scale - 60) / 6.0))
 
 
 def _lines(layout, text, icon, width):

@@ -42,9 +42,13 @@ def evaluated(own, obj, frame):
 
 
 @contextmanager
-def still(grounds):
-    """Grounds as they were before any bake, for rigs that are bound to the ground's surface."""
-    ours = [m for m in map(playback.modifier, grounds) if m is not None and m.show_viewport]
+def still(armature):
+    """Grounds this rig is bound to (by shrinkwrap, say) as they were before any bake."""
+    bound = list(armature.constraints)
+    for bone in armature.pose.bones if armature.pose else ():
+        bound += bone.constraints
+    targets = {getattr(each, "target", None) for each in bound} - {None}
+    ours = [m for m in map(playback.modifier, targets) if m is not None and m.show_viewport]
     for each in ours:
         each.show_viewport = False
     try:
@@ -239,8 +243,7 @@ def record(scene, armature, frame_start, frame_end, samples=None):
     samples = samples or settings.subframes
     scale, rate = axes.unit_scale(scene), frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
-    grounds = [obj for obj in scene.objects if obj.type == "MESH" and obj.desire_path.is_ground]
-    with still(grounds), private_scene(scene, armature) as own:
+    with still(armature), private_scene(scene, armature) as own:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found = rig(armature, shape)
