@@ -312,6 +312,27 @@ def test_two_walkers(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
 
 
+def test_copies_and_names_do_not_mix_bakes(folder):
+    (folder / "here").mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "a.blend"))
+    ground, walker = scene(frames=8)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    first, _ = shown(ground, 8)
+    copy = meshes.link(ground.copy())
+    copy.data = ground.data.copy()
+    meshes.activate(copy)
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    assert shown(ground, 8)[0].tobytes() == first.tobytes()
+    assert (folder / "here" / "desire_path" / "Ground" / "frames" / "trail_0008.exr").exists()
+    walker.desire_path.ground = copy
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert copy.desire_path.folder == "//desire_path/Ground_001"
+    assert shown(copy, 8)[0].tobytes() == first.tobytes()
+    copy.name = "Renamed"
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert copy.desire_path.folder == "//desire_path/Ground_001"
+
+
 def test_user_frame_and_selection_stay(folder):
     ground, walker = scene(folder, frames=8)
     bpy.context.scene.frame_set(5, subframe=0.25)
@@ -350,6 +371,8 @@ def test_bad_input(folder):
     refused(operator.desire_path_ground_add, "no faces")
     cube = meshes.grid(4, 4, 1.0, name="Plain")
     meshes.activate(cube)
+    refused(operator.desire_path_walker_add, "armature")
+    refused(operator.desire_path_record, "armature")
     refused(operator.desire_path_bake, "no ground yet")
     refused(operator.desire_path_free, "no ground")
     ground, walker = scene(folder, frames=10)

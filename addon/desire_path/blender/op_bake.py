@@ -50,16 +50,15 @@ class Job:
         if last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
-        if settings.folder_auto or not settings.folder:
+        if not settings.folder or settings.folder_auto and not _fits(obj):
             props.set_auto(settings, folder=props.default_folder(obj))
         if settings.folder.startswith("//") and not bpy.data.filepath:
             raise DesirePathError("The folder lies beside a file that was never saved: save the file "
                                   "or choose another folder.")
         self.path = folder(obj)
-        for other in grounds(scene):
-            if other != obj and other.desire_path.folder and self.path == folder(other):
-                raise DesirePathError(f"'{other.name}' bakes into the same folder: choose another one "
-                                      "for either.")
+        for other in sharing(obj):
+            raise DesirePathError(f"'{other.name}' bakes into the same folder: choose another one for "
+                                  "either.")
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]
 
@@ -75,7 +74,10 @@ class Job:
         from ..bake import Bake  # the core is loaded when it is first needed
         scene, obj = bpy.data.scenes[self.scene_name], self.object()
         settings = obj.desire_path
-        there = [bpy.data.objects[name] for name in self.walkers]
+        there = [bpy.data.objects.get(name) for name in self.walkers]
+        if None in there:
+            raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake "
+                                  "again.")
         gait = sample.gaits(scene, there, settings.frame_start, settings.frame_end)
         yield
         cell = axes.typed(settings.cell_size)
@@ -123,6 +125,19 @@ def folder(obj):
     return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
 
 
+def sharing(obj):
+    """Other grounds of the file with the same bake folder."""
+    own = folder(obj)
+    return [other for scene in bpy.data.scenes for other in grounds(scene)
+            if other != obj and other.desire_path.folder and folder(other) == own]
+
+
+def _fits(obj):
+    """Whether a folder nobody chose may stay: beside the file once that is saved, and not shared."""
+    return (obj.desire_path.folder.startswith("//") == bool(bpy.data.filepath)
+            and not sharing(obj))
+
+
 def play(obj, surface):
     """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
     sentences about what could not be written."""
@@ -163,8 +178,10 @@ def free(obj):
     playback.detach(obj)
     cover.remove(obj)
     if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
-        bake.free(folder(obj))
-        if settings.folder_auto:
+        shared = sharing(obj)
+        if not shared:
+            bake.free(folder(obj))
+        if settings.folder_auto and not shared:
             try:
                 os.rmdir(os.path.dirname(folder(obj)))  # `desire_path`, when no other ground is in it
             except OSError:
@@ -255,7 +272,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
                 self.report({"ERROR"}, str(problem))
                 return {"CANCELLED"}
             return {"FINISHED"}
-        except (DesirePathError, OSError, MemoryError, KeyError) as problem:
+        except (DesirePathError, OSError, MemoryError) as problem:
             self.leave(context)
             if job.bake is not None:
                 self.salvage(job)

@@ -35,6 +35,8 @@ def draw_ground(layout, context, obj):
     frames.prop(settings, "frame_start", text="Frame Start")
     frames.prop(settings, "frame_end")
     column.prop(settings, "folder")
+    if settings.folder_auto and not bpy.data.filepath:
+        _lines(column, "Temporary: save the file, then bake, to keep it", "INFO", _letters(context))
 
     layout.label(text="Walkers")
     box = layout.box().column(align=True)
