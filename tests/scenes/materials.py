@@ -86,7 +86,8 @@ def ground():
     fray = n.math("ADD", n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 1.5),
                   n.math("MULTIPLY", n.math("SUBTRACT", grain, 0.5), 0.8))
     snow = n.between(n.math("ADD", shares["Green"], fray), 0.38, 0.62)
-    mud = n.between(n.math("ADD", shares["Blue"], fray), 0.38, 0.62)
+    below = n.math("ADD", n.math("SUBTRACT", shares["Blue"], shares["Red"]), fray)
+    mud = n.math("MULTIPLY", n.between(below, -0.12, 0.12), n.math("SUBTRACT", 1.0, snow))
 
     # colours, dry and pressed
     spot = n.between(grain, 0.35, 0.7)
@@ -103,9 +104,9 @@ def ground():
 
     # roughness: mud is damp, wet where it was pressed
     wet = n.math("MAXIMUM", pressed, n.between(wide, 0.50, 0.66, 0.0, 0.35))
-    mud_rough = n.between(wet, 0.0, 1.0, 0.78, 0.33)
+    mud_rough = n.between(wet, 0.0, 1.0, 0.78, 0.38)
     roughness = n.mix(mud, n.mix(snow, 0.95, 0.60), mud_rough)
-    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.20, 0.36))
+    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.20, 0.26))
 
     # heights too small for the mesh [m]: how high the grain, the clods and the lumps are, by soil
     crumbs = n.math("MULTIPLY", heap, 0.0035)
