@@ -64,8 +64,8 @@ def main():
                 co = compat.positions(obj.data)
                 box = np.array([(x, y, 0.0) for x in (co[0, 0], co[-1, 0])
                                 for y in (co[0, 1], co[-1, 1])])
-                playback.attach(obj, str(folder / "frames"), at, count=COUNT, world=np.eye(4), scale=1.0,
-                                smooth=name == "linear", corners=box,
+                playback.attach(obj, str(folder / "frames"), at, count=COUNT, world=np.eye(4),
+                                scale=1.0, smooth=name == "linear", corners=box,
                                 layer_depth=0.3 if groups else 0.0)
                 middle, worst = measure(obj)
                 print(f"{bpy.app.version_string} {side:5d}^2 {name:10s} {middle:7.1f} ms a frame_set "

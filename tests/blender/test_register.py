@@ -73,7 +73,8 @@ def test_a_script_that_only_registers_ends(folder):
     if bpy.app.binary_path:
         return
     place = pathlib.Path(desire_path.__file__).parent.parent
-    script = "import sys, bpy; sys.path.insert(0, sys.argv[1]); import desire_path; desire_path.register()"
+    script = ("import sys, bpy; sys.path.insert(0, sys.argv[1]); "
+              "import desire_path; desire_path.register()")
     done = subprocess.run([sys.executable, "-c", script, str(place)], capture_output=True, text=True,
                           timeout=60)
     assert done.returncode == 0, done.stderr

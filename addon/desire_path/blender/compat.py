@@ -30,7 +30,7 @@ def triangles(mesh):
 
 
 def faces(mesh):
-    """Vertex index of every corner, int32 (c,), and where each face's corners begin, int32 (f + 1,)."""
+    """Vertex of every corner, int32 (c,), and where each face's corners begin, int32 (f + 1,)."""
     corners = np.empty(len(mesh.loops), np.int32)
     starts = np.empty(len(mesh.polygons) + 1, np.int32)
     starts[-1] = len(corners)

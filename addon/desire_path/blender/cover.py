@@ -48,7 +48,8 @@ def fill(obj, surface, index, depth):
         made = []
         for name, each in value.items():
             if name in mesh.attributes:
-                warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left alone.")
+                warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left "
+                                "alone.")
                 continue
             made.append(mesh.attributes.new(name, "FLOAT", "POINT").name)
             mesh.attributes[name].data.foreach_set("value", each)

@@ -190,7 +190,7 @@ def free(obj):
 
 
 class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
-    """Let the walkers press their prints into the active ground, frame by frame, into files that play without this add-on"""
+    """Press the walkers' prints into the active ground, in files that play without this add-on"""
 
     bl_idname = "object.desire_path_bake"
     bl_label = "Bake Trail"

@@ -113,7 +113,8 @@ def motion(own, armature, names, frames, rate, scale):
         t, b = np.argwhere(bad)[0]
         raise DesirePathError(
             f"Bone '{names[b]}' of '{armature.name}' has no usable transform at frame "
-            f"{frames[t]:g} (NaN, infinite, or scaled to nothing): look at its keys and drivers there.")
+            f"{frames[t]:g} (NaN, infinite, or scaled to nothing): look at its keys and drivers "
+            "there.")
     time = (np.asarray(frames, np.float64) - frames[0]) / rate
     return body.Motion(time, tuple(names), axes.rigid(out, scale))
 
@@ -249,8 +250,8 @@ def record(scene, armature, frame_start, frame_end, samples=None):
         found = rig(armature, shape)
         moved = motion(own, armature, found.bones, frames, rate, scale)
     worn = skin(scene, armature, found.feet, world, scale)
-    return body.gait_from_bones(shape, moved, mass=axes.typed(settings.mass), name=armature.name, rig=found,
-                                skin=worn, frame_rate=rate, frame_start=frame_start)
+    return body.gait_from_bones(shape, moved, mass=axes.typed(settings.mass), name=armature.name,
+                                rig=found, skin=worn, frame_rate=rate, frame_start=frame_start)
 
 
 def gaits(scene, walkers, frame_start, frame_end):
