@@ -15,6 +15,7 @@ plays until the new one is whole.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import math
@@ -34,7 +35,6 @@ from .version import VERSION
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
-NEAR = 1.0  # ground this far around the feet is looked at [m]
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
@@ -68,7 +68,7 @@ class FrameIndex:
 class Progress:
     """How far a bake has come."""
 
-    frame: int  # scene frame just written
+    frame: int  # scene frame just simulated; the one before is on the disk
     fraction: float  # 0..1
 
 
@@ -113,13 +113,14 @@ def read_index(folder):
 def free(folder):
     """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
     root = Path(folder)
-    known = [("frames", "trail_*.exr"), ("frames.new", "trail_*.exr"), ("frames", "index.json"),
-             ("frames.new", "index.json"), ("maps", "second_*.exr"), (".", "maps_start.exr"),
-             (".", "maps_final.exr"), (".", "report.json")]
+    known = [(frames, name) for frames in ("frames", "frames.new", "frames.old")
+             for name in ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")]
+    known += [("maps", "second_*.exr"), ("maps", "second_*.part"), (".", "maps_start.exr"),
+              (".", "maps_final.exr"), (".", "maps_*.part"), (".", "report.json"), (".", "report.json.part")]
     for place, pattern in known:
         for path in (root / place).glob(pattern):
             path.unlink()
-    for place in ("frames", "frames.new", "maps", "."):
+    for place in ("frames", "frames.new", "frames.old", "maps", "."):
         try:
             (root / place).rmdir()
         except OSError:
@@ -152,7 +153,7 @@ class Bake:
             )
         gait.check()
         self.gait = gait
-        self.ground = self._under(gait, ground)
+        self.ground = ground
         self.soils = as_soils(soils)
         self.folder = os.path.abspath(os.fspath(folder))
         self.frame_rate = float(gait.frame_rate)
@@ -172,15 +173,6 @@ class Bake:
         self.threads = threads
         self.loads = None
         self.report = None
-
-    @staticmethod
-    def _under(gait, ground):
-        """The ground the feet come near, with room for heaps and slopes."""
-        feet = gait.pose[..., :2].reshape(-1, 2)
-        ground = ground.near(*(feet.min(axis=0) - NEAR), *(feet.max(axis=0) + NEAR))
-        if ground.native[0] == "mesh" and not len(ground.native[2]):
-            raise DesirePathError(BESIDE)
-        return ground
 
     # ---- what is baked --------------------------------------------------------------------------
 
@@ -282,7 +274,10 @@ class Bake:
                 spent_step += stepped - begun
                 spent_write += time.perf_counter() - stepped
                 yield Progress(frame, number / count)
+            sim.flush()
         except (GeneratorExit, OSError):
+            with contextlib.suppress(OSError):
+                sim.flush()
             self._publish(fresh, only_if_free=True)
             raise
 
@@ -350,10 +345,10 @@ class Bake:
         return done
 
     def _publish(self, fresh, only_if_free=False):
-        """Let the fresh frames take the place of the old ones."""
+        """Let the fresh frames take the place of the old ones; only_if_free: not of a whole bake."""
         frames = os.path.join(self.folder, "frames")
         if os.path.exists(frames):
-            if only_if_free:
+            if only_if_free and _is_whole(frames):
                 return
             old = os.path.join(self.folder, "frames.old")
             shutil.rmtree(old, ignore_errors=True)
@@ -413,6 +408,14 @@ class Bake:
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
         }
+
+
+def _is_whole(frames):
+    try:
+        with open(os.path.join(frames, "index.json"), encoding="utf-8") as file:
+            return bool(json.load(file).get("complete"))
+    except (OSError, ValueError, AttributeError):
+        return False
 
 
 def _plain(problem):

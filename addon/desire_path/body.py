@@ -88,7 +88,7 @@ def _mean_turn(turns):
     """The mean of rotations, counting those far from it for little."""
     mean = _square(turns.mean(axis=0))
     for _ in range(4):
-        apart = np.arccos(np.clip((np.einsum("tij,ij->t", turns, mean) - 1) / 2, -1, 1))
+        apart = np.sqrt(np.maximum(3.0 - np.einsum("tij,ij->t", turns, mean), 0.0))  # the angle, if small
         weight = 1.0 / np.maximum(apart, 0.01)
         mean = _square(np.einsum("t,tij->ij", weight, turns) / weight.sum())
     return mean

@@ -90,26 +90,6 @@ class Ground:
             kind_weight = np.ascontiguousarray(kind_weight, np.float32).reshape(-1, len(vertices))
         return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
 
-    def near(self, x0, y0, x1, y1):
-        """The part of the ground over a rectangle [m] that a walk needs; faces that reach into it stay
-        whole. Large meshes are cut, other ground is small already."""
-        if self.native[0] != "mesh":
-            return self
-        _, vertices, triangles, kind_weight = self.native
-        x, y = vertices[:, 0], vertices[:, 1]
-        beyond = ((x < x0) | (x > x1) * np.uint8(2) | (y < y0) * np.uint8(4) | (y > y1) * np.uint8(8))
-        corner = beyond.astype(np.uint8)[triangles]
-        inside = (corner[:, 0] & corner[:, 1] & corner[:, 2]) == 0
-        if inside.all():
-            return self
-        triangles = triangles[inside]
-        used = np.zeros(len(vertices), bool)
-        used[triangles] = True
-        if kind_weight is not None:
-            kind_weight = np.ascontiguousarray(kind_weight[:, used])
-        packed = (np.cumsum(used, dtype=np.int32) - 1)[triangles]
-        return Ground(("mesh", vertices[used], packed, kind_weight), self.name)
-
     def arrays(self):
         """The arrays the ground is made of, for telling one ground from another."""
         return [part for part in self.native if isinstance(part, np.ndarray)]
@@ -238,5 +218,12 @@ class Simulation:
         self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}")
 
     def write_frame(self, path, time):
-        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
+        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in.
+
+        The file is written while the next steps run: OSError tells of the frame before, see flush().
+        """
         self._core.write_frame(None if path is None else str(path), float(time))
+
+    def flush(self):
+        """Wait until the last frame is written; OSError when it could not be."""
+        self._core.flush()

@@ -6,7 +6,27 @@
 #include "sim/sim.h"
 
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
+
+#define TILE_FLOATS ((size_t)DP_TILE * DP_TILE * 4)
+#define MANY_TILES 16
+
+// A frame on its way to the disk: the tiles that changed, copied, and the thread that packs them.
+typedef struct Frame
+{
+    DpFrames*  frames;
+    long*      tile;   // place in the frame (room, 2)
+    float*     rgba;   // (room, DP_TILE, DP_TILE, 4)
+    int        count, room, workers;
+    char*      path;   // NULL: packed only
+    double     time;
+    DpStatus   status;
+    atomic_int failed;  // DpStatus of a tile that could not be packed
+    bool       running, threaded;
+    pthread_t  thread;
+} Frame;
 
 typedef struct Simulation
 {
@@ -16,9 +36,13 @@ typedef struct Simulation
     DpFrames*  frames;
     long       tile_x, tile_y;    // lowest tile of the frames
     int        tiles_x, tiles_y;  // 0 = no frames opened
+    Frame      frame[2];          // one is filled while the other is written
+    int        fresh;             // which one is filled next
     int        workers;
     bool       busy;              // a call without the GIL is under way
 } Simulation;
+
+static DpStatus finish_frame(Simulation* self);
 
 // One call at a time: others get a sentence, not a crash.
 static bool enter(Simulation* self)
@@ -35,6 +59,12 @@ static void simulation_dealloc(PyObject* object)
 {
     Simulation*   self = (Simulation*)object;
     PyTypeObject* type = Py_TYPE(object);
+    (void)finish_frame(self);
+    for (int f = 0; f < 2; ++f) {
+        dp_free(self->frame[f].tile);
+        dp_free(self->frame[f].rgba);
+        dp_free(self->frame[f].path);
+    }
     dp_frames_destroy(self->frames);
     dp_sim_destroy(self->sim);
     dp_terrain_destroy(self->terrain);
@@ -401,6 +431,7 @@ static PyObject* simulation_open_frames(Simulation* self, PyObject* args)
         {"channelA", "pressure_time [Pa s]", 0.0},
     };
     DpFrames*      frames = NULL;
+    (void)finish_frame(self);
     const DpStatus status =
         dp_frames_create(&frames, nx, ny, notes, (int)(sizeof notes / sizeof *notes));
     if (status == DP_OK) {
@@ -413,68 +444,100 @@ static PyObject* simulation_open_frames(Simulation* self, PyObject* args)
     return dp_door_result(status, "opening the frames");
 }
 
-// The tiles that changed since the last frame, and what encoding them came to.
-typedef struct Changed
-{
-    Simulation* self;
-    long*       tile;  // (count, 2)
-    float*      rgba;  // one tile a worker
-    DpStatus*   status;
-    int         count, room;
-    bool        no_memory;
-} Changed;
+// ---- frames: one is packed and written while the next is simulated ------------------------------
 
-static void note_changed(void* context, long tx, long ty)
+// Room for one more tile; false when there is no memory.
+static bool make_room(Frame* frame)
 {
-    Changed* changed = context;
-    Simulation* self = changed->self;
+    if (frame->count < frame->room) return true;
+    const int room = frame->room ? 2 * frame->room : 16;
+    long*     tile = dp_realloc(frame->tile, 2 * (size_t)room, sizeof *tile);
+    if (tile) frame->tile = tile;
+    float* rgba = tile ? dp_realloc(frame->rgba, (size_t)room * TILE_FLOATS, sizeof *rgba) : NULL;
+    if (!rgba) return false;
+    frame->rgba = rgba;
+    frame->room = room;
+    return true;
+}
+
+// Copy a tile that changed since the last frame, so that the ground may go on changing.
+static void take_tile(void* context, long tx, long ty)
+{
+    Simulation* self = context;
+    Frame*      frame = &self->frame[self->fresh];
     const bool  inside = tx >= self->tile_x && tx < self->tile_x + self->tiles_x &&
                         ty >= self->tile_y && ty < self->tile_y + self->tiles_y;
-    if (!inside || changed->no_memory) return;
-    if (changed->count == changed->room) {
-        const int room = changed->room ? 2 * changed->room : 64;
-        long*     tile = dp_realloc(changed->tile, 2 * (size_t)room, sizeof *tile);
-        if (!tile) {
-            changed->no_memory = true;
-            return;
-        }
-        changed->tile = tile;
-        changed->room = room;
+    if (!inside || frame->status != DP_OK) return;
+    if (!make_room(frame)) {
+        frame->status = DP_NO_MEMORY;
+        return;
     }
-    changed->tile[2 * changed->count] = tx;
-    changed->tile[2 * changed->count + 1] = ty;
-    ++changed->count;
+    dp_terrain_tile_rgba(self->terrain, tx, ty, frame->rgba + (size_t)frame->count * TILE_FLOATS);
+    frame->tile[2 * frame->count] = tx - self->tile_x;
+    frame->tile[2 * frame->count + 1] = ty - self->tile_y;
+    ++frame->count;
 }
 
-static void encode(void* context, int index, int worker)
+static void pack_tile(void* context, int index, int worker)
 {
-    Changed*    changed = context;
-    Simulation* self = changed->self;
-    float*      rgba = changed->rgba + (size_t)worker * DP_TILE * DP_TILE * 4;
-    const long  tx = changed->tile[2 * index], ty = changed->tile[2 * index + 1];
-    dp_terrain_tile_rgba(self->terrain, tx, ty, rgba);
-    const DpStatus status = dp_frames_set_tile(self->frames, (int)(tx - self->tile_x),
-                                               (int)(ty - self->tile_y), rgba, worker);
-    if (status != DP_OK) changed->status[worker] = status;
+    Frame*         frame = context;
+    const DpStatus status = dp_frames_set_tile(frame->frames, (int)frame->tile[2 * index],
+                                               (int)frame->tile[2 * index + 1],
+                                               frame->rgba + (size_t)index * TILE_FLOATS, worker);
+    if (status != DP_OK) atomic_store(&frame->failed, (int)status);
 }
 
-static DpStatus write_frame(Simulation* self, const char* path, double time)
+static void* write_out(void* context)
 {
-    Changed changed = {.self = self};
-    dp_terrain_changed(self->terrain, note_changed, &changed);
-    DpStatus status = changed.no_memory ? DP_NO_MEMORY : DP_OK;
-    if (status == DP_OK && changed.count > 0) {
-        const int workers = changed.count < 4 ? 1 : self->workers;
-        changed.rgba = dp_alloc((size_t)workers * DP_TILE * DP_TILE * 4, sizeof *changed.rgba);
-        changed.status = dp_alloc((size_t)workers, sizeof *changed.status);
-        if (!changed.rgba || !changed.status) status = DP_NO_MEMORY;
-        else dp_parallel_for(changed.count, workers, encode, &changed);
-        for (int w = 0; status == DP_OK && w < workers; ++w) status = changed.status[w];
+    Frame* frame = context;
+    // the other cores simulate; only a flood of tiles is worth taking them
+    dp_parallel_for(frame->count, frame->count < MANY_TILES ? 1 : frame->workers, pack_tile, frame);
+    frame->status = (DpStatus)atomic_load(&frame->failed);
+    if (frame->status == DP_OK && frame->path)
+        frame->status = dp_frames_write(frame->frames, frame->path, frame->time);
+    return NULL;
+}
+
+// Wait for the frame that is being written; how that went.
+static DpStatus finish_frame(Simulation* self)
+{
+    Frame* frame = &self->frame[!self->fresh];
+    if (!frame->running) return DP_OK;
+    if (frame->threaded) pthread_join(frame->thread, NULL);
+    frame->running = false;
+    return frame->status;
+}
+
+// Take in what changed, wait for the frame before, and start on this one.
+static DpStatus start_frame(Simulation* self, char* path, double time)
+{
+    Frame* frame = &self->frame[self->fresh];
+    frame->count = 0;
+    frame->status = DP_OK;
+    dp_terrain_changed(self->terrain, take_tile, self);
+    const DpStatus before = finish_frame(self);
+    if (before != DP_OK || frame->status != DP_OK) {
+        dp_free(path);
+        return before != DP_OK ? before : frame->status;
     }
-    dp_free(changed.tile);
-    dp_free(changed.rgba);
-    dp_free(changed.status);
-    return status == DP_OK && path ? dp_frames_write(self->frames, path, time) : status;
+    dp_free(frame->path);
+    frame->path = path;
+    frame->time = time;
+    frame->frames = self->frames;
+    frame->workers = self->workers;
+    atomic_store(&frame->failed, DP_OK);
+    frame->running = true;
+    frame->threaded = pthread_create(&frame->thread, NULL, write_out, frame) == 0;
+    if (!frame->threaded) write_out(frame);
+    self->fresh = !self->fresh;
+    return DP_OK;
+}
+
+// The exception or None for a frame; the one that was waited for lies opposite the fresh one.
+static PyObject* frame_result(Simulation* self, DpStatus status)
+{
+    const char* path = self->frame[!self->fresh].path;
+    return dp_door_result(status, path ? path : "encoding a frame");
 }
 
 static PyObject* simulation_write_frame(Simulation* self, PyObject* args)
@@ -486,13 +549,31 @@ static PyObject* simulation_write_frame(Simulation* self, PyObject* args)
         PyErr_SetString(PyExc_ValueError, "write_frame: call open_frames first");
         return NULL;
     }
+    char* own = path ? dp_alloc(strlen(path) + 1, 1) : NULL;
+    if (path && !own) return PyErr_NoMemory();
+    if (own) memcpy(own, path, strlen(path) + 1);
+    if (!enter(self)) {
+        dp_free(own);
+        return NULL;
+    }
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = start_frame(self, own, time);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return frame_result(self, status);
+}
+
+static PyObject* simulation_flush(Simulation* self, PyObject* unused)
+{
+    (void)unused;
     if (!enter(self)) return NULL;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = write_frame(self, path, time);
+    status = finish_frame(self);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return dp_door_result(status, path ? path : "encoding a frame");
+    return frame_result(self, status);
 }
 
 static PyMethodDef methods[] = {
@@ -518,7 +599,10 @@ static PyMethodDef methods[] = {
     {"open_frames", (PyCFunction)simulation_open_frames, METH_VARARGS,
      "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
     {"write_frame", (PyCFunction)simulation_write_frame, METH_VARARGS,
-     "write_frame(path or None, time): encode the tiles that changed and write the frame."},
+     "write_frame(path or None, time): take in the tiles that changed and write the frame, in the"
+     " background; tells how the frame before went."},
+    {"flush", (PyCFunction)simulation_flush, METH_NOARGS,
+     "flush(): wait for the frame that is being written; tells how it went."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot type_slots[] = {
