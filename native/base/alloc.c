@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ALIGNMENT 64  // a cache line, and the widest vector; the size stands in the line before a block
+#define ALIGNMENT \
+    64  // a cache line, and the widest vector; the size stands in the line before a block
 
 static atomic_size_t live;
 static atomic_size_t peak;

@@ -3,12 +3,12 @@
 #ifdef DP_CHECKED  // on in every test build
 #include <stdio.h>
 #include <stdlib.h>
-#define DP_ASSERT(holds)                                                        \
-    do {                                                                        \
-        if (!(holds)) {                                                         \
+#define DP_ASSERT(holds)                                                           \
+    do {                                                                           \
+        if (!(holds)) {                                                            \
             fprintf(stderr, "%s:%d: must hold: %s\n", __FILE__, __LINE__, #holds); \
-            abort();                                                            \
-        }                                                                       \
+            abort();                                                               \
+        }                                                                          \
     } while (0)
 #else
 #define DP_ASSERT(holds) ((void)0)

@@ -54,16 +54,16 @@ typedef struct DpGait
 {
     int times, walkers, limbs, parts, points;  // T, W, L, P, K
 
-    const double*  time;          // strictly increasing                         [s]    (T)
-    const double*  com;           // centre of mass of each walker               [m]    (W, T, 3)
-    const double*  mass;          // > 0                                         [kg]   (W)
-    const double*  pose;          // at (x, y, z), unit quaternion (w, x, y, z)  [m, -] (P, T, 7)
-    const int32_t* limb_walker;   // walker of each limb                         [-]    (L)
-    const int32_t* part_limb;     // limb of each part                           [-]    (P)
-    const DpMesh*  sole;          // what presses the ground, in the part's frame       (P)
-    const double*  point;         // contact points, in the part's frame         [m]    (K, 3)
-    const int32_t* point_part;    // part of each contact point                  [-]    (K)
-    const int32_t* point_role;    // DpPointRole of each contact point           [-]    (K)
+    const double*  time;         // strictly increasing                         [s]    (T)
+    const double*  com;          // centre of mass of each walker               [m]    (W, T, 3)
+    const double*  mass;         // > 0                                         [kg]   (W)
+    const double*  pose;         // at (x, y, z), unit quaternion (w, x, y, z)  [m, -] (P, T, 7)
+    const int32_t* limb_walker;  // walker of each limb                         [-]    (L)
+    const int32_t* part_limb;    // limb of each part                           [-]    (P)
+    const DpMesh*  sole;         // what presses the ground, in the part's frame       (P)
+    const double*  point;        // contact points, in the part's frame         [m]    (K, 3)
+    const int32_t* point_part;   // part of each contact point                  [-]    (K)
+    const int32_t* point_role;   // DpPointRole of each contact point           [-]    (K)
 } DpGait;
 
 // One kind of ground. Start from dp_soil_default() and change what you know.

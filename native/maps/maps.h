@@ -14,7 +14,7 @@
 typedef struct DpNote
 {
     const char* name;
-    const char* text;   // a text, or NULL for a number
+    const char* text;  // a text, or NULL for a number
     double      number;
 } DpNote;
 
@@ -51,11 +51,11 @@ DpStatus dp_maps_write(const char* path, int nx, int ny, const DpMapChannel* cha
 // A file read whole. Row 0 = lowest y.
 typedef struct DpMapFile
 {
-    int    nx, ny, channel_count, note_count;
-    char** channel;    // names (channel_count)
-    float* value;      // (channel_count, ny, nx)
-    char** note_name;  // (note_count): text and number attributes of the header
-    char** note_text;  // NULL where the note is a number
+    int     nx, ny, channel_count, note_count;
+    char**  channel;    // names (channel_count)
+    float*  value;      // (channel_count, ny, nx)
+    char**  note_name;  // (note_count): text and number attributes of the header
+    char**  note_text;  // NULL where the note is a number
     double* note_number;
 } DpMapFile;
 

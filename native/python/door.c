@@ -73,14 +73,20 @@ PyObject* dp_door_result(DpStatus status, const char* what)
 {
     PyObject* kind = PyExc_ValueError;
     switch (status) {
-        case DP_OK: Py_RETURN_NONE;
-        case DP_NO_MEMORY: kind = PyExc_MemoryError; break;
+        case DP_OK:
+            Py_RETURN_NONE;
+        case DP_NO_MEMORY:
+            kind = PyExc_MemoryError;
+            break;
         case DP_CANNOT_OPEN:
         case DP_CANNOT_WRITE:
-        case DP_DISK_FULL: kind = PyExc_OSError; break;
+        case DP_DISK_FULL:
+            kind = PyExc_OSError;
+            break;
         case DP_BAD_ARGUMENT:
         case DP_NO_GROUND:
-        case DP_BAD_FILE: break;
+        case DP_BAD_FILE:
+            break;
     }
     PyErr_Format(kind, "%s: %s", what, dp_status_text(status));
     return NULL;

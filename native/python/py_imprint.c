@@ -32,10 +32,9 @@ static int open_soles(DpDoor* door, PyObject* soles, DpMesh* mesh)
         DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
         mesh[s].vertex =
             dp_door_open(door, PyTuple_GetItem(pair, 0), "vertices", 'f', &vertices, false);
-        mesh[s].triangle =
-            mesh[s].vertex
-                ? dp_door_open(door, PyTuple_GetItem(pair, 1), "triangles", 'i', &triangles, false)
-                : NULL;
+        mesh[s].triangle = mesh[s].vertex ? dp_door_open(door, PyTuple_GetItem(pair, 1),
+                                                         "triangles", 'i', &triangles, false)
+                                          : NULL;
         Py_DECREF(pair);
         if (!mesh[s].triangle || vertices.n[0] > INT32_MAX || triangles.n[0] > INT32_MAX) {
             if (mesh[s].triangle) no_soles("soles: too many vertices or triangles");
@@ -127,7 +126,8 @@ PyMethodDef dp_py_imprint_methods[] = {
     {"imprint_foot", imprint_foot, METH_VARARGS,
      "imprint_foot(soles, poses, x0, y0, cell, samples, bottom, cover) -> (i0, i1, j0, j1)\n\n"
      "Lower envelope of posed meshes, TRAIL 4.2.1. soles: pairs of vertices float32 (n, 3) [m]\n"
-     "and triangles int32 (m, 3); poses float64 (count, 7) [x y z, w x y z]; (x0, y0): centre of cell\n"
+     "and triangles int32 (m, 3); poses float64 (count, 7) [x y z, w x y z]; (x0, y0): centre of "
+     "cell\n"
      "(0, 0) [m]. Fills bottom [m] and cover [-], float32 (ny, nx)."},
     {"imprint_rings", imprint_rings, METH_VARARGS,
      "imprint_rings(ring, rings)\n\n"

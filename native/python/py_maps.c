@@ -99,11 +99,13 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
         dp_door_result(DP_BAD_ARGUMENT, "writing maps");
         goto leave;
     }
-    const char*            file = PyBytes_AsString(path);
-    DpStatus               status;
-    Py_BEGIN_ALLOW_THREADS status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel,
-                                                  (int)count, note, (int)note_count);
-    Py_END_ALLOW_THREADS   done = dp_door_result(status, "writing maps");
+    const char* file = PyBytes_AsString(path);
+    DpStatus    status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel, (int)count, note,
+                           (int)note_count);
+    Py_END_ALLOW_THREADS
+    done = dp_door_result(status, "writing maps");
 leave:
     dp_door_close(&door);
     dp_free(note);
@@ -151,11 +153,13 @@ static PyObject* maps_read(PyObject* module, PyObject* path)
     (void)module;
     PyObject* name = NULL;
     if (!PyUnicode_FSConverter(path, &name)) return NULL;
-    const char*            file = PyBytes_AsString(name);
-    DpMapFile*             map = NULL;
-    DpStatus               status;
-    Py_BEGIN_ALLOW_THREADS status = dp_maps_read(file, &map);
-    Py_END_ALLOW_THREADS   Py_DECREF(name);
+    const char* file = PyBytes_AsString(name);
+    DpMapFile*  map = NULL;
+    DpStatus    status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_maps_read(file, &map);
+    Py_END_ALLOW_THREADS
+    Py_DECREF(name);
     if (status != DP_OK) return dp_door_result(status, "reading maps");
 
     const size_t size = (size_t)map->channel_count * (size_t)map->ny * (size_t)map->nx * 4;

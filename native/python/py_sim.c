@@ -1,71 +1,16 @@
 // python/py_sim.c - desire_path._native.Simulation: a terrain, what presses it, and its frames.
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "maps/maps.h"
-#include "python/door.h"
-#include "sim/sim.h"
+#include "python/py_sim.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <string.h>
-
-#define TILE_FLOATS ((size_t)DP_TILE * DP_TILE * 4)
-#define MANY_TILES 16
-
-// A frame on its way to the disk: the tiles that changed, copied, and the thread that packs them.
-typedef struct Frame
-{
-    DpFrames*  frames;
-    long*      tile;   // place in the frame (room, 2)
-    float*     rgba;   // (room, DP_TILE, DP_TILE, 4)
-    int        count, room, workers;
-    char*      path;   // NULL: packed only
-    double     time;
-    DpStatus   status;
-    atomic_int failed;  // DpStatus of a tile that could not be packed
-    bool       running, threaded;
-    pthread_t  thread;
-} Frame;
-
-typedef struct Simulation
-{
-    PyObject_HEAD
-    DpTerrain* terrain;
-    DpSim*     sim;
-    DpFrames*  frames;
-    long       tile_x, tile_y;    // lowest tile of the frames
-    int        tiles_x, tiles_y;  // 0 = no frames opened
-    Frame      frame[2];          // one is filled while the other is written
-    int        fresh;             // which one is filled next
-    int        workers;
-    bool       busy;              // a call without the GIL is under way
-} Simulation;
-
-static DpStatus finish_frame(Simulation* self);
-
-// One call at a time: others get a sentence, not a crash.
-static bool enter(Simulation* self)
-{
-    if (self->busy) {
-        PyErr_SetString(PyExc_RuntimeError, "this simulation is already running in another thread");
-        return false;
-    }
-    self->busy = true;
-    return true;
-}
 
 static void simulation_dealloc(PyObject* object)
 {
     Simulation*   self = (Simulation*)object;
     PyTypeObject* type = Py_TYPE(object);
-    (void)finish_frame(self);
-    for (int f = 0; f < 2; ++f) {
-        dp_free(self->frame[f].tile);
-        dp_free(self->frame[f].rgba);
-        dp_free(self->frame[f].path);
-    }
-    dp_frames_destroy(self->frames);
+    dp_py_drop_frames(self);
     dp_sim_destroy(self->sim);
     dp_terrain_destroy(self->terrain);
     freefunc release = (freefunc)PyType_GetSlot(type, Py_tp_free);
@@ -162,16 +107,16 @@ static bool read_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
 
 static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
 {
-    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law",    "heap",
+    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law", "heap",
                             "rim_width", "most_sweeps", "normal_radius", "workers", NULL};
     PyObject *   ground_tuple, *soils_object;
     DpSimOptions options = dp_sim_options_default();
     double       cell, origin[2] = {0.0, 0.0};
     int          law = 0, heap = 0;
-    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!Od|(dd)iididi:Simulation", words, &PyTuple_Type,
-                                     &ground_tuple, &soils_object, &cell, &origin[0], &origin[1],
-                                     &law, &heap, &options.rim_width, &options.most_sweeps,
-                                     &options.normal_radius, &options.workers))
+    if (!PyArg_ParseTupleAndKeywords(
+            args, kwargs, "O!Od|(dd)iididi:Simulation", words, &PyTuple_Type, &ground_tuple,
+            &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
+            &options.most_sweeps, &options.normal_radius, &options.workers))
         return NULL;
     options.law = law ? DP_CONTACT_UNIFORM : DP_CONTACT_SOLE;
     options.heap_law = heap ? DP_HEAP_PAPER : DP_HEAP_REST;
@@ -188,8 +133,8 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     PyObject* made = NULL;
     DpSoil*   soils = read_soils(&door, soils_object, &soil_count);
     if (soils && read_ground(&door, ground_tuple, &ground)) {
-        const DpTerrainOptions terrain = {cell, origin[0], origin[1], soils, soil_count,
-                                          options.workers};
+        const DpTerrainOptions terrain = {cell,  origin[0],  origin[1],
+                                          soils, soil_count, options.workers};
         DpStatus               status;
         Py_BEGIN_ALLOW_THREADS
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
@@ -215,9 +160,10 @@ static PyObject* simulation_rest(Simulation* self, PyObject* args)
     DpShape   shape = {2, {-1, 2}};
     PyObject* result = NULL;
     double*   xy = dp_door_open(&door, xy_object, "xy", 'd', &shape, false);
-    double*   out = xy ? dp_door_open(&door, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
+    double*   out =
+        xy ? dp_door_open(&door, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
     if (out && shape.n[0] <= INT32_MAX && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 &&
-        enter(self)) {
+        dp_py_enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_terrain_rest(self->terrain, (int)shape.n[0], xy, out);
         Py_END_ALLOW_THREADS
@@ -280,10 +226,10 @@ static PyObject* simulation_load(Simulation* self, PyObject* args)
                           &o_part_limb, &o_vertex, &o_vertex_count, &o_triangle, &o_triangle_count,
                           &o_touching, &o_force, &o_point))
         return NULL;
-    DpDoor  door = {.count = 0};
-    DpShape times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
-    DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
-    DpMesh* sole = NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
+    DpShape   vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
+    DpMesh*   sole = NULL;
     PyObject* result = NULL;
 
     double*  time = dp_door_open(&door, o_time, "time", 'd', &times, false);
@@ -318,7 +264,7 @@ static PyObject* simulation_load(Simulation* self, PyObject* args)
     if (!point) goto done;
     sole = cut_soles(vertex, vertices.n[0], vertex_count, triangle, triangles.n[0], triangle_count,
                      (int)P);
-    if (!sole || !enter(self)) goto done;
+    if (!sole || !dp_py_enter(self)) goto done;
     const DpGait gait = {.times = (int)T,
                          .walkers = (int)walkers.n[0],
                          .limbs = (int)limbs.n[0],
@@ -352,7 +298,7 @@ static PyObject* simulation_reach(Simulation* self, PyObject* unused)
 static PyObject* simulation_run(Simulation* self, PyObject* args)
 {
     int sample;
-    if (!PyArg_ParseTuple(args, "i:run", &sample) || !enter(self)) return NULL;
+    if (!PyArg_ParseTuple(args, "i:run", &sample) || !dp_py_enter(self)) return NULL;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_sim_run(self->sim, sample);
@@ -364,7 +310,7 @@ static PyObject* simulation_run(Simulation* self, PyObject* args)
 static PyObject* simulation_settle(Simulation* self, PyObject* unused)
 {
     (void)unused;
-    if (!enter(self)) return NULL;
+    if (!dp_py_enter(self)) return NULL;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_sim_settle(self->sim);
@@ -379,8 +325,9 @@ static PyObject* simulation_report(Simulation* self, PyObject* unused)
     const DpSimReport r = dp_sim_report(self->sim);
     return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:n}", "contacts", r.contacts, "off_ground",
                          r.off_ground, "deepest_m", r.deepest, "pressed_m3", r.pressed,
-                         "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced, "heaped_m3",
-                         r.heaped, "tiles", (Py_ssize_t)dp_terrain_tile_count(self->terrain));
+                         "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced,
+                         "heaped_m3", r.heaped, "tiles",
+                         (Py_ssize_t)dp_terrain_tile_count(self->terrain));
 }
 
 static PyObject* simulation_read(Simulation* self, PyObject* args)
@@ -397,7 +344,7 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     DpShape   shape = {2, {-1, -1}};
     PyObject* result = NULL;
     float*    out = dp_door_open(&door, out_object, "out", 'f', &shape, true);
-    if (out && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX && enter(self)) {
+    if (out && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX && dp_py_enter(self)) {
         DpStatus status;
         Py_BEGIN_ALLOW_THREADS
         status = dp_terrain_read(self->terrain, (DpField)field, i0, j0, (int)shape.n[1],
@@ -408,172 +355,6 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     }
     dp_door_close(&door);
     return result;
-}
-
-static PyObject* simulation_open_frames(Simulation* self, PyObject* args)
-{
-    long        tx, ty;
-    int         nx, ny;
-    const char* version;
-    if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &version) || !enter(self))
-        return NULL;
-    double origin[2];
-    dp_terrain_origin(self->terrain, origin);
-    const double cell = dp_terrain_cell(self->terrain);
-    const DpNote notes[] = {
-        {"software", version, 0.0},
-        {"cell", NULL, cell},
-        {"originX", NULL, origin[0] + cell * DP_TILE * (double)tx},
-        {"originY", NULL, origin[1] + cell * DP_TILE * (double)ty},
-        {"channelR", "height change [m]", 0.0},
-        {"channelG", "plant strength [-]", 0.0},
-        {"channelB", "compression [m]", 0.0},
-        {"channelA", "pressure_time [Pa s]", 0.0},
-    };
-    DpFrames*      frames = NULL;
-    (void)finish_frame(self);
-    const DpStatus status =
-        dp_frames_create(&frames, nx, ny, notes, (int)(sizeof notes / sizeof *notes));
-    if (status == DP_OK) {
-        dp_frames_destroy(self->frames);
-        self->frames = frames;
-        self->tile_x = tx, self->tile_y = ty;
-        self->tiles_x = nx, self->tiles_y = ny;
-    }
-    self->busy = false;
-    return dp_door_result(status, "opening the frames");
-}
-
-// ---- frames: one is packed and written while the next is simulated ------------------------------
-
-// Room for one more tile; false when there is no memory.
-static bool make_room(Frame* frame)
-{
-    if (frame->count < frame->room) return true;
-    const int room = frame->room ? 2 * frame->room : 16;
-    long*     tile = dp_realloc(frame->tile, 2 * (size_t)room, sizeof *tile);
-    if (tile) frame->tile = tile;
-    float* rgba = tile ? dp_realloc(frame->rgba, (size_t)room * TILE_FLOATS, sizeof *rgba) : NULL;
-    if (!rgba) return false;
-    frame->rgba = rgba;
-    frame->room = room;
-    return true;
-}
-
-// Copy a tile that changed since the last frame, so that the ground may go on changing.
-static void take_tile(void* context, long tx, long ty)
-{
-    Simulation* self = context;
-    Frame*      frame = &self->frame[self->fresh];
-    const bool  inside = tx >= self->tile_x && tx < self->tile_x + self->tiles_x &&
-                        ty >= self->tile_y && ty < self->tile_y + self->tiles_y;
-    if (!inside || frame->status != DP_OK) return;
-    if (!make_room(frame)) {
-        frame->status = DP_NO_MEMORY;
-        return;
-    }
-    dp_terrain_tile_rgba(self->terrain, tx, ty, frame->rgba + (size_t)frame->count * TILE_FLOATS);
-    frame->tile[2 * frame->count] = tx - self->tile_x;
-    frame->tile[2 * frame->count + 1] = ty - self->tile_y;
-    ++frame->count;
-}
-
-static void pack_tile(void* context, int index, int worker)
-{
-    Frame*         frame = context;
-    const DpStatus status = dp_frames_set_tile(frame->frames, (int)frame->tile[2 * index],
-                                               (int)frame->tile[2 * index + 1],
-                                               frame->rgba + (size_t)index * TILE_FLOATS, worker);
-    if (status != DP_OK) atomic_store(&frame->failed, (int)status);
-}
-
-static void* write_out(void* context)
-{
-    Frame* frame = context;
-    // the other cores simulate; only a flood of tiles is worth taking them
-    dp_parallel_for(frame->count, frame->count < MANY_TILES ? 1 : frame->workers, pack_tile, frame);
-    frame->status = (DpStatus)atomic_load(&frame->failed);
-    if (frame->status == DP_OK && frame->path)
-        frame->status = dp_frames_write(frame->frames, frame->path, frame->time);
-    return NULL;
-}
-
-// Wait for the frame that is being written; how that went.
-static DpStatus finish_frame(Simulation* self)
-{
-    Frame* frame = &self->frame[!self->fresh];
-    if (!frame->running) return DP_OK;
-    if (frame->threaded) pthread_join(frame->thread, NULL);
-    frame->running = false;
-    return frame->status;
-}
-
-// Take in what changed, wait for the frame before, and start on this one.
-static DpStatus start_frame(Simulation* self, char* path, double time)
-{
-    Frame* frame = &self->frame[self->fresh];
-    frame->count = 0;
-    frame->status = DP_OK;
-    dp_terrain_changed(self->terrain, take_tile, self);
-    const DpStatus before = finish_frame(self);
-    if (before != DP_OK || frame->status != DP_OK) {
-        dp_free(path);
-        return before != DP_OK ? before : frame->status;
-    }
-    dp_free(frame->path);
-    frame->path = path;
-    frame->time = time;
-    frame->frames = self->frames;
-    frame->workers = self->workers;
-    atomic_store(&frame->failed, DP_OK);
-    frame->running = true;
-    frame->threaded = pthread_create(&frame->thread, NULL, write_out, frame) == 0;
-    if (!frame->threaded) write_out(frame);
-    self->fresh = !self->fresh;
-    return DP_OK;
-}
-
-// The exception or None for a frame; the one that was waited for lies opposite the fresh one.
-static PyObject* frame_result(Simulation* self, DpStatus status)
-{
-    const char* path = self->frame[!self->fresh].path;
-    return dp_door_result(status, path ? path : "encoding a frame");
-}
-
-static PyObject* simulation_write_frame(Simulation* self, PyObject* args)
-{
-    const char* path;  // None: take the changes in, write nothing
-    double      time;
-    if (!PyArg_ParseTuple(args, "zd:write_frame", &path, &time)) return NULL;
-    if (!self->frames) {
-        PyErr_SetString(PyExc_ValueError, "write_frame: call open_frames first");
-        return NULL;
-    }
-    char* own = path ? dp_alloc(strlen(path) + 1, 1) : NULL;
-    if (path && !own) return PyErr_NoMemory();
-    if (own) memcpy(own, path, strlen(path) + 1);
-    if (!enter(self)) {
-        dp_free(own);
-        return NULL;
-    }
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = start_frame(self, own, time);
-    Py_END_ALLOW_THREADS
-    self->busy = false;
-    return frame_result(self, status);
-}
-
-static PyObject* simulation_flush(Simulation* self, PyObject* unused)
-{
-    (void)unused;
-    if (!enter(self)) return NULL;
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = finish_frame(self);
-    Py_END_ALLOW_THREADS
-    self->busy = false;
-    return frame_result(self, status);
 }
 
 static PyMethodDef methods[] = {
@@ -596,12 +377,12 @@ static PyMethodDef methods[] = {
      "report() -> dict: contacts, depths [m] and volumes [m^3] so far."},
     {"read", (PyCFunction)simulation_read, METH_VARARGS,
      "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
-    {"open_frames", (PyCFunction)simulation_open_frames, METH_VARARGS,
+    {"open_frames", dp_py_open_frames, METH_VARARGS,
      "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
-    {"write_frame", (PyCFunction)simulation_write_frame, METH_VARARGS,
+    {"write_frame", dp_py_write_frame, METH_VARARGS,
      "write_frame(path or None, time): take in the tiles that changed and write the frame, in the"
      " background; tells how the frame before went."},
-    {"flush", (PyCFunction)simulation_flush, METH_NOARGS,
+    {"flush", dp_py_flush, METH_NOARGS,
      "flush(): wait for the frame that is being written; tells how it went."},
     {NULL, NULL, 0, NULL}};
 

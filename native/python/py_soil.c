@@ -182,15 +182,16 @@ static PyObject* soil_compress(PyObject* module, PyObject* arguments)
     if (law != DP_CONTACT_SOLE && law != DP_CONTACT_UNIFORM)
         return PyErr_Format(PyExc_ValueError, "law: expected 0 (sole) or 1 (uniform), got %d", law);
     if (open_call(&call, patch, imprint, foot) == 0) {
-        DpPressed              p;
-        DpStatus               status;
-        Py_BEGIN_ALLOW_THREADS status =
+        DpPressed p;
+        DpStatus  status;
+        Py_BEGIN_ALLOW_THREADS
+        status =
             dp_soil_compress(&call.patch, &call.imprint, &call.foot, (DpContactLaw)law, dt, &p);
-        Py_END_ALLOW_THREADS result =
-            status != DP_OK ? dp_door_result(status, "pressing soil")
-                            : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm, "loose",
-                                            p.loose, "displaced", p.displaced, "area", p.area,
-                                            "sink", p.sink, "deepest", p.deepest);
+        Py_END_ALLOW_THREADS
+        result = status != DP_OK ? dp_door_result(status, "pressing soil")
+                                 : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm,
+                                                 "loose", p.loose, "displaced", p.displaced, "area",
+                                                 p.area, "sink", p.sink, "deepest", p.deepest);
     }
     close_call(&call);
     return result;
@@ -211,10 +212,12 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
         return PyErr_Format(PyExc_ValueError, "law: expected 0 (rest) or 1 (paper), got %d", law);
     options.law = (DpHeapLaw)law;
     if (open_call(&call, patch, imprint, foot) == 0) {
-        DpStatus               status;
-        Py_BEGIN_ALLOW_THREADS status = dp_soil_accumulate(&call.patch, &call.imprint, &call.foot,
-                                                           volume, &options, &height, call.scratch);
-        Py_END_ALLOW_THREADS   result =
+        DpStatus status;
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_soil_accumulate(&call.patch, &call.imprint, &call.foot, volume, &options,
+                                    &height, call.scratch);
+        Py_END_ALLOW_THREADS
+        result =
             status != DP_OK ? dp_door_result(status, "laying soil") : PyFloat_FromDouble(height);
     }
     close_call(&call);
@@ -240,17 +243,18 @@ static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
     }
     const bool stands = imprint != Py_None;
     if (open_call(&call, patch, stands ? imprint : NULL, NULL) == 0) {
-        DpSettled              s;
-        DpStatus               status;
-        Py_BEGIN_ALLOW_THREADS status =
+        DpSettled s;
+        DpStatus  status;
+        Py_BEGIN_ALLOW_THREADS
+        status =
             dp_soil_stabilize(&call.patch, stands ? &call.imprint : NULL,
                               within == Py_None ? NULL : box, tolerance, most, call.scratch, &s);
-        Py_END_ALLOW_THREADS result =
-            status != DP_OK
-                ? dp_door_result(status, "letting soil come to rest")
-                : Py_BuildValue("{s:i,s:N,s:N,s:(iiii)}", "sweeps", s.sweeps, "at_rest",
-                                PyBool_FromLong(s.at_rest), "at_edge", PyBool_FromLong(s.at_edge),
-                                "changed", s.i0, s.i1, s.j0, s.j1);
+        Py_END_ALLOW_THREADS
+        result = status != DP_OK
+                     ? dp_door_result(status, "letting soil come to rest")
+                     : Py_BuildValue("{s:i,s:N,s:N,s:(iiii)}", "sweeps", s.sweeps, "at_rest",
+                                     PyBool_FromLong(s.at_rest), "at_edge",
+                                     PyBool_FromLong(s.at_edge), "changed", s.i0, s.i1, s.j0, s.j1);
     }
     close_call(&call);
     return result;

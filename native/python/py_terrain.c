@@ -8,10 +8,10 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     PyObject *vertices, *triangles, *xy, *height;
     if (!PyArg_ParseTuple(arguments, "OOOO:terrain_rest", &vertices, &triangles, &xy, &height))
         return NULL;
-    DpDoor        door = {0};
-    PyObject*     answer = NULL;
-    DpShape       corners = {2, {-1, 3}}, faces = {2, {-1, 3}}, points = {2, {-1, 2}};
-    const double* vertex = dp_door_open(&door, vertices, "vertices", 'd', &corners, false);
+    DpDoor         door = {0};
+    PyObject*      answer = NULL;
+    DpShape        corners = {2, {-1, 3}}, faces = {2, {-1, 3}}, points = {2, {-1, 2}};
+    const double*  vertex = dp_door_open(&door, vertices, "vertices", 'd', &corners, false);
     const int32_t* triangle =
         vertex ? dp_door_open(&door, triangles, "triangles", 'i', &faces, false) : NULL;
     const double* at = triangle ? dp_door_open(&door, xy, "xy", 'd', &points, false) : NULL;

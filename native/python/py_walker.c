@@ -91,10 +91,11 @@ static PyObject* resample(PyObject* self, PyObject* args)
     }
     if (dp_door_finite(gait.time, times.n[0], "time") < 0) goto done;
     gait.times = (int)times.n[0], gait.walkers = (int)coms.n[0], gait.parts = (int)poses.n[0];
-    DpStatus               status;
-    Py_BEGIN_ALLOW_THREADS status =
-        dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
-    Py_END_ALLOW_THREADS result = dp_door_result(status, "resampling");
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "resampling");
 done:
     dp_door_close(&door);
     return result;
@@ -139,9 +140,11 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
         on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true) : NULL;
     if (!rest || read_numbers(&door, numbers, "limits", n, 11) < 0) goto done;
     l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
-    DpStatus               status;
-    Py_BEGIN_ALLOW_THREADS status = dp_foot_contact(&gait, below, &l, on, rest);
-    Py_END_ALLOW_THREADS   result = dp_door_result(status, "finding contacts");
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_foot_contact(&gait, below, &l, on, rest);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "finding contacts");
 done:
     dp_door_close(&door);
     return result;
@@ -189,9 +192,11 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
         PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
         goto done;
     }
-    DpStatus               status;
-    Py_BEGIN_ALLOW_THREADS status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
-    Py_END_ALLOW_THREADS   result = dp_door_result(status, "finding loads");
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
+    Py_END_ALLOW_THREADS
+    result = dp_door_result(status, "finding loads");
 done:
     dp_door_close(&door);
     return result;

@@ -61,9 +61,9 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
 
 static void drop_recording(DpSim* sim)
 {
-    void* const blocks[] = {sim->time,  sim->pose,  sim->mass,           sim->sole,
-                            sim->force, sim->limb,  sim->sole_vertex,    sim->sole_triangle,
-                            sim->group, sim->order, sim->pressure_point, sim->touching,
+    void* const blocks[] = {sim->time,  sim->pose,        sim->mass,           sim->sole,
+                            sim->force, sim->limb,        sim->sole_vertex,    sim->sole_triangle,
+                            sim->group, sim->order,       sim->pressure_point, sim->touching,
                             sim->start, sim->part_of_limb};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
     sim->time = sim->pose = sim->mass = sim->force = sim->pressure_point = NULL;

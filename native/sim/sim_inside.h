@@ -14,19 +14,19 @@ typedef struct Limb
 {
     int    walker;
     int    part_count;
-    int*   part;          // its parts, in the order of the recording (part_count)
-    bool   stands;        // in a stance
-    double heap_height;   // T of the rest heap, from step to step of a stance          [m]
-    double unlaid;        // displaced volume that found no border cell yet             [m^3]
-    Cells  trodden;       // cells its patches covered during this stance
+    int*   part;         // its parts, in the order of the recording (part_count)
+    bool   stands;       // in a stance
+    double heap_height;  // T of the rest heap, from step to step of a stance          [m]
+    double unlaid;       // displaced volume that found no border cell yet             [m^3]
+    Cells  trodden;      // cells its patches covered during this stance
 
     // this step's work and what came of it
-    Cells  patch;         // cells this step's patch covers
-    bool   active;        // presses or settles in this step
-    bool   lifts;         // has let go: its rim comes to rest
-    bool   spills;        // loose soil wants to leave the patch: settle again in a larger one
+    Cells  patch;   // cells this step's patch covers
+    bool   active;  // presses or settles in this step
+    bool   lifts;   // has let go: its rim comes to rest
+    bool   spills;  // loose soil wants to leave the patch: settle again in a larger one
     double firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
-    bool   off_ground;    // pressed where there is no ground
+    bool   off_ground;                  // pressed where there is no ground
 } Limb;
 
 // What one thread needs for itself.
@@ -47,7 +47,7 @@ struct DpSim
     DpTerrain*   terrain;
     DpSimOptions options;
     double       cell, origin_x, origin_y;  // of the terrain                            [m]
-    int          samples;  // imprint samples a side
+    int          samples;                   // imprint samples a side
 
     DpGait   gait;  // copies of all arrays, below
     double*  time;

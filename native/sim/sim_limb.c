@@ -3,8 +3,8 @@
 #include "sim/sim_inside.h"
 
 #define MOST_SUBSTEPS 64
-#define PROBED 96        // vertices of a sole looked at to tell how fast it slides
-#define LOADED_BAND 0.02 // [m] above the lowest of them: may be loaded
+#define PROBED 96         // vertices of a sole looked at to tell how fast it slides
+#define LOADED_BAND 0.02  // [m] above the lowest of them: may be loaded
 
 bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
 {
@@ -16,9 +16,8 @@ bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
 
 static DpPose pose_at(const DpSim* sim, int part, int sample)
 {
-    const double* p =
-        sim->pose + 7 * ((size_t)part * (size_t)sim->gait.times + (size_t)sample);
-    const DpPose pose = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+    const double* p = sim->pose + 7 * ((size_t)part * (size_t)sim->gait.times + (size_t)sample);
+    const DpPose  pose = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
     return pose;
 }
 
@@ -40,9 +39,9 @@ DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double
     double       weight = 0.0;
     for (int p = 0; p < limb->part_count; ++p) {
         for (int end = 0; end < 2; ++end) {
-            const int    at = sample + end < sim->gait.times ? sample + end : sample;
-            const double share = end ? w : 1.0 - w;
-            const size_t k = 3 * ((size_t)limb->part[p] * times + (size_t)at);
+            const int     at = sample + end < sim->gait.times ? sample + end : sample;
+            const double  share = end ? w : 1.0 - w;
+            const size_t  k = 3 * ((size_t)limb->part[p] * times + (size_t)at);
             const double* f = sim->force + k;
             const double* c = sim->pressure_point + k;
             const double  load = share * fmax(0.0, -f[2]);
@@ -89,7 +88,8 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
                 const float* at = sole->vertex + 3 * v;
                 const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
                 const DpVec3 from = dp_place(a, point);
-                if (pass == 0) lowest = fmin(lowest, from.z);
+                if (pass == 0)
+                    lowest = fmin(lowest, from.z);
                 else if (from.z < lowest + LOADED_BAND) {
                     const DpVec3 way = dp_sub(dp_place(b, point), from);
                     farthest = fmax(farthest, hypot(way.x, way.y));

@@ -5,9 +5,10 @@
 #include "sim/sim_inside.h"
 
 #define BORDER_RINGS 1
-#define SLIDING_SWEEPS 16  // of one step: slides take time; all comes to rest when the foot has left
-#define SETTLE_MARGIN 8  // cells around trodden ground when loose soil comes to rest
-#define SETTLE_GROWTH 32 // cells more on each side when it wants to go further
+#define SLIDING_SWEEPS \
+    16                    // of one step: slides take time; all comes to rest when the foot has left
+#define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
+#define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
 
 // Room for the imprint of a patch in the bench's grids.
 static DpStatus fit_imprint(Bench* bench, const DpSoilPatch* patch)
@@ -39,8 +40,8 @@ static const DpSoil* soil_under(const DpSoilPatch* patch, DpVec3 point)
 }
 
 // One sub-step: the sole as it stands at fraction w of the interval presses for dt.
-static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, int sample, double w,
-                      double dt)
+static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, int sample,
+                      double w, double dt)
 {
     DpFootForce foot = dp_limb_force(sim, limb, sample, w);
     if (foot.force.z >= 0.0) return DP_OK;
@@ -68,11 +69,11 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
 
     const double volume = pressed.displaced + limb->unlaid;
     if (volume <= 0.0) return DP_OK;
-    const DpSoil* soil = soil_under(patch, foot.point);
-    const double  half_weight = 0.5 * sim->mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
-    const DpHeapOptions heap = {sim->options.heap_law, sim->options.rim_width,
-                                soil->push_threshold > 0.0f ? (double)soil->push_threshold
-                                                            : half_weight};
+    const DpSoil*       soil = soil_under(patch, foot.point);
+    const double        half_weight = 0.5 * sim->mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
+    const DpHeapOptions heap = {
+        sim->options.heap_law, sim->options.rim_width,
+        soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight};
     dp_imprint_rings(&bench->imprint, patch, BORDER_RINGS);
     status = dp_soil_accumulate(patch, &bench->imprint, &foot, volume, &heap, &limb->heap_height,
                                 bench->soil_scratch);
@@ -86,7 +87,8 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
 {
     DpSoilPatch* patch = NULL;
     const Cells  at = limb->patch;
-    DpStatus status = dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+    DpStatus     status =
+        dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
     if (status == DP_OK) status = fit_imprint(bench, patch);
     if (status != DP_OK) return status;
 
@@ -99,8 +101,8 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
 
     DpSettled  settled;
     const bool stands_here = bench->imprint.i0 < bench->imprint.i1;
-    const int  most = sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps
-                                                                : SLIDING_SWEEPS;
+    const int  most =
+        sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps : SLIDING_SWEEPS;
     status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
                                sim->options.tolerance, most, bench->soil_scratch, &settled);
     if (status != DP_OK) return status;

@@ -80,10 +80,10 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
 typedef struct DpSettled
 {
-    int  sweeps;                // sweeps made                                            [-]
-    bool at_rest;               // no loose slope exceeds the rest angle by more than the tolerance
-    bool at_edge;               // loose soil wants to leave the patch: lend a larger one
-    int  i0, i1, j0, j1;        // cells that changed: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+    int  sweeps;          // sweeps made                                            [-]
+    bool at_rest;         // no loose slope exceeds the rest angle by more than the tolerance
+    bool at_edge;         // loose soil wants to leave the patch: lend a larger one
+    int  i0, i1, j0, j1;  // cells that changed: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
 } DpSettled;
 
 // Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or `most` sweeps.

@@ -20,7 +20,7 @@
 #define NOTHING (-(1 << 30))  // no cone reaches this cell
 #define WALL (1 << 29)        // surface of cells that take no soil: under the sole, no ground
 #define MOST_STEPS (1 << 28)  // heights stay below this, so that no sum can overflow
-#define MATCH 0.0002           // a volume this close is right; the rest is a common factor
+#define MATCH 0.0002          // a volume this close is right; the rest is a common factor
 #define MOST_ROUNDS 40
 
 // The part of the patch that is worked on, with a frame of one wall cell around it.

@@ -25,14 +25,14 @@ typedef struct DpGround
     DpGroundKind kind;
     double       height;  // flat: its height [m]
 
-    int          nx, ny;            // heights: samples
-    double       x0, y0, spacing;   // heights: position of sample (0, 0), step        [m]
-    const float* heights;           // heights: NaN = no ground                        [m] (ny, nx)
+    int          nx, ny;           // heights: samples
+    double       x0, y0, spacing;  // heights: position of sample (0, 0), step        [m]
+    const float* heights;          // heights: NaN = no ground                        [m] (ny, nx)
 
-    int            vertex_count;    // mesh
+    int            vertex_count;  // mesh
     int            triangle_count;
-    const double*  vertex;          // mesh, world frame                               [m] (n, 3)
-    const int32_t* triangle;        // mesh                                            (m, 3)
+    const double*  vertex;    // mesh, world frame                               [m] (n, 3)
+    const int32_t* triangle;  // mesh                                            (m, 3)
 
     int          kind_count;   // soils the ground is painted with, 0 = all of it is soil 0
     const float* kind_weight;  // weight of each soil per mesh vertex or height sample
@@ -52,9 +52,9 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
                            const DpGround* ground);
 void     dp_terrain_destroy(DpTerrain* terrain);
 
-double dp_terrain_cell(const DpTerrain* terrain);
-void   dp_terrain_origin(const DpTerrain* terrain, double origin[2]);
-int    dp_terrain_soil_count(const DpTerrain* terrain);
+double        dp_terrain_cell(const DpTerrain* terrain);
+void          dp_terrain_origin(const DpTerrain* terrain, double origin[2]);
+int           dp_terrain_soil_count(const DpTerrain* terrain);
 const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4]);
@@ -106,7 +106,7 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
 // Tiles changed since the last call: calls visit(context, tx, ty) in ascending (ty, tx) order and
 // clears the marks.
 typedef void (*DpTileVisit)(void* context, long tx, long ty);
-void         dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
+void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 
 // Playback pixels of one tile: R height change (heap - compression), G plant strength,
 // B compression, A pressure_time; rgba (DP_TILE, DP_TILE, 4), row 0 = lowest y. Zero if untouched.

@@ -15,12 +15,12 @@ static int check_passed, check_failed, check_bad;
 
 #define TEST(name) static void test_##name(void)
 
-#define CHECK(holds)                                                                \
-    do {                                                                            \
-        if (!(holds)) {                                                             \
-            printf("  %s:%d: does not hold: %s\n", __FILE__, __LINE__, #holds);       \
-            check_bad = 1;                                                          \
-        }                                                                           \
+#define CHECK(holds)                                                            \
+    do {                                                                        \
+        if (!(holds)) {                                                         \
+            printf("  %s:%d: does not hold: %s\n", __FILE__, __LINE__, #holds); \
+            check_bad = 1;                                                      \
+        }                                                                       \
     } while (0)
 
 // |got - want| <= slack, absolute
@@ -37,19 +37,20 @@ static int check_passed, check_failed, check_bad;
 // |got - want| <= share * |want|
 #define CHECK_CLOSE(got, want, share) CHECK_NEAR(got, want, (share)*fabs((double)(want)))
 
-#define RUN(name)                                                                 \
-    do {                                                                          \
-        check_bad = 0;                                                            \
-        const size_t before_ = dp_bytes_live();                                   \
-        test_##name();                                                            \
-        if (dp_bytes_live() != before_) {                                         \
-            printf("  %s: %ld bytes left behind\n", #name,                        \
-                   (long)dp_bytes_live() - (long)before_);                        \
-            check_bad = 1;                                                        \
-        }                                                                         \
-        if (check_bad) ++check_failed;                                            \
-        else ++check_passed;                                                      \
-        printf("%s %s\n", check_bad ? "FAIL" : "ok  ", #name);                    \
+#define RUN(name)                                                                                  \
+    do {                                                                                           \
+        check_bad = 0;                                                                             \
+        const size_t before_ = dp_bytes_live();                                                    \
+        test_##name();                                                                             \
+        if (dp_bytes_live() != before_) {                                                          \
+            printf("  %s: %ld bytes left behind\n", #name, (long)dp_bytes_live() - (long)before_); \
+            check_bad = 1;                                                                         \
+        }                                                                                          \
+        if (check_bad)                                                                             \
+            ++check_failed;                                                                        \
+        else                                                                                       \
+            ++check_passed;                                                                        \
+        printf("%s %s\n", check_bad ? "FAIL" : "ok  ", #name);                                     \
     } while (0)
 
 static inline int check_done(void)

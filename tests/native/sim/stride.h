@@ -20,8 +20,9 @@ typedef struct Stride
 } Stride;
 
 // a heel block and a toe block that meet at the ball, x forward, underside at z = 0
-static const float STRIDE_HEEL[] = {-0.08f, -0.04f, 0, 0.10f, -0.05f, 0, 0.10f, 0.05f, 0, -0.08f, 0.04f, 0};
-static const float STRIDE_TOE[] = {0, -0.05f, 0, 0.08f, -0.04f, 0, 0.08f, 0.04f, 0, 0, 0.05f, 0};
+static const float   STRIDE_HEEL[] = {-0.08f, -0.04f, 0, 0.10f,  -0.05f, 0,
+                                      0.10f,  0.05f,  0, -0.08f, 0.04f,  0};
+static const float   STRIDE_TOE[] = {0, -0.05f, 0, 0.08f, -0.04f, 0, 0.08f, 0.04f, 0, 0, 0.05f, 0};
 static const int32_t STRIDE_FACES[] = {0, 1, 2, 0, 2, 3};
 
 // share of the load on the toes: none at landing, all at lift-off
@@ -81,15 +82,23 @@ static inline Stride stride_make(int walkers, int steps, double mass, double rat
             point[0] = ball[0] + (toe ? 0.04 : -0.1), point[1] = ball[1];
         }
     }
-    s.gait = (DpGait){.times = times, .walkers = walkers, .limbs = limbs, .parts = parts,
-                      .time = s.time, .com = s.com, .mass = s.mass, .pose = s.pose,
-                      .limb_walker = s.limb_walker, .part_limb = s.part_limb, .sole = s.sole};
+    s.gait = (DpGait){.times = times,
+                      .walkers = walkers,
+                      .limbs = limbs,
+                      .parts = parts,
+                      .time = s.time,
+                      .com = s.com,
+                      .mass = s.mass,
+                      .pose = s.pose,
+                      .limb_walker = s.limb_walker,
+                      .part_limb = s.part_limb,
+                      .sole = s.sole};
     return s;
 }
 
 static inline void stride_drop(Stride* s)
 {
-    void* const blocks[] = {s->time, s->com, s->mass, s->pose, s->force, s->point,
-                            s->limb_walker, s->part_limb, s->touching, s->sole};
+    void* const blocks[] = {s->time,  s->com,         s->mass,      s->pose,     s->force,
+                            s->point, s->limb_walker, s->part_limb, s->touching, s->sole};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
 }

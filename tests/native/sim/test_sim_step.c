@@ -77,7 +77,8 @@ TEST(workers_do_not_matter)
         CHECK(world_make(&world, &soil, 0.01, 1 << run) == DP_OK);
         CHECK(walk(&world, &s) == DP_OK);
         grid[run] = dp_alloc(2 * cells, sizeof(float));
-        CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, -100, -100, nx, ny, grid[run]) == DP_OK);
+        CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, -100, -100, nx, ny, grid[run]) ==
+              DP_OK);
         CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, -100, -100, nx, ny,
                               grid[run] + cells) == DP_OK);
         world_drop(&world);
@@ -103,7 +104,8 @@ TEST(everything_rests)
     float* heap = dp_alloc(2 * (size_t)(nx * ny), sizeof(float));
     float* pressed = heap + nx * ny;
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, -100, -60, nx, ny, heap) == DP_OK);
-    CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, -100, -60, nx, ny, pressed) == DP_OK);
+    CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, -100, -60, nx, ny, pressed) ==
+          DP_OK);
     const double steepest = tan((15.0 + 0.1) * STRIDE_PI / 180.0);
     const double film = 0.1 * tan(0.1 * STRIDE_PI / 180.0) * 0.01;  // counts as at rest anywhere
     double       worst = 0.0;
@@ -115,7 +117,8 @@ TEST(everything_rests)
                 if (a == b || heap[a] <= 0.0f) continue;
                 const double fall = (double)(heap[a] - pressed[a]) - (double)(heap[b] - pressed[b]);
                 // what may still slide: the steeper part, but no more than the loose soil there
-                worst = fmax(worst, fmin((fall - steepest * way) / way, ((double)heap[a] - film) / way));
+                worst = fmax(worst,
+                             fmin((fall - steepest * way) / way, ((double)heap[a] - film) / way));
             }
     printf("  steepest loose slope %.4f over the limit\n", worst);
     CHECK(worst <= 1e-5);
