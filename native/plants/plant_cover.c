@@ -1,0 +1,178 @@
+// plants/plant_cover.c - how much of the ground is held by roots. TRAIL (7), TRAIL (8)
+//
+// Departures
+//   TRAIL (7): as printed, the mean of (1 - d/w) alpha cannot reach 1 and does not know density. Here
+//   the kernels' sum is set against the sum under full cover, K_ref = density * pi R^2 / 3, or against
+//   itself where plants stand denser. DP_COVER_PAPER is as printed.
+#include <string.h>
+
+#include "plants/plant_inside.h"
+
+#define PI 3.14159265358979323846
+
+// sums over the plants around a point
+typedef struct Sums
+{
+    double full;   // sum of K / K_ref
+    double whole;  // the same times alpha
+    double root;   // the same times alpha E_v0
+    double paper, paper_root;
+    int    plants;
+} Sums;
+
+// the bins that a circle meets: false if none
+static bool bins_around(const PlantStand* stand, double x, double y, double reach, int range[4])
+{
+    const double i0 = floor((x - reach - stand->bx0) / stand->bin);
+    const double i1 = floor((x + reach - stand->bx0) / stand->bin);
+    const double j0 = floor((y - reach - stand->by0) / stand->bin);
+    const double j1 = floor((y + reach - stand->by0) / stand->bin);
+    if (i1 < 0.0 || j1 < 0.0 || i0 >= stand->bnx || j0 >= stand->bny) return false;
+    range[0] = i0 > 0.0 ? (int)i0 : 0, range[1] = i1 < stand->bnx - 1 ? (int)i1 : stand->bnx - 1;
+    range[2] = j0 > 0.0 ? (int)j0 : 0, range[3] = j1 < stand->bny - 1 ? (int)j1 : stand->bny - 1;
+    return true;
+}
+
+static void add_plants(Sums* sums, const PlantStand* stand, double x, double y)
+{
+    const double reach = (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
+    const double full = (double)stand->kind.full_density * PI * reach * reach / 3.0;  // K_ref
+    int          range[4];
+    if (!bins_around(stand, x, y, reach, range)) return;
+    for (int j = range[2]; j <= range[3]; ++j)
+        for (int i = range[0]; i <= range[1]; ++i) {
+            const int* start = stand->bin_start + (size_t)j * (size_t)stand->bnx + (size_t)i;
+            for (int k = start[0]; k < start[1]; ++k) {
+                const int         slot = stand->bin_item[k], lane = slot % DP_LANES;
+                const PlantBlock* block = &stand->block[slot / DP_LANES];
+                const double      dx = (double)block->root[0][lane] - x;
+                const double      dy = (double)block->root[1][lane] - y;
+                const double      d2 = dx * dx + dy * dy, alpha = (double)block->alpha[lane];
+                if (d2 >= reach * reach) continue;
+                const double kernel = 1.0 - sqrt(d2) / reach;  // K = 1 - d/R
+                sums->full += kernel / full;
+                sums->whole += kernel * alpha / full;
+                sums->root += kernel * alpha * modulus / full;
+                sums->paper += kernel * alpha;
+                sums->paper_root += kernel * alpha * modulus;
+                ++sums->plants;
+            }
+        }
+}
+
+static Sums sums_at(const DpPlants* plants, double x, double y)
+{
+    Sums sums = {0};
+    for (int s = 0; s < plants->stands; ++s) add_plants(&sums, &plants->stand[s], x, y);
+    return sums;
+}
+
+float plant_cover_at(const DpPlants* plants, float x, float y)
+{
+    const Sums sums = sums_at(plants, (double)x, (double)y);
+    return (float)(sums.whole / fmax(sums.full, 1.0));
+}
+
+static bool window_ok(const DpPlantWindow* w)
+{
+    return w && w->nx > 0 && w->ny > 0 && w->row >= w->nx && w->cell > 0.0 && w->cell < 1e6 &&
+           fabs(w->x0) < 1e9 && fabs(w->y0) < 1e9;
+}
+
+DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
+                         float* strength, float* modulus)
+{
+    if (!plants || !window_ok(window) || (law != DP_COVER_FULL && law != DP_COVER_PAPER))
+        return DP_BAD_ARGUMENT;
+    for (int j = 0; j < window->ny; ++j)
+        for (int i = 0; i < window->nx; ++i) {
+            const size_t at = (size_t)j * (size_t)window->row + (size_t)i;
+            const Sums   sums =
+                sums_at(plants, window->x0 + i * window->cell, window->y0 + j * window->cell);
+            const double share = law == DP_COVER_PAPER ? (sums.plants ? 1.0 / sums.plants : 0.0)
+                                                       : 1.0 / fmax(sums.full, 1.0);
+            const double alpha = share * (law == DP_COVER_PAPER ? sums.paper : sums.whole);
+            const double root = share * (law == DP_COVER_PAPER ? sums.paper_root : sums.root);
+            if (strength) strength[at] = (float)fmin(alpha, 1.0);  // TRAIL (7)
+            if (modulus) modulus[at] = (float)root;                // TRAIL (8)
+        }
+    return DP_OK;
+}
+
+// how one plant lies: mean of its stems' tips against their feet, by height
+static void lean_of(const PlantStand* stand, const PlantBlock* block, int lane, double lean[3])
+{
+    const DpPlantShape shape = stand->shape;
+    lean[0] = lean[1] = lean[2] = 0.0;
+    const double high = (double)stand->gap * (shape.rows - DP_PLANT_HELD);
+    if (!block->state || !(high > 0.0)) return;
+    float* const* at = block->state->at;
+    double        rise = 0.0, stood = 0.0;
+    for (int stem = 0; stem < shape.stems; ++stem) {
+        const int    foot = stem * shape.rows + 1, tip = (stem + 1) * shape.rows - 1;
+        const int    f = foot * DP_LANES + lane, t = tip * DP_LANES + lane;
+        const DpVec3 a = plant_rest_at(stand, block, foot, lane);
+        const DpVec3 b = plant_rest_at(stand, block, tip, lane);
+        lean[0] += ((double)at[0][t] - (double)at[0][f] - (b.x - a.x)) / (high * shape.stems);
+        lean[1] += ((double)at[1][t] - (double)at[1][f] - (b.y - a.y)) / (high * shape.stems);
+        rise += (double)at[2][t] - (double)at[2][f], stood += b.z - a.z;
+    }
+    if (stood > 0.0) lean[2] = dp_clamp(1.0 - rise / stood, 0.0, 1.0);
+}
+
+DpStatus dp_plants_lean(const DpPlants* plants, const DpPlantWindow* window, float* lean_x,
+                        float* lean_y, float* crushed)
+{
+    if (!plants || !window_ok(window) || !lean_x || !lean_y || !crushed) return DP_BAD_ARGUMENT;
+    // kernels are summed plant by plant: a plant's lean is worth working out once
+    const DpPlantWindow w = *window;
+    for (int j = 0; j < w.ny; ++j) {
+        const size_t at = (size_t)j * (size_t)w.row, size = (size_t)w.nx * sizeof(float);
+        memset(lean_x + at, 0, size), memset(lean_y + at, 0, size), memset(crushed + at, 0, size);
+    }
+    for (int s = 0; s < plants->stands; ++s) {
+        const PlantStand* stand = &plants->stand[s];
+        const double      reach = (double)stand->kind.reach;
+        for (int b = 0; b < stand->blocks; ++b) {
+            const PlantBlock* block = &stand->block[b];
+            for (int l = 0; l < block->count && block->state; ++l) {
+                double       lean[3];
+                const double x = (double)block->root[0][l], y = (double)block->root[1][l];
+                const double i0 = ceil((x - reach - w.x0) / w.cell), i1 = floor((x + reach - w.x0) / w.cell);
+                const double j0 = ceil((y - reach - w.y0) / w.cell), j1 = floor((y + reach - w.y0) / w.cell);
+                if (i1 < 0.0 || j1 < 0.0 || i0 >= w.nx || j0 >= w.ny) continue;
+                lean_of(stand, block, l, lean);
+                for (int j = j0 > 0.0 ? (int)j0 : 0; j < w.ny && j <= j1; ++j)
+                    for (int i = i0 > 0.0 ? (int)i0 : 0; i < w.nx && i <= i1; ++i) {
+                        const double dx = w.x0 + i * w.cell - x, dy = w.y0 + j * w.cell - y;
+                        const double d2 = dx * dx + dy * dy;
+                        if (d2 >= reach * reach) continue;
+                        const double kernel = 1.0 - sqrt(d2) / reach;
+                        const size_t at = (size_t)j * (size_t)w.row + (size_t)i;
+                        lean_x[at] += (float)(kernel * lean[0]);
+                        lean_y[at] += (float)(kernel * lean[1]);
+                        crushed[at] += (float)(kernel * lean[2]);
+                    }
+            }
+        }
+    }
+    for (int j = 0; j < w.ny; ++j)
+        for (int i = 0; i < w.nx; ++i) {
+            const size_t at = (size_t)j * (size_t)w.row + (size_t)i;
+            double       weight = 0.0;
+            if (!(crushed[at] > 0.0f) && !(fabsf(lean_x[at]) + fabsf(lean_y[at]) > 0.0f)) continue;
+            const double x = w.x0 + i * w.cell, y = w.y0 + j * w.cell;
+            for (int s = 0; s < plants->stands; ++s) {
+                const PlantStand* stand = &plants->stand[s];
+                Sums              sums = {0};
+                add_plants(&sums, stand, x, y);
+                weight += sums.full * (double)stand->kind.full_density * PI *
+                          (double)stand->kind.reach * (double)stand->kind.reach / 3.0;
+            }
+            if (!(weight > 0.0)) continue;
+            lean_x[at] = (float)((double)lean_x[at] / weight);
+            lean_y[at] = (float)((double)lean_y[at] / weight);
+            crushed[at] = (float)dp_clamp((double)crushed[at] / weight, 0.0, 1.0);
+        }
+    return DP_OK;
+}

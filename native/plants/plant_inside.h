@@ -1,0 +1,143 @@
+// plants/plant_inside.h - what the files of this room share.
+//
+// Plants of a stand live in blocks of DP_LANES neighbours; every number of a block is an array over
+// its lanes, so that loops over lanes become wide registers. A block without `state` is whole and in
+// its rest shape.
+#pragma once
+#include "base/vec.h"
+#include "plants/plants.h"
+
+#define DP_LANES 8
+#define DP_PLANT_HELD 2        // rows held by the ground
+#define DP_SUBSTEP (1.0 / 480) // longest sub-step [s]
+#define DP_SUBSTEPS_MOST 64
+#define DP_STRETCH_MOST 1.05f  // no stem is longer
+#define DP_SPEED_MOST 6.0f     // of a particle [m/s]
+
+// two particles that keep their distance
+typedef struct PlantEdge
+{
+    int   a, b;
+    float rest;              // [m]
+    float share_a, share_b;  // how much of the correction each end takes, sum 1
+    float rate;              // stiffness over mass [1/s^2]; 0 = rigid
+} PlantEdge;
+
+// state of a block; grids are (particles, lanes) and (bends, lanes)
+typedef struct PlantState
+{
+    float*  at[3];     // positions [m]
+    float*  speed[3];  // [m/s]
+    float*  limp;      // 1 above a broken bend, else 0 (particles, lanes)
+    double* strength;  // eps_b; 0 = broken
+} PlantState;
+
+typedef struct PlantBlock
+{
+    PlantState* state;  // NULL: whole and at rest
+    int         count;  // lanes in use; the others repeat lane 0
+    bool        awake, touched, wearing, changed;
+    bool        touched_lane[DP_LANES];
+    int         broke;           // bends, in the last step
+    double      quiet;           // time without motion [s]
+    double      asleep_since;    // [s]
+    float       root[3][DP_LANES];
+    float       turn[2][DP_LANES];   // cos, sin of the heading
+    float       slope[2][DP_LANES];  // of the ground
+    float       alpha[DP_LANES];     // unbroken share
+    double      reserve[DP_LANES];
+    int         plant[DP_LANES];  // number at which it was added
+} PlantBlock;
+
+typedef struct PlantStand
+{
+    DpPlantKind  kind;
+    DpPlantShape shape;
+    float        gap;    // between rows [m]
+    float        extent; // farthest particle from the root [m]
+    float        bend_rate;  // [1/s^2]
+    float*       rest;   // in the plant's frame (particles, 3)
+    float*       rest_bend;  // second differences of it (bends, 3)
+    double*      limit;  // cosines at which bends wear and break (bends, 2)
+    PlantEdge*   edge;
+    int          edges;
+    PlantBlock*  block;
+    int          blocks, count;
+    uint8_t*     up;     // is the block awake? (blocks)
+    float*       box;    // roots of each block, x0 y0 x1 y1 (blocks, 4) [m]
+    int*         where;  // block * DP_LANES + lane of each plant, as added
+    // roots by cells of side `bin`, for kernels that look around
+    double bin, bx0, by0;
+    int    bnx, bny;
+    int *  bin_start, *bin_item;  // where[]-numbers
+} PlantStand;
+
+struct DpPlants
+{
+    uint64_t    seed;
+    double      now;  // [s]
+    uint64_t    rests;
+    PlantStand* stand;
+    int         stands;
+    // scratch of a step
+    struct PlantTask* task;
+    int               task_room;
+    float*            scratch;
+    size_t            scratch_room;
+    float*            side;
+    size_t            side_room;
+};
+
+// a number 0..1 from three names; the same on every machine
+double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
+// a normal number
+double plant_normal(uint64_t seed, uint64_t a, uint64_t b);
+
+// rest position of a particle in the world, at the block's present roots
+DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int lane);
+// give a block its state, in the rest shape; false without memory
+bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
+// strength that came back while asleep
+void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
+void plant_limits(PlantStand* stand);
+// alpha_veg at a point. TRAIL (7)
+float plant_cover_at(const DpPlants* plants, float x, float y);
+void plant_count_broken(const PlantStand* stand, PlantBlock* block);
+
+// stiffness of edges over a sub-step of h
+void plant_soften(const PlantStand* stand, float* soft, double h);
+// stiffness of bends over a sub-step of h, from strength (bends, lanes)
+void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h);
+// lengths of the edges between stems at rest, on the ground's slope (edges, lanes)
+void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length);
+// one sub-step. TRAIL (5)
+void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+                   const float* length, float* before, const float* soft, double h);
+// speeds from where particles were; returns the largest squared speed
+float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);
+// TRAIL (6) for all bends
+void plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
+
+// A collider made ready: the way out to its side.
+typedef struct PlantPush
+{
+    const DpPlantCollider* collider;
+    const float*           out;     // distance to the side [m] (ny, nx), NULL for capsules
+    double                 x0, y0, z0, x1, y1, z1;  // swept box
+} PlantPush;
+
+// push a block's plants out of the colliders, `left` seconds before the end of the step
+void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                      const DpPlantGround* ground, const float* before, double left, double h);
+// a root on the ground, and the ground's slope there
+void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                       int lane);
+// roots of a block on the ground, under soles
+void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                      const DpPlantGround* ground);
+// no particle below the ground
+void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
+// fill the distances to the side of a sole
+void plant_side_field(const DpPlantCollider* collider, float* out);
+// surface at a point; NaN off the ground
+double plant_ground_at(const DpPlantGround* ground, double x, double y);

@@ -1,0 +1,302 @@
+// plants/plant_push.c - soles and legs push stems aside, down and nowhere else.
+//
+// A particle under a sole stays between it and the ground; one that a sole has run into leaves by the
+// shorter way, down or to the side. Afterwards each stem is gone through from its foot upward: whoever
+// is too far from the particle below comes closer, and since that one is clear of every sole, there is
+// always a place that is.
+#include <string.h>
+
+#include "plants/plant_inside.h"
+
+#define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
+
+double plant_ground_at(const DpPlantGround* ground, double x, double y)
+{
+    if (!ground) return NAN;
+    const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
+    if (!(u >= -0.5 && v >= -0.5 && u <= ground->nx - 0.5 && v <= ground->ny - 0.5)) return NAN;
+    const double fu = floor(dp_clamp(u, 0.0, ground->nx - 1.0));
+    const double fv = floor(dp_clamp(v, 0.0, ground->ny - 1.0));
+    const int    i = (int)fu, j = (int)fv;
+    const int    i1 = i + 1 < ground->nx ? i + 1 : i, j1 = j + 1 < ground->ny ? j + 1 : j;
+    const double a = dp_clamp(u - fu, 0.0, 1.0), b = dp_clamp(v - fv, 0.0, 1.0);
+    const float *low = ground->height + (size_t)j * (size_t)ground->row;
+    const float *high = ground->height + (size_t)j1 * (size_t)ground->row;
+    return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +
+           b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
+}
+
+// distances to the nearest cell without sole, by the two-pass chamfer metric
+void plant_side_field(const DpPlantCollider* c, float* out)
+{
+    const float one = (float)c->cell, two = (float)(c->cell * 1.4142135623730951);
+    for (int pass = 0; pass < 2; ++pass)
+        for (int jj = 0; jj < c->ny; ++jj)
+            for (int ii = 0; ii < c->nx; ++ii) {
+                const int j = pass ? c->ny - 1 - jj : jj, i = pass ? c->nx - 1 - ii : ii;
+                float*    here = out + (size_t)j * (size_t)c->nx + i;
+                if (pass == 0)
+                    *here = isfinite(c->bottom[(size_t)j * (size_t)c->row + (size_t)i]) ? 1e9f : 0;
+                const int step = pass ? 1 : -1;
+                for (int k = 0; k < 4; ++k) {  // the four neighbours that were seen before
+                    const int   di = k < 3 ? k - 1 : step, dj = k < 3 ? step : 0;
+                    const bool  inside = i + di >= 0 && i + di < c->nx && j + dj >= 0 && j + dj < c->ny;
+                    const float there = inside ? here[(ptrdiff_t)dj * c->nx + di] : 0.0f;
+                    const float far = there + (di != 0 && dj != 0 ? two : one);
+                    if (far < *here) *here = far;
+                }
+            }
+}
+
+typedef struct Probe
+{
+    const PlantPush*     push;
+    int                  count;
+    const DpPlantGround* ground;
+    const PlantBlock*    block;
+    int                  lane;
+    double               radius, left;
+} Probe;
+
+// the ground below a point; a sole's bottom is ground too when it is lower
+static double ground_below(const Probe* probe, double x, double y)
+{
+    const PlantBlock* block = probe->block;
+    const int         l = probe->lane;
+    const double      height = plant_ground_at(probe->ground, x, y);
+    if (isfinite(height)) return height;
+    return (double)block->root[2][l] + (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
+           (double)block->slope[1][l] * (y - (double)block->root[1][l]);
+}
+
+// cell of a sole over (x, y), -1 where there is none
+static ptrdiff_t cell_under(const DpPlantCollider* c, double left, double x, double y)
+{
+    const double u = (x - c->x0 + c->velocity.x * left) / c->cell + 0.5;
+    const double v = (y - c->y0 + c->velocity.y * left) / c->cell + 0.5;
+    if (!(u >= 0.0 && v >= 0.0 && u < c->nx && v < c->ny)) return -1;
+    const ptrdiff_t at = (ptrdiff_t)(int)v * c->row + (int)u;
+    return isfinite(c->bottom[at]) ? at : -1;
+}
+
+// underside of the lowest sole whose column holds (x, y, z): +inf if none
+static double sole_over(const Probe* probe, const DpVec3* p, const PlantPush** which)
+{
+    double lowest = INFINITY;
+    for (int k = 0; k < probe->count; ++k) {
+        const DpPlantCollider* c = probe->push[k].collider;
+        if (!c->bottom) continue;
+        const ptrdiff_t at = cell_under(c, probe->left, p->x, p->y);
+        if (at < 0) continue;
+        const double bottom = (double)c->bottom[at] - c->velocity.z * probe->left;
+        if (p->z >= bottom + c->thickness || bottom >= lowest) continue;
+        lowest = bottom;
+        if (which) *which = &probe->push[k];
+    }
+    return lowest;
+}
+
+// distance to the side at a cell, 0 off the sole
+static double side_at(const PlantPush* push, int i, int j)
+{
+    const DpPlantCollider* c = push->collider;
+    const bool             inside = i >= 0 && j >= 0 && i < c->nx && j < c->ny;
+    return inside ? (double)push->out[(ptrdiff_t)j * c->nx + i] : 0.0;
+}
+
+// out of a sole by its side, if that is shorter than `down`
+static bool leave_by_side(const Probe* probe, const PlantPush* push, DpVec3* p, double down)
+{
+    const DpPlantCollider* c = push->collider;
+    const int i = (int)((p->x - c->x0 + c->velocity.x * probe->left) / c->cell + 0.5);
+    const int j = (int)((p->y - c->y0 + c->velocity.y * probe->left) / c->cell + 0.5);
+    const double way = side_at(push, i, j) + probe->radius;
+    if (!(way < down)) return false;
+    const double gx = side_at(push, i - 1, j) - side_at(push, i + 1, j);
+    const double gy = side_at(push, i, j - 1) - side_at(push, i, j + 1);
+    const double size = sqrt(gx * gx + gy * gy);
+    if (!(size > 0.0)) return false;
+    const DpVec3 aside = {p->x + way * gx / size, p->y + way * gy / size, p->z};
+    if (isfinite(sole_over(probe, &aside, NULL))) return false;
+    *p = aside;
+    return true;
+}
+
+static bool leave_capsule(const DpPlantCollider* c, double left, double radius, DpVec3* p)
+{
+    const DpVec3 back = dp_scale(c->velocity, -left);
+    const DpVec3 from = dp_add(c->from, back), axis = dp_sub(c->to, c->from);
+    const double length2 = dp_dot(axis, axis);
+    const double t = length2 > 0.0 ? dp_clamp(dp_dot(dp_sub(*p, from), axis) / length2, 0.0, 1.0) : 0;
+    const DpVec3 away = dp_sub(*p, dp_add(from, dp_scale(axis, t)));
+    const double far = dp_length(away), most = c->radius + radius;
+    if (far >= most) return false;
+    DpVec3 out = dp_unit(away);
+    if (!(far > 1e-9)) out = dp_unit(dp_vec3(c->velocity.x, c->velocity.y, 1e-6));
+    *p = dp_add(*p, dp_scale(out, most - far));
+    return true;
+}
+
+// bring a particle out of everything; returns how far it was pushed, and by what
+static double clear(const Probe* probe, DpVec3* p, const DpPlantCollider** by)
+{
+    const DpVec3 was = *p;
+    double       pushed = 0.0;
+    for (int k = 0; k < probe->count; ++k) {
+        const DpPlantCollider* c = probe->push[k].collider;
+        if (c->bottom || !leave_capsule(c, probe->left, probe->radius, p)) continue;
+        pushed = dp_length(dp_sub(*p, was));
+        *by = c;
+    }
+    double ground = ground_below(probe, p->x, p->y);
+    for (int pass = 0; pass < 3; ++pass) {
+        const PlantPush* push = NULL;
+        const double     bottom = sole_over(probe, p, &push);
+        if (!push) break;
+        const double floor_here = fmin(ground, bottom);
+        const double room = dp_clamp(0.5 * (bottom - floor_here), 0.0, probe->radius);
+        const double most = bottom - room;
+        if (p->z <= most) {
+            ground = floor_here;
+            break;
+        }
+        *by = push->collider;
+        pushed = fmax(pushed, p->z - most);
+        if (leave_by_side(probe, push, p, p->z - most)) {
+            ground = ground_below(probe, p->x, p->y);
+            continue;
+        }
+        p->z = most;
+        ground = floor_here;
+    }
+    if (p->z < ground) p->z = ground;
+    return pushed;
+}
+
+static DpVec3 get(float* const at[3], int k)
+{
+    return dp_vec3((double)at[0][k], (double)at[1][k], (double)at[2][k]);
+}
+
+static void put(float* const at[3], int k, DpVec3 p)
+{
+    at[0][k] = (float)p.x, at[1][k] = (float)p.y, at[2][k] = (float)p.z;
+}
+
+// soles take along what they press, as far as they press it
+static void rub(const DpPlantCollider* c, DpVec3* p, DpVec3 before, double pushed, double h)
+{
+    const DpVec3 slip = dp_sub(dp_sub(*p, before), dp_scale(c->velocity, h));
+    const double far = sqrt(slip.x * slip.x + slip.y * slip.y);
+    if (!(far > 0.0)) return;
+    const double share = fmin(1.0, c->friction * pushed / far);
+    p->x -= share * slip.x, p->y -= share * slip.y;
+}
+
+// a place no farther than `most` from the particle below, clear of everything
+static DpVec3 settle(const Probe* probe, DpVec3 p, DpVec3 below, double most)
+{
+    const DpPlantCollider* by = NULL;
+    for (int pass = 0; pass < 4; ++pass) {
+        const DpVec3 arm = dp_sub(p, below);
+        const double length = dp_length(arm);
+        if (length > most) p = dp_add(below, dp_scale(arm, most / length));
+        const DpVec3 was = p;
+        clear(probe, &p, &by);
+        if (dp_length(dp_sub(p, was)) <= 0.0) return p;
+        if (dp_length(dp_sub(p, below)) <= most * (double)(DP_STRETCH_MOST / LAST_WORD)) return p;
+    }
+    // halfway, and again: beside the particle below there is room
+    for (double share = 0.5; share > 0.01; share *= 0.5) {
+        DpVec3 q = dp_add(below, dp_scale(dp_sub(p, below), share));
+        clear(probe, &q, &by);
+        if (dp_length(dp_sub(q, below)) <= most) return q;
+    }
+    return below;
+}
+
+void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                      const DpPlantGround* ground, const float* before, double left, double h)
+{
+    const DpPlantShape shape = stand->shape;
+    const int          size = shape.particles * DP_LANES;
+    float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
+    const double       most = (double)(LAST_WORD * stand->gap);
+    for (int l = 0; l < block->count; ++l) {
+        if (!block->touched_lane[l]) continue;
+        const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius, left};
+        for (int stem = 0; stem < shape.stems; ++stem) {
+            DpVec3 below = get(at, (stem * shape.rows + 1) * DP_LANES + l);
+            for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
+                const int              k = (stem * shape.rows + r) * DP_LANES + l;
+                const DpVec3           was = get(at, k);
+                const DpPlantCollider* by = NULL;
+                DpVec3                 p = was;
+                const double           pushed = clear(&probe, &p, &by);
+                if (by) {
+                    const DpVec3 old = dp_vec3((double)before[k], (double)before[size + k],
+                                               (double)before[2 * size + k]);
+                    rub(by, &p, old, pushed, h);
+                }
+                p = settle(&probe, p, below, most);
+                put(at, k, p);
+                below = get(at, k);
+            }
+        }
+    }
+}
+
+void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                      const DpPlantGround* ground)
+{
+    const DpPlantShape shape = stand->shape;
+    float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
+    for (int l = 0; l < DP_LANES; ++l) {
+        plant_ground_lane(stand, block, ground, l);
+        const Probe probe = {push, count, ground, block, l, 0.0, 0.0};
+        for (int stem = 0; stem < shape.stems; ++stem) {
+            const int root = stem * shape.rows;
+            DpVec3    foot = plant_rest_at(stand, block, root + 1, l);
+            foot.z = ground_below(&probe, foot.x, foot.y);
+            if (block->touched_lane[l]) foot.z = fmin(foot.z, sole_over(&probe, &foot, NULL));
+            put(at, (root + 1) * DP_LANES + l, foot);
+            foot.z -= (double)stand->gap;
+            put(at, root * DP_LANES + l, foot);
+        }
+    }
+}
+
+void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
+{
+    const int rows = stand->shape.rows;
+    float*    const *at = block->state->at;
+    for (int p = 0; p < stand->shape.particles; ++p) {
+        if (p % rows < DP_PLANT_HELD) continue;
+        for (int l = 0; l < DP_LANES; ++l) {
+            const int k = p * DP_LANES + l;
+            if (block->touched_lane[l]) continue;  // soles had the last word there
+            const double height = plant_ground_at(ground, (double)at[0][k], (double)at[1][k]);
+            if ((double)at[2][k] < height) at[2][k] = (float)height;
+        }
+    }
+}
+
+// where a plant's root stands, and how the ground leans there
+void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground, int l)
+{
+    if (!ground) return;
+    const double x = (double)block->root[0][l], y = (double)block->root[1][l];
+    const double height = plant_ground_at(ground, x, y);
+    if (!isfinite(height)) return;
+    const double d = fmax(ground->cell, 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth));
+    block->root[2][l] = (float)height;
+    for (int k = 0; k < 2; ++k) {
+        const double dx = k ? 0.0 : d, dy = k ? d : 0.0;
+        const double lower = plant_ground_at(ground, x - dx, y - dy);
+        const double upper = plant_ground_at(ground, x + dx, y + dy);
+        double       slope = (upper - lower) / (2.0 * d);
+        if (!isfinite(slope)) slope = isfinite(upper) ? (upper - height) / d : (height - lower) / d;
+        if (!isfinite(slope)) slope = 0.0;
+        block->slope[k][l] = (float)dp_clamp(slope, -1.0, 1.0);
+    }
+}

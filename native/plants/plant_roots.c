@@ -1,0 +1,108 @@
+// plants/plant_roots.c - where plants stand, and how one plant is read and written. TRAIL 4.1
+#include <string.h>
+
+#include "base/alloc.h"
+#include "plants/plant_inside.h"
+
+DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
+{
+    if (!plants || !ground || !ground->height || ground->nx < 1 || ground->ny < 1 ||
+        ground->row < ground->nx || !(ground->cell > 0.0))
+        return DP_BAD_ARGUMENT;
+    const double x0 = ground->x0 - ground->cell, x1 = ground->x0 + ground->nx * ground->cell;
+    const double y0 = ground->y0 - ground->cell, y1 = ground->y0 + ground->ny * ground->cell;
+    for (int s = 0; s < plants->stands; ++s) {
+        PlantStand* stand = &plants->stand[s];
+        for (int b = 0; b < stand->blocks; ++b) {
+            const float* box = stand->box + 4 * b;
+            if ((double)box[0] > x1 || (double)box[2] < x0 || (double)box[1] > y1 ||
+                (double)box[3] < y0)
+                continue;
+            PlantBlock* block = &stand->block[b];
+            for (int l = 0; l < DP_LANES; ++l) {
+                PlantBlock was = *block;
+                plant_ground_lane(stand, block, ground, l);
+                if (!block->state || block->awake) continue;
+                for (int p = 0; p < stand->shape.particles; ++p)  // a sleeper rises and sinks whole
+                    block->state->at[2][p * DP_LANES + l] +=
+                        (float)(plant_rest_at(stand, block, p, l).z -
+                                plant_rest_at(stand, &was, p, l).z);
+            }
+        }
+    }
+    return DP_OK;
+}
+
+static PlantBlock* find(const DpPlants* plants, int stand, int plant, int* lane)
+{
+    if (!plants || stand < 0 || stand >= plants->stands) return NULL;
+    const PlantStand* at = &plants->stand[stand];
+    if (plant < 0 || plant >= at->count) return NULL;
+    *lane = at->where[plant] % DP_LANES;
+    return &at->block[at->where[plant] / DP_LANES];
+}
+
+DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float* position,
+                        float* velocity, double* strength)
+{
+    int               lane = 0;
+    const PlantBlock* block = find(plants, stand_name, plant, &lane);
+    if (!block) return DP_BAD_ARGUMENT;
+    const PlantStand* stand = &plants->stand[stand_name];
+    for (int p = 0; p < stand->shape.particles; ++p)
+        for (int d = 0; d < 3; ++d) {
+            const int    at = p * DP_LANES + lane;
+            const DpVec3 rest = plant_rest_at(stand, block, p, lane);
+            const double still = d == 0 ? rest.x : d == 1 ? rest.y : rest.z;
+            if (position) position[3 * p + d] = block->state ? block->state->at[d][at] : (float)still;
+            if (velocity) velocity[3 * p + d] = block->state ? block->state->speed[d][at] : 0.0f;
+        }
+    const double slept = block->awake ? 0.0 : plants->now - block->asleep_since;
+    for (int b = 0; strength && b < stand->shape.bends; ++b) {
+        double now = block->reserve[lane];
+        if (block->state) now = block->state->strength[b * DP_LANES + lane];
+        if (now > 0.0) now = fmin(now + (double)stand->kind.recover_rate * slept, block->reserve[lane]);
+        strength[b] = now;
+    }
+    return DP_OK;
+}
+
+DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const float* position,
+                         const float* velocity, const double* strength)
+{
+    int         lane = 0;
+    PlantBlock* block = find(plants, stand_name, plant, &lane);
+    if (!block) return DP_BAD_ARGUMENT;
+    PlantStand* stand = &plants->stand[stand_name];
+    for (int k = 0; k < 3 * stand->shape.particles; ++k)
+        if ((position && !(fabsf(position[k]) < 1e7f)) || (velocity && !(fabsf(velocity[k]) < 1e4f)))
+            return DP_BAD_ARGUMENT;
+    for (int b = 0; strength && b < stand->shape.bends; ++b)
+        if (!(strength[b] >= 0.0 && strength[b] <= block->reserve[lane])) return DP_BAD_ARGUMENT;
+    if (!plant_wake(plants, stand, block)) return DP_NO_MEMORY;
+    stand->up[block - stand->block] = 1;
+    for (int p = 0; p < stand->shape.particles; ++p)
+        for (int d = 0; d < 3; ++d) {
+            const int at = p * DP_LANES + lane;
+            if (position) block->state->at[d][at] = position[3 * p + d];
+            if (velocity) block->state->speed[d][at] = velocity[3 * p + d];
+        }
+    for (int b = 0; strength && b < stand->shape.bends; ++b)
+        block->state->strength[b * DP_LANES + lane] = strength[b];
+    plant_count_broken(stand, block);
+    return DP_OK;
+}
+
+double dp_plants_reserve(const DpPlants* plants, int stand, int plant)
+{
+    int               lane = 0;
+    const PlantBlock* block = find(plants, stand, plant, &lane);
+    return block ? block->reserve[lane] : 0.0;
+}
+
+double dp_plants_alpha(const DpPlants* plants, int stand, int plant)
+{
+    int               lane = 0;
+    const PlantBlock* block = find(plants, stand, plant, &lane);
+    return block ? (double)block->alpha[lane] : 0.0;
+}

@@ -1,0 +1,237 @@
+// plants/plant_solve.c - how plants move: bends, edges and stems, one small step at a time. TRAIL (5)
+//
+// XPBD with one pass a sub-step: a correction is C / (sum of weights + compliance / h^2), so stiffness
+// depends neither on passes nor on the time step. Lanes are plants: all do the same sums in the same
+// order, in narrow or wide registers.
+#include "base/wide.h"
+
+#include "base/assert.h"
+#include "plants/plant_inside.h"
+
+#if defined(__clang__)
+#define LANES _Pragma("clang loop vectorize(assume_safety)") for (int l = 0; l < DP_LANES; ++l)
+#elif defined(__GNUC__)
+#define LANES _Pragma("GCC ivdep") for (int l = 0; l < DP_LANES; ++l)
+#else
+#define LANES for (int l = 0; l < DP_LANES; ++l)
+#endif
+
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#else
+#define INLINE static inline
+#endif
+
+#define BEYOND 1.04f // edges between stems are hard when longer than this
+#define TINY 1e-18f  // squared length of what has none [m^2]
+
+// let particles go on as they moved; where they were is kept
+INLINE void go_on(float* restrict at, float* restrict speed, float* restrict before, float keep,
+                  float h)
+{
+    LANES
+    {
+        before[l] = at[l];
+        speed[l] *= keep;
+        at[l] += h * speed[l];
+    }
+}
+
+// three particles of a stem turn back to their rest bend. TRAIL (5), C_b
+INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
+                   const float* restrict give, const float* restrict rest, float w0, float w1)
+{
+    LANES
+    {
+        const float off = give[l] * (x0[l] - 2.0f * x1[l] + x2[l] - rest[l]);
+        x0[l] -= w0 * off;
+        x1[l] += 2.0f * w1 * off;
+        x2[l] -= off;
+    }
+}
+
+// two particles come to their distance: softly, and hard when far beyond it. TRAIL (5), C_s
+INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, float* restrict bx,
+                 float* restrict by, float* restrict bz, const PlantEdge* edge,
+                 const float* restrict rest, float soft)
+{
+    const float wa = edge->share_a, wb = edge->share_b;
+    LANES
+    {
+        const float dx = bx[l] - ax[l], dy = by[l] - ay[l], dz = bz[l] - az[l];
+        const float inverse = 1.0f / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+        const float easy = soft * (1.0f - rest[l] * inverse);
+        const float hard = 1.0f - BEYOND * rest[l] * inverse;
+        const float share = easy > hard ? easy : hard;
+        ax[l] += wa * share * dx, ay[l] += wa * share * dy, az[l] += wa * share * dz;
+        bx[l] -= wb * share * dx, by[l] -= wb * share * dy, bz[l] -= wb * share * dz;
+    }
+}
+
+// the same for a stem, which keeps its length
+INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az,
+                      float* restrict bx, float* restrict by, float* restrict bz,
+                      const PlantEdge* edge)
+{
+    const float rest = edge->rest, wa = edge->share_a, wb = edge->share_b;
+    LANES
+    {
+        const float dx = bx[l] - ax[l], dy = by[l] - ay[l], dz = bz[l] - az[l];
+        const float share = 1.0f - rest / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+        ax[l] += wa * share * dx, ay[l] += wa * share * dy, az[l] += wa * share * dz;
+        bx[l] -= wb * share * dx, by[l] -= wb * share * dy, bz[l] -= wb * share * dz;
+    }
+}
+
+// the ground under a plant is a plane; a step's end looks at it closely
+INLINE void stay_above(const float* restrict x, const float* restrict y, float* restrict z,
+                       const PlantBlock* block)
+{
+    LANES
+    {
+        const float ground = block->root[2][l] + block->slope[0][l] * (x[l] - block->root[0][l]) +
+                             block->slope[1][l] * (y[l] - block->root[1][l]);
+        z[l] = z[l] > ground ? z[l] : ground;
+    }
+}
+
+// stiffness of edges over a sub-step: how much of a correction is made
+void plant_soften(const PlantStand* stand, float* soft, double h)
+{
+    for (int e = 0; e < stand->edges; ++e) {
+        const PlantEdge* edge = &stand->edge[e];
+        const double     weight = edge->share_a > 0.0f && edge->share_b > 0.0f ? 2.0 : 1.0;
+        soft[e] = edge->rate > 0.0f
+                      ? (float)(weight / (weight + 1.0 / ((double)edge->rate * h * h)))
+                      : 1.0f;
+    }
+}
+
+// stems stand upright on sloping ground: what joins them is as long as it is there
+DP_CLONES
+void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
+{
+    for (int e = 0; e < stand->edges; ++e) {
+        const PlantEdge* edge = &stand->edge[e];
+        const int        rows = stand->shape.rows;
+        const float *    a = stand->rest + 3 * edge->a, *b = stand->rest + 3 * edge->b;
+        const float *    fa = stand->rest + 3 * (edge->a / rows * rows);
+        const float *    fb = stand->rest + 3 * (edge->b / rows * rows);
+        const float      dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
+        const float      fx = fb[0] - fa[0], fy = fb[1] - fa[1];  // between their feet
+        float*           to = length + e * DP_LANES;
+        LANES
+        {
+            const float c = block->turn[0][l], s = block->turn[1][l];
+            const float up =
+                dz + block->slope[0][l] * (c * fx - s * fy) + block->slope[1][l] * (s * fx + c * fy);
+            to[l] = sqrtf(dx * dx + dy * dy + up * up);
+        }
+    }
+}
+
+// a bend is as stiff as its strength is whole
+DP_CLONES
+void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
+{
+    const float  alpha = (float)(1.0 / ((double)stand->bend_rate * h * h));
+    const double most = 1.0;
+    float        inverse[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) inverse[l] = (float)(most / block->reserve[l]);
+    const int a_stem = stand->shape.rows - 2;
+    for (int b = 0; b < stand->shape.bends; ++b) {
+        const int     row = b % a_stem;
+        const float   weight = row == 0 ? 1.0f : row == 1 ? 5.0f : 6.0f;
+        const double* strength = block->state->strength + b * DP_LANES;
+        float*        to = give + b * DP_LANES;
+        LANES
+        {
+            const float whole = (float)strength[l] * inverse[l];
+            to[l] = whole / (weight * whole + alpha);
+        }
+    }
+}
+
+DP_CLONES
+void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+                   const float* length, float* before, const float* soft, double h_long)
+{
+    const DpPlantShape shape = stand->shape;
+    const int          rows = shape.rows, size = shape.particles * DP_LANES;
+    const float        h = (float)h_long;
+    const float        keep = (float)(1.0 / (1.0 + (double)stand->kind.damping * h_long));
+    const float        fall = (float)(DP_GRAVITY * h_long);
+    PlantState*        state = block->state;
+    float *            x = state->at[0], *y = state->at[1], *z = state->at[2];
+
+    // semi-implicit Euler: speeds first, then places
+    for (int p = 0; p < shape.particles; ++p) {
+        const int at = p * DP_LANES;
+        if (p % rows < DP_PLANT_HELD) continue;
+        LANES state->speed[2][at + l] -= fall * state->limp[at + l];
+        go_on(x + at, state->speed[0] + at, before + at, keep, h);
+        go_on(y + at, state->speed[1] + at, before + size + at, keep, h);
+        go_on(z + at, state->speed[2] + at, before + 2 * size + at, keep, h);
+    }
+
+    // bends, row by row over all stems: neighbours in this order share no particle
+    for (int row = 0; row + 2 < rows; ++row) {
+        const float w0 = row < DP_PLANT_HELD ? 0.0f : 1.0f, w1 = row + 1 < DP_PLANT_HELD ? 0.0f : 1.0f;
+        for (int stem = 0; stem < shape.stems; ++stem) {
+            const int    b = stem * (rows - 2) + row, at = (stem * rows + row) * DP_LANES;
+            const float* rest = stand->rest_bend + 3 * b;
+            const float* share = give + b * DP_LANES;
+            float        tx[DP_LANES], ty[DP_LANES], tz[DP_LANES];
+            LANES
+            {
+                tx[l] = block->turn[0][l] * rest[0] - block->turn[1][l] * rest[1];
+                ty[l] = block->turn[1][l] * rest[0] + block->turn[0][l] * rest[1];
+                tz[l] = rest[2];
+            }
+            unbend(x + at, x + at + DP_LANES, x + at + 2 * DP_LANES, share, tx, w0, w1);
+            unbend(y + at, y + at + DP_LANES, y + at + 2 * DP_LANES, share, ty, w0, w1);
+            unbend(z + at, z + at + DP_LANES, z + at + 2 * DP_LANES, share, tz, w0, w1);
+        }
+    }
+
+    for (int e = 0; e < stand->edges; ++e) {
+        const PlantEdge* edge = &stand->edge[e];
+        const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
+        if (edge->rate > 0.0f) pull(x + a, y + a, z + a, x + b, y + b, z + b, edge,
+                                   length + e * DP_LANES, soft[e]);
+        else pull_stem(x + a, y + a, z + a, x + b, y + b, z + b, edge);
+    }
+
+    for (int p = 0; p < shape.particles; ++p)
+        if (p % rows >= DP_PLANT_HELD)
+            stay_above(x + p * DP_LANES, y + p * DP_LANES, z + p * DP_LANES, block);
+}
+
+// speeds are what was gone in h; nothing in grass is faster than DP_SPEED_MOST
+DP_CLONES
+float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)
+{
+    const int   rows = stand->shape.rows, size = stand->shape.particles * DP_LANES;
+    const float rate = (float)(1.0 / h);
+    float       fastest[DP_LANES] = {0};
+    PlantState* state = block->state;
+    for (int p = 0; p < stand->shape.particles; ++p) {
+        if (p % rows < DP_PLANT_HELD) continue;
+        for (int d = 0; d < 3; ++d) {
+            const float* was = before + d * size + p * DP_LANES;
+            const float* at = state->at[d] + p * DP_LANES;
+            float*       speed = state->speed[d] + p * DP_LANES;
+            LANES
+            {
+                float v = rate * (at[l] - was[l]);
+                v = v > DP_SPEED_MOST ? DP_SPEED_MOST : v;
+                v = v < -DP_SPEED_MOST ? -DP_SPEED_MOST : v;
+                speed[l] = v;
+                fastest[l] = v * v > fastest[l] ? v * v : fastest[l];
+            }
+        }
+    }
+    float most = 0.0f;
+    for (int l = 0; l < DP_LANES; ++l) most = fastest[l] > most ? fastest[l] : most;
+    return most;
+}

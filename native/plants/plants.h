@@ -1,0 +1,168 @@
+// plants/plants.h - grass that bends under feet, wears, breaks, grows again and holds the soil.
+//
+//   add ---> step: solve ---> wear ---> cover, roots ---> soil
+//            TRAIL (5)        TRAIL (6)  TRAIL (7)(8)     TRAIL (9)
+//
+// A plant is a grid of particles: sheets of stems side by side, rows from the root upward. The two
+// lowest rows are held by the ground: row 0 is the root, one spacing deep, row 1 sits on the surface.
+// Plants far from feet and at rest sleep, whole ones without memory: cost follows the walkers.
+//
+// Departures
+//   Rows sit height / (rows - 2) apart, so that a plant stands as high over the ground as it says.
+//   TRAIL (5): bending is the second difference along a stem against that of its rest shape; its
+//   length is the chord of (phi - phi_0), and it knows to which side the stem leans.
+//   Gravity pulls what is limp; whole stems are built as they hang.
+//   TRAIL (7): a stand denser than full cover counts 1; `paper` is as printed.
+#pragma once
+#include "base/status.h"
+#include "base/types.h"
+
+typedef enum DpPlantForm
+{
+    DP_PLANT_SURFACE = 0,  // one sheet of stems, the paper's
+    DP_PLANT_TUFT = 1      // two or three sheets that cross
+} DpPlantForm;
+
+// One kind of plant. Start from dp_plant_kind_default() and change what you know.
+typedef struct DpPlantKind
+{
+    int   form;    // DpPlantForm
+    int   sheets;  // crossed sheets of a tuft; a surface has one           2..3
+    float height;  // over the ground                                       [m]     >= 0
+    float width;   // of the first sheet                                    [m]     >= 0
+    float depth;   // of the sheets that cross it                           [m]     >= 0
+    float spacing; // between particles, about                              [m]     > 0
+    float radius;  // of a particle                                         [m]     >= 0
+    float curl;    // phi_0, rest angle between neighbouring edges          [rad]   0..pi/2
+    float sway;    // frequency at which a whole stem swings                [Hz]    > 0
+    float across;  // stiffness of the edges between stems, as a frequency  [Hz]    > 0
+    float damping; // of speed                                              [1/s]   >= 0
+
+    float strength;      // eps_b, reserve of a bend, TRAIL (6)             [-]     > 0
+    float degrade_angle; // phi_deg, from here on a bend wears              [rad]   0..pi
+    float break_angle;   // phi_max, beyond it a bend breaks                [rad]   >= phi_deg
+    float degrade_rate;  // mu_deg                                          [1/s]   >= 0
+    float recover_rate;  // mu_rec                                          [1/s]   >= 0
+    float spread;        // s, reserves differ by exp(s z) from plant to plant [-]  0..4
+    float regrow_rate;   // r, TRAIL has none                               [1/s]   >= 0
+
+    float reach;         // R, of a plant's roots                           [m]     > 0
+    float full_density;  // plants from which on the ground is fully covered [1/m^2] > 0
+    float modulus;       // E_v0, of soil full of healthy roots, TRAIL (8)  [Pa]    >= 0
+} DpPlantKind;
+
+DpPlantKind dp_plant_kind_default(void);  // Carex pensylvanica, TRAIL Table 1
+DpStatus    dp_plant_kind_check(const DpPlantKind* kind);
+
+// What a plant of this kind is made of.
+typedef struct DpPlantShape
+{
+    int rows, stems, stems_a_sheet;
+    int particles;  // stems * rows; particle = stem * rows + row
+    int bends;      // stems * (rows - 2); bend = stem * (rows - 2) + k bends rows k, k + 1, k + 2
+} DpPlantShape;
+DpPlantShape dp_plant_shape(const DpPlantKind* kind);
+
+// ---- a stand of plants -----------------------------------------------------------------------
+
+typedef struct DpPlants DpPlants;
+DpPlants* dp_plants_create(uint64_t seed);
+void      dp_plants_destroy(DpPlants* plants);
+
+// Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed.
+// *stand names them from now on, 0, 1, 2..
+DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
+                       const float* heading, int count, int* stand);
+int      dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
+
+// Heights of the ground's current surface at cell centres, NaN = no ground.
+typedef struct DpPlantGround
+{
+    int          nx, ny, row;
+    double       cell, x0, y0;  // side of a cell, centre of cell (0, 0)  [m]
+    const float* height;        // [m] (ny, nx)
+} DpPlantGround;
+
+// What pushes plants: the underside of a part, or a capsule when bottom is NULL. Where it stands is
+// told for the end of the step; during the step it moves there with `velocity`.
+typedef struct DpPlantCollider
+{
+    int          nx, ny, row;
+    double       cell, x0, y0;  // as for the ground                            [m]
+    const float* bottom;        // lower envelope, +inf where there is none     [m] (ny, nx)
+    double       thickness;     // of the part, upward from its bottom          [m] > 0
+
+    DpVec3 from, to;  // axis of the capsule  [m]
+    double radius;    // of the capsule       [m] > 0
+
+    DpVec3 velocity;  // [m/s]
+    double friction;  // [-] >= 0
+} DpPlantCollider;
+
+// What a step did.
+typedef struct DpPlantsTold
+{
+    int    awake;           // plants that were moved
+    int    broke;           // bends that broke
+    bool   changed;         // cover may have changed within x0..x1, y0..y1
+    double x0, y0, x1, y1;  // [m]
+} DpPlantsTold;
+
+// Let plants live for dt seconds: wake those near a collider, solve (5), wear (6), let those at rest
+// sleep. ground may be NULL: roots stay where they are and the ground under a plant is level.
+// The result is the same for any number of workers. dt > 0; no more than 64 sub-steps are taken.
+DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
+                        const DpPlantCollider* colliders, int count, double dt, int workers,
+                        DpPlantsTold* told);
+
+// Roots follow the ground: every plant within it is set on its surface, asleep or not.
+DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground);
+
+// Time passes without walkers [s]: strength comes back linearly, broken stems logistically.
+DpStatus dp_plants_rest(DpPlants* plants, double seconds);
+
+// One plant's particles (particles, 3), speeds, bends' strength (bends; < 0 never, 0 = broken).
+// What is NULL is left out. Writing wakes the plant.
+DpStatus dp_plants_read(const DpPlants* plants, int stand, int plant, float* position,
+                        float* velocity, double* strength);
+DpStatus dp_plants_write(DpPlants* plants, int stand, int plant, const float* position,
+                         const float* velocity, const double* strength);
+// exp(s z) * eps_b, the most strength a bend of this plant has.
+double dp_plants_reserve(const DpPlants* plants, int stand, int plant);
+// alpha_k, unbroken share of a plant's bends. TRAIL (7)
+double dp_plants_alpha(const DpPlants* plants, int stand, int plant);
+
+// ---- one by one ------------------------------------------------------------------------------
+
+// Strength of one bend held at `angle` (phi, from its rest angle) for dt seconds. TRAIL (6)
+double dp_plant_wear(const DpPlantKind* kind, double reserve, double strength, double angle,
+                     double dt);
+// Share of cover after so many seconds of regrowth, d alpha/dt = r alpha (1 - alpha).
+double dp_plant_regrow(const DpPlantKind* kind, double alpha, double seconds);
+
+typedef enum DpCoverLaw
+{
+    DP_COVER_FULL = 0,  // relative to full cover
+    DP_COVER_PAPER = 1  // TRAIL (7) as printed
+} DpCoverLaw;
+
+// Cells to be filled.
+typedef struct DpPlantWindow
+{
+    int    nx, ny, row;
+    double cell, x0, y0;
+} DpPlantWindow;
+
+// alpha_veg, TRAIL (7), and E_v, TRAIL (8) [Pa], of every cell; NULL is left out.
+DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
+                         float* strength, float* modulus);
+// How plants lie: mean of (tip - root) / height over the cell's plants, sideways, and the share of
+// height that is lost, 0..1. Only for grass that follows; cells without plants get 0.
+DpStatus dp_plants_lean(const DpPlants* plants, const DpPlantWindow* window, float* lean_x,
+                        float* lean_y, float* crushed);
+
+// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) into `root` (most, 2),
+// *count of them. weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
+DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
+                         const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
+                         int* count);
