@@ -40,9 +40,9 @@ def fill(obj, surface, index, depth):
     over = np.flatnonzero(axes.beyond(surface.world, local, surface.scale, box) == 0)
     at = axes.points(surface.world, local[over], surface.scale)[:, :2]
     value = {}
-    for name, plane in planes.items():
+    for name, each in _sample(planes, at, index).items():
         value[name] = np.zeros(len(local), np.float32)
-        value[name][over] = _sample(plane, at, index)
+        value[name][over] = each
     warnings = []
     if settings.attributes:
         made = []
@@ -86,22 +86,23 @@ def _planes(index):
             "pressure_time": frame["A"], "plant_strength": frame["G"]}
 
 
-def _sample(plane, at, index):
-    """Values at world points (n, 2) [m], between cell centres in proportion; 0 outside."""
-    ny, nx = plane.shape
+def _sample(planes, at, index):
+    """Values of every plane at world points (n, 2) [m], between cell centres in proportion; 0 outside."""
     place = (at - (index.x0, index.y0)) / index.cell - 0.5
     near = np.round(place)
     place = np.where(np.abs(place - near) < playback.ALIGNED, near, place)
     low = np.floor(place).astype(np.int64)
     part = (place - low).astype(np.float32)
-    out = np.zeros(len(at), np.float32)
+    out = {name: np.zeros(len(at), np.float32) for name in planes}
     for dj in (0, 1):
         for di in (0, 1):
             i, j = low[:, 0] + di, low[:, 1] + dj
-            there = (i >= 0) & (i < nx) & (j >= 0) & (j < ny)
             share = ((part[:, 0] if di else 1.0 - part[:, 0])
                      * (part[:, 1] if dj else 1.0 - part[:, 1]))
-            out[there] += share[there] * plane[j[there], i[there]]
+            there = np.flatnonzero((i >= 0) & (i < index.nx) & (j >= 0) & (j < index.ny) & (share > 0.0))
+            cell, share = j[there] * index.nx + i[there], share[there]
+            for name, plane in planes.items():
+                out[name][there] += share * plane.ravel()[cell]
     return out
 
 

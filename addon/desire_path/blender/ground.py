@@ -13,7 +13,7 @@ from ..errors import DesirePathError
 from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
-NEAR = 1.5  # ground this far around the feet is read [m]
+NEAR = 0.8  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
 BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
@@ -110,15 +110,37 @@ def _triangles(mesh, world, scale, box):
     if len(sizes) and sizes.max() > 4:
         out = compat.triangles(mesh)
         return out if box is None else out[np.bitwise_and.reduce(side[out], axis=1) == 0]
-    wanted = np.ones(len(sizes), bool)
-    if box is not None and len(sizes):
-        wanted = np.bitwise_and.reduceat(side[corners], starts[:-1]) == 0
-    three = corners[starts[:-1][wanted & (sizes == 3)][:, None] + np.arange(3)]
-    four = corners[starts[:-1][wanted & (sizes == 4)][:, None] + np.arange(4)]
-    a, b, c, d = (local[four[:, k]] for k in range(4))
-    dent = np.sum(np.cross(b - a, c - a) * np.cross(c - a, d - a), axis=1) < 0.0
-    four[dent] = np.roll(four[dent], -1, axis=1)  # along the diagonal that lies inside
-    return np.concatenate((three, four[:, (0, 1, 2)], four[:, (0, 2, 3)]))
+    if len(sizes) and sizes.min() == 4:  # the usual ground: quads alone
+        return _halves(local, _reaching(corners.reshape(-1, 4), side))
+    three = _reaching(corners[starts[:-1][sizes == 3][:, None] + np.arange(3)], side)
+    four = _reaching(corners[starts[:-1][sizes == 4][:, None] + np.arange(4)], side)
+    return np.concatenate((three, _halves(local, four)))
+
+
+def _reaching(faces, side):
+    """The faces (f, k) that are not wholly beyond one side of the box."""
+    if side is None or not len(faces):
+        return faces
+    beyond = side[faces]
+    if faces.shape[1] == 4:  # four bytes in one go
+        beyond = beyond.view(np.uint32)[:, 0]
+        beyond &= beyond >> 16
+        beyond &= beyond >> 8
+        return faces[(beyond & 0xFF) == 0]
+    return faces[np.bitwise_and.reduce(beyond, axis=1) == 0]
+
+
+def _halves(local, four):
+    """Quads (f, 4) cut in two along the diagonal that lies inside."""
+    corner = local[four]  # (f, 4, 3)
+    ab, ac, ad = (corner[:, k] - corner[:, 0] for k in (1, 2, 3))
+    left = [ab[:, i] * ac[:, j] - ab[:, j] * ac[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    right = [ac[:, i] * ad[:, j] - ac[:, j] * ad[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    dent = sum(one * other for one, other in zip(left, right)) < 0.0
+    if dent.any():
+        four = four.copy()
+        four[dent] = np.roll(four[dent], -1, axis=1)
+    return np.concatenate((four[:, (0, 1, 2)], four[:, (0, 2, 3)]))
 
 
 def _faces_up(obj, world, vertices, triangles):
