@@ -398,8 +398,8 @@ class Bake:
     def _report(self, sim, seconds):
         found = sim.report()
         warnings = list(self.gait.warnings) + list(self.loads.warnings)
-        if found["off_ground"]:
-            warnings.append("Some steps land beside the ground and leave no print there.")
+        if found["off_ground"] and walker.BESIDE not in warnings:
+            warnings.append(walker.BESIDE)
         return {
             "contacts": found["contacts"], "deepest_m": found["deepest_m"],
             "pressed_m3": found["pressed_m3"], "pressed_heap_m3": found["pressed_heap_m3"],

@@ -15,6 +15,8 @@ MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
 SLIDE = 0.4  # feet that stand do not slide faster [m/s]
+HOVER = 0.1  # feet that stand do not do so farther from the ground [m]
+BESIDE = "Some steps land beside the ground and leave no print there."
 
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
 LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
@@ -60,8 +62,8 @@ def point_places(gait):
 def ground_below(gait, ground):
     """Height of the ground below each contact point (K, T) [m].
 
-    ground: None = flat at 0; a number; heights (K, T); or a function of points (n, 2) -> (n,) that
-    answers NaN where there is none.
+    ground: None = flat at 0; a number; heights (K, T); or a function of points (n, 2) -> (n,). NaN
+    where there is none: feet that step there carry their share and leave it to nobody else.
     """
     shape = (len(gait.point), len(gait.time))
     if callable(ground):
@@ -96,7 +98,9 @@ def contacts(gait, ground_height=None, *, limits=None):
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
     gait.check()
     even, same = _even(gait)
-    touching, clearance = _find_contacts(even, _on_even(gait, even, same, ground_height), limits)
+    below = _on_even(gait, even, same, ground_height)
+    touching, clearance = _find_contacts(even, _carried_on(even, below), limits)
+    touching[_beside(even, below)] = 0
     return (touching if same else touching[:, _nearest(even.time, gait.time)]), clearance
 
 
@@ -106,6 +110,35 @@ def _on_even(gait, even, same, ground):
     if same or callable(ground) or np.ndim(ground) == 0:
         return ground_below(even, ground)
     return np.stack([np.interp(even.time, gait.time, row) for row in below])
+
+
+def _carried_on(gait, below):
+    """Heights as if the ground went on beside its edge and over its holes, between those the same
+    point finds before and after, else those of its walker. Who is never over it keeps NaN."""
+    if np.isfinite(below).all():
+        return below
+    below, sample = below.copy(), np.arange(len(gait.time))
+    owner = gait.limb_walker[gait.part_limb[gait.point_part]]
+    for w in range(len(gait.mass)):
+        rows = np.flatnonzero(owner == w)
+        there = np.isfinite(below[rows])
+        some = there.any(axis=0)
+        if not some.any():
+            continue
+        mean = np.where(there, below[rows], 0.0).sum(axis=0)[some] / there.sum(axis=0)[some]
+        for row, known in zip(rows, there):
+            if known.any():
+                below[row] = np.interp(sample, sample[known], below[row, known])
+            else:
+                below[row] = np.interp(sample, sample[some], mean)
+    return below
+
+
+def _beside(gait, below):
+    """Where the whole limb of a part is beside the ground (P, T)."""
+    over = np.zeros((len(gait.limb_walker), len(gait.time)), bool)
+    np.logical_or.at(over, gait.part_limb[gait.point_part], np.isfinite(below))
+    return ~over[gait.part_limb]
 
 
 def _nearest(have, want):
@@ -131,13 +164,18 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground)
+    beside, below = _beside(even, below), _carried_on(even, below)
     touching, clearance = _find_contacts(even, below, limits)
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
     _native.foot_force(_native_gait(even), touching, below, MODELS[model], float(settle_time),
                        bool(half_sine), force, point, _numbers(OPTIONS, options))
     mean, warnings = _weigh(even, touching, force) if model == "inertia" else (None, [])
-    warnings = _sinks(even, below) + _slides(even, touching) + warnings
+    warnings = (_sinks(even, below) + _hovers(even, touching, clearance) + _slides(even, touching)
+                + warnings)
+    if (touching[beside] != 0).any():
+        warnings.append(BESIDE)
+    touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
     if not same:
         touching, force, point = _at(gait.time, even.time, touching, force, point)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
@@ -167,6 +205,21 @@ def _sinks(gait, below):
             raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time: move the "
                                   "ground down or the walker up.")
     return []
+
+
+def _hovers(gait, touching, clearance):
+    """A sentence for each walker whose feet stand far from the ground."""
+    warnings = []
+    part = gait.point_part
+    for w, name in enumerate(gait.walker_name):
+        mine = (gait.limb_walker[gait.part_limb[part]] == w) & touching[part].any(axis=1)
+        height = float(np.median(clearance[mine])) if mine.any() else 0.0
+        if height > HOVER:
+            warnings.append(f"{name} walks {height:.2f} m above the ground: lower it or raise the ground.")
+        elif height < -HOVER:
+            warnings.append(f"{name} walks {-height:.2f} m deep in the ground: raise it or lower the "
+                            "ground.")
+    return warnings
 
 
 def _slides(gait, touching):

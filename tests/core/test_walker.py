@@ -279,10 +279,32 @@ def test_floating_and_sunken_walkers_are_told():
     gait = two_feet(1)
     light = replace(gait, com=np.concatenate([gait.com[..., :2], gait.com[..., 2:] * 0 + 1], axis=-1))
     assert walker.loads(light).mean[0] == pytest.approx(1.0, abs=0.01)
-    gap = lambda xy: np.where(abs(xy[:, 0] - 1.5) < 0.4, np.nan, 0.0)  # a hole that is walked over
-    assert any("of its weight on average" in w for w in walker.loads(gait, ground=gap).warnings)
+    light.pose[:, 120:180, 2] += 0.4  # both feet in the air, and the body does not fall
+    odd = walker.loads(light, limits={"support_fall": 0.0})
+    assert odd.mean[0] < 0.9 and any("of its weight on average" in w for w in odd.warnings)
+    for ground, word in ((-3.0, "3.00 m above"), (0.4, "0.40 m deep"), (-0.04, "")):
+        told = [w for w in walker.loads(gait, ground=ground).warnings if "the ground" in w]
+        assert len(told) == bool(word) and all(word in w for w in told), told
     with pytest.raises(DesirePathError, match="below the ground all the time"):
         walker.loads(replace(gait, com=gait.com - [0, 0, 9], pose=gait.pose - [0, 0, 9, 0, 0, 0, 0]))
+
+
+def test_feet_beside_the_ground_carry_their_own_share():
+    # an edge along the walk, one across it, and a hole: what stands on the ground feels nothing of it
+    gait = two_feet(2)
+    whole = walker.loads(gait)
+    both = whole.touching.all(axis=0)
+    for gap in (lambda xy: xy[:, 1] < 0.0, lambda xy: xy[:, 0] < 1.2,
+                lambda xy: abs(xy[:, 0] - 1.5) < 0.4):
+        loads = walker.loads(gait, ground=lambda xy: np.where(gap(xy), np.nan, 0.0))
+        out = np.stack([gap(gait.pose[p, :, :2]) for p in (0, 1)])
+        assert (out & (whole.touching != 0))[:, both].any()
+        assert (loads.touching == np.where(out, 0, whole.touching)).all()
+        assert (loads.force == np.where(out[..., None], 0.0, whole.force)).all()
+        assert np.isnan(loads.point[out]).all() and loads.mean == whole.mean
+        assert walker.BESIDE in loads.warnings and walker.BESIDE not in whole.warnings
+        on, _ = walker.contacts(gait, lambda xy: np.where(gap(xy), np.nan, 0.0))
+        assert (on == loads.touching).all()
 
 
 def test_bad_words_get_a_sentence():
