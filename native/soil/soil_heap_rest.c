@@ -10,6 +10,10 @@
 // are chamfer distances with 1 and sqrt(2), the metric in which soil_stabilize.c compares
 // neighbours: what is laid here is at rest there. They lead around the sole, not through it.
 //
+// A sole that rolls leaves a hollow behind. No cone stands in it or reaches into it: what is pushed aside
+// now piles up at its edge, and soil_stabilize.c lets slide in what does not stay. Else every step
+// of the roll would lay a ridge across the print.
+//
 // Heights are whole numbers of a small step (a power of two, some nanometres), so that neither the
 // order of a sweep nor that of a sum can change a bit: with equal shares, mirrored or
 // turned ground gets exactly mirrored or turned heaps. With a push the shares come from
@@ -20,7 +24,8 @@
 #define NOTHING (-(1 << 30))  // no cone reaches this cell
 #define WALL (1 << 29)        // surface of cells that take no soil: under the sole, no ground
 #define MOST_STEPS (1 << 28)  // heights stay below this, so that no sum can overflow
-#define MATCH 0.0002          // a volume this close is right; the rest is a common factor
+#define HOLLOW 0.5    // cells pressed to this share of the deepest under the sole are hollow
+#define MATCH 0.0002  // a volume this close is right; the rest is a common factor
 #define MOST_ROUNDS 40
 
 // The part of the patch that is worked on, with a frame of one wall cell around it.
@@ -48,11 +53,32 @@ typedef struct Heap
     Window           window;
     Apex*            apex;
     int              apex_count;
+    float            hollow;    // untouched cells pressed this deep take no soil [m]
     double           step;      // height of one step    [m]
     double           level;     // height of step 0      [m]
     int32_t          straight;  // what a cone falls per cell                [steps]
     int32_t          diagonal;  // .. per diagonal cell, sqrt(2) times that  [steps]
 } Heap;
+
+// neither under the sole, nor off the ground, nor in the hollow that the sole has left
+static bool takes_soil(const Heap* heap, size_t p)
+{
+    return soil_is_ground(heap->patch->rest[p]) && heap->imprint->ring[p] != 0 &&
+           heap->patch->compression[p] < heap->hollow;
+}
+
+// how deep a cell must be pressed to count as hollow
+static float hollow_under(const DpSoilPatch* patch, const DpImprint* imprint)
+{
+    float deepest = 0.0f;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (imprint->ring[p] == 0 && patch->compression[p] > deepest)
+                deepest = patch->compression[p];
+        }
+    return deepest > 0.0f ? (float)HOLLOW * deepest : INFINITY;
+}
 
 static int32_t* row_of(const Window* window, int32_t* grid, int j)
 {
@@ -216,7 +242,7 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
         int32_t* surface = row_of(window, window->surface, j);
         for (int i = 0; i < window->nx; ++i) {
             const size_t p = soil_at(patch, window->i0 + i, window->j0 + j);
-            if (!soil_is_ground(patch->rest[p]) || heap->imprint->ring[p] == 0) continue;
+            if (!takes_soil(heap, p)) continue;
             const double at = (double)patch->rest[p] - (double)patch->compression[p] - low;
             surface[i] = (int32_t)((at + (double)patch->heap[p]) * steps + 0.5);
         }
@@ -320,7 +346,7 @@ static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double*
     for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
-            if (imprint->ring[p] != 1 || !soil_is_ground(patch->rest[p])) continue;
+            if (imprint->ring[p] != 1 || !takes_soil(heap, p)) continue;
             const double share = soil_heap_share(shares, i, j);
             if (!(share > 0.0)) continue;
             if (apex) {
@@ -353,7 +379,12 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
     int          border[4], box[4];
     double       width = 0.0;
     const double area = patch->cell * patch->cell;
+    heap.hollow = hollow_under(patch, imprint);
     heap.apex_count = find_apexes(&heap, shares, NULL, &width, border);
+    if (heap.apex_count == 0) {  // all that lies ahead is hollow: then it is filled
+        heap.hollow = INFINITY;
+        heap.apex_count = find_apexes(&heap, shares, NULL, &width, border);
+    }
     if (heap.apex_count == 0) return DP_NO_GROUND;
 
     // how far a heap like the last one, and this volume, goes on level ground; more where it falls

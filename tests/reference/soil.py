@@ -166,12 +166,23 @@ def _distances(start, wall, cell):
 
 
 def accumulate_rest(patch, ring, foot, volume, threshold, slope):
-    """Cones of height T sqrt(omega) on the border cells, filled up to their envelope; returns T."""
-    wall = (ring == 0) | np.isnan(patch["rest"])
-    border = [tuple(c) for c in np.argwhere((ring == 1) & ~wall)]
+    """Cones of height T sqrt(omega) on the border cells, filled up to their envelope; returns T.
+
+    Untouched cells pressed to half the deepest under the sole are the hollow it has left: no cone
+    stands in them or reaches through them, unless there is no other cell with a share.
+    """
+    border = [tuple(c) for c in np.argwhere((ring == 1) & ~np.isnan(patch["rest"]))]
     omega = shares(border, patch, *foot, threshold)
     if not omega.any():
         omega[:] = 1.0
+    deepest = patch["compression"][ring == 0].max()
+    hollow = (patch["compression"] >= 0.5 * deepest) & (ring != 0) & (deepest > 0)
+    outside = np.array([not hollow[c] for c in border])
+    if omega[outside].any():
+        border, omega = [c for c, out in zip(border, outside) if out], omega[outside]
+    else:
+        hollow[:] = False
+    wall = (ring == 0) | np.isnan(patch["rest"]) | hollow
     border = [c for c, w in zip(border, omega) if w > 0]
     root = np.sqrt(omega[omega > 0])
     firm = patch["rest"] - patch["compression"]

@@ -127,6 +127,38 @@ TEST(everything_rests)
     stride_drop(&s);
 }
 
+// a sole that rolls from heel to toe through sand leaves no ridges across its print
+TEST(rolling_leaves_no_ridges)
+{
+    DpSoil sand = dp_soil_default();
+    sand.young_modulus = 1.0e6f;
+    sand.poisson_ratio = 0.5f;
+    sand.settle_time = 0.05f;
+    sand.rest_angle = (float)(32.0 * STRIDE_PI / 180.0);
+    World  world;
+    Stride s = stride_make(1, 1, 80.0, STRIDE_RATE);
+    CHECK(world_make(&world, &sand, 0.005, 1) == DP_OK);
+    CHECK(walk(&world, &s) == DP_OK);
+    // along the middle of the print, from the heel to the toes: x 0 to 0.22, y 0.1
+    float heap[44], pressed[44];
+    CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, 0, 20, 44, 1, heap) == DP_OK);
+    CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, 0, 20, 44, 1, pressed) == DP_OK);
+    double ridges = 0.0;  // all that the surface rises on the way, but for the way out of the deepest
+    double lowest = 1.0, last = (double)(heap[0] - pressed[0]);
+    for (int k = 0; k < 44; ++k) {
+        const double at = (double)(heap[k] - pressed[k]);
+        ridges += fmax(0.0, at - last);
+        lowest = fmin(lowest, at);
+        last = at;
+    }
+    ridges -= last - lowest;
+    printf("  deepest %.1f mm, ridges %.1f mm\n", -1e3 * lowest, 1e3 * ridges);
+    CHECK(lowest < -0.005);
+    CHECK(ridges < 0.1 * -lowest);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 // 24, 60 and 240 samples a second leave the same volume within 1 %
 TEST(rate_does_not_matter)
 {
@@ -216,6 +248,7 @@ int main(void)
     RUN(ledger_balances);
     RUN(workers_do_not_matter);
     RUN(everything_rests);
+    RUN(rolling_leaves_no_ridges);
     RUN(rate_does_not_matter);
     RUN(wide_ground_costs_nothing);
     RUN(no_memory_is_a_status);
