@@ -107,6 +107,25 @@ double plant_normal(uint64_t seed, uint64_t a, uint64_t b)
 
 // ---- shape -----------------------------------------------------------------------------------
 
+// squared frequency of a stem of n free particles, of mass and bending stiffness 1: the lowest
+// eigenvalue of B^T B, B the second differences, by inverse iteration
+static double lowest_mode(int n)
+{
+    double u[ROWS_MOST], v[ROWS_MOST], size = 1.0;
+    for (int k = 0; k < n; ++k) u[k] = k + 1.0;
+    for (int pass = 0; pass < 30; ++pass) {
+        for (int k = n - 1; k >= 0; --k)  // B^T v = u
+            v[k] = u[k] + (k + 1 < n ? 2.0 * v[k + 1] : 0.0) - (k + 2 < n ? v[k + 2] : 0.0);
+        for (int k = 0; k < n; ++k)  // B u = v
+            u[k] = v[k] + (k > 0 ? 2.0 * u[k - 1] : 0.0) - (k > 1 ? u[k - 2] : 0.0);
+        double sum = 0.0;
+        for (int k = 0; k < n; ++k) sum += u[k] * u[k];
+        size = sqrt(sum);
+        for (int k = 0; k < n; ++k) u[k] /= size;
+    }
+    return 1.0 / size;
+}
+
 // a stem rises from its foot and bends outward by curl at every particle
 static void rest_shape(PlantStand* stand)
 {
@@ -145,8 +164,8 @@ static void rest_shape(PlantStand* stand)
         for (int d = 0; d < 3; ++d)
             stand->rest_bend[3 * b + d] = at[d] - 2.0f * at[3 + d] + at[6 + d];
     }
-    const double swing = 2.0 * PI * (double)kind->sway, n = shape.rows - DP_PLANT_HELD;
-    stand->bend_rate = (float)(swing * swing * n * n * n * n / 12.36);  // first mode of a held beam
+    const double swing = 2.0 * PI * (double)kind->sway;
+    stand->bend_rate = (float)(swing * swing / lowest_mode(shape.rows - DP_PLANT_HELD));
 }
 
 static void add_edge(PlantStand* stand, int a, int b, double rate)

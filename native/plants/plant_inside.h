@@ -108,11 +108,13 @@ void plant_count_broken(const PlantStand* stand, PlantBlock* block);
 void plant_soften(const PlantStand* stand, float* soft, double h);
 // stiffness of bends over a sub-step of h, from strength (bends, lanes)
 void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h);
-// lengths of the edges between stems at rest, on the ground's slope (edges, lanes)
+// edges between stems: length at rest on the ground's slope, and 1 if they hold (edges, 2, lanes)
 void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length);
 // one sub-step. TRAIL (5)
 void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
                    const float* length, float* before, const float* soft, double h);
+// no stem longer than DP_STRETCH_MOST
+void plant_shorten(const PlantStand* stand, PlantBlock* block);
 // speeds from where particles were; returns the largest squared speed
 float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);
 // TRAIL (6) for all bends

@@ -215,34 +215,84 @@ static DpVec3 settle(const Probe* probe, DpVec3 p, DpVec3 below, double most)
     return below;
 }
 
+// one particle out of everything, taken along, near the one below
+static void push_one(const Probe* probe, float* const at[3], int k, DpVec3 before, DpVec3 below,
+                     double most, double h)
+{
+    const DpPlantCollider* by = NULL;
+    DpVec3                 p = get(at, k);
+    const double           pushed = clear(probe, &p, &by);
+    if (by) rub(by, &p, before, pushed, h);
+    put(at, k, settle(probe, p, below, most));
+}
+
+// a particle goes with its neighbour in the row when it would be torn from it: the more it leans like
+// that one, the nearer they are
+static void keep_up(const Probe* probe, float* const at[3], int own, int other, double apart,
+                    double most)
+{
+    const DpVec3 p = get(at, own), to = get(at, other);
+    if (dp_length(dp_sub(p, to)) <= apart) return;
+    const DpVec3 below = get(at, own - DP_LANES);
+    const DpVec3 like = dp_add(below, dp_sub(to, get(at, other - DP_LANES)));
+    double       low = 0.0, high = 1.0;
+    for (int pass = 0; pass < 8; ++pass) {
+        const double t = 0.5 * (low + high);
+        const DpVec3 q = dp_add(dp_scale(p, 1.0 - t), dp_scale(like, t));
+        if (dp_length(dp_sub(q, to)) <= apart) high = t;
+        else low = t;
+    }
+    const DpVec3 q = dp_add(dp_scale(p, 1.0 - high), dp_scale(like, high));
+    put(at, own, settle(probe, q, below, most));
+}
+
+// rest distance of two particles in a lane
+static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a, int b, int l)
+{
+    return dp_length(
+        dp_sub(plant_rest_at(stand, block, a, l), plant_rest_at(stand, block, b, l)));
+}
+
+// a row of a sheet: from the stem that lies lowest to both sides
+static void keep_row(const PlantStand* stand, const Probe* probe, float* const at[3], int first,
+                     double most)
+{
+    const int rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
+    int       lowest = 0;
+    for (int c = 1; c < columns; ++c)
+        if (at[2][(first + c * rows) * DP_LANES + l] <
+            at[2][(first + lowest * rows) * DP_LANES + l])
+            lowest = c;
+    for (int side = -1; side <= 1; side += 2)
+        for (int c = lowest + side; c >= 0 && c < columns; c += side) {
+            const int own = first + c * rows, other = own - side * rows;
+            const int k = own * DP_LANES + l, n = other * DP_LANES + l;
+            if (probe->block->state->limp[k] + probe->block->state->limp[n] > 0.0f) continue;
+            keep_up(probe, at, k, n,
+                    (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l), most);
+        }
+}
+
 void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
                       const DpPlantGround* ground, const float* before, double left, double h)
 {
     const DpPlantShape shape = stand->shape;
-    const int          size = shape.particles * DP_LANES;
+    const int          size = shape.particles * DP_LANES, a_sheet = shape.stems_a_sheet;
     float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
     const double       most = (double)(LAST_WORD * stand->gap);
     for (int l = 0; l < block->count; ++l) {
         if (!block->touched_lane[l]) continue;
         const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius, left};
-        for (int stem = 0; stem < shape.stems; ++stem) {
-            DpVec3 below = get(at, (stem * shape.rows + 1) * DP_LANES + l);
+        for (int sheet = 0; sheet < shape.stems; sheet += a_sheet)
             for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
-                const int              k = (stem * shape.rows + r) * DP_LANES + l;
-                const DpVec3           was = get(at, k);
-                const DpPlantCollider* by = NULL;
-                DpVec3                 p = was;
-                const double           pushed = clear(&probe, &p, &by);
-                if (by) {
-                    const DpVec3 old = dp_vec3((double)before[k], (double)before[size + k],
-                                               (double)before[2 * size + k]);
-                    rub(by, &p, old, pushed, h);
+                for (int c = 0; c < a_sheet; ++c) {
+                    const int    k = ((sheet + c) * shape.rows + r) * DP_LANES + l;
+                    const DpVec3 old = {(double)before[k], (double)before[size + k],
+                                        (double)before[2 * size + k]};
+                    push_one(&probe, at, k, old, get(at, k - DP_LANES), most, h);
                 }
-                p = settle(&probe, p, below, most);
-                put(at, k, p);
-                below = get(at, k);
+                keep_row(stand, &probe, at, sheet * shape.rows + r, most);
             }
-        }
     }
 }
 

@@ -11,7 +11,8 @@
 #if defined(__clang__)
 #define LANES _Pragma("clang loop vectorize(assume_safety)") for (int l = 0; l < DP_LANES; ++l)
 #elif defined(__GNUC__)
-#define LANES _Pragma("GCC ivdep") for (int l = 0; l < DP_LANES; ++l)
+#define LANES \
+    _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int l = 0; l < DP_LANES; ++l)
 #else
 #define LANES for (int l = 0; l < DP_LANES; ++l)
 #endif
@@ -53,7 +54,7 @@ INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
 // two particles come to their distance: softly, and hard when far beyond it. TRAIL (5), C_s
 INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, float* restrict bx,
                  float* restrict by, float* restrict bz, const PlantEdge* edge,
-                 const float* restrict rest, float soft)
+                 const float* restrict rest, const float* restrict joined, float soft)
 {
     const float wa = edge->share_a, wb = edge->share_b;
     LANES
@@ -62,7 +63,7 @@ INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, flo
         const float inverse = 1.0f / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
         const float easy = soft * (1.0f - rest[l] * inverse);
         const float hard = 1.0f - BEYOND * rest[l] * inverse;
-        const float share = easy > hard ? easy : hard;
+        const float share = joined[l] * (easy > hard ? easy : hard);
         ax[l] += wa * share * dx, ay[l] += wa * share * dy, az[l] += wa * share * dz;
         bx[l] -= wb * share * dx, by[l] -= wb * share * dy, bz[l] -= wb * share * dz;
     }
@@ -83,14 +84,18 @@ INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az
     }
 }
 
-// the ground under a plant is a plane; a step's end looks at it closely
-INLINE void stay_above(const float* restrict x, const float* restrict y, float* restrict z,
-                       const PlantBlock* block)
+// the ground under a plant is a plane; a step's end looks at it closely. What is limp sticks to it.
+INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
+                       const float* restrict was_x, const float* restrict was_y,
+                       const float* restrict limp, const PlantBlock* block)
 {
     LANES
     {
         const float ground = block->root[2][l] + block->slope[0][l] * (x[l] - block->root[0][l]) +
                              block->slope[1][l] * (y[l] - block->root[1][l]);
+        const float stick = z[l] > ground ? 0.0f : 0.5f * limp[l];
+        x[l] += stick * (was_x[l] - x[l]);
+        y[l] += stick * (was_y[l] - y[l]);
         z[l] = z[l] > ground ? z[l] : ground;
     }
 }
@@ -107,7 +112,8 @@ void plant_soften(const PlantStand* stand, float* soft, double h)
     }
 }
 
-// stems stand upright on sloping ground: what joins them is as long as it is there
+// stems stand upright on sloping ground: what joins them is as long as it is there; what is limp lets
+// go of its neighbours
 DP_CLONES
 void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
 {
@@ -119,13 +125,16 @@ void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* leng
         const float *    fb = stand->rest + 3 * (edge->b / rows * rows);
         const float      dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
         const float      fx = fb[0] - fa[0], fy = fb[1] - fa[1];  // between their feet
-        float*           to = length + e * DP_LANES;
+        float *          to = length + 2 * e * DP_LANES, *joined = to + DP_LANES;
+        const float *    la = block->state->limp + edge->a * DP_LANES;
+        const float *    lb = block->state->limp + edge->b * DP_LANES;
         LANES
         {
             const float c = block->turn[0][l], s = block->turn[1][l];
             const float up =
                 dz + block->slope[0][l] * (c * fx - s * fy) + block->slope[1][l] * (s * fx + c * fy);
             to[l] = sqrtf(dx * dx + dy * dy + up * up);
+            joined[l] = (1.0f - la[l]) * (1.0f - lb[l]);
         }
     }
 }
@@ -198,13 +207,37 @@ void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give
         const PlantEdge* edge = &stand->edge[e];
         const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
         if (edge->rate > 0.0f) pull(x + a, y + a, z + a, x + b, y + b, z + b, edge,
-                                   length + e * DP_LANES, soft[e]);
+                                   length + 2 * e * DP_LANES,
+                                   length + (2 * e + 1) * DP_LANES, soft[e]);
         else pull_stem(x + a, y + a, z + a, x + b, y + b, z + b, edge);
     }
 
-    for (int p = 0; p < shape.particles; ++p)
-        if (p % rows >= DP_PLANT_HELD)
-            stay_above(x + p * DP_LANES, y + p * DP_LANES, z + p * DP_LANES, block);
+    for (int p = 0; p < shape.particles; ++p) {
+        const int at = p * DP_LANES;
+        if (p % rows < DP_PLANT_HELD) continue;
+        stay_above(x + at, y + at, z + at, before + at, before + size + at, state->limp + at, block);
+    }
+}
+
+// the last word of a step, from the foot upward: no stem is longer than it may be
+DP_CLONES
+void plant_shorten(const PlantStand* stand, PlantBlock* block)
+{
+    const int   rows = stand->shape.rows;
+    const float most = DP_STRETCH_MOST * stand->gap;
+    for (int p = 0; p < stand->shape.particles; ++p) {
+        if (p % rows < DP_PLANT_HELD) continue;
+        float *x = block->state->at[0] + p * DP_LANES, *y = block->state->at[1] + p * DP_LANES;
+        float* z = block->state->at[2] + p * DP_LANES;
+        LANES
+        {
+            const float dx = x[l] - x[l - DP_LANES], dy = y[l] - y[l - DP_LANES];
+            const float dz = z[l] - z[l - DP_LANES];
+            const float over = 1.0f - most / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+            const float back = over > 0.0f ? over : 0.0f;
+            x[l] -= back * dx, y[l] -= back * dy, z[l] -= back * dz;
+        }
+    }
 }
 
 // speeds are what was gone in h; nothing in grass is faster than DP_SPEED_MOST

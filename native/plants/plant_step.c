@@ -91,7 +91,7 @@ static void live(void* context, int index, int worker)
     const size_t      bends = (size_t)stand->shape.bends * DP_LANES;
     float*            before = step->plants->scratch + (size_t)worker * step->scratch;
     float *           give = before + 3 * places, *length = give + bends;
-    float*            soft = length + (size_t)stand->edges * DP_LANES;
+    float*            soft = length + 2 * (size_t)stand->edges * DP_LANES;
     const double      h = step->dt / step->steps;
 
     plant_hold_block(stand, block, step->push, step->pushes, step->ground);
@@ -107,6 +107,7 @@ static void live(void* context, int index, int worker)
         fastest = plant_speeds(stand, block, before, h);
     }
     if (step->ground) plant_ground_block(stand, block, step->ground);
+    plant_shorten(stand, block);
     plant_wear_block(stand, block, step->dt);
     const bool calm = !block->touched && !block->wearing && fastest < AT_REST * AT_REST;
     block->quiet = calm ? block->quiet + step->dt : 0.0;
@@ -307,7 +308,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
     for (int s = 0; s < plants->stands; ++s) {
         const PlantStand* stand = &plants->stand[s];
         const size_t      floats =
-            DP_LANES * (size_t)(3 * stand->shape.particles + stand->shape.bends + stand->edges) +
+            DP_LANES * (size_t)(3 * stand->shape.particles + stand->shape.bends + 2 * stand->edges) +
             (size_t)stand->edges;
         step.scratch = floats > step.scratch ? floats : step.scratch;
     }

@@ -1,0 +1,114 @@
+// how much of the ground is held. TRAIL (7), TRAIL (8), oracle 9 of the design
+#include "lawn.h"
+
+#define N 20
+
+static const DpPlantWindow window = {N, N, N, 0.05, 0.5, 0.5};
+
+static void least_and_most(const float* grid, double* least, double* most)
+{
+    *least = INFINITY, *most = -INFINITY;
+    for (int k = 0; k < N * N; ++k) {
+        *least = fmin(*least, (double)grid[k]);
+        *most = fmax(*most, (double)grid[k]);
+    }
+}
+
+TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 25, 25, 0.08, 1);  // 156 a square metre
+    float             strength[N * N], modulus[N * N];
+    double            low, high, broken[20];
+    CHECK(dp_plants_cover(plants, &window, DP_COVER_FULL, strength, modulus) == DP_OK);
+    least_and_most(strength, &low, &high);
+    CHECK_NEAR(low, 1.0, 1e-6);
+    CHECK_NEAR(high, 1.0, 1e-6);
+    least_and_most(modulus, &low, &high);
+    CHECK_CLOSE(low, 10e6, 1e-6);  // TRAIL (8)
+    CHECK_CLOSE(high, 10e6, 1e-6);
+
+    for (int share = 1; share <= 2; ++share) {  // half of every plant, then all
+        for (int b = 0; b < 20; ++b) broken[b] = b % 2 < share ? 0.0 : 0.1;
+        for (int k = 0; k < 625; ++k) dp_plants_write(plants, 0, k, NULL, NULL, broken);
+        dp_plants_cover(plants, &window, DP_COVER_FULL, strength, modulus);
+        least_and_most(strength, &low, &high);
+        CHECK_NEAR(low, 1.0 - 0.5 * share, 1e-6);
+        CHECK_NEAR(high, 1.0 - 0.5 * share, 1e-6);
+        least_and_most(modulus, &low, &high);
+        CHECK_NEAR(high, 10e6 * (1.0 - 0.5 * share), 10.0);
+    }
+    dp_plants_destroy(plants);
+
+    plants = dp_plants_create(1);  // no plants: 0
+    for (int law = 0; law < 2; ++law) {
+        CHECK(dp_plants_cover(plants, &window, (DpCoverLaw)law, strength, modulus) == DP_OK);
+        least_and_most(strength, &low, &high);
+        CHECK_NEAR(high, 0.0, 0.0);
+    }
+    dp_plants_destroy(plants);
+}
+
+TEST(a_thin_stand_covers_less)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.reach = 0.4f, kind.full_density = 100.0f;
+    DpPlants* plants = lawn(&kind, 20, 20, 0.1414213562, 1);  // 50 a square metre
+    float     strength[N * N];
+    double    low, high;
+    dp_plants_cover(plants, &window, DP_COVER_FULL, strength, NULL);
+    least_and_most(strength, &low, &high);
+    CHECK_NEAR(low, 0.5, 0.03);
+    CHECK_NEAR(high, 0.5, 0.03);
+    dp_plants_destroy(plants);
+}
+
+TEST(paper_is_as_printed)
+{
+    const DpPlantKind   kind = dp_plant_kind_default();
+    DpPlants*           plants = lawn(&kind, 2, 1, 0.06, 1);
+    const DpPlantWindow one = {1, 1, 1, 1.0, 0.03, 0.04};
+    float               strength = 0.0f, modulus = 0.0f;
+    double              half[20] = {0};
+    for (int b = 0; b < 10; ++b) half[b] = 0.1;
+    dp_plants_write(plants, 0, 1, NULL, NULL, half);
+    dp_plants_cover(plants, &one, DP_COVER_PAPER, &strength, &modulus);
+    CHECK_NEAR(strength, 0.5 * (1.0 - 0.05 / 0.15) * 1.5, 1e-6);
+    CHECK_CLOSE(modulus, 10e6 * 0.5, 1e-5);
+    dp_plants_destroy(plants);
+}
+
+TEST(lean_tells_where_plants_lie)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 25, 25, 0.08, 1);
+    float             x[N * N], y[N * N], crushed[N * N], at[84];
+    double            low, high;
+    dp_plants_lean(plants, &window, x, y, crushed);
+    least_and_most(crushed, &low, &high);
+    CHECK_NEAR(high, 0.0, 0.0);
+    for (int k = 0; k < 625; ++k) {
+        dp_plants_read(plants, 0, k, at, NULL, NULL);
+        for (int p = 0; p < 28; ++p)
+            if (p % 7 > 1) at[3 * p + 1] -= at[3 * p + 2], at[3 * p + 2] = 0.0f;  // flat, to -y
+        dp_plants_write(plants, 0, k, at, NULL, NULL);
+    }
+    CHECK(dp_plants_lean(plants, &window, x, y, crushed) == DP_OK);
+    least_and_most(y, &low, &high);
+    CHECK_NEAR(low, -1.0, 1e-3);
+    CHECK_NEAR(high, -1.0, 1e-3);
+    least_and_most(x, &low, &high);
+    CHECK_NEAR(high, 0.0, 1e-3);
+    least_and_most(crushed, &low, &high);
+    CHECK_NEAR(low, 1.0, 1e-3);
+    dp_plants_destroy(plants);
+}
+
+int main(void)
+{
+    RUN(full_cover_is_1_half_broken_is_a_half_none_is_0);
+    RUN(a_thin_stand_covers_less);
+    RUN(paper_is_as_printed);
+    RUN(lean_tells_where_plants_lie);
+    return check_done();
+}

@@ -1,0 +1,169 @@
+// soles and legs push plants; plants stay whole, above the ground and out of the sole.
+#include "lawn.h"
+
+// how deep particles are inside a sole: the worst over all plants
+static double inside(const DpPlants* plants, const DpPlantKind* kind, int count,
+                     const DpPlantCollider* c)
+{
+    const DpPlantShape shape = dp_plant_shape(kind);
+    float*             at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    double             worst = 0.0;
+    for (int k = 0; k < count; ++k) {
+        dp_plants_read(plants, 0, k, at, NULL, NULL);
+        for (int p = 0; p < shape.particles; ++p) {
+            if (p % shape.rows == 0) continue;  // the root, in the ground
+            const int i = (int)floor(((double)at[3 * p] - c->x0) / c->cell + 0.5);
+            const int j = (int)floor(((double)at[3 * p + 1] - c->y0) / c->cell + 0.5);
+            if (i < 0 || j < 0 || i >= c->nx || j >= c->ny) continue;
+            const double b = (double)c->bottom[j * c->row + i], z = (double)at[3 * p + 2];
+            if (isfinite(b) && z < b + c->thickness) worst = fmax(worst, z - b);
+        }
+    }
+    dp_free(at);
+    return worst;
+}
+
+// a boot comes down, stands, rolls and leaves, at this frame rate
+static Strain footfall(DpPlantKind kind, double rate)
+{
+    DpPlants* plants = lawn(&kind, 8, 6, 0.08, 9);
+    float     bottom[SOLE_SIDE * SOLE_SIDE];
+    Strain    worst = {0.0, 0.0, 0.0, 1e9, true};
+    double    was_x = -0.4, was_z = 0.08, in = 0.0;
+    for (int f = 1; f <= (int)(1.2 * rate); ++f) {
+        const double t = f / rate;
+        const double x = t < 0.3 ? -0.4 + 2.0 * t : t < 0.8 ? 0.2 : 0.2 + 2.0 * (t - 0.8);
+        const double z = t < 0.3 ? 0.08 * (1.0 - t / 0.3) : t < 0.8 ? 0.0 : 0.4 * (t - 0.8);
+        const double tilt = t < 0.4 ? 0.1 : t > 0.7 ? -0.1 : 0.0;
+        DpPlantCollider c = sole(bottom, 0.01, x, 0.2, z + 0.14 * fabs(tilt), 0.28, 0.10, tilt);
+        c.velocity = dp_vec3((x - was_x) * rate, 0.0, (z - was_z) * rate);
+        was_x = x, was_z = z;
+        step(plants, &c, 1, 1.0 / rate);
+        const Strain s = strain_of(plants, &kind, 48);
+        worst.stem = fmax(worst.stem, s.stem), worst.across = fmax(worst.across, s.across);
+        worst.away = fmax(worst.away, s.away), worst.lowest = fmin(worst.lowest, s.lowest);
+        worst.finite = worst.finite && s.finite;
+        in = fmax(in, inside(plants, &kind, 48, &c));
+    }
+    CHECK(in <= 1e-6);
+    dp_plants_destroy(plants);
+    return worst;
+}
+
+TEST(a_boot_stretches_nothing)
+{
+    const double rates[3] = {24.0, 60.0, 240.0};
+    for (int form = 0; form < 2; ++form)
+        for (int r = 0; r < 3; ++r) {
+            DpPlantKind kind = dp_plant_kind_default();
+            kind.form = form;
+            CHECK(footfall(kind, rates[r]).stem <= 1.05 + 1e-5);  // stems that may break
+            kind.break_angle = 10.0f, kind.degrade_rate = 0.0f;
+            const Strain s = footfall(kind, rates[r]);  // and those that hold together
+            CHECK(s.finite);
+            CHECK(s.stem <= 1.05 + 1e-5);
+            CHECK(s.lowest >= -1e-6);
+            CHECK(s.away > 0.05);
+            printf("    form %d, %3.0f Hz: stems %.3f, across %.3f\n", form, rates[r], s.stem, s.across);
+        }
+}
+
+TEST(under_a_boot_grass_lies_flat_beside_it_it_leans_away_farther_it_stands)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.break_angle = 10.0f;  // never
+    DpPlants* plants = lawn(&kind, 25, 9, 0.05, 3);
+    float     bottom[SOLE_SIDE * SOLE_SIDE], at[84];
+    for (int f = 0; f <= 30; ++f) {
+        const double    z = fmax(0.12 - 0.006 * f, 0.0);
+        DpPlantCollider c = sole(bottom, 0.01, 0.6, 0.2, z, 0.28, 0.10, 0.0);
+        c.velocity = dp_vec3(0, 0, f <= 20 ? -0.36 : 0.0);
+        step(plants, &c, 1, 1.0 / 60);
+    }
+    double pressed = 0.0, standing = 1.0;
+    for (int k = 0; k < 225; ++k) {
+        dp_plants_read(plants, 0, k, at, NULL, NULL);
+        const double x = 0.05 * (k % 25) - 0.6, y = 0.05 * (k / 25) - 0.2;
+        double       top = 0.0;
+        for (int s = 0; s < 4; ++s) top = fmax(top, (double)at[3 * (7 * s + 6) + 2]);
+        if (fabs(x) < 0.06 && fabs(y) < 0.01) pressed = fmax(pressed, top);
+        if (fabs(x) > 0.40) standing = fmin(standing, top);
+    }
+    CHECK(pressed < 0.06);
+    CHECK_NEAR(standing, 0.10, 1e-4);
+    dp_plants_destroy(plants);
+}
+
+TEST(a_leg_pushes_stems_aside)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.height = 0.6f, kind.spacing = 0.05f, kind.width = 0.0f;
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    DpPlants*          plants = lawn(&kind, 1, 1, 1.0, 3);
+    float*             at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    double             deepest = 0.0, moved = 0.0;
+    for (int f = 0; f < 60; ++f) {
+        const double    x = -0.3 + 0.005 * f;
+        DpPlantCollider c = {.from = {x, 0.0, 0.1}, .to = {x, 0.0, 0.9}, .radius = 0.06,
+                             .velocity = {0.3, 0.0, 0.0}, .friction = 0.2};
+        step(plants, &c, 1, 1.0 / 60);
+        dp_plants_read(plants, 0, 0, at, NULL, NULL);
+        for (int r = 2; r < shape.rows; ++r) {
+            const double z = (double)at[3 * r + 2];
+            if (z < 0.1 || z > 0.9) continue;
+            deepest = fmax(deepest, 0.06 - hypot((double)at[3 * r] - x, (double)at[3 * r + 1]));
+            moved = fmax(moved, (double)at[3 * r]);
+        }
+    }
+    CHECK(deepest < 1e-4);
+    CHECK(moved > 0.03);
+    const Strain s = strain_of(plants, &kind, 1);
+    CHECK(s.stem < 1.05);
+    dp_free(at);
+    dp_plants_destroy(plants);
+}
+
+TEST(roots_follow_the_ground)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 6, 6, 0.1, 3);
+    float             height[30 * 30], at[84];
+    DpPlantGround     ground = {30, 30, 30, 0.03, -0.2, -0.2, height};
+    DpPlantsTold      told;
+    for (int j = 0; j < 30; ++j)
+        for (int i = 0; i < 30; ++i) height[j * 30 + i] = (float)(0.3 * (-0.2 + 0.03 * i) - 0.1);
+    CHECK(dp_plants_follow(plants, &ground) == DP_OK);
+    for (int pass = 0; pass < 2; ++pass) {  // asleep and whole, then after a push and a change
+        for (int k = 0; k < 36; ++k) {
+            dp_plants_read(plants, 0, k, at, NULL, NULL);
+            for (int s = 0; s < 4; ++s) {
+                const float* foot = at + 3 * (7 * s + 1);
+                CHECK_NEAR(foot[2], 0.3 * (double)foot[0] - 0.1 - 0.02 * pass, 2e-4);
+                CHECK_NEAR(foot[3 * 5 + 2] - foot[2], 0.10, 5e-4);
+            }
+        }
+        if (pass) break;
+        float speed[84] = {0};
+        for (int p = 0; p < 28; ++p) speed[3 * p + 1] = p % 7 > 1 ? 0.3f : 0.0f;
+        for (int k = 0; k < 36; ++k) dp_plants_write(plants, 0, k, NULL, speed, NULL);
+        for (int f = 0; f < 300; ++f)
+            CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+        CHECK(told.awake == 0);
+        for (int k = 0; k < 900; ++k) height[k] -= 0.02f;
+        CHECK(dp_plants_follow(plants, &ground) == DP_OK);
+    }
+    for (int k = 0; k < 900; ++k) height[k] = NAN;  // no ground: nothing to follow
+    CHECK(dp_plants_follow(plants, &ground) == DP_OK);
+    dp_plants_read(plants, 0, 0, at, NULL, NULL);
+    CHECK(isfinite(at[2]));
+    dp_plants_destroy(plants);
+}
+
+int main(void)
+{
+    RUN(a_boot_stretches_nothing);
+    RUN(under_a_boot_grass_lies_flat_beside_it_it_leans_away_farther_it_stands);
+    RUN(a_leg_pushes_stems_aside);
+    RUN(roots_follow_the_ground);
+    return check_done();
+}

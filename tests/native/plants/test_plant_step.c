@@ -1,0 +1,134 @@
+// who wakes, who sleeps, and the same bits for any number of workers.
+#include "lawn.h"
+
+static void walk(DpPlants* plants, int workers, int frames, DpPlantsTold* sum)
+{
+    float bottom[SOLE_SIDE * SOLE_SIDE];
+    for (int f = 0; f < frames; ++f) {
+        DpPlantCollider c = sole(bottom, 0.01, 0.2 + 0.02 * f, 0.4, f % 20 < 12 ? 0.0 : 0.05, 0.28,
+                                 0.10, 0.05);
+        c.velocity = dp_vec3(1.2, 0, 0);
+        DpPlantsTold told;
+        CHECK(dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, workers, &told) == DP_OK);
+        sum->awake = told.awake > sum->awake ? told.awake : sum->awake;
+        sum->broke += told.broke;
+        sum->changed = sum->changed || told.changed;
+    }
+}
+
+TEST(any_number_of_workers_gives_the_same_bits)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.spread = 1.3f;
+    const int workers[3] = {1, 2, 5};
+    float*    first = dp_alloc(900, 168 * sizeof(float));
+    for (int w = 0; w < 3; ++w) {
+        DpPlants*    plants = lawn(&kind, 60, 15, 0.05, 1);
+        DpPlantsTold sum = {0};
+        walk(plants, workers[w], 60, &sum);
+        CHECK(sum.awake > 200 && sum.broke > 0 && sum.changed);
+        int differ = 0;
+        for (int k = 0; k < 900; ++k) {
+            float at[84], speed[84];
+            dp_plants_read(plants, 0, k, at, speed, NULL);
+            float* was = first + 168 * k;
+            if (w == 0) memcpy(was, at, sizeof at), memcpy(was + 84, speed, sizeof speed);
+            differ += memcmp(was, at, sizeof at) != 0 || memcmp(was + 84, speed, sizeof speed) != 0;
+        }
+        CHECK(differ == 0);
+        dp_plants_destroy(plants);
+    }
+    dp_free(first);
+}
+
+TEST(the_meadow_sleeps_and_the_walker_wakes_few)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 100, 100, 0.1, 1);
+    DpPlantsTold      sum = {0}, told = {0};
+    const size_t      asleep = dp_bytes_live();
+    for (int f = 0; f < 5; ++f)
+        CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+    CHECK(told.awake == 0 && !told.changed);
+    CHECK(dp_bytes_live() - asleep < 65536);
+    walk(plants, 1, 60, &sum);
+    CHECK(sum.awake > 8 && sum.awake < 400);
+    for (int f = 0; f < 600; ++f)
+        dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told);
+    CHECK(told.awake == 0);
+    dp_plants_destroy(plants);
+}
+
+TEST(what_broke_is_told_and_where)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 40, 10, 0.1, 1);
+    float             bottom[SOLE_SIDE * SOLE_SIDE];
+    double            lost = 0.0;
+    int               broke = 0;
+    for (int f = 0; f < 120; ++f) {
+        const DpPlantCollider c = sole(bottom, 0.01, 2.0, 0.4, 0.0, 0.28, 0.10, 0.0);
+        DpPlantsTold          told;
+        dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, 1, &told);
+        broke += told.broke;
+        if (told.changed) CHECK(told.x0 < 2.0 && told.x1 > 2.0 && told.y0 < 0.4 && told.y1 > 0.4);
+        if (told.changed) CHECK(told.x1 - told.x0 < 2.0);
+    }
+    for (int k = 0; k < 400; ++k) lost += 20.0 * (1.0 - dp_plants_alpha(plants, 0, k));
+    CHECK(broke > 0);
+    CHECK_NEAR(lost, broke, 1e-3);
+    dp_plants_destroy(plants);
+}
+
+TEST(several_kinds_stand_on_one_ground)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*   plants = lawn(&kind, 10, 10, 0.1, 1);
+    float       root[3] = {0.45f, 0.45f, 0.0f}, bottom[SOLE_SIDE * SOLE_SIDE];
+    int         stand = 0;
+    kind.form = DP_PLANT_TUFT, kind.height = 0.8f, kind.spacing = 0.08f, kind.width = 0.16f;
+    CHECK(dp_plants_add(plants, &kind, root, NULL, 1, &stand) == DP_OK);
+    CHECK(stand == 1 && dp_plants_count(plants, 1) == 1 && dp_plants_count(plants, -1) == 101);
+    const DpPlantCollider c = sole(bottom, 0.01, 0.45, 0.45, 0.0, 0.28, 0.1, 0.0);
+    for (int f = 0; f < 60; ++f) step(plants, &c, 1, 1.0 / 60);
+    float* at = dp_alloc((size_t)dp_plant_shape(&kind).particles, 3 * sizeof(float));
+    CHECK(dp_plants_read(plants, 1, 0, at, NULL, NULL) == DP_OK);
+    CHECK(isfinite(at[0]));
+    dp_free(at);
+    dp_plants_destroy(plants);
+}
+
+TEST(bad_steps_are_refused)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, 3, 3, 0.1, 1);
+    float             bottom[SOLE_SIDE * SOLE_SIDE];
+    DpPlantsTold      told;
+    DpPlantCollider   c = sole(bottom, 0.01, 0.1, 0.1, 0.0, 0.28, 0.1, 0.0);
+    CHECK(dp_plants_step(plants, NULL, &c, 1, 0.0, 1, &told) == DP_BAD_ARGUMENT);
+    CHECK(dp_plants_step(plants, NULL, &c, 1, NAN, 1, &told) == DP_BAD_ARGUMENT);
+    CHECK(dp_plants_step(plants, NULL, NULL, 1, 0.1, 1, &told) == DP_BAD_ARGUMENT);
+    c.velocity.x = NAN;
+    CHECK(dp_plants_step(plants, NULL, &c, 1, 0.1, 1, &told) == DP_BAD_ARGUMENT);
+    c.velocity.x = 0.0, c.row = 1;
+    CHECK(dp_plants_step(plants, NULL, &c, 1, 0.1, 1, &told) == DP_BAD_ARGUMENT);
+    c.row = c.nx;
+    for (long passes = 0; passes < 4; ++passes) {
+        dp_alloc_fail_after(passes);
+        CHECK(dp_plants_step(plants, NULL, &c, 1, 0.1, 1, &told) == DP_NO_MEMORY);
+    }
+    dp_alloc_fail_after(-1);
+    CHECK(dp_plants_step(plants, NULL, &c, 1, 0.1, 1, &told) == DP_OK);
+    CHECK(told.awake == 9);
+    dp_plants_destroy(plants);
+}
+
+int main(void)
+{
+    RUN(any_number_of_workers_gives_the_same_bits);
+    RUN(the_meadow_sleeps_and_the_walker_wakes_few);
+    RUN(what_broke_is_told_and_where);
+    RUN(several_kinds_stand_on_one_ground);
+    RUN(bad_steps_are_refused);
+    return check_done();
+}
