@@ -8,9 +8,9 @@
     folder/maps_final.exr          compression, heap, pressure_time, plant_strength
     folder/report.json             what happened, in numbers
 
-A bake grows in folder/frames.new and takes the place of folder/frames when it is whole. One that was
-stopped stays there: the same bake started again goes on from its last whole frame. An earlier bake
-plays until the new one is whole.
+A bake grows in folder/frames.new and folder/maps.new and takes the place of an earlier one, which plays
+until then, when it is whole. One that was stopped stays there: the same bake started again goes on
+from its last whole frame. Files of others in these folders are left alone.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ import hashlib
 import json
 import math
 import os
-import shutil
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -35,6 +34,10 @@ from .version import VERSION
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
+FRAMES = ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")
+MAPS = ("second_*.exr", "second_*.part")
+OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
+        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part")}
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
@@ -112,19 +115,32 @@ def read_index(folder):
 
 def free(folder):
     """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
-    root = Path(folder)
-    known = [(frames, name) for frames in ("frames", "frames.new", "frames.old")
-             for name in ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")]
-    known += [("maps", "second_*.exr"), ("maps", "second_*.part"), (".", "maps_start.exr"),
-              (".", "maps_final.exr"), (".", "maps_*.part"), (".", "report.json"), (".", "report.json.part")]
-    for place, pattern in known:
-        for path in (root / place).glob(pattern):
+    try:
+        for place, patterns in OURS.items():
+            _delete(os.path.join(folder, place), patterns)
+    except OSError as problem:
+        raise DesirePathError(
+            f"{problem.filename} cannot be deleted ({problem.strerror}): delete the folder {folder} by hand."
+        ) from None
+
+
+def _delete(folder, patterns):
+    """Delete our files from a folder, and the folder if that leaves it empty."""
+    for pattern in patterns:
+        for path in Path(folder).glob(pattern):
             path.unlink()
-    for place in ("frames", "frames.new", "frames.old", "maps", "."):
-        try:
-            (root / place).rmdir()
-        except OSError:
-            pass  # not there, or holds somebody else's files
+    with contextlib.suppress(OSError):  # not there, or holds somebody else's files
+        os.rmdir(folder)
+
+
+def _move(folder, into):
+    """Move what a folder holds into another one, and remove it; what is there already stays."""
+    os.makedirs(into, exist_ok=True)
+    for path in Path(folder).glob("*"):
+        if not os.path.lexists(os.path.join(into, path.name)):
+            os.rename(path, os.path.join(into, path.name))
+    with contextlib.suppress(OSError):
+        os.rmdir(folder)
 
 
 def _write_json(path, data):
@@ -164,6 +180,10 @@ class Bake:
         if self.frame_end <= self.frame_start:
             raise DesirePathError(
                 f"The frame range {self.frame_start} to {self.frame_end} holds no motion: let it end after it starts."
+            )
+        if self.frame_start > last or self.frame_end < gait.frame_start:
+            raise DesirePathError(
+                f"The recording holds frames {gait.frame_start} to {last} and none of {self.frame_start} to {self.frame_end}: choose frames among them."
             )
         self.load_model = load_model
         self.resume = resume
@@ -275,7 +295,7 @@ class Bake:
                 spent_write += time.perf_counter() - stepped
                 yield Progress(frame, number / count)
             sim.flush()
-        except (GeneratorExit, OSError):
+        except (GeneratorExit, OSError, DesirePathError):
             with contextlib.suppress(OSError):
                 sim.flush()
             self._publish(fresh, only_if_free=True)
@@ -326,17 +346,17 @@ class Bake:
                 while os.path.exists(frame_path(place, done + 1)):
                     done += 1
                 if place != fresh:
-                    shutil.rmtree(fresh, ignore_errors=True)
+                    _delete(fresh, FRAMES)
                     os.rename(place, fresh)
                 break
         try:
             if done < 0:
-                shutil.rmtree(fresh, ignore_errors=True)
+                _delete(fresh, FRAMES)
                 os.makedirs(fresh, exist_ok=True)
             if self.map_seconds:
-                os.makedirs(os.path.join(self.folder, "maps"), exist_ok=True)
-                for old in Path(self.folder, "maps").glob("second_*.exr"):
-                    old.unlink()
+                seconds = os.path.join(self.folder, "maps.new")
+                _delete(seconds, MAPS)
+                os.makedirs(seconds, exist_ok=True)
             _write_json(os.path.join(fresh, "index.json"), index)
         except OSError as problem:
             raise DesirePathError(
@@ -346,17 +366,23 @@ class Bake:
 
     def _publish(self, fresh, only_if_free=False):
         """Let the fresh frames take the place of the old ones; only_if_free: not of a whole bake."""
-        frames = os.path.join(self.folder, "frames")
+        frames, old = (os.path.join(self.folder, name) for name in ("frames", "frames.old"))
         if os.path.exists(frames):
             if only_if_free and _is_whole(frames):
                 return
-            old = os.path.join(self.folder, "frames.old")
-            shutil.rmtree(old, ignore_errors=True)
+            _delete(old, FRAMES)
+            if os.path.exists(old):
+                _move(old, frames)
             os.rename(frames, old)
-            os.rename(fresh, frames)
-            shutil.rmtree(old, ignore_errors=True)
-        elif os.path.exists(fresh):
-            os.rename(fresh, frames)
+        os.rename(fresh, frames)
+        with contextlib.suppress(OSError):  # what cannot be deleted does no harm
+            _delete(old, FRAMES)
+            if os.path.exists(old):
+                _move(old, frames)  # somebody else's files
+        seconds, there = (os.path.join(self.folder, name) for name in ("maps.new", "maps"))
+        if os.path.exists(seconds):
+            _delete(there, MAPS)
+            _move(seconds, there)
 
     # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
 
@@ -385,7 +411,7 @@ class Bake:
         before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
         if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
             name = f"second_{math.floor(now + 1e-9):04d}.exr"
-            self._maps(sim, tiles, os.path.join(self.folder, "maps", name), frame)
+            self._maps(sim, tiles, os.path.join(self.folder, "maps.new", name), frame)
 
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles

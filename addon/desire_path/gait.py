@@ -209,6 +209,9 @@ class Gait:
         except FileNotFoundError:
             raise DesirePathError(f"There is no recording at {path}: record the walk first or "
                                   "check the name.") from None
+        except PermissionError as error:
+            raise DesirePathError(f"The recording {path} cannot be read ({error.strerror}): check "
+                                  "whose file it is.") from None
         except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zipfile.zlib.error,
                 NotImplementedError, AttributeError):
             raise DesirePathError(f"{path} is damaged or no recording: record the walk "

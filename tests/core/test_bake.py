@@ -115,19 +115,59 @@ def test_a_killed_bake_plays_what_is_whole(tmp_path):
     assert read_index(killed).complete
 
 
+def test_files_of_others_stay(tmp_path):
+    """A folder that holds somebody's rendered frames and maps is chosen for a bake."""
+    theirs = [tmp_path / name for name in ("frames/0001.png", "maps/town.exr", "frames.old/a/b.txt")]
+    for path in theirs:
+        path.parent.mkdir(parents=True)
+        path.write_text("theirs")
+    theirs[2] = tmp_path / "frames" / "a" / "b.txt"
+    for cell in (0.01, 0.02):
+        baked(tmp_path, cell_size=cell)
+        assert all(path.read_text() == "theirs" for path in theirs)
+        assert sorted(path.name for path in tmp_path.iterdir() if path.is_dir()) == ["frames", "maps"]
+    bakes.free(tmp_path)
+    left = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert sorted(left) == sorted(theirs)
+    for path in theirs:
+        path.unlink()
+    (tmp_path / "frames" / "a").rmdir()
+    (tmp_path / "frames").rmdir(), (tmp_path / "maps").rmdir()
+    baked(tmp_path)
+    bakes.free(tmp_path)
+    assert not tmp_path.exists()
+
+
+def test_frames_beyond_the_recording_are_refused(tmp_path):
+    last = read_index_of(tmp_path / "whole").frame_end
+    for first, end in ((last + 1, last + 20), (-20, 0)):
+        with pytest.raises(DesirePathError, match=f"frames 1 to {last}"):
+            Bake(standing(), Ground.flat(), "mud", tmp_path / "none", frame_start=first, frame_end=end)
+    _, frames = baked(tmp_path / "more", frame_start=-5, frame_end=last + 5)
+    assert frames == list(range(-5, last + 6))
+
+
+def read_index_of(folder):
+    baked(folder)
+    return read_index(folder)
+
+
 def test_an_earlier_bake_plays_until_the_new_one_is_whole(tmp_path):
     baked(tmp_path)
     before = content(tmp_path)
+    second = (tmp_path / "maps" / "second_0001.exr").read_bytes()
     bake = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1)
     run = bake.run()
     for _ in range(5):
         next(run)
     run.close()
     assert content(tmp_path) == before and read_index(tmp_path).complete
+    assert (tmp_path / "maps" / "second_0001.exr").read_bytes() == second
     for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run():
         pass
     assert content(tmp_path) != before and read_index(tmp_path).complete
-    assert not (tmp_path / "frames.new").exists() and not (tmp_path / "frames.old").exists()
+    assert (tmp_path / "maps" / "second_0001.exr").read_bytes() != second
+    assert {path.name for path in tmp_path.iterdir() if path.is_dir()} == {"frames", "maps"}
 
 
 def test_free_deletes_what_was_baked_and_nothing_else(tmp_path):
@@ -138,6 +178,16 @@ def test_free_deletes_what_was_baked_and_nothing_else(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
     with pytest.raises(DesirePathError, match="no bake"):
         read_index(tmp_path)
+
+
+def test_free_says_what_cannot_be_deleted(tmp_path, monkeypatch):
+    def locked(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    baked(tmp_path)
+    monkeypatch.setattr(Path, "unlink", locked)
+    with pytest.raises(DesirePathError, match="trail_.*cannot be deleted .Permission denied.: delete the folder"):
+        bakes.free(tmp_path)
 
 
 def sentence(error):

@@ -43,6 +43,15 @@ def test_comes_back_to_the_bit(tmp_path):
     assert os.listdir(tmp_path) == ["walk.npz"]
 
 
+def test_a_file_that_may_not_be_read_is_not_called_damaged(tmp_path, monkeypatch):
+    def locked(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(np, "load", locked)
+    with pytest.raises(DesirePathError, match="cannot be read .Permission denied."):
+        Gait.load(tmp_path / "walk.npz")
+
+
 def test_damaged_files_get_a_sentence(tmp_path):
     path = tmp_path / "walk.npz"
     gait().save(path)
