@@ -1,6 +1,6 @@
 """Desire Path - a recorded walk presses its trail into the ground.
 
-Without Blender: `Gait`, `Soil`, `Simulation`, `Bake` and `python -m desire_path`.
+Without Blender: `Gait`, `Walker`, `Soil`, `Simulation`, `Bake` and `python -m desire_path`.
 With Blender: the same from the Physics tab, after `register()`.
 """
 bl_info = {
@@ -15,7 +15,8 @@ bl_info = {
 
 __version__ = ".".join(str(part) for part in bl_info["version"])
 
-_HOME = {"Gait": "gait", "Sole": "gait", "Soil": "soil", "SOILS": "soil", "Ground": "sim",
+_HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "Soil": "soil",
+         "SOILS": "soil", "Ground": "sim",
          "Simulation": "sim", "Bake": "bake", "read_index": "bake", "DesirePathError": "errors"}
 
 

@@ -227,7 +227,8 @@ class Bake:
         self.samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
         gait = self.gait.resample(self.frame_rate * self.samples)
         sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads, **self.options)
-        self.loads = walker.loads(gait, self.load_model, ground=sim.rest_height)
+        walks = walker.Walker(self.load_model, settle_time=self.soils[0].settle_time)  # tau of TRAIL (3)
+        self.loads = walks.loads(gait, sim.rest_height)
         sim.load(gait, self.loads)
         return sim
 

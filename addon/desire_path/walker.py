@@ -3,7 +3,7 @@
 import csv
 import os
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -303,3 +303,27 @@ def write_loads(path, gait, loads):
             os.unlink(temporary)
         raise DesirePathError(f"The loads cannot be written to {path} ({error.strerror or error}): "
                               "choose another folder or make room.") from None
+
+
+@dataclass(frozen=True)
+class Walker:
+    """How a recorded body meets the ground: the load model and its numbers, to be used on any Gait.
+
+    load_model: "inertia" or "impulse"; settle_time: tau of "impulse", TRAIL (3) [s] > 0; half_sine: its
+    landing as a half-sine; limits, options: numbers of LIMITS and OPTIONS to change, by name.
+    """
+
+    load_model: str = "inertia"
+    settle_time: float = 0.2
+    half_sine: bool = False
+    limits: dict = field(default_factory=dict)
+    options: dict = field(default_factory=dict)
+
+    def contacts(self, gait, ground=None):
+        """Which part touches when, and each point's resting clearance: see contacts()."""
+        return contacts(gait, ground, limits=self.limits)
+
+    def loads(self, gait, ground=None):
+        """FootForce of a recording on this ground: see loads()."""
+        return loads(gait, self.load_model, ground, settle_time=self.settle_time,
+                     half_sine=self.half_sine, limits=self.limits, options=self.options)

@@ -12,7 +12,7 @@ from desire_path import _native, body, rigs, walker
 from desire_path.errors import DesirePathError
 from desire_path.gait import Gait, Sole
 from reference import walker as twin
-from scenes import bvh
+from scenes import bvh, gaits
 
 REPO = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("DESIRE_PATH_DATA", REPO.parent / "shared" / "data"))
@@ -358,3 +358,18 @@ def test_native_door_checks():
         _native.foot_force(good, on, ground, 7, 0.2, False, np.zeros((2, 300, 3)), np.zeros((2, 300, 3)))
     with pytest.raises(ValueError):
         _native.resample_count(0.0, 1.0, -5.0)
+
+
+# ---- the record ------------------------------------------------------------------------------------------------
+
+
+def test_a_walker_remembers_its_model():
+    gait = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]])[0]
+    plain, papers = walker.Walker(), walker.Walker("impulse", settle_time=0.1, limits={"touch_height": 0.02})
+    assert plain.loads(gait).force.tobytes() == walker.loads(gait).force.tobytes()
+    want = walker.loads(gait, "impulse", settle_time=0.1, limits={"touch_height": 0.02})
+    assert papers.loads(gait).force.tobytes() == want.force.tobytes()
+    touching, clearance = papers.contacts(gait)
+    assert np.array_equal(touching, want.touching) and clearance == pytest.approx(want.clearance)
+    with pytest.raises(DesirePathError, match="magic"):
+        walker.Walker("magic").loads(gait)
