@@ -218,6 +218,51 @@ def test_plays_in_a_fresh_process_without_the_addon(folder):
     assert np.load(folder / "out.npy").tobytes() == wanted.tobytes()
 
 
+def test_saved_elsewhere_and_linked(folder):
+    for name in ("here", "else", "lib"):
+        (folder / name).mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "a.blend"))
+    ground, _ = scene(frames=12)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    wanted, _ = shown(ground, 12)
+    bpy.ops.wm.save_mainfile()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "else" / "b.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "else" / "b.blend"))
+    ground = bpy.data.objects["Ground"]
+    assert shown(ground, 12)[0].tobytes() == wanted.tobytes()
+    assert not ground.desire_path.missing  # it plays, from where it was baked
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "lib" / "c.blend"))
+    with bpy.data.libraries.load(str(folder / "here" / "a.blend"), link=True) as (_, wants):
+        wants.objects = ["Ground"]
+    meshes.link(wants.objects[0])
+    bpy.ops.wm.save_mainfile()
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "lib" / "c.blend"))
+    ground = bpy.data.objects["Ground"]
+    assert ground.library is not None and not ground.desire_path.missing
+    assert shown(ground, 12)[0].tobytes() == wanted.tobytes()
+    meshes.activate(ground)
+    refused(bpy.ops.object.desire_path_bake, "linked from another file")
+    refused(bpy.ops.object.desire_path_free, "linked from another file")
+    assert shown(ground, 12)[0].tobytes() == wanted.tobytes()
+
+
+def test_frames_that_went_back_to_the_making_play(folder):
+    # stopped, started again and killed before a frame was written: they lie in frames.new once more
+    (folder / "here").mkdir()
+    file = str(folder / "here" / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    ground, _ = scene(frames=12)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    wanted, _ = shown(ground, 12)
+    bpy.ops.wm.save_mainfile()
+    place = folder / "here" / "desire_path" / "Ground"
+    (place / "frames").rename(place / "frames.new")
+    bpy.ops.wm.open_mainfile(filepath=file)
+    assert shown(bpy.data.objects["Ground"], 12)[0].tobytes() == wanted.tobytes()
+
+
 def test_unsaved_file_says_where_its_bake_goes():
     ground, _ = scene(frames=6)
     place = ground.desire_path.folder

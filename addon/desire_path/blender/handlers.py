@@ -3,6 +3,8 @@
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
+import os
+
 import bpy
 from bpy.app.handlers import persistent
 
@@ -14,16 +16,20 @@ def refresh(scene, obj):
     """Let a ground play its bake folder as it is now; nothing to do when it already does."""
     from ..bake import read_index
     settings = obj.desire_path
+    if obj.library is not None:  # its own file looks after it
+        return
     if not settings.folder or settings.folder.startswith("//") and not bpy.data.filepath:
         return
     try:
         index = read_index(op_bake.folder(obj))
     except DesirePathError as problem:
-        if playback.modifier(obj) is not None:
+        ours = playback.modifier(obj)
+        if ours is not None and not _plays_from_elsewhere(obj, ours):
             settings.missing = str(problem)
         return
     ours = playback.modifier(obj)
-    if ours is not None and ours.node_group[playback.TAG] == playback.mark(index, index.frames):
+    mark = playback.mark(index.folder, index, index.frames)
+    if ours is not None and ours.node_group[playback.TAG] == mark:
         settings.missing = op_bake.missing(index)
         return
     try:
@@ -33,6 +39,14 @@ def refresh(scene, obj):
         op_bake.play(obj, surface)
     except DesirePathError as problem:
         settings.missing = str(problem)
+
+
+def _plays_from_elsewhere(obj, ours):
+    """Whether the frames are there, but not in the object's folder: the file was saved to another
+    place, and Blender keeps the way to its images."""
+    image = playback.image_of(ours.node_group)
+    path = os.path.abspath(bpy.path.abspath(image.filepath)) if image is not None else ""
+    return os.path.exists(path) and not path.startswith(op_bake.folder(obj) + os.sep)
 
 
 @persistent

@@ -24,14 +24,19 @@ def sentence(problem):
     return str(problem)
 
 
-def active(cls, context, kind, words):
-    """Whether the active object is of a type and not being edited; else poll's message."""
+def active(cls, context, kind, words, *, changed=True):
+    """Whether the active object is of a type, not being edited and, where it will be changed, of this
+    file; else poll's message."""
     obj = context.object
     if obj is None or obj.type != kind:
         cls.poll_message_set(f"Select {words} first")
         return False
     if obj.mode == "EDIT":
         cls.poll_message_set("Leave Edit Mode first")
+        return False
+    if changed and obj.library is not None:
+        cls.poll_message_set(f"'{obj.name}' is linked from another file: open that file, or make it "
+                             "local")
         return False
     return True
 
@@ -172,7 +177,7 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        return active(cls, context, "ARMATURE", "the armature that walks", changed=False)
 
     def invoke(self, context, _event):
         context.window_manager.fileselect_add(self)

@@ -7,6 +7,8 @@ colour attribute (height change, plant strength, compression, pressure) and move
 All numbers are constants inside the tree, so the same tree works from 3.4 to 5.2. File 0 is the
 untouched ground, file n the frame `frame_start + n - 1`.
 """
+import os
+
 import bpy
 import numpy as np
 
@@ -51,6 +53,7 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     detach(obj)
     tree = _tree(obj, _image(frames), index, count, world, scale, smooth,
                  corners, layer_depth)
+    tree[TAG] = mark(frames, index, count)
     ours = obj.modifiers.new(MODIFIER, "NODES")
     made = ours.node_group
     ours.node_group = tree
@@ -80,10 +83,10 @@ def detach(obj):
             bpy.data.images.remove(image)
 
 
-def mark(index, count):
+def mark(frames, index, count):
     """What a tree plays, in a word, to tell whether the files are still the same."""
-    return (f"{index.cell!r} {index.x0!r} {index.y0!r} {index.nx} {index.ny} "
-            f"{index.frame_start} {count}")
+    return (f"{os.path.basename(frames)} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
+            f"{index.ny} {index.frame_start} {count}")
 
 
 def _active(obj):
@@ -147,7 +150,6 @@ class Wiring:
 
 def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
-    tree[TAG] = mark(index, count)
     wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
     leave = tree.nodes.new("NodeGroupOutput")
