@@ -78,7 +78,8 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
         if ((position && !(fabsf(position[k]) < 1e7f)) || (velocity && !(fabsf(velocity[k]) < 1e4f)))
             return DP_BAD_ARGUMENT;
     for (int b = 0; strength && b < stand->shape.bends; ++b)
-        if (!(strength[b] >= 0.0 && strength[b] <= block->reserve[lane])) return DP_BAD_ARGUMENT;
+        if (!(strength[b] >= 0.0 && strength[b] <= 1.000001 * block->reserve[lane]))
+            return DP_BAD_ARGUMENT;
     if (!plant_wake(plants, stand, block)) return DP_NO_MEMORY;
     stand->up[block - stand->block] = 1;
     for (int p = 0; p < stand->shape.particles; ++p)
@@ -88,7 +89,7 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
             if (velocity) block->state->speed[d][at] = velocity[3 * p + d];
         }
     for (int b = 0; strength && b < stand->shape.bends; ++b)
-        block->state->strength[b * DP_LANES + lane] = strength[b];
+        block->state->strength[b * DP_LANES + lane] = fmin(strength[b], block->reserve[lane]);
     plant_count_broken(stand, block);
     return DP_OK;
 }

@@ -115,7 +115,7 @@ void plant_soften(const PlantStand* stand, float* soft, double h)
 // stems stand upright on sloping ground: what joins them is as long as it is there; what is limp lets
 // go of its neighbours
 DP_CLONES
-void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
+static void lengths_of_edges(const PlantStand* stand, const PlantBlock* block, float* length)
 {
     for (int e = 0; e < stand->edges; ++e) {
         const PlantEdge* edge = &stand->edge[e];
@@ -141,7 +141,7 @@ void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* leng
 
 // a bend is as stiff as its strength is whole
 DP_CLONES
-void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
+static void prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
 {
     const float  alpha = (float)(1.0 / ((double)stand->bend_rate * h * h));
     const double most = 1.0;
@@ -162,7 +162,7 @@ void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give
 }
 
 DP_CLONES
-void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+static void substep(const PlantStand* stand, PlantBlock* block, const float* give,
                    const float* length, float* before, const float* soft, double h_long)
 {
     const DpPlantShape shape = stand->shape;
@@ -221,7 +221,7 @@ void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give
 
 // the last word of a step, from the foot upward: no stem is longer than it may be
 DP_CLONES
-void plant_shorten(const PlantStand* stand, PlantBlock* block)
+static void shorten(const PlantStand* stand, PlantBlock* block)
 {
     const int   rows = stand->shape.rows;
     const float most = DP_STRETCH_MOST * stand->gap;
@@ -242,7 +242,7 @@ void plant_shorten(const PlantStand* stand, PlantBlock* block)
 
 // speeds are what was gone in h; nothing in grass is faster than DP_SPEED_MOST
 DP_CLONES
-float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)
+static float speeds_of(const PlantStand* stand, PlantBlock* block, const float* before, double h)
 {
     const int   rows = stand->shape.rows, size = stand->shape.particles * DP_LANES;
     const float rate = (float)(1.0 / h);
@@ -267,4 +267,32 @@ float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* befo
     float most = 0.0f;
     for (int l = 0; l < DP_LANES; ++l) most = fastest[l] > most ? fastest[l] : most;
     return most;
+}
+
+// ---- the door of this file: loaders pick the build of static functions only
+
+void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
+{
+    prepare(stand, block, give, h);
+}
+
+void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
+{
+    lengths_of_edges(stand, block, length);
+}
+
+void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+                   const float* length, float* before, const float* soft, double h)
+{
+    substep(stand, block, give, length, before, soft, h);
+}
+
+void plant_shorten(const PlantStand* stand, PlantBlock* block)
+{
+    shorten(stand, block);
+}
+
+float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)
+{
+    return speeds_of(stand, block, before, h);
 }

@@ -44,6 +44,7 @@ PyObject* dp_door_result(DpStatus status, const char* what);
 extern PyMethodDef dp_py_walker_methods[];
 extern PyMethodDef dp_py_imprint_methods[];
 extern PyMethodDef dp_py_soil_methods[];
+extern PyMethodDef dp_py_plants_methods[];
 extern PyMethodDef dp_py_terrain_methods[];
 extern PyMethodDef dp_py_maps_methods[];
 // py_sim.c: adds the types of the simulation to the module; 0 or -1 with an exception.

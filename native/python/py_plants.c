@@ -1,0 +1,366 @@
+// python/py_plants.c - the plants' kernels, one by one, for tests and for fitting kinds.
+//
+//   plants_default() -> 21 numbers of DpPlantKind;  plants_shape(kind) -> (rows, stems, stems of a
+//   sheet, particles, bends);  plants_wear(kind, reserve, strength, angle, dt) -> strength
+//   plants_regrow(kind, alpha, seconds) -> alpha
+//   plants_place(x0, y0, x1, y1, density, weight | None, seed, root) -> count
+//   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None, colliders, dt,
+//               steps, workers) -> dict of DpPlantsTold
+//   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
+//
+// kind: float64 (21) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
+// (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness, velocity,
+// friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
+#include <math.h>
+
+#include "base/alloc.h"
+#include "plants/plants.h"
+#include "python/door.h"
+
+#define KIND_NUMBERS 21
+#define COLLIDERS_MOST 16
+
+static int open_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
+{
+    const double* v = dp_door_open(door, object, "kind", 'd', DP_SHAPE1(KIND_NUMBERS), false);
+    if (!v || dp_door_finite(v, KIND_NUMBERS, "kind") < 0) return -1;
+    float f[KIND_NUMBERS];
+    for (int k = 0; k < KIND_NUMBERS; ++k) f[k] = (float)v[k];
+    *kind = (DpPlantKind){v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE,
+                          v[1] > 2.5 ? 3 : 2,
+                          f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9], f[10], f[11],
+                          f[12], f[13], f[14], f[15], f[16], f[17], f[18], f[19], f[20]};
+    if (dp_plant_kind_check(kind) == DP_OK) return 0;
+    PyErr_SetString(PyExc_ValueError, "kind: holds a number out of its range");
+    return -1;
+}
+
+static PyObject* plants_default(PyObject* module, PyObject* none)
+{
+    (void)module, (void)none;
+    const DpPlantKind k = dp_plant_kind_default();
+    return Py_BuildValue("(iifffffffffffffffffff)", k.form, k.sheets, k.height, k.width, k.depth,
+                         k.spacing, k.radius, k.curl, k.sway, k.across, k.damping, k.strength,
+                         k.degrade_angle, k.break_angle, k.degrade_rate, k.recover_rate, k.spread,
+                         k.regrow_rate, k.reach, k.full_density, k.modulus);
+}
+
+static PyObject* plants_shape(PyObject* module, PyObject* object)
+{
+    (void)module;
+    DpDoor      door = {0};
+    DpPlantKind kind;
+    PyObject*   answer = NULL;
+    if (open_kind(&door, object, &kind) == 0) {
+        const DpPlantShape s = dp_plant_shape(&kind);
+        answer = Py_BuildValue("(iiiii)", s.rows, s.stems, s.stems_a_sheet, s.particles, s.bends);
+    }
+    dp_door_close(&door);
+    return answer;
+}
+
+static PyObject* plants_wear(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *  object, *answer = NULL;
+    double      reserve, strength, angle, dt;
+    DpDoor      door = {0};
+    DpPlantKind kind;
+    if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle, &dt))
+        return NULL;
+    if (open_kind(&door, object, &kind) == 0) {
+        if (!(reserve > 0.0) || !(strength >= 0.0) || !isfinite(angle) || !(dt >= 0.0))
+            PyErr_SetString(PyExc_ValueError, "reserve, strength, angle, dt: one is out of its range");
+        else answer = PyFloat_FromDouble(dp_plant_wear(&kind, reserve, strength, angle, dt));
+    }
+    dp_door_close(&door);
+    return answer;
+}
+
+static PyObject* plants_regrow(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *  object, *answer = NULL;
+    double      alpha, seconds;
+    DpDoor      door = {0};
+    DpPlantKind kind;
+    if (!PyArg_ParseTuple(arguments, "Odd:plants_regrow", &object, &alpha, &seconds)) return NULL;
+    if (open_kind(&door, object, &kind) == 0) {
+        if (!(alpha >= 0.0 && alpha <= 1.0) || !(seconds >= 0.0))
+            PyErr_SetString(PyExc_ValueError, "alpha must be 0 to 1, seconds 0 or more");
+        else answer = PyFloat_FromDouble(dp_plant_regrow(&kind, alpha, seconds));
+    }
+    dp_door_close(&door);
+    return answer;
+}
+
+static PyObject* plants_place(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *         weights, *roots, *answer = NULL;
+    double             x0, y0, x1, y1, density;
+    unsigned long long seed;
+    DpDoor             door = {0};
+    DpShape            grid = {2, {-1, -1}}, list = {2, {-1, 2}};
+    const float*       weight = NULL;
+    float*             root;
+    if (!PyArg_ParseTuple(arguments, "dddddOKO:plants_place", &x0, &y0, &x1, &y1, &density, &weights,
+                          &seed, &roots))
+        return NULL;
+    if (weights != Py_None && !(weight = dp_door_open(&door, weights, "weight", 'f', &grid, false)))
+        goto done;
+    if (!(root = dp_door_open(&door, roots, "root", 'f', &list, true))) goto done;
+    if (list.n[0] > INT32_MAX || grid.n[0] > 1 << 20 || grid.n[1] > 1 << 20) {
+        answer = dp_door_result(DP_BAD_ARGUMENT, "placing plants");
+        goto done;
+    }
+    int      count = 0;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_plants_place(x0, y0, x1, y1, density, weight, (int)grid.n[1], (int)grid.n[0], seed,
+                             root, (int)list.n[0], &count);
+    Py_END_ALLOW_THREADS
+    answer = status == DP_OK ? PyLong_FromLong(count) : dp_door_result(status, "placing plants");
+done:
+    dp_door_close(&door);
+    return answer;
+}
+
+// ---- a stand for the length of a call -----------------------------------------------------------
+
+typedef struct Stand
+{
+    DpDoor          door;
+    DpPlantKind     kind;
+    DpPlantShape    shape;
+    DpPlants*       plants;
+    int             count;
+    float *         position, *velocity;
+    double*         strength;
+    DpPlantGround   ground;
+    DpPlantCollider collider[COLLIDERS_MOST];
+    int             colliders;
+} Stand;
+
+static void close_stand(Stand* stand)
+{
+    dp_plants_destroy(stand->plants);
+    dp_door_close(&stand->door);
+}
+
+static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyObject* roots,
+                      PyObject* headings)
+{
+    DpShape      list = {2, {-1, 3}}, row = {1, {-1}};
+    const float *root, *heading = NULL;
+    if (open_kind(&stand->door, kind, &stand->kind) < 0) return -1;
+    stand->shape = dp_plant_shape(&stand->kind);
+    if (!(root = dp_door_open(&stand->door, roots, "root", 'f', &list, false))) return -1;
+    row.n[0] = list.n[0];
+    if (headings && headings != Py_None &&
+        !(heading = dp_door_open(&stand->door, headings, "heading", 'f', &row, false)))
+        return -1;
+    int name;
+    stand->count = list.n[0] <= 1 << 24 ? (int)list.n[0] : 0;
+    stand->plants = dp_plants_create(seed);
+    const DpStatus status =
+        stand->plants
+            ? dp_plants_add(stand->plants, &stand->kind, root, heading, stand->count, &name)
+            : DP_NO_MEMORY;
+    if (status == DP_OK) return 0;
+    dp_door_result(status, "planting");
+    return -1;
+}
+
+static int open_state(Stand* stand, PyObject* position, PyObject* velocity, PyObject* strength)
+{
+    DpShape* places = DP_SHAPE3(stand->count, stand->shape.particles, 3);
+    DpShape* bends = DP_SHAPE2(stand->count, stand->shape.bends);
+    DpDoor*  door = &stand->door;
+    if (position && !(stand->position = dp_door_open(door, position, "position", 'f', places, true)))
+        return -1;
+    if (velocity && !(stand->velocity = dp_door_open(door, velocity, "velocity", 'f', places, true)))
+        return -1;
+    if (!(stand->strength = dp_door_open(door, strength, "strength", 'd', bends, true))) return -1;
+    for (int k = 0; k < stand->count; ++k) {
+        const size_t   p = 3 * (size_t)k * (size_t)stand->shape.particles;
+        const size_t   b = (size_t)k * (size_t)stand->shape.bends;
+        const DpStatus status = dp_plants_write(
+            stand->plants, 0, k, position ? stand->position + p : NULL,
+            velocity ? stand->velocity + p : NULL, stand->strength + b);
+        if (status == DP_OK) continue;
+        dp_door_result(status, "position, velocity or strength");
+        return -1;
+    }
+    return 0;
+}
+
+static int open_ground(Stand* stand, PyObject* object)
+{
+    DpPlantGround* g = &stand->ground;
+    DpShape        grid = {2, {-1, -1}};
+    PyObject*      height;
+    if (!PyTuple_Check(object)) {
+        PyErr_SetString(PyExc_TypeError, "ground: expected a tuple");
+        return -1;
+    }
+    if (!PyArg_ParseTuple(object, "dddO:ground", &g->x0, &g->y0, &g->cell, &height)) return -1;
+    if (!(g->height = dp_door_open(&stand->door, height, "height", 'f', &grid, false))) return -1;
+    g->ny = (int)grid.n[0], g->nx = g->row = (int)grid.n[1];
+    return 0;
+}
+
+static int open_collider(Stand* stand, PyObject* object)
+{
+    DpPlantCollider* c = &stand->collider[stand->colliders];
+    DpShape          grid = {2, {-1, -1}};
+    PyObject*        bottom;
+    DpVec3*          v = &c->velocity;
+    if (!PyTuple_Check(object)) {
+        PyErr_SetString(PyExc_TypeError, "colliders: expected tuples");
+        return -1;
+    }
+    if (PyTuple_Size(object) == 5) {
+        if (!PyArg_ParseTuple(object, "(ddd)(ddd)d(ddd)d:collider", &c->from.x, &c->from.y, &c->from.z,
+                              &c->to.x, &c->to.y, &c->to.z, &c->radius, &v->x, &v->y, &v->z,
+                              &c->friction))
+            return -1;
+    } else {
+        if (!PyArg_ParseTuple(object, "dddOd(ddd)d:collider", &c->x0, &c->y0, &c->cell, &bottom,
+                              &c->thickness, &v->x, &v->y, &v->z, &c->friction))
+            return -1;
+        if (!(c->bottom = dp_door_open(&stand->door, bottom, "bottom", 'f', &grid, false))) return -1;
+        c->ny = (int)grid.n[0], c->nx = c->row = (int)grid.n[1];
+    }
+    ++stand->colliders;
+    return 0;
+}
+
+static int open_colliders(Stand* stand, PyObject* objects)
+{
+    PyObject* items = PySequence_Tuple(objects);
+    int       fine = items ? 0 : -1;
+    if (items && PyTuple_Size(items) > COLLIDERS_MOST) {
+        PyErr_SetString(PyExc_ValueError, "colliders: at most 16");
+        fine = -1;
+    }
+    for (Py_ssize_t k = 0; fine == 0 && k < PyTuple_Size(items); ++k)
+        fine = open_collider(stand, PyTuple_GetItem(items, k));
+    Py_XDECREF(items);
+    return fine;
+}
+
+static PyObject* plants_step(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *kind, *root, *heading, *position, *velocity, *strength, *ground, *colliders;
+    PyObject* answer = NULL;
+    unsigned long long seed;
+    double             dt;
+    int                steps, workers;
+    Stand              stand = {0};
+    if (!PyArg_ParseTuple(arguments, "OKOOOOOOOdii:plants_step", &kind, &seed, &root, &heading,
+                          &position, &velocity, &strength, &ground, &colliders, &dt, &steps, &workers))
+        return NULL;
+    if (open_stand(&stand, kind, seed, root, heading) < 0 ||
+        (ground != Py_None && open_ground(&stand, ground) < 0) ||
+        open_colliders(&stand, colliders) < 0)
+        goto done;
+    const DpPlantGround* below = ground != Py_None ? &stand.ground : NULL;
+    if (below && dp_plants_follow(stand.plants, below) != DP_OK) {
+        answer = dp_door_result(DP_BAD_ARGUMENT, "ground");
+        goto done;
+    }
+    if (open_state(&stand, position, velocity, strength) < 0) goto done;
+    DpPlantsTold told = {0};
+    DpStatus     status = DP_OK;
+    int          broke = 0;
+    Py_BEGIN_ALLOW_THREADS
+    for (int k = 0; k < steps && status == DP_OK; ++k) {
+        status = dp_plants_step(stand.plants, below, stand.collider, stand.colliders, dt, workers,
+                                &told);
+        broke += told.broke;
+    }
+    for (int k = 0; k < stand.count; ++k)
+        dp_plants_read(stand.plants, 0, k,
+                       stand.position + 3 * (size_t)k * (size_t)stand.shape.particles,
+                       stand.velocity + 3 * (size_t)k * (size_t)stand.shape.particles,
+                       stand.strength + (size_t)k * (size_t)stand.shape.bends);
+    Py_END_ALLOW_THREADS
+    answer = status == DP_OK ? Py_BuildValue("{s:i,s:i}", "awake", told.awake, "broke", broke)
+                             : dp_door_result(status, "moving plants");
+done:
+    close_stand(&stand);
+    return answer;
+}
+
+static PyObject* plants_rest(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *         kind, *root, *heading, *position, *answer = NULL;
+    unsigned long long seed;
+    Stand              stand = {0};
+    if (!PyArg_ParseTuple(arguments, "OKOOO:plants_rest_shape", &kind, &seed, &root, &heading,
+                          &position))
+        return NULL;
+    if (open_stand(&stand, kind, seed, root, heading) < 0) goto done;
+    float* to = dp_door_open(&stand.door, position, "position", 'f',
+                             DP_SHAPE3(stand.count, stand.shape.particles, 3), true);
+    if (!to) goto done;
+    for (int k = 0; k < stand.count; ++k)
+        dp_plants_read(stand.plants, 0, k, to + 3 * (size_t)k * (size_t)stand.shape.particles, NULL,
+                       NULL);
+    answer = dp_door_result(DP_OK, "planting");
+done:
+    close_stand(&stand);
+    return answer;
+}
+
+static PyObject* plants_cover(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *    kind, *root, *strength, *alphas, *moduli, *answer = NULL;
+    DpPlantWindow window = {0};
+    DpShape       grid = {2, {-1, -1}};
+    int           law;
+    Stand         stand = {0};
+    if (!PyArg_ParseTuple(arguments, "OOO(ddd)iOO:plants_cover", &kind, &root, &strength, &window.x0,
+                          &window.y0, &window.cell, &law, &alphas, &moduli))
+        return NULL;
+    float *alpha, *modulus;
+    if (open_stand(&stand, kind, 0, root, NULL) < 0 || open_state(&stand, NULL, NULL, strength) < 0)
+        goto done;
+    if (!(alpha = dp_door_open(&stand.door, alphas, "alpha", 'f', &grid, true)) ||
+        !(modulus = dp_door_open(&stand.door, moduli, "modulus", 'f', &grid, true)))
+        goto done;
+    window.ny = (int)grid.n[0], window.nx = window.row = (int)grid.n[1];
+    answer = dp_door_result(dp_plants_cover(stand.plants, &window, (DpCoverLaw)law, alpha, modulus),
+                            "covering ground");
+done:
+    close_stand(&stand);
+    return answer;
+}
+
+PyMethodDef dp_py_plants_methods[] = {
+    {"plants_default", plants_default, METH_NOARGS,
+     "plants_default() -> numbers of DpPlantKind: Carex pensylvanica, TRAIL Table 1."},
+    {"plants_shape", plants_shape, METH_O,
+     "plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)."},
+    {"plants_wear", plants_wear, METH_VARARGS,
+     "plants_wear(kind, reserve, strength, angle, dt) -> strength of a bend held at angle. TRAIL (6)"},
+    {"plants_regrow", plants_regrow, METH_VARARGS,
+     "plants_regrow(kind, alpha, seconds) -> share of cover after so long without walkers."},
+    {"plants_place", plants_place, METH_VARARGS,
+     "plants_place(x0, y0, x1, y1, density, weight | None, seed, root) -> count\n\n"
+     "Poisson-disc: fills root, float32 (most, 2) [m]; weight float32 (wy, wx) thins."},
+    {"plants_rest_shape", plants_rest, METH_VARARGS,
+     "plants_rest_shape(kind, seed, root, heading | None, position)\n\n"
+     "Fill position, float32 (n, particles, 3) [m], with plants nobody walked on."},
+    {"plants_step", plants_step, METH_VARARGS,
+     "plants_step(kind, seed, root, heading | None, position, velocity, strength, ground | None,\n"
+     "            colliders, dt, steps, workers) -> {awake, broke}\n\n"
+     "Let a stand live; position, velocity and strength change in place. TRAIL (5), TRAIL (6)"},
+    {"plants_cover", plants_cover, METH_VARARGS,
+     "plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)\n\n"
+     "alpha_veg, TRAIL (7), and E_v, TRAIL (8) [Pa]; law 0 = relative to full cover, 1 = as printed."},
+    {NULL, NULL, 0, NULL}};
