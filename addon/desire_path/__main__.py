@@ -1,4 +1,4 @@
-"""python -m desire_path: bake a recording, or list its forces, on a machine without Blender."""
+"""python -m desire_path: bake a recording, list or draw its forces, on a machine without Blender."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from . import maps, walker
+from . import maps, plot, walker
 from .bake import Bake
 from .errors import DesirePathError
 from .gait import Gait
@@ -28,6 +28,8 @@ def _ground(text, spacing):
     if not isinstance(step, (int, float)):
         raise DesirePathError(f"{text} does not say how far its samples are apart: add --spacing METRES.")
     x0, y0 = (picture.notes.get(note, 0.0) for note in ("originX", "originY"))
+    if isinstance(x0, str) or isinstance(y0, str):
+        raise DesirePathError(f"{text} says in words where it lies: give originX and originY as numbers [m].")
     return Ground.heights(picture.planes[name], step, x0 + step / 2, y0 + step / 2)
 
 
@@ -68,10 +70,19 @@ def _loads(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
+def _plot(args):
+    gait = Gait.load(args.walk)
+    loads = walker.loads(gait, args.model)
+    plot.write(args.out, gait, loads)
+    for warning in loads.warnings:
+        print(f"warning       {warning}")
+    print(f"written to    {os.path.abspath(args.out)}")
+
+
 def _parser():
     parser = argparse.ArgumentParser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
-    tasks = parser.add_subparsers(required=True, metavar="bake | loads")
+    tasks = parser.add_subparsers(required=True, metavar="bake | loads | plot")
 
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
@@ -93,6 +104,12 @@ def _parser():
     loads.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     loads.add_argument("--out", required=True, help="the table (.csv)")
     loads.set_defaults(task=_loads)
+
+    graph = tasks.add_parser("plot", help="draw the vertical force of every foot (needs Matplotlib)")
+    graph.add_argument("walk", help="a recording (.npz)")
+    graph.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
+    graph.add_argument("--out", required=True, help=f"the picture ({', '.join(plot.KINDS)})")
+    graph.set_defaults(task=_plot)
     return parser
 
 

@@ -66,6 +66,9 @@ def test_loads_are_a_table(tmp_path, walk):
     (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
     (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),
     (("loads", "{walk}", "--out", "no/such/folder/loads.csv"), "loads.csv"),
+    (("plot", "{walk}", "--out", "no/such/folder/forces.png"), "forces.png"),
+    (("plot", "{walk}", "--out", "forces.gif"), "forces.gif"),
+    (("plot", "nowhere.npz", "--out", "forces.png"), "nowhere.npz"),
 ])
 def test_bad_input_is_one_sentence(tmp_path, walk, arguments, words):
     done = run(*(text.replace("{walk}", str(walk)) for text in arguments), cwd=tmp_path)
