@@ -3,7 +3,7 @@
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/demo.py -- --out out
 
 Everything about the trail goes through the public operators; the rest is an ordinary scene: an
-imported BVH clip, a skinned walker, a graded ground mesh with painted soils, a low sun, two cameras.
+imported BVH clip, a skinned walker, a graded ground mesh with painted soils, a low sun, cameras.
 """
 import argparse
 import builtins
@@ -30,6 +30,9 @@ SOILS = ("dry-sand", "snow", "mud")
 BORDERS = (0.03, -1.18)  # y where sand becomes snow, and snow mud; the walk goes to -y [m]
 SINK = (0.007, 0.033, 0.021)  # about how far a foot goes in, by soil [m]
 CELL = 0.005  # [m]
+# a print in each soil to look at closely: place [m], and how far off the camera is [m]
+PRINTS = {"sand": ((0.03, 0.33, -0.005), 0.84), "snow": ((0.055, -0.86, -0.02), 0.84),
+          "mud": ((-0.045, -1.445, -0.015), 0.84)}
 
 
 # ---- the ground ----------------------------------------------------------------------------------
@@ -212,7 +215,7 @@ def add_sun():
 def light_and_cameras(scene):
     add_sun()
     materials.sky(scene)
-    still = add_camera("Still", (0.53, 1.40, 0.74), (-0.03, -0.46, 0.0), 31.0)
+    still = add_camera("Still", (1.45, 1.30, 1.20), (0.06, -0.85, 0.375), 23.8)
     film = add_camera("Film", (1.55, 0.0, 0.62), (0.0, 0.0, 0.30), 32.0)
     # the film's camera goes along with the walker, evenly, and falls behind a little
     span = scene.frame_end - scene.frame_start
@@ -225,6 +228,9 @@ def light_and_cameras(scene):
         for key in curve.keyframe_points:
             key.interpolation = "LINEAR"
     scene.camera = still
+    for name, (at, apart) in PRINTS.items():
+        at = Vector((at[0], at[1], at[2] + float(waves(at[0], at[1]))))
+        add_camera("Print in " + name, at + apart * Vector((0.62, 0.58, 0.53)), at, 60.0)
     return still, film
 
 

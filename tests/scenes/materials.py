@@ -103,10 +103,10 @@ def ground():
     colour = n.mix(mud, n.mix(snow, sand, snow_at), mud_at)
 
     # roughness: mud is damp, wet where it was pressed
-    wet = n.math("MAXIMUM", pressed, n.between(wide, 0.50, 0.66, 0.0, 0.35))
-    mud_rough = n.between(wet, 0.0, 1.0, 0.78, 0.38)
+    wet = n.math("MAXIMUM", pressed, n.between(wide, 0.46, 0.66, 0.0, 0.12))
+    mud_rough = n.between(wet, 0.0, 1.0, 0.90, 0.62)
     roughness = n.mix(mud, n.mix(snow, 0.95, 0.60), mud_rough)
-    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.20, 0.26))
+    specular = n.mix(mud, n.mix(snow, 0.10, 0.30), n.between(wet, 0.0, 1.0, 0.08, 0.09))
 
     # heights too small for the mesh [m]: how high the grain, the clods and the lumps are, by soil
     crumbs = n.math("MULTIPLY", heap, 0.0035)
