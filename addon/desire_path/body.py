@@ -476,10 +476,14 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     ahead_rest = _ahead(bones, rig, feet, up_rest)
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis
+    to_left = ankles @ left_axis - middle
+    named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right")
+                      for f in feet])
+    mirrored = named @ to_left < 0.0  # the object is: what is called left stands on the right
     poses, soles, points, part_limb, point_part, point_role = [], [], [], [], [], []
     for limb, foot in enumerate(feet):
-        left = foot.slots.limb.startswith("left") or (
-            not foot.slots.limb.startswith("right") and ankles[limb] @ left_axis > middle)
+        left = (-named if mirrored else named)[limb] > 0.0 or (
+            named[limb] == 0.0 and to_left[limb] > 0.0)
         pose, sole_pair, marks = _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton,
                                         warnings)
         first = len(poses)

@@ -101,6 +101,18 @@ def test_subframes():
     assert len(gait.time) == 17
 
 
+def test_mirrored_walker_wears_mirrored_soles():
+    obj = people.walk(people.biped())
+    plain = sample.record(bpy.context.scene, obj, *FRAMES)
+    obj.scale.x = -1.0
+    other = sample.record(bpy.context.scene, obj, *FRAMES)
+    np.testing.assert_allclose(other.pose[..., :3] * (-1, 1, 1), plain.pose[..., :3], atol=1e-6)
+    for a, b in zip(other.soles, plain.soles):
+        apart = np.linalg.norm((a.vertices * (1, -1, 1))[:, None] - b.vertices, axis=2).min(axis=0)
+        assert apart.max() < 1e-6
+        assert np.linalg.norm(a.vertices[:, None] - b.vertices, axis=2).min(axis=0).max() > 0.005
+
+
 def test_unit_scale_and_object_scale():
     # the same person in metres, in centimetres, and as a rig of 1:100 in an object scaled by 100
     scene = bpy.context.scene
