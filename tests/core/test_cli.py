@@ -49,6 +49,13 @@ def test_bake_on_a_height_map(tmp_path, walk):
     assert json.loads((tmp_path / "folder" / "report.json").read_text())["deepest_m"] > 0.005
 
 
+def test_a_height_map_that_lies_nowhere_is_one_sentence(tmp_path, walk):
+    maps.write(tmp_path / "height.exr", {"height": np.zeros((9, 9), np.float32)},
+               [("cell", 0.5), ("originX", "left"), ("originY", -2.0)])
+    done = run("bake", walk, "--ground", tmp_path / "height.exr", "--out", tmp_path / "folder")
+    assert done.returncode == 1 and "originX" in done.stderr and "Traceback" not in done.stderr
+
+
 def test_loads_are_a_table(tmp_path, walk):
     done = run("loads", walk, "--model", "inertia", "--out", tmp_path / "loads.csv")
     assert done.returncode == 0, done.stderr
