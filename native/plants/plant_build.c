@@ -53,12 +53,11 @@ DpStatus dp_plant_kind_check(const DpPlantKind* kind)
                       within(kind->radius, 0.0, 1.0);
     const bool swing = within(kind->curl, 0.0, 0.5 * PI + 1e-6) && within(kind->sway, 1e-3, 1e3) &&
                        within(kind->across, 1e-3, 1e4) && within(kind->damping, 0.0, 1e4);
-    const bool wear = within(kind->strength, 1e-9, 1e9) &&
-                      within(kind->degrade_angle, 0.0, PI + 1e-6) &&
-                      within(kind->break_angle, kind->degrade_angle, 1e3) &&
-                      within(kind->degrade_rate, 0.0, 1e9) &&
-                      within(kind->recover_rate, 0.0, 1e9) && within(kind->spread, 0.0, 4.0) &&
-                      within(kind->regrow_rate, 0.0, 1e3);
+    const bool wear =
+        within(kind->strength, 1e-9, 1e9) && within(kind->degrade_angle, 0.0, PI + 1e-6) &&
+        within(kind->break_angle, kind->degrade_angle, 1e3) &&
+        within(kind->degrade_rate, 0.0, 1e9) && within(kind->recover_rate, 0.0, 1e9) &&
+        within(kind->spread, 0.0, 4.0) && within(kind->regrow_rate, 0.0, 1e3);
     const bool roots = within(kind->reach, 1e-3, 100.0) && within(kind->full_density, 1e-6, 1e9) &&
                        within(kind->modulus, 0.0, 1e12);
     if (!form || !size || !swing || !wear || !roots) return DP_BAD_ARGUMENT;
@@ -240,18 +239,17 @@ static bool fill_blocks(const DpPlants* plants, PlantStand* stand, int name, con
         order[k] = (Order){(int)(((double)root[3 * k + 1] - box[1]) / high), k, root[3 * k]};
     qsort(order, (size_t)n, sizeof(Order), by_place);
     for (int slot = 0; slot < stand->blocks * DP_LANES; ++slot) {
-        PlantBlock* block = &stand->block[slot / DP_LANES];
-        const int   lane = slot % DP_LANES;
-        const int   from = slot < n ? slot : slot - lane;  // spare lanes repeat lane 0
-        const int   k = order[from].plant;
+        PlantBlock*  block = &stand->block[slot / DP_LANES];
+        const int    lane = slot % DP_LANES;
+        const int    from = slot < n ? slot : slot - lane;  // spare lanes repeat lane 0
+        const int    k = order[from].plant;
         const double facing =
             heading ? (double)heading[k]
                     : 2.0 * PI * plant_hash(plants->seed, (uint64_t)(2 * name), (uint64_t)k);
         const double z = plant_normal(plants->seed, (uint64_t)(2 * name + 1), (uint64_t)k);
         for (int d = 0; d < 3; ++d) block->root[d][lane] = root[3 * k + d];
         block->turn[0][lane] = (float)cos(facing), block->turn[1][lane] = (float)sin(facing);
-        block->reserve[lane] =
-            (double)stand->kind.strength * exp((double)stand->kind.spread * z);
+        block->reserve[lane] = (double)stand->kind.strength * exp((double)stand->kind.spread * z);
         block->alpha[lane] = 1.0f;
         block->plant[lane] = k;
         float* roots = stand->box + 4 * (slot / DP_LANES);
@@ -281,8 +279,10 @@ static bool fill_blocks(const DpPlants* plants, PlantStand* stand, int name, con
             const int    i = (int)(((double)root[3 * k] - box[0]) / stand->bin);
             const int    j = (int)(((double)root[3 * k + 1] - box[1]) / stand->bin);
             const size_t b = (size_t)j * (size_t)stand->bnx + (size_t)i;
-            if (pass == 0) ++stand->bin_start[b];
-            else stand->bin_item[--stand->bin_start[b]] = stand->where[k];
+            if (pass == 0)
+                ++stand->bin_start[b];
+            else
+                stand->bin_item[--stand->bin_start[b]] = stand->where[k];
         }
         if (pass == 1) break;
         for (size_t b = 1; b <= bins; ++b) stand->bin_start[b] += stand->bin_start[b - 1];
@@ -324,8 +324,7 @@ DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* r
     for (int k = 0; heading && k < count; ++k)
         if (!(fabsf(heading[k]) < 1e6f)) return DP_BAD_ARGUMENT;
 
-    PlantStand* more =
-        dp_realloc(plants->stand, (size_t)plants->stands + 1, sizeof(PlantStand));
+    PlantStand* more = dp_realloc(plants->stand, (size_t)plants->stands + 1, sizeof(PlantStand));
     if (!more) return DP_NO_MEMORY;
     plants->stand = more;
     PlantStand* stand = &more[plants->stands];

@@ -138,8 +138,10 @@ DpStatus dp_plants_lean(const DpPlants* plants, const DpPlantWindow* window, flo
             for (int l = 0; l < block->count && block->state; ++l) {
                 double       lean[3];
                 const double x = (double)block->root[0][l], y = (double)block->root[1][l];
-                const double i0 = ceil((x - reach - w.x0) / w.cell), i1 = floor((x + reach - w.x0) / w.cell);
-                const double j0 = ceil((y - reach - w.y0) / w.cell), j1 = floor((y + reach - w.y0) / w.cell);
+                const double i0 = ceil((x - reach - w.x0) / w.cell),
+                             i1 = floor((x + reach - w.x0) / w.cell);
+                const double j0 = ceil((y - reach - w.y0) / w.cell),
+                             j1 = floor((y + reach - w.y0) / w.cell);
                 if (i1 < 0.0 || j1 < 0.0 || i0 >= w.nx || j0 >= w.ny) continue;
                 lean_of(stand, block, l, lean);
                 for (int j = j0 > 0.0 ? (int)j0 : 0; j < w.ny && j <= j1; ++j)

@@ -8,8 +8,8 @@
 #include "plants/plants.h"
 
 #define DP_LANES 8
-#define DP_PLANT_HELD 2        // rows held by the ground
-#define DP_SUBSTEP (1.0 / 480) // longest sub-step [s]
+#define DP_PLANT_HELD 2         // rows held by the ground
+#define DP_SUBSTEP (1.0 / 480)  // longest sub-step [s]
 #define DP_SUBSTEPS_MOST 64
 #define DP_STRETCH_MOST 1.05f  // no stem is longer
 #define DP_SPEED_MOST 6.0f     // of a particle [m/s]
@@ -38,9 +38,9 @@ typedef struct PlantBlock
     int         count;  // lanes in use; the others repeat lane 0
     bool        awake, touched, wearing, changed;
     bool        touched_lane[DP_LANES];
-    int         broke;           // bends, in the last step
-    double      quiet;           // time without motion [s]
-    double      asleep_since;    // [s]
+    int         broke;         // bends, in the last step
+    double      quiet;         // time without motion [s]
+    double      asleep_since;  // [s]
     float       root[3][DP_LANES];
     float       turn[2][DP_LANES];   // cos, sin of the heading
     float       slope[2][DP_LANES];  // of the ground
@@ -53,12 +53,12 @@ typedef struct PlantStand
 {
     DpPlantKind  kind;
     DpPlantShape shape;
-    float        gap;    // between rows [m]
-    float        extent; // farthest particle from the root [m]
+    float        gap;        // between rows [m]
+    float        extent;     // farthest particle from the root [m]
     float        bend_rate;  // [1/s^2]
-    float*       rest;   // in the plant's frame (particles, 3)
+    float*       rest;       // in the plant's frame (particles, 3)
     float*       rest_bend;  // second differences of it (bends, 3)
-    double*      limit;  // cosines at which bends wear and break (bends, 2)
+    double*      limit;      // cosines at which bends wear and break (bends, 2)
     PlantEdge*   edge;
     int          edges;
     PlantBlock*  block;
@@ -102,7 +102,7 @@ void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
 void plant_limits(PlantStand* stand);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);
-void plant_count_broken(const PlantStand* stand, PlantBlock* block);
+void  plant_count_broken(const PlantStand* stand, PlantBlock* block);
 
 // stiffness of edges over a sub-step of h
 void plant_soften(const PlantStand* stand, float* soft, double h);
@@ -114,7 +114,7 @@ void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* leng
 void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
                    const float* length, float* before, const float* soft, double h);
 // no stem longer than DP_STRETCH_MOST
-void plant_shorten(const PlantStand* stand, PlantBlock* block);
+void plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length);
 // speeds from where particles were; returns the largest squared speed
 float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);
 // TRAIL (6) for all bends
@@ -124,7 +124,7 @@ void plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
 typedef struct PlantPush
 {
     const DpPlantCollider* collider;
-    const float*           out;     // distance to the side [m] (ny, nx), NULL for capsules
+    const float*           out;  // distance to the side [m] (ny, nx), NULL for capsules
     double                 x0, y0, z0, x1, y1, z1;  // swept box
 } PlantPush;
 

@@ -7,8 +7,8 @@
 #include "plants/plant_inside.h"
 
 #define PACKING 0.5
-#define DARTS 60          // for each plant, before giving up
-#define THINNEST 0.0625   // where fewer are wanted, roots keep no more distance than at this
+#define DARTS 60         // for each plant, before giving up
+#define THINNEST 0.0625  // where fewer are wanted, roots keep no more distance than at this
 
 static double weight_at(const float* weight, int wx, int wy, double u, double v)
 {

@@ -8,6 +8,7 @@
 
 #include "plants/plant_inside.h"
 
+#define ROW_PASSES 4
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
 double plant_ground_at(const DpPlantGround* ground, double x, double y)
@@ -20,8 +21,8 @@ double plant_ground_at(const DpPlantGround* ground, double x, double y)
     const int    i = (int)fu, j = (int)fv;
     const int    i1 = i + 1 < ground->nx ? i + 1 : i, j1 = j + 1 < ground->ny ? j + 1 : j;
     const double a = dp_clamp(u - fu, 0.0, 1.0), b = dp_clamp(v - fv, 0.0, 1.0);
-    const float *low = ground->height + (size_t)j * (size_t)ground->row;
-    const float *high = ground->height + (size_t)j1 * (size_t)ground->row;
+    const float* low = ground->height + (size_t)j * (size_t)ground->row;
+    const float* high = ground->height + (size_t)j1 * (size_t)ground->row;
     return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +
            b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
 }
@@ -39,8 +40,9 @@ void plant_side_field(const DpPlantCollider* c, float* out)
                     *here = isfinite(c->bottom[(size_t)j * (size_t)c->row + (size_t)i]) ? 1e9f : 0;
                 const int step = pass ? 1 : -1;
                 for (int k = 0; k < 4; ++k) {  // the four neighbours that were seen before
-                    const int   di = k < 3 ? k - 1 : step, dj = k < 3 ? step : 0;
-                    const bool  inside = i + di >= 0 && i + di < c->nx && j + dj >= 0 && j + dj < c->ny;
+                    const int  di = k < 3 ? k - 1 : step, dj = k < 3 ? step : 0;
+                    const bool inside =
+                        i + di >= 0 && i + di < c->nx && j + dj >= 0 && j + dj < c->ny;
                     const float there = inside ? here[(ptrdiff_t)dj * c->nx + di] : 0.0f;
                     const float far = there + (di != 0 && dj != 0 ? two : one);
                     if (far < *here) *here = far;
@@ -56,6 +58,7 @@ typedef struct Probe
     const PlantBlock*    block;
     int                  lane;
     double               radius, left;
+    bool                 only_down;  // no leaving by the side
 } Probe;
 
 // the ground below a point; a sole's bottom is ground too when it is lower
@@ -65,7 +68,8 @@ static double ground_below(const Probe* probe, double x, double y)
     const int         l = probe->lane;
     const double      height = plant_ground_at(probe->ground, x, y);
     if (isfinite(height)) return height;
-    return (double)block->root[2][l] + (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
+    return (double)block->root[2][l] +
+           (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
            (double)block->slope[1][l] * (y - (double)block->root[1][l]);
 }
 
@@ -108,9 +112,9 @@ static double side_at(const PlantPush* push, int i, int j)
 static bool leave_by_side(const Probe* probe, const PlantPush* push, DpVec3* p, double down)
 {
     const DpPlantCollider* c = push->collider;
-    const int i = (int)((p->x - c->x0 + c->velocity.x * probe->left) / c->cell + 0.5);
-    const int j = (int)((p->y - c->y0 + c->velocity.y * probe->left) / c->cell + 0.5);
-    const double way = side_at(push, i, j) + probe->radius;
+    const int              i = (int)((p->x - c->x0 + c->velocity.x * probe->left) / c->cell + 0.5);
+    const int              j = (int)((p->y - c->y0 + c->velocity.y * probe->left) / c->cell + 0.5);
+    const double           way = side_at(push, i, j) + probe->radius;
     if (!(way < down)) return false;
     const double gx = side_at(push, i - 1, j) - side_at(push, i + 1, j);
     const double gy = side_at(push, i, j - 1) - side_at(push, i, j + 1);
@@ -127,7 +131,8 @@ static bool leave_capsule(const DpPlantCollider* c, double left, double radius, 
     const DpVec3 back = dp_scale(c->velocity, -left);
     const DpVec3 from = dp_add(c->from, back), axis = dp_sub(c->to, c->from);
     const double length2 = dp_dot(axis, axis);
-    const double t = length2 > 0.0 ? dp_clamp(dp_dot(dp_sub(*p, from), axis) / length2, 0.0, 1.0) : 0;
+    const double t =
+        length2 > 0.0 ? dp_clamp(dp_dot(dp_sub(*p, from), axis) / length2, 0.0, 1.0) : 0;
     const DpVec3 away = dp_sub(*p, dp_add(from, dp_scale(axis, t)));
     const double far = dp_length(away), most = c->radius + radius;
     if (far >= most) return false;
@@ -162,7 +167,7 @@ static double clear(const Probe* probe, DpVec3* p, const DpPlantCollider** by)
         }
         *by = push->collider;
         pushed = fmax(pushed, p->z - most);
-        if (leave_by_side(probe, push, p, p->z - most)) {
+        if (!probe->only_down && leave_by_side(probe, push, p, p->z - most)) {
             ground = ground_below(probe, p->x, p->y);
             continue;
         }
@@ -223,42 +228,56 @@ static void push_one(const Probe* probe, float* const at[3], int k, DpVec3 befor
     DpVec3                 p = get(at, k);
     const double           pushed = clear(probe, &p, &by);
     if (by) rub(by, &p, before, pushed, h);
-    put(at, k, settle(probe, p, below, most));
+    const DpVec3 arm = dp_sub(p, below);
+    if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
+    put(at, k, p);
 }
 
 // a particle goes with its neighbour in the row when it would be torn from it: the more it leans like
 // that one, the nearer they are
-static void keep_up(const Probe* probe, float* const at[3], int own, int other, double apart,
+static bool keep_up(const Probe* probe, float* const at[3], int own, int other, double apart,
                     double most)
 {
-    const DpVec3 p = get(at, own), to = get(at, other);
-    if (dp_length(dp_sub(p, to)) <= apart) return;
+    const DpVec3 p = get(at, own), to = get(at, other), gap = dp_sub(p, to);
+    if (dp_dot(gap, gap) <= apart * apart) return false;
     const DpVec3 below = get(at, own - DP_LANES);
     const DpVec3 like = dp_add(below, dp_sub(to, get(at, other - DP_LANES)));
     double       low = 0.0, high = 1.0;
     for (int pass = 0; pass < 8; ++pass) {
         const double t = 0.5 * (low + high);
         const DpVec3 q = dp_add(dp_scale(p, 1.0 - t), dp_scale(like, t));
-        if (dp_length(dp_sub(q, to)) <= apart) high = t;
-        else low = t;
+        if (dp_length(dp_sub(q, to)) <= apart)
+            high = t;
+        else
+            low = t;
     }
     const DpVec3 q = dp_add(dp_scale(p, 1.0 - high), dp_scale(like, high));
-    put(at, own, settle(probe, q, below, most));
+    Probe        down = *probe;
+    down.only_down = true;
+    put(at, own, settle(&down, q, below, most));
+    return dp_length(dp_sub(get(at, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
 }
 
-// rest distance of two particles in a lane
+// rest distance of two particles of a row, on sloping ground
 static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a, int b, int l)
 {
-    return dp_length(
-        dp_sub(plant_rest_at(stand, block, a, l), plant_rest_at(stand, block, b, l)));
+    const int    rows = stand->shape.rows;
+    const float *ra = stand->rest + 3 * a, *rb = stand->rest + 3 * b;
+    const float *fa = stand->rest + 3 * (a - a % rows), *fb = stand->rest + 3 * (b - b % rows);
+    const float  c = block->turn[0][l], s = block->turn[1][l];
+    const float  x = fb[0] - fa[0], y = fb[1] - fa[1];
+    const float  lift = block->slope[0][l] * (c * x - s * y) + block->slope[1][l] * (s * x + c * y);
+    const float  dx = rb[0] - ra[0], dy = rb[1] - ra[1], dz = rb[2] - ra[2] + lift;
+    return sqrt((double)(dx * dx + dy * dy + dz * dz));
 }
 
-// a row of a sheet: from the stem that lies lowest to both sides
-static void keep_row(const PlantStand* stand, const Probe* probe, float* const at[3], int first,
+// a row of a sheet: from the stem that lies lowest to both sides; true if it is still torn
+static bool keep_row(const PlantStand* stand, const Probe* probe, float* const at[3], int first,
                      double most)
 {
     const int rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
     int       lowest = 0;
+    bool      torn = false;
     for (int c = 1; c < columns; ++c)
         if (at[2][(first + c * rows) * DP_LANES + l] <
             at[2][(first + lowest * rows) * DP_LANES + l])
@@ -268,9 +287,10 @@ static void keep_row(const PlantStand* stand, const Probe* probe, float* const a
             const int own = first + c * rows, other = own - side * rows;
             const int k = own * DP_LANES + l, n = other * DP_LANES + l;
             if (probe->block->state->limp[k] + probe->block->state->limp[n] > 0.0f) continue;
-            keep_up(probe, at, k, n,
-                    (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l), most);
+            const double apart = (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l);
+            torn = keep_up(probe, at, k, n, apart, most) || torn;
         }
+    return torn;
 }
 
 void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
@@ -282,7 +302,8 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
     const double       most = (double)(LAST_WORD * stand->gap);
     for (int l = 0; l < block->count; ++l) {
         if (!block->touched_lane[l]) continue;
-        const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius, left};
+        const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius,
+                             left, false};
         for (int sheet = 0; sheet < shape.stems; sheet += a_sheet)
             for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
                 for (int c = 0; c < a_sheet; ++c) {
@@ -291,7 +312,9 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
                                         (double)before[2 * size + k]};
                     push_one(&probe, at, k, old, get(at, k - DP_LANES), most, h);
                 }
-                keep_row(stand, &probe, at, sheet * shape.rows + r, most);
+                // who had to go down on the way is the lowest now, and the others follow
+                for (int pass = 0; pass < ROW_PASSES; ++pass)
+                    if (!keep_row(stand, &probe, at, sheet * shape.rows + r, most)) break;
             }
     }
 }
@@ -303,7 +326,7 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
     float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
     for (int l = 0; l < DP_LANES; ++l) {
         plant_ground_lane(stand, block, ground, l);
-        const Probe probe = {push, count, ground, block, l, 0.0, 0.0};
+        const Probe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int root = stem * shape.rows;
             DpVec3    foot = plant_rest_at(stand, block, root + 1, l);
@@ -318,8 +341,8 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
 
 void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
 {
-    const int rows = stand->shape.rows;
-    float*    const *at = block->state->at;
+    const int     rows = stand->shape.rows;
+    float* const* at = block->state->at;
     for (int p = 0; p < stand->shape.particles; ++p) {
         if (p % rows < DP_PLANT_HELD) continue;
         for (int l = 0; l < DP_LANES; ++l) {
@@ -332,7 +355,8 @@ void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlan
 }
 
 // where a plant's root stands, and how the ground leans there
-void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground, int l)
+void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                       int l)
 {
     if (!ground) return;
     const double x = (double)block->root[0][l], y = (double)block->root[1][l];

@@ -54,14 +54,16 @@ DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float
             const int    at = p * DP_LANES + lane;
             const DpVec3 rest = plant_rest_at(stand, block, p, lane);
             const double still = d == 0 ? rest.x : d == 1 ? rest.y : rest.z;
-            if (position) position[3 * p + d] = block->state ? block->state->at[d][at] : (float)still;
+            if (position)
+                position[3 * p + d] = block->state ? block->state->at[d][at] : (float)still;
             if (velocity) velocity[3 * p + d] = block->state ? block->state->speed[d][at] : 0.0f;
         }
     const double slept = block->awake ? 0.0 : plants->now - block->asleep_since;
     for (int b = 0; strength && b < stand->shape.bends; ++b) {
         double now = block->reserve[lane];
         if (block->state) now = block->state->strength[b * DP_LANES + lane];
-        if (now > 0.0) now = fmin(now + (double)stand->kind.recover_rate * slept, block->reserve[lane]);
+        if (now > 0.0)
+            now = fmin(now + (double)stand->kind.recover_rate * slept, block->reserve[lane]);
         strength[b] = now;
     }
     return DP_OK;
@@ -75,7 +77,8 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
     if (!block) return DP_BAD_ARGUMENT;
     PlantStand* stand = &plants->stand[stand_name];
     for (int k = 0; k < 3 * stand->shape.particles; ++k)
-        if ((position && !(fabsf(position[k]) < 1e7f)) || (velocity && !(fabsf(velocity[k]) < 1e4f)))
+        if ((position && !(fabsf(position[k]) < 1e7f)) ||
+            (velocity && !(fabsf(velocity[k]) < 1e4f)))
             return DP_BAD_ARGUMENT;
     for (int b = 0; strength && b < stand->shape.bends; ++b)
         if (!(strength[b] >= 0.0 && strength[b] <= 1.000001 * block->reserve[lane]))

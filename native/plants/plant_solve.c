@@ -11,8 +11,7 @@
 #if defined(__clang__)
 #define LANES _Pragma("clang loop vectorize(assume_safety)") for (int l = 0; l < DP_LANES; ++l)
 #elif defined(__GNUC__)
-#define LANES \
-    _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int l = 0; l < DP_LANES; ++l)
+#define LANES _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int l = 0; l < DP_LANES; ++l)
 #else
 #define LANES for (int l = 0; l < DP_LANES; ++l)
 #endif
@@ -23,8 +22,8 @@
 #define INLINE static inline
 #endif
 
-#define BEYOND 1.04f // edges between stems are hard when longer than this
-#define TINY 1e-18f  // squared length of what has none [m^2]
+#define BEYOND 1.02f  // edges between stems are hard when longer than this
+#define TINY 1e-18f   // squared length of what has none [m^2]
 
 // let particles go on as they moved; where they were is kept
 INLINE void go_on(float* restrict at, float* restrict speed, float* restrict before, float keep,
@@ -44,7 +43,7 @@ INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
 {
     LANES
     {
-        const float off = give[l] * (x0[l] - 2.0f * x1[l] + x2[l] - rest[l]);
+        const float off = give[l] * (x0[l] - 2.0f * x1[l] + x2[l] - rest[l]);  // TRAIL (5)
         x0[l] -= w0 * off;
         x1[l] += 2.0f * w1 * off;
         x2[l] -= off;
@@ -53,7 +52,7 @@ INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
 
 // two particles come to their distance: softly, and hard when far beyond it. TRAIL (5), C_s
 INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, float* restrict bx,
-                 float* restrict by, float* restrict bz, const PlantEdge* edge,
+                 float* restrict by, float* restrict bz, const PlantEdge*        edge,
                  const float* restrict rest, const float* restrict joined, float soft)
 {
     const float wa = edge->share_a, wb = edge->share_b;
@@ -61,7 +60,7 @@ INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, flo
     {
         const float dx = bx[l] - ax[l], dy = by[l] - ay[l], dz = bz[l] - az[l];
         const float inverse = 1.0f / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
-        const float easy = soft * (1.0f - rest[l] * inverse);
+        const float easy = soft * (1.0f - rest[l] * inverse);  // TRAIL (5)
         const float hard = 1.0f - BEYOND * rest[l] * inverse;
         const float share = joined[l] * (easy > hard ? easy : hard);
         ax[l] += wa * share * dx, ay[l] += wa * share * dy, az[l] += wa * share * dz;
@@ -121,18 +120,18 @@ static void lengths_of_edges(const PlantStand* stand, const PlantBlock* block, f
         const PlantEdge* edge = &stand->edge[e];
         const int        rows = stand->shape.rows;
         const float *    a = stand->rest + 3 * edge->a, *b = stand->rest + 3 * edge->b;
-        const float *    fa = stand->rest + 3 * (edge->a / rows * rows);
-        const float *    fb = stand->rest + 3 * (edge->b / rows * rows);
+        const float*     fa = stand->rest + 3 * (edge->a / rows * rows);
+        const float*     fb = stand->rest + 3 * (edge->b / rows * rows);
         const float      dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
         const float      fx = fb[0] - fa[0], fy = fb[1] - fa[1];  // between their feet
         float *          to = length + 2 * e * DP_LANES, *joined = to + DP_LANES;
-        const float *    la = block->state->limp + edge->a * DP_LANES;
-        const float *    lb = block->state->limp + edge->b * DP_LANES;
+        const float*     la = block->state->limp + edge->a * DP_LANES;
+        const float*     lb = block->state->limp + edge->b * DP_LANES;
         LANES
         {
             const float c = block->turn[0][l], s = block->turn[1][l];
-            const float up =
-                dz + block->slope[0][l] * (c * fx - s * fy) + block->slope[1][l] * (s * fx + c * fy);
+            const float up = dz + block->slope[0][l] * (c * fx - s * fy) +
+                             block->slope[1][l] * (s * fx + c * fy);
             to[l] = sqrtf(dx * dx + dy * dy + up * up);
             joined[l] = (1.0f - la[l]) * (1.0f - lb[l]);
         }
@@ -163,7 +162,7 @@ static void prepare(const PlantStand* stand, const PlantBlock* block, float* giv
 
 DP_CLONES
 static void substep(const PlantStand* stand, PlantBlock* block, const float* give,
-                   const float* length, float* before, const float* soft, double h_long)
+                    const float* length, float* before, const float* soft, double h_long)
 {
     const DpPlantShape shape = stand->shape;
     const int          rows = shape.rows, size = shape.particles * DP_LANES;
@@ -185,7 +184,8 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
 
     // bends, row by row over all stems: neighbours in this order share no particle
     for (int row = 0; row + 2 < rows; ++row) {
-        const float w0 = row < DP_PLANT_HELD ? 0.0f : 1.0f, w1 = row + 1 < DP_PLANT_HELD ? 0.0f : 1.0f;
+        const float w0 = row < DP_PLANT_HELD ? 0.0f : 1.0f,
+                    w1 = row + 1 < DP_PLANT_HELD ? 0.0f : 1.0f;
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int    b = stem * (rows - 2) + row, at = (stem * rows + row) * DP_LANES;
             const float* rest = stand->rest_bend + 3 * b;
@@ -206,25 +206,46 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
     for (int e = 0; e < stand->edges; ++e) {
         const PlantEdge* edge = &stand->edge[e];
         const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
-        if (edge->rate > 0.0f) pull(x + a, y + a, z + a, x + b, y + b, z + b, edge,
-                                   length + 2 * e * DP_LANES,
-                                   length + (2 * e + 1) * DP_LANES, soft[e]);
-        else pull_stem(x + a, y + a, z + a, x + b, y + b, z + b, edge);
+        if (edge->rate > 0.0f)
+            pull(x + a, y + a, z + a, x + b, y + b, z + b, edge, length + 2 * e * DP_LANES,
+                 length + (2 * e + 1) * DP_LANES, soft[e]);
+        else
+            pull_stem(x + a, y + a, z + a, x + b, y + b, z + b, edge);
     }
 
     for (int p = 0; p < shape.particles; ++p) {
         const int at = p * DP_LANES;
         if (p % rows < DP_PLANT_HELD) continue;
-        stay_above(x + at, y + at, z + at, before + at, before + size + at, state->limp + at, block);
+        stay_above(x + at, y + at, z + at, before + at, before + size + at, state->limp + at,
+                   block);
     }
 }
 
-// the last word of a step, from the foot upward: no stem is longer than it may be
+// the last word of a step: rows hold together, except under soles, who see to that themselves; then,
+// from the foot upward, no stem is longer than it may be
 DP_CLONES
-static void shorten(const PlantStand* stand, PlantBlock* block)
+static void shorten(const PlantStand* stand, PlantBlock* block, const float* length)
 {
     const int   rows = stand->shape.rows;
     const float most = DP_STRETCH_MOST * stand->gap;
+    float       open[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) open[l] = block->touched_lane[l] ? 0.0f : 1.0f;
+    for (int e = 0; e < stand->edges; ++e) {
+        const PlantEdge* edge = &stand->edge[e];
+        const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
+        if (edge->b - edge->a != rows) continue;
+        float *      x = block->state->at[0], *y = block->state->at[1], *z = block->state->at[2];
+        const float *rest = length + 2 * e * DP_LANES, *joined = rest + DP_LANES;
+        LANES
+        {
+            const float dx = x[b + l] - x[a + l], dy = y[b + l] - y[a + l],
+                        dz = z[b + l] - z[a + l];
+            const float over = 1.0f - BEYOND * rest[l] / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+            const float back = 0.5f * open[l] * joined[l] * (over > 0.0f ? over : 0.0f);
+            x[a + l] += back * dx, y[a + l] += back * dy, z[a + l] += back * dz;
+            x[b + l] -= back * dx, y[b + l] -= back * dy, z[b + l] -= back * dz;
+        }
+    }
     for (int p = 0; p < stand->shape.particles; ++p) {
         if (p % rows < DP_PLANT_HELD) continue;
         float *x = block->state->at[0] + p * DP_LANES, *y = block->state->at[1] + p * DP_LANES;
@@ -287,9 +308,9 @@ void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give
     substep(stand, block, give, length, before, soft, h);
 }
 
-void plant_shorten(const PlantStand* stand, PlantBlock* block)
+void plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length)
 {
-    shorten(stand, block);
+    shorten(stand, block, length);
 }
 
 float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)

@@ -31,7 +31,8 @@ typedef struct Step
 DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int l)
 {
     const int    rows = stand->shape.rows;
-    const float *at = stand->rest + 3 * particle, *foot = stand->rest + 3 * (particle / rows * rows);
+    const float *at = stand->rest + 3 * particle,
+                *foot = stand->rest + 3 * (particle / rows * rows);
     const double c = (double)block->turn[0][l], s = (double)block->turn[1][l];
     const double x = (double)at[0], y = (double)at[1], fx = (double)foot[0], fy = (double)foot[1];
     const double lift = (double)block->slope[0][l] * (c * fx - s * fy) +
@@ -47,8 +48,7 @@ bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)
         const size_t places = (size_t)stand->shape.particles * DP_LANES;
         const size_t bends = (size_t)stand->shape.bends * DP_LANES;
         const size_t head = (sizeof(PlantState) + 63) / 64 * 64;
-        char*        memory =
-            dp_alloc(1, head + bends * sizeof(double) + 7 * places * sizeof(float));
+        char* memory = dp_alloc(1, head + bends * sizeof(double) + 7 * places * sizeof(float));
         if (!memory) return false;
         PlantState* state = block->state = (PlantState*)(void*)memory;
         state->strength = (double*)(void*)(memory + head);
@@ -106,8 +106,8 @@ static void live(void* context, int index, int worker)
                              step->dt * (step->steps - k) / step->steps, h);
         fastest = plant_speeds(stand, block, before, h);
     }
+    plant_shorten(stand, block, length);
     if (step->ground) plant_ground_block(stand, block, step->ground);
-    plant_shorten(stand, block);
     plant_wear_block(stand, block, step->dt);
     const bool calm = !block->touched && !block->wearing && fastest < AT_REST * AT_REST;
     block->quiet = calm ? block->quiet + step->dt : 0.0;
@@ -153,9 +153,12 @@ static bool sweep(PlantPush* push, double dt)
         push->y0 = c->y0 + (j0 - 0.5) * c->cell, push->y1 = c->y0 + (j1 + 0.5) * c->cell;
         push->z0 = (double)low, push->z1 = (double)high + c->thickness;
     } else {
-        push->x0 = fmin(c->from.x, c->to.x) - c->radius, push->x1 = fmax(c->from.x, c->to.x) + c->radius;
-        push->y0 = fmin(c->from.y, c->to.y) - c->radius, push->y1 = fmax(c->from.y, c->to.y) + c->radius;
-        push->z0 = fmin(c->from.z, c->to.z) - c->radius, push->z1 = fmax(c->from.z, c->to.z) + c->radius;
+        push->x0 = fmin(c->from.x, c->to.x) - c->radius,
+        push->x1 = fmax(c->from.x, c->to.x) + c->radius;
+        push->y0 = fmin(c->from.y, c->to.y) - c->radius,
+        push->y1 = fmax(c->from.y, c->to.y) + c->radius;
+        push->z0 = fmin(c->from.z, c->to.z) - c->radius,
+        push->z1 = fmax(c->from.z, c->to.z) + c->radius;
     }
     const DpVec3 back = dp_scale(c->velocity, -dt);
     push->x0 += fmin(back.x, 0.0), push->x1 += fmax(back.x, 0.0);
@@ -180,9 +183,9 @@ static void touch(const PlantStand* stand, PlantBlock* block, const PlantPush* p
         const double z = (double)block->root[2][l];
         bool         meets = false;
         for (int k = 0; k < count && l < block->count; ++k)
-            meets = meets || (x + reach > push[k].x0 && x - reach < push[k].x1 &&
-                              y + reach > push[k].y0 && y - reach < push[k].y1 &&
-                              z + reach > push[k].z0 && z - reach < push[k].z1);
+            meets = meets ||
+                    (x + reach > push[k].x0 && x - reach < push[k].x1 && y + reach > push[k].y0 &&
+                     y - reach < push[k].y1 && z + reach > push[k].z0 && z - reach < push[k].z1);
         block->touched_lane[l] = meets;
         block->touched = block->touched || meets;
     }
@@ -218,7 +221,7 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count)
         const float y0 = (float)all.y0 - reach, y1 = (float)all.y1 + reach;
         for (int b = 0; b < stand->blocks; ++b) {
             const float* box = stand->box + 4 * b;
-            const bool   near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 && box[3] > y0;
+            const bool near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 && box[3] > y0;
             if (!near && !stand->up[b]) continue;
             PlantBlock* block = &stand->block[b];
             touch(stand, block, push, count);
@@ -307,15 +310,15 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
     workers = workers < 1 || tasks < 16 ? 1 : workers > 64 ? 64 : workers;
     for (int s = 0; s < plants->stands; ++s) {
         const PlantStand* stand = &plants->stand[s];
-        const size_t      floats =
-            DP_LANES * (size_t)(3 * stand->shape.particles + stand->shape.bends + 2 * stand->edges) +
-            (size_t)stand->edges;
+        const size_t floats = DP_LANES * (size_t)(3 * stand->shape.particles + stand->shape.bends +
+                                                  2 * stand->edges) +
+                              (size_t)stand->edges;
         step.scratch = floats > step.scratch ? floats : step.scratch;
     }
     step.scratch = (step.scratch + 15) / 16 * 16;
     bool room = tasks >= 0 && prepare_sides(plants, step.push, step.pushes);
-    room = room && make_room(&plants->scratch, &plants->scratch_room,
-                             step.scratch * (size_t)workers);
+    room =
+        room && make_room(&plants->scratch, &plants->scratch_room, step.scratch * (size_t)workers);
     if (room && tasks > 0) dp_parallel_for(tasks, workers, live, &step);
     if (room) plants->now += dt;
     if (room) tell(plants, tasks, told);

@@ -17,10 +17,10 @@ double dp_plant_wear(const DpPlantKind* kind, double reserve, double strength, d
                      double dt)
 {
     const double loss = (double)kind->degrade_rate * dt, gain = (double)kind->recover_rate * dt;
-    if (strength <= 0.0) return 0.0;                        // what is broken stays broken
-    if (angle > (double)kind->break_angle) return 0.0;      // TRAIL (6), phi > phi_max
+    if (strength <= 0.0) return 0.0;                    // what is broken stays broken
+    if (angle > (double)kind->break_angle) return 0.0;  // TRAIL (6), phi > phi_max
     if (angle >= (double)kind->degrade_angle)
-        return strength > loss ? strength - loss : 0.0;     // TRAIL (6), loses mu_deg dt
+        return strength > loss ? strength - loss : 0.0;            // TRAIL (6), loses mu_deg dt
     return strength + gain < reserve ? strength + gain : reserve;  // TRAIL (6), regains mu_rec dt
 }
 
@@ -39,7 +39,8 @@ static void limits(const PlantStand* stand, int bend, double* wears, double* bre
     const float*       at = stand->rest + 3 * (stem * rows + row);
     double             dot = 0.0, a2 = 0.0, b2 = 0.0;
     for (int d = 0; d < 3; ++d) {
-        const double a = (double)at[3 + d] - (double)at[d], b = (double)at[6 + d] - (double)at[3 + d];
+        const double a = (double)at[3 + d] - (double)at[d],
+                     b = (double)at[6 + d] - (double)at[3 + d];
         dot += a * b, a2 += a * a, b2 += b * b;
     }
     const double size = sqrt(a2 * b2);
@@ -65,10 +66,10 @@ static void wear_bend(const float* const at[3], int p, double wears, double brea
         const double dot = ax * bx + ay * by + az * bz;
         const double size = sqrt((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
         const double was = strength[l];
-        const double worn = was - loss > 0.0 ? was - loss : 0.0;                    // TRAIL (6)
-        const double rested = was + gain < reserve[l] ? was + gain : reserve[l];    // TRAIL (6)
+        const double worn = was - loss > 0.0 ? was - loss : 0.0;                  // TRAIL (6)
+        const double rested = was + gain < reserve[l] ? was + gain : reserve[l];  // TRAIL (6)
         double       now = dot <= wears * size && size > 0.0 ? worn : rested;
-        now = dot < breaks * size ? 0.0 : now;                                      // TRAIL (6)
+        now = dot < breaks * size ? 0.0 : now;  // TRAIL (6)
         strength[l] = was > 0.0 ? now : 0.0;
     }
 }
@@ -147,8 +148,7 @@ static void regrow_plant(const PlantStand* stand, PlantBlock* block, int lane, d
     for (int stem = 0; stem < shape.stems; ++stem) {
         double* strength = state->strength + stem * (shape.rows - 2) * DP_LANES + lane;
         bool    broken = false;
-        for (int k = 0; k + 2 < shape.rows; ++k)
-            broken = broken || !(strength[k * DP_LANES] > 0.0);
+        for (int k = 0; k + 2 < shape.rows; ++k) broken = broken || !(strength[k * DP_LANES] > 0.0);
         if (!broken || !(plant_hash(seed, stems_before, (uint64_t)stem) < chance)) continue;
         for (int k = 0; k + 2 < shape.rows; ++k) strength[k * DP_LANES] = block->reserve[lane];
         for (int r = 0; r < shape.rows; ++r) {
@@ -170,8 +170,9 @@ DpStatus dp_plants_rest(DpPlants* plants, double seconds)
         float*      cover = dp_alloc((size_t)stand->blocks * DP_LANES, sizeof(float));
         if (!cover) return DP_NO_MEMORY;
         for (int slot = 0; slot < stand->count; ++slot)
-            cover[slot] = plant_cover_at(plants, stand->block[slot / DP_LANES].root[0][slot % DP_LANES],
-                                         stand->block[slot / DP_LANES].root[1][slot % DP_LANES]);
+            cover[slot] =
+                plant_cover_at(plants, stand->block[slot / DP_LANES].root[0][slot % DP_LANES],
+                               stand->block[slot / DP_LANES].root[1][slot % DP_LANES]);
         for (int b = 0; b < stand->blocks; ++b) {
             PlantBlock* block = &stand->block[b];
             if (!block->state) continue;
@@ -179,8 +180,8 @@ DpStatus dp_plants_rest(DpPlants* plants, double seconds)
             for (int l = 0; l < block->count; ++l) {
                 const double alpha = (double)cover[b * DP_LANES + l];
                 if (!(alpha < 1.0) || !(block->alpha[l] < 1.0f)) continue;
-                const double grown = dp_plant_regrow(&stand->kind, alpha, seconds);
-                const double chance = (grown - alpha) / (1.0 - alpha);
+                const double   grown = dp_plant_regrow(&stand->kind, alpha, seconds);
+                const double   chance = (grown - alpha) / (1.0 - alpha);
                 const uint64_t name = ((uint64_t)s << 32) + (uint64_t)block->plant[l];
                 regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->rests, name);
             }

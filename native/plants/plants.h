@@ -26,25 +26,25 @@ typedef enum DpPlantForm
 // One kind of plant. Start from dp_plant_kind_default() and change what you know.
 typedef struct DpPlantKind
 {
-    int   form;    // DpPlantForm
-    int   sheets;  // crossed sheets of a tuft; a surface has one           2..3
-    float height;  // over the ground                                       [m]     >= 0
-    float width;   // of the first sheet                                    [m]     >= 0
-    float depth;   // of the sheets that cross it                           [m]     >= 0
-    float spacing; // between particles, about                              [m]     > 0
-    float radius;  // of a particle                                         [m]     >= 0
-    float curl;    // phi_0, rest angle between neighbouring edges          [rad]   0..pi/2
-    float sway;    // frequency at which a whole stem swings                [Hz]    > 0
-    float across;  // stiffness of the edges between stems, as a frequency  [Hz]    > 0
-    float damping; // of speed                                              [1/s]   >= 0
+    int   form;     // DpPlantForm
+    int   sheets;   // crossed sheets of a tuft; a surface has one           2..3
+    float height;   // over the ground                                       [m]     >= 0
+    float width;    // of the first sheet                                    [m]     >= 0
+    float depth;    // of the sheets that cross it                           [m]     >= 0
+    float spacing;  // between particles, about                              [m]     > 0
+    float radius;   // of a particle                                         [m]     >= 0
+    float curl;     // phi_0, rest angle between neighbouring edges          [rad]   0..pi/2
+    float sway;     // frequency at which a whole stem swings                [Hz]    > 0
+    float across;   // stiffness of the edges between stems, as a frequency  [Hz]    > 0
+    float damping;  // of speed                                              [1/s]   >= 0
 
-    float strength;      // eps_b, reserve of a bend, TRAIL (6)             [-]     > 0
-    float degrade_angle; // phi_deg, from here on a bend wears              [rad]   0..pi
-    float break_angle;   // phi_max, beyond it a bend breaks                [rad]   >= phi_deg
-    float degrade_rate;  // mu_deg                                          [1/s]   >= 0
-    float recover_rate;  // mu_rec                                          [1/s]   >= 0
-    float spread;        // s, reserves differ by exp(s z) from plant to plant [-]  0..4
-    float regrow_rate;   // r, TRAIL has none                               [1/s]   >= 0
+    float strength;       // eps_b, reserve of a bend, TRAIL (6)             [-]     > 0
+    float degrade_angle;  // phi_deg, from here on a bend wears              [rad]   0..pi
+    float break_angle;    // phi_max, beyond it a bend breaks                [rad]   >= phi_deg
+    float degrade_rate;   // mu_deg                                          [1/s]   >= 0
+    float recover_rate;   // mu_rec                                          [1/s]   >= 0
+    float spread;         // s, reserves differ by exp(s z) from plant to plant [-]  0..4
+    float regrow_rate;    // r, TRAIL has none                               [1/s]   >= 0
 
     float reach;         // R, of a plant's roots                           [m]     > 0
     float full_density;  // plants from which on the ground is fully covered [1/m^2] > 0
@@ -66,8 +66,8 @@ DpPlantShape dp_plant_shape(const DpPlantKind* kind);
 // ---- a stand of plants -----------------------------------------------------------------------
 
 typedef struct DpPlants DpPlants;
-DpPlants* dp_plants_create(uint64_t seed);
-void      dp_plants_destroy(DpPlants* plants);
+DpPlants*               dp_plants_create(uint64_t seed);
+void                    dp_plants_destroy(DpPlants* plants);
 
 // Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed.
 // *stand names them from now on, 0, 1, 2..

@@ -28,8 +28,25 @@ static int open_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
     for (int k = 0; k < KIND_NUMBERS; ++k) f[k] = (float)v[k];
     *kind = (DpPlantKind){v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE,
                           v[1] > 2.5 ? 3 : 2,
-                          f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9], f[10], f[11],
-                          f[12], f[13], f[14], f[15], f[16], f[17], f[18], f[19], f[20]};
+                          f[2],
+                          f[3],
+                          f[4],
+                          f[5],
+                          f[6],
+                          f[7],
+                          f[8],
+                          f[9],
+                          f[10],
+                          f[11],
+                          f[12],
+                          f[13],
+                          f[14],
+                          f[15],
+                          f[16],
+                          f[17],
+                          f[18],
+                          f[19],
+                          f[20]};
     if (dp_plant_kind_check(kind) == DP_OK) return 0;
     PyErr_SetString(PyExc_ValueError, "kind: holds a number out of its range");
     return -1;
@@ -66,12 +83,15 @@ static PyObject* plants_wear(PyObject* module, PyObject* arguments)
     double      reserve, strength, angle, dt;
     DpDoor      door = {0};
     DpPlantKind kind;
-    if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle, &dt))
+    if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle,
+                          &dt))
         return NULL;
     if (open_kind(&door, object, &kind) == 0) {
         if (!(reserve > 0.0) || !(strength >= 0.0) || !isfinite(angle) || !(dt >= 0.0))
-            PyErr_SetString(PyExc_ValueError, "reserve, strength, angle, dt: one is out of its range");
-        else answer = PyFloat_FromDouble(dp_plant_wear(&kind, reserve, strength, angle, dt));
+            PyErr_SetString(PyExc_ValueError,
+                            "reserve, strength, angle, dt: one is out of its range");
+        else
+            answer = PyFloat_FromDouble(dp_plant_wear(&kind, reserve, strength, angle, dt));
     }
     dp_door_close(&door);
     return answer;
@@ -88,7 +108,8 @@ static PyObject* plants_regrow(PyObject* module, PyObject* arguments)
     if (open_kind(&door, object, &kind) == 0) {
         if (!(alpha >= 0.0 && alpha <= 1.0) || !(seconds >= 0.0))
             PyErr_SetString(PyExc_ValueError, "alpha must be 0 to 1, seconds 0 or more");
-        else answer = PyFloat_FromDouble(dp_plant_regrow(&kind, alpha, seconds));
+        else
+            answer = PyFloat_FromDouble(dp_plant_regrow(&kind, alpha, seconds));
     }
     dp_door_close(&door);
     return answer;
@@ -104,8 +125,8 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     DpShape            grid = {2, {-1, -1}}, list = {2, {-1, 2}};
     const float*       weight = NULL;
     float*             root;
-    if (!PyArg_ParseTuple(arguments, "dddddOKO:plants_place", &x0, &y0, &x1, &y1, &density, &weights,
-                          &seed, &roots))
+    if (!PyArg_ParseTuple(arguments, "dddddOKO:plants_place", &x0, &y0, &x1, &y1, &density,
+                          &weights, &seed, &roots))
         return NULL;
     if (weights != Py_None && !(weight = dp_door_open(&door, weights, "weight", 'f', &grid, false)))
         goto done;
@@ -163,10 +184,9 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
     int name;
     stand->count = list.n[0] <= 1 << 24 ? (int)list.n[0] : 0;
     stand->plants = dp_plants_create(seed);
-    const DpStatus status =
-        stand->plants
-            ? dp_plants_add(stand->plants, &stand->kind, root, heading, stand->count, &name)
-            : DP_NO_MEMORY;
+    const DpStatus status = stand->plants ? dp_plants_add(stand->plants, &stand->kind, root,
+                                                          heading, stand->count, &name)
+                                          : DP_NO_MEMORY;
     if (status == DP_OK) return 0;
     dp_door_result(status, "planting");
     return -1;
@@ -177,17 +197,19 @@ static int open_state(Stand* stand, PyObject* position, PyObject* velocity, PyOb
     DpShape* places = DP_SHAPE3(stand->count, stand->shape.particles, 3);
     DpShape* bends = DP_SHAPE2(stand->count, stand->shape.bends);
     DpDoor*  door = &stand->door;
-    if (position && !(stand->position = dp_door_open(door, position, "position", 'f', places, true)))
+    if (position &&
+        !(stand->position = dp_door_open(door, position, "position", 'f', places, true)))
         return -1;
-    if (velocity && !(stand->velocity = dp_door_open(door, velocity, "velocity", 'f', places, true)))
+    if (velocity &&
+        !(stand->velocity = dp_door_open(door, velocity, "velocity", 'f', places, true)))
         return -1;
     if (!(stand->strength = dp_door_open(door, strength, "strength", 'd', bends, true))) return -1;
     for (int k = 0; k < stand->count; ++k) {
         const size_t   p = 3 * (size_t)k * (size_t)stand->shape.particles;
         const size_t   b = (size_t)k * (size_t)stand->shape.bends;
-        const DpStatus status = dp_plants_write(
-            stand->plants, 0, k, position ? stand->position + p : NULL,
-            velocity ? stand->velocity + p : NULL, stand->strength + b);
+        const DpStatus status =
+            dp_plants_write(stand->plants, 0, k, position ? stand->position + p : NULL,
+                            velocity ? stand->velocity + p : NULL, stand->strength + b);
         if (status == DP_OK) continue;
         dp_door_result(status, "position, velocity or strength");
         return -1;
@@ -221,15 +243,16 @@ static int open_collider(Stand* stand, PyObject* object)
         return -1;
     }
     if (PyTuple_Size(object) == 5) {
-        if (!PyArg_ParseTuple(object, "(ddd)(ddd)d(ddd)d:collider", &c->from.x, &c->from.y, &c->from.z,
-                              &c->to.x, &c->to.y, &c->to.z, &c->radius, &v->x, &v->y, &v->z,
-                              &c->friction))
+        if (!PyArg_ParseTuple(object, "(ddd)(ddd)d(ddd)d:collider", &c->from.x, &c->from.y,
+                              &c->from.z, &c->to.x, &c->to.y, &c->to.z, &c->radius, &v->x, &v->y,
+                              &v->z, &c->friction))
             return -1;
     } else {
         if (!PyArg_ParseTuple(object, "dddOd(ddd)d:collider", &c->x0, &c->y0, &c->cell, &bottom,
                               &c->thickness, &v->x, &v->y, &v->z, &c->friction))
             return -1;
-        if (!(c->bottom = dp_door_open(&stand->door, bottom, "bottom", 'f', &grid, false))) return -1;
+        if (!(c->bottom = dp_door_open(&stand->door, bottom, "bottom", 'f', &grid, false)))
+            return -1;
         c->ny = (int)grid.n[0], c->nx = c->row = (int)grid.n[1];
     }
     ++stand->colliders;
@@ -253,14 +276,15 @@ static int open_colliders(Stand* stand, PyObject* objects)
 static PyObject* plants_step(PyObject* module, PyObject* arguments)
 {
     (void)module;
-    PyObject *kind, *root, *heading, *position, *velocity, *strength, *ground, *colliders;
-    PyObject* answer = NULL;
+    PyObject *         kind, *root, *heading, *position, *velocity, *strength, *ground, *colliders;
+    PyObject*          answer = NULL;
     unsigned long long seed;
     double             dt;
     int                steps, workers;
     Stand              stand = {0};
     if (!PyArg_ParseTuple(arguments, "OKOOOOOOOdii:plants_step", &kind, &seed, &root, &heading,
-                          &position, &velocity, &strength, &ground, &colliders, &dt, &steps, &workers))
+                          &position, &velocity, &strength, &ground, &colliders, &dt, &steps,
+                          &workers))
         return NULL;
     if (open_stand(&stand, kind, seed, root, heading) < 0 ||
         (ground != Py_None && open_ground(&stand, ground) < 0) ||
@@ -324,8 +348,8 @@ static PyObject* plants_cover(PyObject* module, PyObject* arguments)
     DpShape       grid = {2, {-1, -1}};
     int           law;
     Stand         stand = {0};
-    if (!PyArg_ParseTuple(arguments, "OOO(ddd)iOO:plants_cover", &kind, &root, &strength, &window.x0,
-                          &window.y0, &window.cell, &law, &alphas, &moduli))
+    if (!PyArg_ParseTuple(arguments, "OOO(ddd)iOO:plants_cover", &kind, &root, &strength,
+                          &window.x0, &window.y0, &window.cell, &law, &alphas, &moduli))
         return NULL;
     float *alpha, *modulus;
     if (open_stand(&stand, kind, 0, root, NULL) < 0 || open_state(&stand, NULL, NULL, strength) < 0)
@@ -347,7 +371,8 @@ PyMethodDef dp_py_plants_methods[] = {
     {"plants_shape", plants_shape, METH_O,
      "plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)."},
     {"plants_wear", plants_wear, METH_VARARGS,
-     "plants_wear(kind, reserve, strength, angle, dt) -> strength of a bend held at angle. TRAIL (6)"},
+     "plants_wear(kind, reserve, strength, angle, dt) -> strength of a bend held at angle. TRAIL "
+     "(6)"},
     {"plants_regrow", plants_regrow, METH_VARARGS,
      "plants_regrow(kind, alpha, seconds) -> share of cover after so long without walkers."},
     {"plants_place", plants_place, METH_VARARGS,
@@ -362,5 +387,6 @@ PyMethodDef dp_py_plants_methods[] = {
      "Let a stand live; position, velocity and strength change in place. TRAIL (5), TRAIL (6)"},
     {"plants_cover", plants_cover, METH_VARARGS,
      "plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)\n\n"
-     "alpha_veg, TRAIL (7), and E_v, TRAIL (8) [Pa]; law 0 = relative to full cover, 1 = as printed."},
+     "alpha_veg, TRAIL (7), and E_v, TRAIL (8) [Pa]; law 0 = relative to full cover, 1 = as "
+     "printed."},
     {NULL, NULL, 0, NULL}};

@@ -97,8 +97,8 @@ static void lawn(int frames, int with_boot, const char* name)
         awake = told.awake;
     }
     const double best = (qsort(t, (size_t)frames, sizeof *t, by_size), t[0]);
-    printf("%-34s %7.0f us a frame (best %.0f), %d awake\n", name, 1e6 * median(t, frames), 1e6 * best,
-           awake);
+    printf("%-34s %7.0f us a frame (best %.0f), %d awake\n", name, 1e6 * median(t, frames),
+           1e6 * best, awake);
     dp_free(t);
     dp_plants_destroy(plants);
 }
@@ -132,8 +132,8 @@ static int sticks(Stick* s)
                     const float wa = r < 2 ? 0.0f : 1.0f, wb = to[k] % ROWS < 2 ? 0.0f : 1.0f;
                     if (to[k] < 0 || !(wa + wb > 0.0f)) continue;
                     const float rest = pass == 0 ? 0.0167f : pass == 1 ? 0.026f : 0.02f;
-                    s[n++] = (Stick){here, to[k], wa / (wa + wb), wb / (wa + wb), rest,
-                                     pass == 2 ? 1.0f : 0.2f};
+                    s[n++] = (Stick){here,           to[k], wa / (wa + wb),
+                                     wb / (wa + wb), rest,  pass == 2 ? 1.0f : 0.2f};
                 }
             }
     return n;
@@ -194,7 +194,8 @@ static void plain(int frames)
                                         : d == 2 ? 0.02f * (float)(c % ROWS - 1)
                                                  : 0.0f;
                     seed = seed * 1664525u + 1013904223u;
-                    p[k].speed[c][d] = c % ROWS < 2 ? 0.0f : (float)(seed >> 8) / 16777216.0f - 0.5f;
+                    p[k].speed[c][d] =
+                        c % ROWS < 2 ? 0.0f : (float)(seed >> 8) / 16777216.0f - 0.5f;
                 }
         const double start = now();
         for (int k = 0; k < PLANTS; ++k)
@@ -218,7 +219,8 @@ static void meadow(int frames)
     double* t = dp_alloc((size_t)frames, sizeof(double));
     for (int f = 0; f < frames; ++f) {
         // a walker of 1.4 m/s: a foot stands 0.3 s of every half second
-        const double    s = (double)f / 60.0, stride = floor(s / 0.5), phase = (s - 0.5 * stride) / 0.5;
+        const double s = (double)f / 60.0, stride = floor(s / 0.5),
+                     phase = (s - 0.5 * stride) / 0.5;
         const double    x = 5.0 + 0.7 * stride;
         DpPlantCollider c = phase < 0.6 ? boot_at(x, 15.0, 0.0, 0.0)
                                         : boot_at(x + 0.7 * (phase - 0.6) / 0.4, 15.1, 0.06, 3.5);

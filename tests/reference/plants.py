@@ -9,7 +9,7 @@ import numpy as np
 
 HELD = 2
 SUBSTEP = 1 / 480
-BEYOND = 1.04
+BEYOND = 1.02
 LONGEST = 1.05
 FASTEST = 6.0
 
@@ -144,6 +144,13 @@ def step(kind, root, heading, reserve, at, speed, strength, dt):
     n = min(max(math.ceil(dt / SUBSTEP - 1e-9), 1), 64)
     for _ in range(n):
         substep(kind, at, speed, strength / reserve, rest, limp_of(strength), root[2], dt / n)
+    limp = limp_of(strength)
+    for sa, ra, sb, rb, _ in edges(kind):  # rows hold together, stems keep their length
+        arm, wanted = at[sb, rb] - at[sa, ra], np.linalg.norm(rest[sb, rb] - rest[sa, ra])
+        if ra == rb and limp[sa, ra] + limp[sb, rb] == 0 and np.linalg.norm(arm) > BEYOND * wanted:
+            over = 0.5 * (1 - BEYOND * wanted / np.linalg.norm(arm)) * arm
+            at[sa, ra] += over
+            at[sb, rb] -= over
     gap = kind["height"] / (at.shape[1] - HELD)
     for s in range(len(at)):
         for r in range(HELD, at.shape[1]):

@@ -33,9 +33,15 @@ static inline DpPlantCollider sole(float* bottom, double cell, double x, double 
             const bool   in = fabs(dx) <= 0.5 * long_ && fabs(dy) <= 0.5 * wide;
             bottom[j * SOLE_SIDE + i] = in ? (float)(z + tilt * dx) : INFINITY;
         }
-    return (DpPlantCollider){.nx = SOLE_SIDE, .ny = SOLE_SIDE, .row = SOLE_SIDE, .cell = cell,
-                             .x0 = x - half * cell, .y0 = y - half * cell, .bottom = bottom,
-                             .thickness = 0.12, .friction = 0.5};
+    return (DpPlantCollider){.nx = SOLE_SIDE,
+                             .ny = SOLE_SIDE,
+                             .row = SOLE_SIDE,
+                             .cell = cell,
+                             .x0 = x - half * cell,
+                             .y0 = y - half * cell,
+                             .bottom = bottom,
+                             .thickness = 0.12,
+                             .friction = 0.5};
 }
 
 static inline void step(DpPlants* plants, const DpPlantCollider* c, int count, double dt)
@@ -56,10 +62,10 @@ static inline Strain strain_of(const DpPlants* plants, const DpPlantKind* kind, 
 {
     const DpPlantShape shape = dp_plant_shape(kind);
     const double       gap = (double)kind->height / (shape.rows - 2);
-    const double       wide = shape.stems_a_sheet > 1
-                                  ? (double)kind->width / (shape.stems_a_sheet - 1) : 0.0;
-    float*             at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
-    Strain             s = {0.0, 0.0, 0.0, 1e9, true};
+    const double       wide =
+        shape.stems_a_sheet > 1 ? (double)kind->width / (shape.stems_a_sheet - 1) : 0.0;
+    float* at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    Strain s = {0.0, 0.0, 0.0, 1e9, true};
     for (int k = 0; k < plants_count; ++k) {
         CHECK(dp_plants_read(plants, 0, k, at, NULL, NULL) == DP_OK);
         for (int c = 0; c < 3 * shape.particles; ++c) s.finite = s.finite && isfinite(at[c]);
@@ -68,18 +74,22 @@ static inline Strain strain_of(const DpPlants* plants, const DpPlantKind* kind, 
             const int    r = p % shape.rows;
             if (r >= 1) s.lowest = fmin(s.lowest, (double)a[2]);
             if (r >= 1 && r + 1 < shape.rows) {
-                const double l = dp_length(dp_vec3((double)(a[3] - a[0]), (double)(a[4] - a[1]), (double)(a[5] - a[2])));
+                const double l = dp_length(
+                    dp_vec3((double)(a[3] - a[0]), (double)(a[4] - a[1]), (double)(a[5] - a[2])));
                 s.stem = fmax(s.stem, gap > 0.0 ? l / gap : l);
             }
             if (r >= 2 && p / shape.rows % shape.stems_a_sheet + 1 < shape.stems_a_sheet) {
                 const float* b = a + 3 * shape.rows;
-                const double l = dp_length(dp_vec3((double)(b[0] - a[0]), (double)(b[1] - a[1]), (double)(b[2] - a[2])));
+                const double l = dp_length(
+                    dp_vec3((double)(b[0] - a[0]), (double)(b[1] - a[1]), (double)(b[2] - a[2])));
                 s.across = fmax(s.across, wide > 0.0 ? l / wide : l);
             }
             // straight kinds stand over their feet
             const float* foot = at + 3 * (p - r + 1);
             const double up = gap * (r - 1);
-            s.away = fmax(s.away, dp_length(dp_vec3((double)(a[0] - foot[0]), (double)(a[1] - foot[1]), (double)(a[2] - foot[2]) - up)));
+            s.away =
+                fmax(s.away, dp_length(dp_vec3((double)(a[0] - foot[0]), (double)(a[1] - foot[1]),
+                                               (double)(a[2] - foot[2]) - up)));
         }
     }
     dp_free(at);

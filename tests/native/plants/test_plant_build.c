@@ -102,7 +102,8 @@ TEST(places_keep_their_distance)
     CHECK(dp_plants_place(-1, 2, 3, 6, 80.0, NULL, 0, 0, 5, root, 2000, &count) == DP_OK);
     CHECK(count == 1280);
     for (int a = 0; a < count; ++a) {
-        CHECK(root[2 * a] >= -1 && root[2 * a] <= 3 && root[2 * a + 1] >= 2 && root[2 * a + 1] <= 6);
+        CHECK(root[2 * a] >= -1 && root[2 * a] <= 3 && root[2 * a + 1] >= 2 &&
+              root[2 * a + 1] <= 6);
         for (int b = 0; b < a; ++b)
             nearest = fmin(nearest, hypot((double)(root[2 * a] - root[2 * b]),
                                           (double)(root[2 * a + 1] - root[2 * b + 1])));

@@ -31,10 +31,10 @@ static Strain footfall(DpPlantKind kind, double rate)
     Strain    worst = {0.0, 0.0, 0.0, 1e9, true};
     double    was_x = -0.4, was_z = 0.08, in = 0.0;
     for (int f = 1; f <= (int)(1.2 * rate); ++f) {
-        const double t = f / rate;
-        const double x = t < 0.3 ? -0.4 + 2.0 * t : t < 0.8 ? 0.2 : 0.2 + 2.0 * (t - 0.8);
-        const double z = t < 0.3 ? 0.08 * (1.0 - t / 0.3) : t < 0.8 ? 0.0 : 0.4 * (t - 0.8);
-        const double tilt = t < 0.4 ? 0.1 : t > 0.7 ? -0.1 : 0.0;
+        const double    t = f / rate;
+        const double    x = t < 0.3 ? -0.4 + 2.0 * t : t < 0.8 ? 0.2 : 0.2 + 2.0 * (t - 0.8);
+        const double    z = t < 0.3 ? 0.08 * (1.0 - t / 0.3) : t < 0.8 ? 0.0 : 0.4 * (t - 0.8);
+        const double    tilt = t < 0.4 ? 0.1 : t > 0.7 ? -0.1 : 0.0;
         DpPlantCollider c = sole(bottom, 0.01, x, 0.2, z + 0.14 * fabs(tilt), 0.28, 0.10, tilt);
         c.velocity = dp_vec3((x - was_x) * rate, 0.0, (z - was_z) * rate);
         was_x = x, was_z = z;
@@ -62,9 +62,12 @@ TEST(a_boot_stretches_nothing)
             const Strain s = footfall(kind, rates[r]);  // and those that hold together
             CHECK(s.finite);
             CHECK(s.stem <= 1.05 + 1e-5);
+            // crossed sheets may be torn for a frame where a tilted sole comes down on them
+            CHECK(s.across <= (form ? 1.25 : 1.05));
             CHECK(s.lowest >= -1e-6);
             CHECK(s.away > 0.05);
-            printf("    form %d, %3.0f Hz: stems %.3f, across %.3f\n", form, rates[r], s.stem, s.across);
+            printf("    form %d, %3.0f Hz: stems %.3f, across %.3f\n", form, rates[r], s.stem,
+                   s.across);
         }
 }
 
@@ -104,8 +107,11 @@ TEST(a_leg_pushes_stems_aside)
     double             deepest = 0.0, moved = 0.0;
     for (int f = 0; f < 60; ++f) {
         const double    x = -0.3 + 0.005 * f;
-        DpPlantCollider c = {.from = {x, 0.0, 0.1}, .to = {x, 0.0, 0.9}, .radius = 0.06,
-                             .velocity = {0.3, 0.0, 0.0}, .friction = 0.2};
+        DpPlantCollider c = {.from = {x, 0.0, 0.1},
+                             .to = {x, 0.0, 0.9},
+                             .radius = 0.06,
+                             .velocity = {0.3, 0.0, 0.0},
+                             .friction = 0.2};
         step(plants, &c, 1, 1.0 / 60);
         dp_plants_read(plants, 0, 0, at, NULL, NULL);
         for (int r = 2; r < shape.rows; ++r) {

@@ -47,8 +47,8 @@ TEST(curled_kinds_come_back_too)
     kind.curl = 0.15f;
     const DpPlantShape shape = dp_plant_shape(&kind);
     DpPlants*          plants = lawn(&kind, 1, 1, 0.5, 4);
-    float *            rest = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
-    float *            at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    float*             rest = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    float*             at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
     float*             speed = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
     dp_plants_read(plants, 0, 0, rest, NULL, NULL);
     for (int p = 0; p < shape.particles; ++p)
@@ -86,8 +86,10 @@ TEST(sways_at_its_frequency)
             dp_plants_read(plants, 0, 0, at, NULL, NULL);
             const double x = (double)(at[18] - at[0]);
             if (was < 0.0 && x >= 0.0) {
-                if (first < 0.0) first = t;
-                else last = t, ++passages;
+                if (first < 0.0)
+                    first = t;
+                else
+                    last = t, ++passages;
             }
             was = x;
         }

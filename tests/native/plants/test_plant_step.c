@@ -5,8 +5,8 @@ static void walk(DpPlants* plants, int workers, int frames, DpPlantsTold* sum)
 {
     float bottom[SOLE_SIDE * SOLE_SIDE];
     for (int f = 0; f < frames; ++f) {
-        DpPlantCollider c = sole(bottom, 0.01, 0.2 + 0.02 * f, 0.4, f % 20 < 12 ? 0.0 : 0.05, 0.28,
-                                 0.10, 0.05);
+        DpPlantCollider c =
+            sole(bottom, 0.01, 0.2 + 0.02 * f, 0.4, f % 20 < 12 ? 0.0 : 0.05, 0.28, 0.10, 0.05);
         c.velocity = dp_vec3(1.2, 0, 0);
         DpPlantsTold told;
         CHECK(dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, workers, &told) == DP_OK);
@@ -53,8 +53,7 @@ TEST(the_meadow_sleeps_and_the_walker_wakes_few)
     CHECK(dp_bytes_live() - asleep < 65536);
     walk(plants, 1, 60, &sum);
     CHECK(sum.awake > 8 && sum.awake < 400);
-    for (int f = 0; f < 600; ++f)
-        dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told);
+    for (int f = 0; f < 600; ++f) dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told);
     CHECK(told.awake == 0);
     dp_plants_destroy(plants);
 }
