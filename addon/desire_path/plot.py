@@ -60,7 +60,8 @@ def figure(gait, loads):
         graph.set_ylim(bottom=min(0.0, float(force[limbs].min(initial=0.0))))
         graph.set_ylabel("vertical force [body weights]")
         graph.set_title(f"{gait.walker_name[w]}, {gait.mass[w]:.3g} kg", loc="left")
-        graph.legend(loc="upper right", fontsize="small", ncols=2)
+        graph.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small",
+                     ncols=len(limbs) + 2)
     if len(loads.time) > 1:
         graphs[-1].set_xlim(float(loads.time[0]), float(loads.time[-1]))
     graphs[-1].set_xlabel("time [s]")

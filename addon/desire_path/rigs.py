@@ -298,6 +298,19 @@ def _feet_by_structure(bones):
     return [], 2
 
 
+def legs(skeleton, foot):
+    """Names of thigh and shank above a foot bone, None each where there are none."""
+    bones = _Bones(skeleton)
+    at = bones.names.index(foot)
+    read = bones.read[at]
+    thigh, shank = (_legs_by_name(bones, read.side, _place(read.words), at) if read.side
+                    else (-1, -1))
+    if thigh < 0 or shank < 0:
+        guess = _leg_by_structure(bones, at)
+        thigh, shank = guess if guess[0] >= 0 else (thigh, shank)
+    return tuple(bones.names[b] if b >= 0 else None for b in (thigh, shank))
+
+
 def _limb_word(side, place):
     word = {"L": "left", "R": "right"}.get(side, "")
     return f"{word} {place}".strip() or "foot"

@@ -447,9 +447,8 @@ def test_bad_input(folder):
         settings.cell_size = cell
         refused(operator.desire_path_bake, "cell size")
     settings.cell_size = 0.02
-    for mass in (0.0, -70.0):
-        walker.desire_path.mass = mass
-        refused(operator.desire_path_bake, "mass")
+    walker.desire_path.mass = -70.0
+    refused(operator.desire_path_bake, "mass")
     walker.desire_path.mass = 75.0
     walker.location.x = 500.0
     refused(operator.desire_path_bake, "beside the ground")

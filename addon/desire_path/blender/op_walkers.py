@@ -80,6 +80,49 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def detect(scene, obj, keep=False):
+    """Find an armature's feet and hips and fill its slots; `keep` those that were chosen and fit."""
+    settings = obj.desire_path
+    shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
+    if keep and settings.feet:
+        try:
+            return sample.rig(obj, shape)
+        except DesirePathError:
+            pass  # they are of another rig
+    found = rigs.detect(shape)
+    settings.feet.clear()
+    for foot in found.feet:
+        each = settings.feet.add()
+        for name in ("limb", "foot", "toe", "heel", "thigh", "shank"):
+            setattr(each, name, getattr(foot, name, None) or "")
+    settings.hips = found.hips or ""
+    return found
+
+
+class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
+    """Find the feet, toes, heels and hips of the active armature; each can be changed by hand then"""
+
+    bl_idname = "object.desire_path_rig_detect"
+    bl_label = "Find Feet"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks")
+
+    def work(self, context):
+        obj = context.object
+        found = detect(context.scene, obj)
+        for each in found.warnings:
+            self.report({"WARNING"}, each)
+        feet = "; ".join(
+            f"{foot.limb}: " + ", ".join(name for name in (foot.foot, foot.toe, foot.heel) if name)
+            for foot in found.feet)
+        self.report({"INFO"}, f"'{obj.name}' has {len(found.feet)} feet ({feet}) and "
+                    + (f"hangs on {found.hips}." if found.hips else "no hips bone."))
+        return {"FINISHED"}
+
+
 class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
     """Let the active armature leave prints: finds its feet and joins it to the ground"""
 
@@ -95,14 +138,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         obj, scene = context.object, context.scene
         settings = obj.desire_path
         ground = self.ground(context, settings.ground)
-        world = axes.matrix(obj.matrix_world, obj.name)
-        found = rigs.detect(sample.skeleton(obj, world, axes.unit_scale(scene)))
-        settings.feet.clear()
-        for foot in found.feet:
-            each = settings.feet.add()
-            for name in ("limb", "foot", "toe", "heel", "thigh", "shank"):
-                setattr(each, name, getattr(foot, name, None) or "")
-        settings.hips = found.hips or ""
+        found = detect(scene, obj, keep=not settings.is_walker)
         settings.is_walker = True
         settings.ground = ground
         for each in found.warnings:
@@ -240,5 +276,5 @@ class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
 
 
 CLASSES = (OBJECT_OT_desire_path_ground_add, OBJECT_OT_desire_path_walker_add,
-           OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
+           OBJECT_OT_desire_path_rig_detect, OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
            OBJECT_OT_desire_path_paint_add, OBJECT_OT_desire_path_paint_remove)

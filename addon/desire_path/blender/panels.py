@@ -42,7 +42,7 @@ def draw_ground(layout, context, obj):
     box = layout.box().column(align=True)
     there = walkers(context.scene, obj)
     for each in there:
-        box.label(text=f"{each.name}, {each.desire_path.mass:g} kg", icon="ARMATURE_DATA")
+        box.label(text=f"{each.name}, {weight(each.desire_path)}", icon="ARMATURE_DATA")
     if not there:
         box.label(text="None: select an armature and press Add Walker", icon="INFO")
 
@@ -117,6 +117,15 @@ def draw_output(layout, obj):
     column.operator("object.desire_path_remove", text="Remove Ground", icon="X")
 
 
+def weight(settings):
+    """A walker's mass in words."""
+    if settings.mass:
+        return f"{settings.mass:g} kg"
+    if settings.estimated_mass:
+        return f"about {settings.estimated_mass:.3g} kg"
+    return "mass estimated when recorded"
+
+
 def draw_walker(layout, obj):
     settings = obj.desire_path
     if not settings.is_walker:
@@ -126,15 +135,20 @@ def draw_walker(layout, obj):
     column = _column(layout)
     column.prop(settings, "ground")
     column.prop(settings, "mass")
+    if not settings.mass:
+        column.label(text=weight(settings).capitalize() if settings.estimated_mass
+                     else "Estimated when recorded", icon="INFO")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
     for foot in settings.feet:
         feet = column.column(align=True)
         feet.prop_search(foot, "foot", obj.data, "bones", text=f"{foot.limb.title()} Foot")
         feet.prop_search(foot, "toe", obj.data, "bones")
+        feet.prop_search(foot, "heel", obj.data, "bones")
     column.prop_search(settings, "hips", obj.data, "bones")
+    column.prop_search(settings, "mass_center", obj.data, "bones")
     row = layout.row(align=True)
-    row.operator("object.desire_path_walker_add", text="Find Feet", icon="FILE_REFRESH")
+    row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 

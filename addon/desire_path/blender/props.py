@@ -37,6 +37,10 @@ def _folder_by_hand(self, _context):
     self.folder_auto = False
 
 
+def _foot_by_hand(self, _context):
+    self.thigh = self.shank = ""  # the leg above another foot is another leg
+
+
 class DesirePathPaint(bpy.types.PropertyGroup):
     """A soil painted by a vertex group."""
 
@@ -49,7 +53,8 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     """The bones of one foot."""
 
     limb: StringProperty(name="Limb", description="Which foot this is")
-    foot: StringProperty(name="Foot", description="The bone that begins at the ankle")
+    foot: StringProperty(name="Foot", update=_foot_by_hand,
+                         description="The bone that begins at the ankle")
     toe: StringProperty(name="Toe", description="The bone that begins at the ball of the foot; "
                                                 "empty where the rig has none")
     heel: StringProperty(name="Heel", description="A bone that lies at the heel, if there is one")
@@ -104,7 +109,12 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     ground: PointerProperty(name="Ground", type=bpy.types.Object, poll=is_ground,
                             description="The mesh this armature walks on")
     mass: FloatProperty(name="Mass [kg]", default=75.0, soft_min=1.0, soft_max=1000.0, precision=1,
-                        description="How heavy the walker is, in kilograms")
+                        description="How heavy the walker is, in kilograms; 0 = estimated from its "
+                        "height")
+    estimated_mass: FloatProperty(options={"HIDDEN"}, description="What mass 0 came to [kg]")
+    mass_center: StringProperty(
+        name="Mass Centre", description="A bone that begins at the body's mass centre; empty = found "
+        "from the segments of the body")
     load_model: EnumProperty(
         name="Load", description="How the weight on each foot is found",
         items=(("inertia", "Body in motion",
@@ -114,7 +124,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         name="Samples a Frame", default=1, min=1, max=16,
         description="How often the armature is looked at in a frame; between, it is interpolated")
     feet: CollectionProperty(type=DesirePathFoot, name="Feet",
-                             description="The bones of the walker's feet, found by Add Walker")
+                             description="The bones of the walker's feet, found by Add Walker or Find Feet")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
 
 

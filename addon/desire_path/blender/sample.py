@@ -7,11 +7,12 @@ character costs nothing and the user's frame stays where it is.
 """
 import math
 from contextlib import contextmanager
+from dataclasses import replace
 
 import bpy
 import numpy as np
 
-from .. import body, rigs
+from .. import body, mass, rigs
 from ..errors import DesirePathError
 from ..gait import Gait
 from . import axes, compat, playback
@@ -120,24 +121,51 @@ def motion(own, armature, names, frames, rate, scale):
 
 
 def rig(armature, shape):
-    """The feet chosen for this walker, else those the rig table finds."""
+    """The feet and the mass centre chosen for this walker, else those the rig table finds."""
     settings = armature.desire_path
-    if not settings.feet:
-        return rigs.detect(shape)
+    found = _chosen(armature, shape) if settings.feet else rigs.detect(shape)
+    if settings.mass_center:
+        _known(armature, shape, settings.mass_center)
+        whole = rigs.Segment("body", 1.0, 0.0, ((settings.mass_center, 0.0),))
+        found = replace(found, segments=(whole,))
+    return found
+
+
+def _known(armature, shape, name):
+    if name not in shape.names:
+        raise DesirePathError(
+            f"'{armature.name}' has no bone '{name}', it may have been renamed or removed: press Find "
+            "Feet to find the feet anew, or choose the bone by hand.")
+
+
+def _chosen(armature, shape):
+    settings = armature.desire_path
     feet = []
     for each in settings.feet:
         names = {name: getattr(each, name) or None
                  for name in ("foot", "toe", "heel", "thigh", "shank")}
         for name in filter(None, list(names.values()) + [settings.hips]):
-            if name not in shape.names:
-                raise DesirePathError(
-                    f"'{armature.name}' has no bone '{name}' any more, it was renamed or removed: "
-                    "press Add Walker again to find the feet anew, or choose the bone by hand.")
+            _known(armature, shape, name)
         if names["foot"] is None:
             raise DesirePathError(f"The {each.limb} foot of '{armature.name}' has no foot bone: "
-                                  "choose one, or press Add Walker again.")
+                                  "choose one, or press Find Feet.")
+        if not (names["thigh"] or names["shank"]):
+            names["thigh"], names["shank"] = rigs.legs(shape, names["foot"])
         feet.append(rigs.Foot(each.limb, **names))
     return rigs.build(shape, feet, settings.hips or None)
+
+
+def weight(armature, shape, found):
+    """(mass [kg], what is to be told about it) of a walker; mass 0 is estimated."""
+    settings = armature.desire_path
+    if not (math.isfinite(settings.mass) and settings.mass >= 0.0):
+        raise DesirePathError(f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0, "
+                              "or 0 to have it estimated.")
+    if settings.mass > 0.0:
+        return axes.typed(settings.mass), ()
+    kilograms, height = mass.estimate(shape, found, armature.name)
+    settings.estimated_mass = kilograms
+    return kilograms, (mass.sentence(armature.name, kilograms, height),)
 
 
 # ---- what the feet wear -----------------------------------------------------------------------------
@@ -239,8 +267,6 @@ def record(scene, armature, frame_start, frame_end, samples=None):
         raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
                               "after the start.")
     settings = armature.desire_path
-    if not (math.isfinite(settings.mass) and settings.mass > 0.0):
-        raise DesirePathError(f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0.")
     samples = samples or settings.subframes
     scale, rate = axes.unit_scale(scene), frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
@@ -248,10 +274,12 @@ def record(scene, armature, frame_start, frame_end, samples=None):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found = rig(armature, shape)
+        kilograms, told = weight(armature, shape, found)
         moved = motion(own, armature, found.bones, frames, rate, scale)
     worn = skin(scene, armature, found.feet, world, scale)
-    return body.gait_from_bones(shape, moved, mass=axes.typed(settings.mass), name=armature.name,
-                                rig=found, skin=worn, frame_rate=rate, frame_start=frame_start)
+    gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
+                                frame_rate=rate, frame_start=frame_start)
+    return replace(gait, warnings=gait.warnings + told)
 
 
 def gaits(scene, walkers, frame_start, frame_end):

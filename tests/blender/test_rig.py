@@ -1,0 +1,166 @@
+"""What a walker's rig is taken for: found, shown in slots, overridden by hand, and heeded."""
+import json
+
+import bpy
+import numpy as np
+
+from desire_path.blender import panels, sample
+from desire_path.errors import DesirePathError
+from scenes import meshes, people
+
+operator = bpy.ops.object
+
+
+def refused(call, *words, **arguments):
+    """The sentence an operator or function is refused with."""
+    try:
+        call(**arguments)
+    except (RuntimeError, DesirePathError) as problem:
+        text = str(problem)
+        assert "Traceback" not in text, text
+        for word in words:
+            assert word in text, text
+        return text
+    raise AssertionError("not refused")
+
+
+def record(obj, last=24):
+    return sample.record(bpy.context.scene, obj, 1, last)
+
+
+def slots(obj):
+    return [(f.limb, f.foot, f.toe, f.heel) for f in obj.desire_path.feet]
+
+
+def add_bones(obj, *bones):
+    """(name, parent, head, tail) more."""
+    meshes.activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name, parent, head, tail in bones:
+        made = obj.data.edit_bones.new(name)
+        made.head, made.tail = head, tail
+        made.parent = obj.data.edit_bones[parent] if parent else None
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_detect_fills_the_slots():
+    obj = people.biped()
+    add_bones(obj, ("heel.L", "foot.L", (0.07, 0.06, 0.0), (0.13, 0.06, 0.0)))
+    assert operator.desire_path_rig_detect() == {"FINISHED"}
+    assert slots(obj) == [("left", "foot.L", "toe.L", "heel.L"), ("right", "foot.R", "toe.R", "")]
+    assert obj.desire_path.hips == "hips" and not obj.desire_path.is_walker
+    obj.desire_path.feet[0].foot = "hips"
+    obj.desire_path.feet.remove(1)
+    assert operator.desire_path_rig_detect() == {"FINISHED"}
+    assert [foot[1] for foot in slots(obj)] == ["foot.L", "foot.R"]
+    assert [foot.shank for foot in obj.desire_path.feet] == ["shin.L", "shin.R"]
+
+
+def test_slots_set_by_hand_are_heeded():
+    obj = people.walk(people.biped())
+    operator.desire_path_rig_detect()
+    before = record(obj)
+    settings = obj.desire_path
+    add_bones(obj, ("other", "shin.L", (0.10, 0.02, 0.08), (0.10, -0.11, 0.02)),
+              ("other toe", "other", (0.10, -0.09, 0.02), (0.10, -0.16, 0.02)),
+              ("belly", "hips", (0, 0, 1.2), (0, 0, 1.3)))
+    settings.feet[0].foot = "other"
+    assert settings.feet[0].shank == "" and settings.feet[1].shank == "shin.R"
+    settings.feet[0].toe = ""
+    after = record(obj)
+    assert after.limb_name == ("other", "foot.R")
+    # the new foot's leg is the one above it, so that the mass centre has its segments
+    np.testing.assert_allclose(after.com, before.com, atol=2e-3)
+    assert not np.allclose(after.pose[:2], before.pose[:2], atol=1e-3)
+    np.testing.assert_array_equal(after.pose[2:], before.pose[2:])
+    ball = record(obj).point
+    settings.feet[0].toe = "other toe"
+    assert not np.allclose(record(obj).point, ball, atol=1e-3)
+    settings.hips = "belly"
+    assert not np.allclose(record(obj).com, after.com, atol=1e-3)
+    # what was chosen before Add Walker stays chosen
+    meshes.grid(20, 20, 0.1, -1, -1)
+    operator.desire_path_ground_add()
+    meshes.activate(obj)
+    assert operator.desire_path_walker_add() == {"FINISHED"}
+    assert slots(obj)[0][1:3] == ("other", "other toe") and settings.hips == "belly"
+    # pressed once more it finds them anew
+    assert operator.desire_path_walker_add() == {"FINISHED"}
+    assert slots(obj)[0][1] == "foot.L" and settings.hips == "hips"
+
+
+def test_slots_that_name_no_bone():
+    obj = people.walk(people.biped())
+    operator.desire_path_rig_detect()
+    settings = obj.desire_path
+    for slot in ("foot", "toe", "heel"):
+        kept = getattr(settings.feet[1], slot)
+        setattr(settings.feet[1], slot, "nowhere")
+        refused(lambda: record(obj), "'nowhere'", "Walker", "Find Feet")
+        setattr(settings.feet[1], slot, kept)
+    settings.feet[1].foot = ""
+    refused(lambda: record(obj), "right foot", "choose one")
+    settings.feet[1].foot = "foot.R"
+    settings.hips = "nowhere"
+    refused(lambda: record(obj), "'nowhere'")
+    settings.hips = "hips"
+    assert record(obj).limb_name == ("foot.L", "foot.R")
+
+
+def test_no_rig_to_speak_of():
+    armature = bpy.data.armatures.new("Stick")
+    obj = meshes.link(bpy.data.objects.new("Stick", armature))
+    refused(operator.desire_path_rig_detect, "no bones")
+    add_bones(obj, ("pole", None, (0, 0, 0), (0, 0, 1)))
+    refused(operator.desire_path_rig_detect, "No foot bones were found", "by hand")
+    assert not obj.desire_path.feet
+    meshes.grid(4, 4, 0.1, 0, 0)
+    refused(operator.desire_path_rig_detect, "poll")
+
+
+def test_mass_centre_bone():
+    obj = people.walk(people.biped())
+    segments = record(obj).com
+    obj.desire_path.mass_center = "neck"
+    found = record(obj).com
+    with sample.private_scene(bpy.context.scene, obj) as own:
+        neck = sample.motion(own, obj, ["neck"], list(range(1, 25)), 24.0, 1.0).matrix[:, 0, :3, 3]
+    np.testing.assert_allclose(found[0], neck, atol=1e-9)
+    obj.desire_path.mass_center = "nowhere"
+    refused(lambda: record(obj), "'nowhere'", "Walker")
+    obj.desire_path.mass_center = ""
+    np.testing.assert_array_equal(record(obj).com, segments)
+
+
+def test_mass_is_estimated(folder):
+    ground = meshes.grid(40, 100, 0.02, -0.4, -1.6)
+    operator.desire_path_ground_add()
+    obj = people.walk(people.biped())
+    operator.desire_path_walker_add()
+    settings = obj.desire_path
+    assert panels.weight(settings) == "75 kg"
+    assert record(obj).mass[0] == 75.0
+    settings.mass = 0.0
+    assert "estimated" in panels.weight(settings)
+    gait = record(obj)
+    leg = np.hypot(0.42, 0.01) + np.hypot(0.42, 0.03)
+    assert abs(gait.mass[0] - 22.0 * (leg / 0.491) ** 2) < 0.01
+    told = [each for each in gait.warnings if "estimate" in each]
+    assert len(told) == 1 and "Walker" in told[0] and f"{gait.mass[0]:.3g} kg" in told[0]
+    assert panels.weight(settings) == f"about {gait.mass[0]:.3g} kg"
+    # the report and the panel's summary tell it
+    meshes.activate(ground)
+    ground.desire_path.folder = str(folder / "bake")
+    ground.desire_path.cell_size = 0.02
+    ground.desire_path.frame_start, ground.desire_path.frame_end = 1, 8
+    assert operator.desire_path_bake() == {"FINISHED"}
+    report = json.loads((folder / "bake" / "report.json").read_text())
+    assert told[0] in report["warnings"]
+    assert abs(report["parameters"]["mass_kg"][0] - gait.mass[0]) < 1e-9
+    assert told[0] in json.loads(ground.desire_path.summary)["warnings"]
+    # a rig twice as large weighs four times as much
+    meshes.activate(obj)
+    obj.scale = (2, 2, 2)
+    assert abs(record(obj).mass[0] / gait.mass[0] - 4.0) < 1e-3
+    settings.mass = -0.5
+    refused(lambda: record(obj), "-0.5 kg", "Walker", "estimated")
