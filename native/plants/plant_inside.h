@@ -99,6 +99,8 @@ DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int parti
 bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
 // strength that came back while asleep
 void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
+// strength of a bend that regained `gain` at rest
+double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, int lane, double gain);
 void plant_limits(PlantStand* stand);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);

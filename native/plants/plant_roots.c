@@ -60,10 +60,9 @@ DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float
         }
     const double slept = block->awake ? 0.0 : plants->now - block->asleep_since;
     for (int b = 0; strength && b < stand->shape.bends; ++b) {
-        double now = block->reserve[lane];
-        if (block->state) now = block->state->strength[b * DP_LANES + lane];
-        if (now > 0.0)
-            now = fmin(now + (double)stand->kind.recover_rate * slept, block->reserve[lane]);
+        const double gain = (double)stand->kind.recover_rate * slept;
+        const double now =
+            block->state ? plant_rested(stand, block, b, lane, gain) : block->reserve[lane];
         strength[b] = now;
     }
     return DP_OK;

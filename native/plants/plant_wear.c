@@ -3,6 +3,8 @@
 // Departures
 //   TRAIL (6): the loss is by seconds, not by frames, and its sum over a step is exact while phi stays
 //   in its range, so any dt gives the same strength. What breaks by phi > phi_max breaks at once.
+//   A bend above a broken one is held by nothing: it neither wears nor recovers, and TRAIL (7) does not
+//   count it, so that half the stems broken at their feet is half the cover.
 //   Strength is a double: a day's recovery in steps of a frame is below what a float can hold.
 #include "base/wide.h"
 
@@ -53,7 +55,8 @@ static void limits(const PlantStand* stand, int bend, double* wears, double* bre
 // one bend of all lanes; the cosine tells, no angle is needed.
 DP_CLONES
 static void wear_bend(const float* const at[3], int p, double wears, double breaks, double loss,
-                      double gain, const double* reserve, double* strength)
+                      double gain, const double* reserve, const float* limp,
+                      double* strength)
 {
     const float *x = at[0] + p * DP_LANES, *y = at[1] + p * DP_LANES, *z = at[2] + p * DP_LANES;
     for (int l = 0; l < DP_LANES; ++l) {
@@ -70,6 +73,7 @@ static void wear_bend(const float* const at[3], int p, double wears, double brea
         const double rested = was + gain < reserve[l] ? was + gain : reserve[l];  // TRAIL (6)
         double       now = dot <= wears * size && size > 0.0 ? worn : rested;
         now = dot < breaks * size ? 0.0 : now;  // TRAIL (6)
+        now = limp[l] > 0.0f ? was : now;
         strength[l] = was > 0.0 ? now : 0.0;
     }
 }
@@ -88,7 +92,8 @@ void plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt)
         double*   strength = state->strength + b * DP_LANES;
         double    was[DP_LANES], wears = stand->limit[2 * b], breaks = stand->limit[2 * b + 1];
         memcpy(was, strength, sizeof was);
-        wear_bend(at, stem * shape.rows + row, wears, breaks, loss, gain, block->reserve, strength);
+        wear_bend(at, stem * shape.rows + row, wears, breaks, loss, gain, block->reserve,
+                  state->limp + (stem * shape.rows + row + 1) * DP_LANES, strength);
         for (int l = 0; l < block->count; ++l) {
             broke = broke || (was[l] > 0.0 && !(strength[l] > 0.0));
             block->wearing = block->wearing || strength[l] < was[l];
@@ -107,10 +112,9 @@ void plant_count_broken(const PlantStand* stand, PlantBlock* block)
         for (int stem = 0; stem < shape.stems; ++stem) {
             float limp = 0.0f;
             for (int row = 0; row + 2 < shape.rows; ++row) {
-                const bool holds =
-                    state->strength[(stem * (shape.rows - 2) + row) * DP_LANES + l] > 0.0;
-                whole += holds;
-                if (!holds) limp = 1.0f;
+                const int b = stem * (shape.rows - 2) + row;
+                if (!(state->strength[b * DP_LANES + l] > 0.0)) limp = 1.0f;
+                whole += !(limp > 0.0f);
                 state->limp[(stem * shape.rows + row + 2) * DP_LANES + l] = limp;
             }
         }
@@ -132,11 +136,16 @@ void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds)
 {
     const double gain = (double)stand->kind.recover_rate * seconds;
     for (int b = 0; block->state && b < stand->shape.bends; ++b)
-        for (int l = 0; l < DP_LANES; ++l) {
-            double* strength = &block->state->strength[b * DP_LANES + l];
-            if (!(*strength > 0.0)) continue;
-            *strength = fmin(*strength + gain, block->reserve[l]);
-        }
+        for (int l = 0; l < DP_LANES; ++l)
+            block->state->strength[b * DP_LANES + l] = plant_rested(stand, block, b, l, gain);
+}
+
+double plant_rested(const PlantStand* stand, const PlantBlock* block, int b, int l, double gain)
+{
+    const int    rows = stand->shape.rows, stem = b / (rows - 2), row = b % (rows - 2);
+    const double now = block->state->strength[b * DP_LANES + l];
+    const bool   limp = block->state->limp[(stem * rows + row + 1) * DP_LANES + l] > 0.0f;
+    return now > 0.0 && !limp ? fmin(now + gain, block->reserve[l]) : now;
 }
 
 // stems that broke grow again, each with the same chance; what grew stands in its rest shape

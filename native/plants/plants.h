@@ -12,6 +12,7 @@
 //   TRAIL (5): bending is the second difference along a stem against that of its rest shape; its
 //   length is the chord of (phi - phi_0), and it knows to which side the stem leans.
 //   Gravity pulls what is limp; whole stems are built as they hang.
+//   TRAIL (6)(7): what is above a broken bend is limp, wears no more and holds nothing.
 //   TRAIL (7): a stand denser than full cover counts 1; `paper` is as printed.
 #pragma once
 #include "base/status.h"
@@ -103,7 +104,7 @@ typedef struct DpPlantCollider
 typedef struct DpPlantsTold
 {
     int    awake;           // plants that were moved
-    int    broke;           // bends that broke
+    int    broke;           // bends that broke, and those above them
     bool   changed;         // cover may have changed within x0..x1, y0..y1
     double x0, y0, x1, y1;  // [m]
 } DpPlantsTold;
@@ -129,7 +130,7 @@ DpStatus dp_plants_write(DpPlants* plants, int stand, int plant, const float* po
                          const float* velocity, const double* strength);
 // exp(s z) * eps_b, the most strength a bend of this plant has.
 double dp_plants_reserve(const DpPlants* plants, int stand, int plant);
-// alpha_k, unbroken share of a plant's bends. TRAIL (7)
+// alpha_k, share of a plant's bends with nothing broken from the root up to them. TRAIL (7)
 double dp_plants_alpha(const DpPlants* plants, int stand, int plant);
 
 // ---- one by one ------------------------------------------------------------------------------

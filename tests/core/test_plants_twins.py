@@ -100,7 +100,8 @@ def test_cover_trail_7_8(law):
     stand.strength[stand.random.random(stand.strength.shape) < 0.4] = 0.0
     alpha, modulus = np.zeros((12, 14), np.float32), np.zeros((12, 14), np.float32)
     _native.plants_cover(kind.numbers(), stand.root, stand.strength, (-0.1, -0.1, 0.1), law, alpha, modulus)
-    whole = (stand.strength > 0).mean(axis=1)
+    stems = stand.strength.reshape(stand.n, stand.stems, -1)
+    whole = np.minimum.accumulate(stems > 0, axis=2).mean(axis=(1, 2))
     expected = twin.cover(asdict(kind), stand.root.astype(float), whole, -0.1, -0.1, 0.1, 14, 12, law == 1)
     np.testing.assert_allclose(alpha, expected[0], atol=2e-6)
     np.testing.assert_allclose(modulus, expected[1], atol=20)

@@ -160,6 +160,8 @@ def step(kind, root, heading, reserve, at, speed, strength, dt):
     for s in range(len(at)):
         for r in range(at.shape[1] - 2):
             angle = angle_at(at[s], r) - angle_at(rest[s], r)
+            if limp[s, r + 1] > 0:
+                continue
             strength[s, r] = wear(kind, reserve, strength[s, r], angle, dt)
 
 

@@ -28,8 +28,8 @@ TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
     CHECK_CLOSE(low, 10e6, 1e-6);  // TRAIL (8)
     CHECK_CLOSE(high, 10e6, 1e-6);
 
-    for (int share = 1; share <= 2; ++share) {  // half of every plant, then all
-        for (int b = 0; b < 20; ++b) broken[b] = b % 2 < share ? 0.0 : 0.1;
+    for (int share = 1; share <= 2; ++share) {  // every other stem at its foot, then all
+        for (int b = 0; b < 20; ++b) broken[b] = b / 5 % 2 < share && b % 5 == 0 ? 0.0 : 0.1;
         for (int k = 0; k < 625; ++k) dp_plants_write(plants, 0, k, NULL, NULL, broken);
         dp_plants_cover(plants, &window, DP_COVER_FULL, strength, modulus);
         least_and_most(strength, &low, &high);
