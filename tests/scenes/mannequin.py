@@ -37,6 +37,7 @@ SIDE = (  # once for each side, the names completed by it
     ("Leg", ("Leg", 0.25), ("Leg", 0.98), 0.056, 0.040),
 )
 CLOTHES = {"Hips": 1, "UpLeg": 1, "Leg": 1, "Head": 2, "Hand": 2, "Neck": 2, "Neck1": 2}
+HEM, COLLAR = 0.0, 0.335  # how high the jacket begins and ends in the rest pose [m]
 BLEND = 0.022  # how soft the skin changes from bone to bone [m]
 VOXEL = 0.011  # [m]
 
@@ -158,7 +159,13 @@ def _body(armature):
     share /= share.sum(axis=0)
     bone_of = share.argmax(axis=0)
     dress = np.array([CLOTHES.get(n.replace("Left", "").replace("Right", ""), 0) for n in names])
-    material = [int(dress[bone_of[face[0]]]) for face in faces]
+    material = np.array([dress[bone_of[face[0]]] for face in faces])
+    # the hem and the collar are level, whichever bone moves them
+    high = np.array([vertices[face, 2].mean() for face in faces])
+    of = np.array(names)[bone_of[[face[0] for face in faces]]]
+    waist, throat = np.isin(of, ("Hips", "LowerBack")), np.isin(of, ("Spine1", "Neck"))
+    material[waist] = np.where(high[waist] > HEM, 0, 1)
+    material[throat] = np.where(high[throat] > COLLAR, 2, 0)
     return vertices, faces, dict(zip(names, share)), material
 
 
