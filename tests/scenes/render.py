@@ -3,9 +3,9 @@
     blender -b demo.blend --python-exit-code 1 -P render.py -- still PATH WIDTH HEIGHT SAMPLES
     blender -b demo.blend --python-exit-code 1 -P render.py -- prints FOLDER WIDTH HEIGHT SAMPLES
     blender -b demo.blend --python-exit-code 1 -P render.py -- film FOLDER WIDTH HEIGHT SAMPLES STEP
-    blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES FRAME..
+    blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES N..
 
-`prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` a file for each frame of the film named.
+`prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` a file for each of the film's frames N.
 """
 import os
 import sys
