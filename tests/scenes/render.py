@@ -3,9 +3,9 @@
     blender -b demo.blend --python-exit-code 1 -P render.py -- still PATH WIDTH HEIGHT SAMPLES
     blender -b demo.blend --python-exit-code 1 -P render.py -- prints FOLDER WIDTH HEIGHT SAMPLES
     blender -b demo.blend --python-exit-code 1 -P render.py -- film FOLDER WIDTH HEIGHT SAMPLES STEP
-    blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES N..
+    blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES N
 
-`prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` a file for each of the film's frames N.
+`prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames N, N .. of the film.
 """
 import os
 import sys
