@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import rigs, sole
+from . import rigs, sole, tread as treads
 from .errors import DesirePathError
 from .gait import BALL, HEEL, TIP, Gait, Sole
 
@@ -364,17 +364,23 @@ def _level_toe(turn, ball, low):
     return _square(mixed)
 
 
-def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, warnings):
-    """Poses, soles and contact points of the two parts of one foot."""
-    shape, flat = foot.shape(time, up_rest, ahead_rest, skin is not None)
-    if skin is None and not flat.any() and len(time) > 2:
+def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, warnings):
+    """Poses, soles and contact points of the two parts of one foot. laid: a tread, or None."""
+    at_foot = laid is not None and laid.at_foot
+    shape, flat = foot.shape(time, up_rest, ahead_rest, skin is not None or at_foot)
+    if skin is None and not at_foot and not flat.any() and len(time) > 2:
         warnings.append(f"{foot.slots.foot} never stands flat: its sole was laid by the rest pose.")
     soles = None
     if skin is not None:
         soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
-        if soles is None:
+        if soles is None and laid is None:
             warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in "
                             "sole.")
+    if laid is not None:
+        soles, below = treads.soles(laid, left, shape.ball)
+        if at_foot:  # as thick as it was modelled
+            shape.ball_height += below - shape.ankle_height
+            shape.ankle_height = below
     heel_turn = bones.turn(foot.slots.foot) @ shape.foot_turn
     ankle, ball, _ = foot.joints()
     heel_at = ankle - heel_turn[:, :, 2] * shape.ankle_height
@@ -404,9 +410,26 @@ def _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, warning
     return poses, soles, points
 
 
+def _to_frame(bones, foot, shape):
+    """Rest space to the frame of a flat foot, its ankle at the origin (4, 4)."""
+    turn = _square(bones.rest[bones.row[foot.slots.foot], :3, :3]) @ shape.foot_turn
+    out = np.eye(4)
+    out[:3, :3] = turn.T
+    out[:3, 3] = -turn.T @ foot.joints(rest=True)[0]
+    return out
+
+
+def _lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest):
+    """The tread under one foot of the rest pose, left feet asked first."""
+    places = []
+    for foot, left in sorted(zip(feet, lefts), key=lambda each: not each[1]):
+        shape, _ = foot.shape(time, up_rest, ahead_rest, True)
+        places.append((_to_frame(bones, foot, shape), shape.heel, shape.tip, left))
+    return treads.lay(tread, places, up_rest, ahead_rest)
+
+
 def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
     """Soles from the rest pose's skin, laid so that its lowest vertex is at z = 0; None if none."""
-    ankle, _, tip = foot.joints(rest=True)
     parents = [int(p) for p in skeleton.parents]
 
     def family(name, stop):
@@ -426,11 +449,7 @@ def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
             if name != foot.slots.foot and rigs.is_toe(name):
                 foot_family.discard(name)
                 toe_family.add(name)
-    row = bones.row[foot.slots.foot]
-    turn = _square(bones.rest[row, :3, :3]) @ shape.foot_turn
-    to_frame = np.eye(4)
-    to_frame[:3, :3] = turn.T
-    to_frame[:3, 3] = -turn.T @ ankle
+    to_frame = _to_frame(bones, foot, shape)
     cut = sole.from_skin(skin, foot_family, toe_family, to_frame, 0.0)
     if cut is None or cut[0] is None:
         return None
@@ -458,9 +477,12 @@ def _pick(vertices, triangles):
 # ---- the door --------------------------------------------------------------------------------------------------
 
 
-def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, frame_rate,
-                    frame_start=1):
-    """What the walker did, from sampled bones. Refuses bad recordings with a sentence."""
+def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, tread=None,
+                    frame_rate, frame_start=1):
+    """What the walker did, from sampled bones. Refuses bad recordings with a sentence.
+
+    Soles: the tread (a Tread), else the skin's underside, else built in.
+    """
     rig = rig or rigs.detect(skeleton)
     _check(skeleton, motion, rig, mass, frame_rate, frame_start)
     bones = _Bones(skeleton, motion)
@@ -480,12 +502,16 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right")
                       for f in feet])
     mirrored = named @ to_left < 0.0  # the object is: what is called left stands on the right
+    sided = -named if mirrored else named
+    lefts = (sided > 0.0) | ((sided == 0.0) & (to_left > 0.0))
+    laid = None
+    if tread is not None:
+        laid = _lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest)
+        warnings += laid.warnings
     poses, soles, points, part_limb, point_part, point_role = [], [], [], [], [], []
     for limb, foot in enumerate(feet):
-        left = (-named if mirrored else named)[limb] > 0.0 or (
-            named[limb] == 0.0 and to_left[limb] > 0.0)
-        pose, sole_pair, marks = _parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton,
-                                        warnings)
+        pose, sole_pair, marks = _parts(bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
+                                        skeleton, laid, warnings)
         first = len(poses)
         poses += pose
         soles += sole_pair

@@ -107,11 +107,11 @@ def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
         # a face on the seam goes to the toe part if it has no majority, so that none is lost
         chosen = (mine >= 2) | ((part == 2) & (mine == 1) & ((votes == 1).sum(axis=1) == 1))
         chosen &= height < ankle_height
-        soles.append(_cut(vertices, triangles[chosen]))
+        soles.append(cut(vertices, triangles[chosen]))
     return soles
 
 
-def _cut(vertices, triangles, most=4000):
+def cut(vertices, triangles, most=4000):
     """The faces alone, heavy meshes thinned to the underside."""
     if not len(triangles):
         return None

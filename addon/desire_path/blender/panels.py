@@ -138,6 +138,7 @@ def draw_walker(layout, obj):
     if not settings.mass:
         column.label(text=weight(settings).capitalize() if settings.estimated_mass
                      else "Estimated when recorded", icon="INFO")
+    column.prop(settings, "sole")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
     for foot in settings.feet:

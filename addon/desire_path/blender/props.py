@@ -29,6 +29,10 @@ def is_ground(_self, obj):
     return obj.type == "MESH" and obj.desire_path.is_ground
 
 
+def is_sole(_self, obj):
+    return obj.type == "MESH" and not obj.desire_path.is_ground
+
+
 def _frames_by_hand(self, _context):
     self.frames_auto = False
 
@@ -115,6 +119,10 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     mass_center: StringProperty(
         name="Mass Centre", description="A bone that begins at the body's mass centre; empty = found "
         "from the segments of the body")
+    sole: PointerProperty(
+        name="Sole", type=bpy.types.Object, poll=is_sole,
+        description="A mesh whose underside is the sole of every foot, mirrored for the other side; "
+        "place it at a foot of the rest pose. Empty = the walker's own feet or shoes")
     load_model: EnumProperty(
         name="Load", description="How the weight on each foot is found",
         items=(("inertia", "Body in motion",

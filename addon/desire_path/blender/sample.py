@@ -15,6 +15,7 @@ import numpy as np
 from .. import body, mass, rigs
 from ..errors import DesirePathError
 from ..gait import Gait
+from ..tread import Tread
 from . import axes, compat, playback
 
 
@@ -256,6 +257,33 @@ def _bound(obj, armature, owner, to_armature):
     return axes.points(local, compat.positions(mesh), 1.0), share
 
 
+def tread(scene, armature, feet, world, scale):
+    """The mesh chosen as the sole, as it lies in the rest pose; None where none was chosen."""
+    obj = armature.desire_path.sole
+    if obj is None:
+        return None
+    if obj.type != "MESH":
+        raise DesirePathError(f"'{obj.name}' is no mesh: choose a mesh as the sole of "
+                              f"'{armature.name}'.")
+    to_armature = np.linalg.inv(np.array(armature.matrix_world, np.float64))
+    bound = _bound(obj, armature, _owners(armature, feet), to_armature)
+    if bound is not None:
+        rest, faces = bound[0], compat.triangles(obj.data)
+        turned = np.linalg.det(np.array(obj.matrix_basis)[:3, :3]) < 0.0
+    else:
+        place = axes.matrix(obj.matrix_world, obj.name)
+        with private_scene(scene, obj) as own:
+            own.frame_set(scene.frame_current)
+            mesh = obj.evaluated_get(own.view_layers[0].depsgraph).data  # with its modifiers
+            rest, faces = compat.positions(mesh), compat.triangles(mesh)
+        rest = axes.points(to_armature @ place, rest, 1.0)
+        turned = np.linalg.det(to_armature[:3, :3] @ place[:3, :3]) < 0.0
+    size = axes.sizes(world)
+    if turned != (np.linalg.det(size[:3, :3]) < 0.0):  # mirrored: what was outside stays outside
+        faces = faces[:, ::-1]
+    return Tread(axes.points(size, rest, scale), faces, f"'{obj.name}'")
+
+
 # ---- all of it --------------------------------------------------------------------------------------
 
 
@@ -278,6 +306,7 @@ def record(scene, armature, frame_start, frame_end, samples=None):
         moved = motion(own, armature, found.bones, frames, rate, scale)
     worn = skin(scene, armature, found.feet, world, scale)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
+                                tread=tread(scene, armature, found.feet, world, scale),
                                 frame_rate=rate, frame_start=frame_start)
     return replace(gait, warnings=gait.warnings + told)
 
