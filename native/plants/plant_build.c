@@ -247,7 +247,11 @@ static bool fill_blocks(const DpPlants* plants, PlantStand* stand, int name, con
             heading ? (double)heading[k]
                     : 2.0 * PI * plant_hash(plants->seed, (uint64_t)(2 * name), (uint64_t)k);
         const double z = plant_normal(plants->seed, (uint64_t)(2 * name + 1), (uint64_t)k);
-        for (int d = 0; d < 3; ++d) block->root[d][lane] = root[3 * k + d];
+        for (int d = 0; d < 3; ++d) {
+            block->root[d][lane] = root[3 * k + d];
+            if (lane == 0) block->origin[d] = (double)root[3 * k + d];
+            block->foot[d][lane] = (float)((double)root[3 * k + d] - block->origin[d]);
+        }
         block->turn[0][lane] = (float)cos(facing), block->turn[1][lane] = (float)sin(facing);
         block->reserve[lane] = (double)stand->kind.strength * exp((double)stand->kind.spread * z);
         block->alpha[lane] = 1.0f;

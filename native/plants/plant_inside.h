@@ -26,7 +26,7 @@ typedef struct PlantEdge
 // state of a block; grids are (particles, lanes) and (bends, lanes)
 typedef struct PlantState
 {
-    float*  at[3];     // positions [m]
+    float*  at[3];     // positions from the block's origin [m]
     float*  speed[3];  // [m/s]
     float*  limp;      // 1 above a broken bend, else 0 (particles, lanes)
     double* strength;  // eps_b; 0 = broken
@@ -41,7 +41,9 @@ typedef struct PlantBlock
     int         broke;         // bends, in the last step
     double      quiet;         // time without motion [s]
     double      asleep_since;  // [s]
+    double      origin[3];     // of the state's positions, so that floats are small [m]
     float       root[3][DP_LANES];
+    float       foot[3][DP_LANES];   // root - origin
     float       turn[2][DP_LANES];   // cos, sin of the heading
     float       slope[2][DP_LANES];  // of the ground
     float       alpha[DP_LANES];     // unbroken share
@@ -93,15 +95,16 @@ double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
 // a normal number
 double plant_normal(uint64_t seed, uint64_t a, uint64_t b);
 
-// rest position of a particle in the world, at the block's present roots
+// rest position of a particle from the block's origin, at its present root
 DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int lane);
 // give a block its state, in the rest shape; false without memory
 bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
 // strength that came back while asleep
 void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
 // strength of a bend that regained `gain` at rest
-double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, int lane, double gain);
-void plant_limits(PlantStand* stand);
+double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, int lane,
+                    double gain);
+void   plant_limits(PlantStand* stand);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);
 void  plant_count_broken(const PlantStand* stand, PlantBlock* block);

@@ -178,14 +178,22 @@ static double clear(const Probe* probe, DpVec3* p, const DpPlantCollider** by)
     return pushed;
 }
 
-static DpVec3 get(float* const at[3], int k)
+static DpVec3 world(const PlantBlock* block, double x, double y, double z)
 {
-    return dp_vec3((double)at[0][k], (double)at[1][k], (double)at[2][k]);
+    return dp_vec3(block->origin[0] + x, block->origin[1] + y, block->origin[2] + z);
 }
 
-static void put(float* const at[3], int k, DpVec3 p)
+static DpVec3 get(const PlantBlock* block, int k)
 {
-    at[0][k] = (float)p.x, at[1][k] = (float)p.y, at[2][k] = (float)p.z;
+    float* const* at = block->state->at;
+    return world(block, (double)at[0][k], (double)at[1][k], (double)at[2][k]);
+}
+
+static void put(const PlantBlock* block, int k, DpVec3 p)
+{
+    float* const* at = block->state->at;
+    at[0][k] = (float)(p.x - block->origin[0]), at[1][k] = (float)(p.y - block->origin[1]);
+    at[2][k] = (float)(p.z - block->origin[2]);
 }
 
 // soles take along what they press, as far as they press it
@@ -221,27 +229,26 @@ static DpVec3 settle(const Probe* probe, DpVec3 p, DpVec3 below, double most)
 }
 
 // one particle out of everything, taken along, near the one below
-static void push_one(const Probe* probe, float* const at[3], int k, DpVec3 before, DpVec3 below,
-                     double most, double h)
+static void push_one(const Probe* probe, int k, DpVec3 before, DpVec3 below, double most, double h)
 {
     const DpPlantCollider* by = NULL;
-    DpVec3                 p = get(at, k);
+    DpVec3                 p = get(probe->block, k);
     const double           pushed = clear(probe, &p, &by);
     if (by) rub(by, &p, before, pushed, h);
     const DpVec3 arm = dp_sub(p, below);
     if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
-    put(at, k, p);
+    put(probe->block, k, p);
 }
 
 // a particle goes with its neighbour in the row when it would be torn from it: the more it leans like
 // that one, the nearer they are
-static bool keep_up(const Probe* probe, float* const at[3], int own, int other, double apart,
-                    double most)
+static bool keep_up(const Probe* probe, int own, int other, double apart, double most)
 {
-    const DpVec3 p = get(at, own), to = get(at, other), gap = dp_sub(p, to);
+    const PlantBlock* block = probe->block;
+    const DpVec3      p = get(block, own), to = get(block, other), gap = dp_sub(p, to);
     if (dp_dot(gap, gap) <= apart * apart) return false;
-    const DpVec3 below = get(at, own - DP_LANES);
-    const DpVec3 like = dp_add(below, dp_sub(to, get(at, other - DP_LANES)));
+    const DpVec3 below = get(block, own - DP_LANES);
+    const DpVec3 like = dp_add(below, dp_sub(to, get(block, other - DP_LANES)));
     double       low = 0.0, high = 1.0;
     for (int pass = 0; pass < 8; ++pass) {
         const double t = 0.5 * (low + high);
@@ -254,8 +261,8 @@ static bool keep_up(const Probe* probe, float* const at[3], int own, int other, 
     const DpVec3 q = dp_add(dp_scale(p, 1.0 - high), dp_scale(like, high));
     Probe        down = *probe;
     down.only_down = true;
-    put(at, own, settle(&down, q, below, most));
-    return dp_length(dp_sub(get(at, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
+    put(block, own, settle(&down, q, below, most));
+    return dp_length(dp_sub(get(block, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
 }
 
 // rest distance of two particles of a row, on sloping ground
@@ -272,15 +279,14 @@ static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a
 }
 
 // a row of a sheet: from the stem that lies lowest to both sides; true if it is still torn
-static bool keep_row(const PlantStand* stand, const Probe* probe, float* const at[3], int first,
-                     double most)
+static bool keep_row(const PlantStand* stand, const Probe* probe, int first, double most)
 {
-    const int rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
-    int       lowest = 0;
-    bool      torn = false;
+    const int    rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
+    const float* z = probe->block->state->at[2];
+    int          lowest = 0;
+    bool         torn = false;
     for (int c = 1; c < columns; ++c)
-        if (at[2][(first + c * rows) * DP_LANES + l] <
-            at[2][(first + lowest * rows) * DP_LANES + l])
+        if (z[(first + c * rows) * DP_LANES + l] < z[(first + lowest * rows) * DP_LANES + l])
             lowest = c;
     for (int side = -1; side <= 1; side += 2)
         for (int c = lowest + side; c >= 0 && c < columns; c += side) {
@@ -288,9 +294,44 @@ static bool keep_row(const PlantStand* stand, const Probe* probe, float* const a
             const int k = own * DP_LANES + l, n = other * DP_LANES + l;
             if (probe->block->state->limp[k] + probe->block->state->limp[n] > 0.0f) continue;
             const double apart = (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l);
-            torn = keep_up(probe, at, k, n, apart, most) || torn;
+            torn = keep_up(probe, k, n, apart, most) || torn;
         }
     return torn;
+}
+
+// are two neighbours of a row too far apart?
+static bool row_is_torn(const PlantStand* stand, const Probe* probe, int first)
+{
+    const int rows = stand->shape.rows, l = probe->lane;
+    for (int c = 0; c + 1 < stand->shape.stems_a_sheet; ++c) {
+        const int    a = first + c * rows, b = a + rows;
+        const float* limp = probe->block->state->limp + l;
+        const DpVec3 gap =
+            dp_sub(get(probe->block, a * DP_LANES + l), get(probe->block, b * DP_LANES + l));
+        if (limp[a * DP_LANES] + limp[b * DP_LANES] > 0.0f) continue;
+        if (dp_length(gap) > (double)DP_STRETCH_MOST * rest_apart(stand, probe->block, a, b, l))
+            return true;
+    }
+    return false;
+}
+
+// nowhere to go together: the row stays close to the row below, which holds together and is clear
+static void shrink_row(const PlantStand* stand, const Probe* probe, int first)
+{
+    const int              rows = stand->shape.rows, l = probe->lane;
+    const DpPlantCollider* by = NULL;
+    for (double share = 0.5; row_is_torn(stand, probe, first);
+         share = share > 0.1 ? 0.5 * share : 0) {
+        for (int c = 0; c < stand->shape.stems_a_sheet; ++c) {
+            const int    k = (first + c * rows) * DP_LANES + l;
+            const DpVec3 below = get(probe->block, k - DP_LANES);
+            const DpVec3 arm = dp_sub(get(probe->block, k), below);
+            DpVec3       p = dp_add(below, dp_scale(arm, share));
+            if (share > 0.0) clear(probe, &p, &by);
+            put(probe->block, k, p);
+        }
+        if (!(share > 0.0)) return;
+    }
 }
 
 void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
@@ -298,7 +339,6 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
 {
     const DpPlantShape shape = stand->shape;
     const int          size = shape.particles * DP_LANES, a_sheet = shape.stems_a_sheet;
-    float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
     const double       most = (double)(LAST_WORD * stand->gap);
     for (int l = 0; l < block->count; ++l) {
         if (!block->touched_lane[l]) continue;
@@ -308,13 +348,15 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
             for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
                 for (int c = 0; c < a_sheet; ++c) {
                     const int    k = ((sheet + c) * shape.rows + r) * DP_LANES + l;
-                    const DpVec3 old = {(double)before[k], (double)before[size + k],
-                                        (double)before[2 * size + k]};
-                    push_one(&probe, at, k, old, get(at, k - DP_LANES), most, h);
+                    const DpVec3 old = world(block, (double)before[k], (double)before[size + k],
+                                             (double)before[2 * size + k]);
+                    push_one(&probe, k, old, get(block, k - DP_LANES), most, h);
                 }
                 // who had to go down on the way is the lowest now, and the others follow
-                for (int pass = 0; pass < ROW_PASSES; ++pass)
-                    if (!keep_row(stand, &probe, at, sheet * shape.rows + r, most)) break;
+                bool torn = true;
+                for (int pass = 0; torn && pass < ROW_PASSES; ++pass)
+                    torn = keep_row(stand, &probe, sheet * shape.rows + r, most);
+                if (torn) shrink_row(stand, &probe, sheet * shape.rows + r);
             }
     }
 }
@@ -323,33 +365,35 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
                       const DpPlantGround* ground)
 {
     const DpPlantShape shape = stand->shape;
-    float* const       at[3] = {block->state->at[0], block->state->at[1], block->state->at[2]};
     for (int l = 0; l < DP_LANES; ++l) {
         plant_ground_lane(stand, block, ground, l);
         const Probe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int root = stem * shape.rows;
             DpVec3    foot = plant_rest_at(stand, block, root + 1, l);
+            foot = world(block, foot.x, foot.y, foot.z);
             foot.z = ground_below(&probe, foot.x, foot.y);
             if (block->touched_lane[l]) foot.z = fmin(foot.z, sole_over(&probe, &foot, NULL));
-            put(at, (root + 1) * DP_LANES + l, foot);
+            put(block, (root + 1) * DP_LANES + l, foot);
             foot.z -= (double)stand->gap;
-            put(at, root * DP_LANES + l, foot);
+            put(block, root * DP_LANES + l, foot);
         }
     }
 }
 
 void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
 {
-    const int     rows = stand->shape.rows;
-    float* const* at = block->state->at;
-    for (int p = 0; p < stand->shape.particles; ++p) {
-        if (p % rows < DP_PLANT_HELD) continue;
+    const int rows = stand->shape.rows;
+    for (int at = 0; at < stand->shape.particles; ++at) {
+        if (at % rows < DP_PLANT_HELD) continue;
         for (int l = 0; l < DP_LANES; ++l) {
-            const int k = p * DP_LANES + l;
+            const int k = at * DP_LANES + l;
             if (block->touched_lane[l]) continue;  // soles had the last word there
-            const double height = plant_ground_at(ground, (double)at[0][k], (double)at[1][k]);
-            if ((double)at[2][k] < height) at[2][k] = (float)height;
+            DpVec3       p = get(block, k);
+            const double height = plant_ground_at(ground, p.x, p.y);
+            if (!(p.z < height)) continue;
+            p.z = height;
+            put(block, k, p);
         }
     }
 }
@@ -364,6 +408,7 @@ void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlant
     if (!isfinite(height)) return;
     const double d = fmax(ground->cell, 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth));
     block->root[2][l] = (float)height;
+    block->foot[2][l] = (float)(height - block->origin[2]);
     for (int k = 0; k < 2; ++k) {
         const double dx = k ? 0.0 : d, dy = k ? d : 0.0;
         const double lower = plant_ground_at(ground, x - dx, y - dy);

@@ -54,8 +54,8 @@ DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float
             const int    at = p * DP_LANES + lane;
             const DpVec3 rest = plant_rest_at(stand, block, p, lane);
             const double still = d == 0 ? rest.x : d == 1 ? rest.y : rest.z;
-            if (position)
-                position[3 * p + d] = block->state ? block->state->at[d][at] : (float)still;
+            const double from = block->state ? (double)block->state->at[d][at] : still;
+            if (position) position[3 * p + d] = (float)(block->origin[d] + from);
             if (velocity) velocity[3 * p + d] = block->state ? block->state->speed[d][at] : 0.0f;
         }
     const double slept = block->awake ? 0.0 : plants->now - block->asleep_since;
@@ -87,7 +87,8 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
     for (int p = 0; p < stand->shape.particles; ++p)
         for (int d = 0; d < 3; ++d) {
             const int at = p * DP_LANES + lane;
-            if (position) block->state->at[d][at] = position[3 * p + d];
+            if (position)
+                block->state->at[d][at] = (float)((double)position[3 * p + d] - block->origin[d]);
             if (velocity) block->state->speed[d][at] = velocity[3 * p + d];
         }
     for (int b = 0; strength && b < stand->shape.bends; ++b)

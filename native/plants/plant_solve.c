@@ -90,8 +90,8 @@ INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
 {
     LANES
     {
-        const float ground = block->root[2][l] + block->slope[0][l] * (x[l] - block->root[0][l]) +
-                             block->slope[1][l] * (y[l] - block->root[1][l]);
+        const float ground = block->foot[2][l] + block->slope[0][l] * (x[l] - block->foot[0][l]) +
+                             block->slope[1][l] * (y[l] - block->foot[1][l]);
         const float stick = z[l] > ground ? 0.0f : 0.5f * limp[l];
         x[l] += stick * (was_x[l] - x[l]);
         y[l] += stick * (was_y[l] - y[l]);
@@ -230,7 +230,8 @@ static void shorten(const PlantStand* stand, PlantBlock* block, const float* len
     const float most = DP_STRETCH_MOST * stand->gap;
     float       open[DP_LANES];
     for (int l = 0; l < DP_LANES; ++l) open[l] = block->touched_lane[l] ? 0.0f : 1.0f;
-    for (int e = 0; e < stand->edges; ++e) {
+    for (int k = 0; k < 2 * stand->edges; ++k) {  // twice over
+        const int        e = k % stand->edges;
         const PlantEdge* edge = &stand->edge[e];
         const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
         if (edge->b - edge->a != rows) continue;

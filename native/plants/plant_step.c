@@ -37,9 +37,9 @@ DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int parti
     const double x = (double)at[0], y = (double)at[1], fx = (double)foot[0], fy = (double)foot[1];
     const double lift = (double)block->slope[0][l] * (c * fx - s * fy) +
                         (double)block->slope[1][l] * (s * fx + c * fy);
-    return dp_vec3((double)block->root[0][l] + c * x - s * y,
-                   (double)block->root[1][l] + s * x + c * y,
-                   (double)block->root[2][l] + (double)at[2] + lift);
+    return dp_vec3((double)block->foot[0][l] + c * x - s * y,
+                   (double)block->foot[1][l] + s * x + c * y,
+                   (double)block->foot[2][l] + (double)at[2] + lift);
 }
 
 bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)

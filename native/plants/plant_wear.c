@@ -55,8 +55,7 @@ static void limits(const PlantStand* stand, int bend, double* wears, double* bre
 // one bend of all lanes; the cosine tells, no angle is needed.
 DP_CLONES
 static void wear_bend(const float* const at[3], int p, double wears, double breaks, double loss,
-                      double gain, const double* reserve, const float* limp,
-                      double* strength)
+                      double gain, const double* reserve, const float* limp, double* strength)
 {
     const float *x = at[0] + p * DP_LANES, *y = at[1] + p * DP_LANES, *z = at[2] + p * DP_LANES;
     for (int l = 0; l < DP_LANES; ++l) {

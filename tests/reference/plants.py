@@ -145,7 +145,7 @@ def step(kind, root, heading, reserve, at, speed, strength, dt):
     for _ in range(n):
         substep(kind, at, speed, strength / reserve, rest, limp_of(strength), root[2], dt / n)
     limp = limp_of(strength)
-    for sa, ra, sb, rb, _ in edges(kind):  # rows hold together, stems keep their length
+    for sa, ra, sb, rb, _ in 2 * edges(kind):  # rows hold together, stems keep their length
         arm, wanted = at[sb, rb] - at[sa, ra], np.linalg.norm(rest[sb, rb] - rest[sa, ra])
         if ra == rb and limp[sa, ra] + limp[sb, rb] == 0 and np.linalg.norm(arm) > BEYOND * wanted:
             over = 0.5 * (1 - BEYOND * wanted / np.linalg.norm(arm)) * arm
