@@ -34,6 +34,7 @@ from .version import VERSION
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
+MOST_SOLE = 1_000_000  # cells one sole may cover
 FRAMES = ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")
 MAPS = ("second_*.exr", "second_*.part")
 OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
@@ -267,9 +268,29 @@ class Bake:
             raise DesirePathError(
                 f"{_plain(problem)}. What was baked before is still there; make room or choose another folder, then bake again."
             ) from None
+        except MemoryError:
+            raise DesirePathError(
+                "There is not enough memory: choose a larger cell size or fewer frames."
+            ) from None
+        except DesirePathError:
+            raise
+        except ValueError as problem:
+            raise DesirePathError(
+                f"The walk cannot be simulated ({problem}): check the walker's place and scale and the frame rate."
+            ) from None
+
+    def _check_soles(self):
+        """Refuse feet of so many cells that a step would take minutes, as of a rig in the wrong unit."""
+        for part, sole in enumerate(self.gait.soles):
+            size = np.sort(np.ptp(sole.vertices.astype(float), axis=0))
+            if size[1] * size[2] > MOST_SOLE * self.cell_size ** 2:
+                raise DesirePathError(
+                    f"The sole of bone {self.gait.bone(part)} is {size[2]:.1f} m long, too large for cells of {self.cell_size:g} m: check the walker's scale or choose a larger cell size."
+                )
 
     def _run(self):
         seconds = {"total": time.perf_counter()}
+        self._check_soles()
         sim = self._simulation()
         tiles = self._rectangle(sim)
         sim.open_frames(*tiles)

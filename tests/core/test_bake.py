@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from desire_path import bake as bakes
 from desire_path import maps
 from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
+from desire_path.gait import Sole
 from desire_path.sim import Ground
 
 from tests.scenes import gaits
@@ -113,6 +115,16 @@ def test_a_killed_bake_plays_what_is_whole(tmp_path):
     assert maps.read(index.path(6)).planes["R"].min() < 0
     baked(killed)
     assert read_index(killed).complete
+
+
+def test_walkers_out_of_proportion_are_refused(tmp_path):
+    gait = standing()
+    giant = replace(gait, soles=tuple(Sole(200 * sole.vertices, sole.triangles) for sole in gait.soles))
+    lost = replace(gait, pose=gait.pose + [1e15, 0, 0, 0, 0, 0, 0], com=gait.com + [1e15, 0, 0])
+    for wrong, words in ((giant, "50.0 m long.*scale"), (lost, "place and scale")):
+        with pytest.raises(DesirePathError, match=words):
+            baked(tmp_path / "none", wrong)
+    baked(tmp_path / "coarse", giant, cell_size=0.5)
 
 
 def test_files_of_others_stay(tmp_path):
@@ -259,6 +271,7 @@ sys.path[:0] = [{addon!r}, {repo!r}]
 from tests.core.test_bake import standing
 from desire_path.bake import Bake
 from desire_path.errors import DesirePathError
+from desire_path.gait import Sole
 from desire_path.sim import Ground
 bake = Bake(standing(), Ground.flat(), "snow", {folder!r}, threads=1, cell_size=0.002)
 run = bake.run()
