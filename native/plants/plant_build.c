@@ -199,6 +199,13 @@ static void join_edges(PlantStand* stand)
                 add_edge(stand, stem * rows + r, (stem + 1) * rows + r + 1, 4.0 * rate);
                 add_edge(stand, (stem + 1) * rows + r, stem * rows + r + 1, 4.0 * rate);
             }
+    stand->near = INFINITY;
+    for (int e = 0; e < stand->edges; ++e) {
+        const float *a = stand->rest + 3 * stand->edge[e].a,
+                    *b = stand->rest + 3 * stand->edge[e].b;
+        if (stand->edge[e].b - stand->edge[e].a == rows)
+            stand->near = fminf(stand->near, hypotf(b[0] - a[0], b[1] - a[1]));
+    }
     for (int r = 1; r + 1 < rows; ++r)
         for (int stem = 0; stem < stand->shape.stems; ++stem)
             add_edge(stand, stem * rows + r, stem * rows + r + 1, 0.0);

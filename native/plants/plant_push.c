@@ -293,6 +293,9 @@ static bool keep_row(const PlantStand* stand, const Probe* probe, int first, dou
             const int own = first + c * rows, other = own - side * rows;
             const int k = own * DP_LANES + l, n = other * DP_LANES + l;
             if (probe->block->state->limp[k] + probe->block->state->limp[n] > 0.0f) continue;
+            const DpVec3 gap = dp_sub(get(probe->block, k), get(probe->block, n));
+            const double near = (double)(LAST_WORD * stand->near);
+            if (dp_dot(gap, gap) <= near * near) continue;
             const double apart = (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l);
             torn = keep_up(probe, k, n, apart, most) || torn;
         }
