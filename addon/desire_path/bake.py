@@ -22,50 +22,20 @@ import math
 import os
 import time
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 import numpy as np
 
 from . import maps, walker
 from .errors import DesirePathError
+from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, publish, write_json
+from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils
 from .version import VERSION
 
-FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
 MOST_PIXELS = 1 << 28  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
-FRAMES = ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")
-MAPS = ("second_*.exr", "second_*.part")
-OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
-        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part")}
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
-
-
-@dataclass(frozen=True)
-class FrameIndex:
-    """Where a bake's frames lie: the picture's lower left corner, its size, and its frames."""
-
-    folder: str  # holds trail_0000.exr ..
-    cell: float  # [m]
-    x0: float  # [m]
-    y0: float  # [m]
-    nx: int
-    ny: int
-    frame_start: int  # scene frame of trail_0001.exr
-    frame_end: int  # scene frame of the last file when the bake is whole
-    frame_rate: float  # [1/s]
-    frames: int  # files that are there and whole, counted from trail_0001.exr on
-    complete: bool
-
-    @property
-    def missing(self):
-        """How many frames are still to be baked."""
-        return self.frame_end - self.frame_start + 1 - self.frames
-
-    def path(self, number):
-        """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
-        return frame_path(self.folder, number)
 
 
 @dataclass(frozen=True)
@@ -74,82 +44,6 @@ class Progress:
 
     frame: int  # scene frame just simulated; the one before is on the disk
     fraction: float  # 0..1
-
-
-def frame_path(frames_folder, number):
-    """trail_0001.exr and so on."""
-    return os.path.join(frames_folder, f"trail_{number:04d}.exr")
-
-
-def read_index(folder):
-    """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
-    complete False. Raises DesirePathError when there is nothing to play."""
-    for name in ("frames", "frames.new"):
-        frames = os.path.join(folder, name)
-        path = os.path.join(frames, "index.json")
-        if not os.path.exists(path):
-            continue
-        try:
-            with open(path, encoding="utf-8") as file:
-                data = json.load(file)
-            form = data["format"]
-        except (OSError, ValueError, KeyError, TypeError):
-            raise DesirePathError(f"{path} is damaged: bake again.") from None
-        if form != FORMAT:
-            raise DesirePathError(
-                f"The bake in {folder} was written by version {data.get('version', 'unknown')} in another form: bake again."
-            )
-        try:
-            count = int(data["frame_end"]) - int(data["frame_start"]) + 1
-            there = 0
-            while there < count and os.path.exists(frame_path(frames, there + 1)):
-                there += 1
-            return FrameIndex(
-                frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
-                int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
-                float(data["frame_rate"]), there, there == count,
-            )
-        except (KeyError, TypeError, ValueError):
-            raise DesirePathError(f"{path} is damaged: bake again.") from None
-    raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
-
-
-def free(folder):
-    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
-    try:
-        for place, patterns in OURS.items():
-            _delete(os.path.join(folder, place), patterns)
-    except OSError as problem:
-        raise DesirePathError(
-            f"{problem.filename} cannot be deleted ({problem.strerror}): delete the folder {folder} by hand."
-        ) from None
-
-
-def _delete(folder, patterns):
-    """Delete our files from a folder, and the folder if that leaves it empty."""
-    for pattern in patterns:
-        for path in Path(folder).glob(pattern):
-            path.unlink()
-    with contextlib.suppress(OSError):  # not there, or holds somebody else's files
-        os.rmdir(folder)
-
-
-def _move(folder, into):
-    """Move what a folder holds into another one, and remove it; what is there already stays."""
-    os.makedirs(into, exist_ok=True)
-    for path in Path(folder).glob("*"):
-        if not os.path.lexists(os.path.join(into, path.name)):
-            os.rename(path, os.path.join(into, path.name))
-    with contextlib.suppress(OSError):
-        os.rmdir(folder)
-
-
-def _write_json(path, data):
-    part = f"{path}.part"
-    with open(part, "w", encoding="utf-8") as file:
-        json.dump(data, file, indent=1)
-        file.write("\n")
-    os.replace(part, path)
 
 
 class Bake:
@@ -320,17 +214,17 @@ class Bake:
         except (GeneratorExit, OSError, DesirePathError):
             with contextlib.suppress(OSError):
                 sim.flush()
-            self._publish(fresh, only_if_free=True)
+            publish(self.folder, only_if_free=True)
             raise
 
         seconds["step"], seconds["write"] = spent_step, spent_write
         self._maps(sim, tiles, os.path.join(self.folder, "maps_final.exr"), frame)
         self._start_maps(sim, tiles)
-        _write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
+        write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
         seconds["total"] = time.perf_counter() - seconds["total"]
         self.report = self._report(sim, seconds)
-        _write_json(os.path.join(self.folder, "report.json"), self.report)
-        self._publish(fresh)
+        write_json(os.path.join(self.folder, "report.json"), self.report)
+        publish(self.folder)
 
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
@@ -368,43 +262,23 @@ class Bake:
                 while os.path.exists(frame_path(place, done + 1)):
                     done += 1
                 if place != fresh:
-                    _delete(fresh, FRAMES)
+                    delete(fresh, FRAMES)
                     os.rename(place, fresh)
                 break
         try:
             if done < 0:
-                _delete(fresh, FRAMES)
+                delete(fresh, FRAMES)
                 os.makedirs(fresh, exist_ok=True)
             if self.map_seconds:
                 seconds = os.path.join(self.folder, "maps.new")
-                _delete(seconds, MAPS)
+                delete(seconds, MAPS)
                 os.makedirs(seconds, exist_ok=True)
-            _write_json(os.path.join(fresh, "index.json"), index)
+            write_json(os.path.join(fresh, "index.json"), index)
         except OSError as problem:
             raise DesirePathError(
                 f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one."
             ) from None
         return done
-
-    def _publish(self, fresh, only_if_free=False):
-        """Let the fresh frames take the place of the old ones; only_if_free: not of a whole bake."""
-        frames, old = (os.path.join(self.folder, name) for name in ("frames", "frames.old"))
-        if os.path.exists(frames):
-            if only_if_free and _is_whole(frames):
-                return
-            _delete(old, FRAMES)
-            if os.path.exists(old):
-                _move(old, frames)
-            os.rename(frames, old)
-        os.rename(fresh, frames)
-        with contextlib.suppress(OSError):  # what cannot be deleted does no harm
-            _delete(old, FRAMES)
-            if os.path.exists(old):
-                _move(old, frames)  # somebody else's files
-        seconds, there = (os.path.join(self.folder, name) for name in ("maps.new", "maps"))
-        if os.path.exists(seconds):
-            _delete(there, MAPS)
-            _move(seconds, there)
 
     # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
 
@@ -456,14 +330,6 @@ class Bake:
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
         }
-
-
-def _is_whole(frames):
-    try:
-        with open(os.path.join(frames, "index.json"), encoding="utf-8") as file:
-            return bool(json.load(file).get("complete"))
-    except (OSError, ValueError, AttributeError):
-        return False
 
 
 def _plain(problem):

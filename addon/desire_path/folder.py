@@ -1,0 +1,155 @@
+"""The folder of a bake: what can be played from it, how a fresh bake takes its place, and how it goes.
+
+    frames/     trail_0000.exr .., index.json      frames.new/   the bake that is being made
+    maps/       second_0001.exr ..                 maps.new/     its maps
+Files of others in these folders are left alone. bake.py says what each file holds.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import DesirePathError
+
+FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
+FRAMES = ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")
+MAPS = ("second_*.exr", "second_*.part")
+OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
+        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part")}
+
+
+@dataclass(frozen=True)
+class FrameIndex:
+    """Where a bake's frames lie: the picture's lower left corner, its size, and its frames."""
+
+    folder: str  # holds trail_0000.exr ..
+    cell: float  # [m]
+    x0: float  # [m]
+    y0: float  # [m]
+    nx: int
+    ny: int
+    frame_start: int  # scene frame of trail_0001.exr
+    frame_end: int  # scene frame of the last file when the bake is whole
+    frame_rate: float  # [1/s]
+    frames: int  # files that are there and whole, counted from trail_0001.exr on
+    complete: bool
+
+    @property
+    def missing(self):
+        """How many frames are still to be baked."""
+        return self.frame_end - self.frame_start + 1 - self.frames
+
+    def path(self, number):
+        """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
+        return frame_path(self.folder, number)
+
+
+def frame_path(frames_folder, number):
+    """trail_0001.exr and so on."""
+    return os.path.join(frames_folder, f"trail_{number:04d}.exr")
+
+
+def read_index(folder):
+    """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
+    complete False. Raises DesirePathError when there is nothing to play."""
+    for name in ("frames", "frames.new"):
+        frames = os.path.join(folder, name)
+        path = os.path.join(frames, "index.json")
+        if not os.path.exists(path):
+            continue
+        try:
+            with open(path, encoding="utf-8") as file:
+                data = json.load(file)
+            form = data["format"]
+        except (OSError, ValueError, KeyError, TypeError):
+            raise DesirePathError(f"{path} is damaged: bake again.") from None
+        if form != FORMAT:
+            raise DesirePathError(
+                f"The bake in {folder} was written by version {data.get('version', 'unknown')} in another form: bake again."
+            )
+        try:
+            count = int(data["frame_end"]) - int(data["frame_start"]) + 1
+            there = 0
+            while there < count and os.path.exists(frame_path(frames, there + 1)):
+                there += 1
+            return FrameIndex(
+                frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
+                int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
+                float(data["frame_rate"]), there, there == count,
+            )
+        except (KeyError, TypeError, ValueError):
+            raise DesirePathError(f"{path} is damaged: bake again.") from None
+    raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
+
+
+def free(folder):
+    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
+    try:
+        for place, patterns in OURS.items():
+            delete(os.path.join(folder, place), patterns)
+    except OSError as problem:
+        raise DesirePathError(
+            f"{problem.filename} cannot be deleted ({problem.strerror}): delete the folder {folder} by hand."
+        ) from None
+
+
+def delete(folder, patterns):
+    """Delete our files from a folder, and the folder if that leaves it empty."""
+    for pattern in patterns:
+        for path in Path(folder).glob(pattern):
+            path.unlink()
+    with contextlib.suppress(OSError):  # not there, or holds somebody else's files
+        os.rmdir(folder)
+
+
+def _move(folder, into):
+    """Move what a folder holds into another one, and remove it; what is there already stays."""
+    os.makedirs(into, exist_ok=True)
+    for path in Path(folder).glob("*"):
+        if not os.path.lexists(os.path.join(into, path.name)):
+            os.rename(path, os.path.join(into, path.name))
+    with contextlib.suppress(OSError):
+        os.rmdir(folder)
+
+
+def write_json(path, data):
+    """Write a small file, whole or not at all."""
+    part = f"{path}.part"
+    with open(part, "w", encoding="utf-8") as file:
+        json.dump(data, file, indent=1)
+        file.write("\n")
+    os.replace(part, path)
+
+
+def is_whole(frames):
+    """Whether a folder of frames holds a bake that came to its end."""
+    try:
+        with open(os.path.join(frames, "index.json"), encoding="utf-8") as file:
+            return bool(json.load(file).get("complete"))
+    except (OSError, ValueError, AttributeError):
+        return False
+
+
+def publish(folder, only_if_free=False):
+    """Let the fresh frames take the place of the old ones; only_if_free: not of a whole bake."""
+    fresh, frames, old = (os.path.join(folder, name) for name in ("frames.new", "frames", "frames.old"))
+    if os.path.exists(frames):
+        if only_if_free and is_whole(frames):
+            return
+        delete(old, FRAMES)
+        if os.path.exists(old):
+            _move(old, frames)
+        os.rename(frames, old)
+    os.rename(fresh, frames)
+    with contextlib.suppress(OSError):  # what cannot be deleted does no harm
+        delete(old, FRAMES)
+        if os.path.exists(old):
+            _move(old, frames)  # somebody else's files
+    seconds, there = (os.path.join(folder, name) for name in ("maps.new", "maps"))
+    if os.path.exists(seconds):
+        delete(there, MAPS)
+        _move(seconds, there)
