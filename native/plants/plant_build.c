@@ -183,8 +183,8 @@ static void add_edge(PlantStand* stand, int a, int b, double rate)
     edge->share_b = 1.0f - edge->share_a;
 }
 
-// across, then diagonals, then stems upward: what comes last holds best. Edges that follow one another
-// share no particle, so that a machine can work on several. TRAIL (5)
+// across, then diagonals, then stems upward: what comes last holds best. Edges that follow one
+// another share no particle, so that a machine can work on several. TRAIL (5)
 static void join_edges(PlantStand* stand)
 {
     const int    rows = stand->shape.rows, columns = stand->shape.stems_a_sheet;

@@ -1,9 +1,9 @@
 // plants/plant_cover.c - how much of the ground is held by roots. TRAIL (7), TRAIL (8)
 //
 // Departures
-//   TRAIL (7): as printed, the mean of (1 - d/w) alpha cannot reach 1 and does not know density. Here
-//   the kernels' sum is set against the sum under full cover, K_ref = density * pi R^2 / 3, or against
-//   itself where plants stand denser. DP_COVER_PAPER is as printed.
+//   TRAIL (7): as printed, the mean of (1 - d/w) alpha cannot reach 1 and does not know density.
+//   Here the kernels' sum is set against the sum under full cover, K_ref = density * pi R^2 / 3, or
+//   against itself where plants stand denser. DP_COVER_PAPER is as printed.
 #include <string.h>
 
 #include "plants/plant_inside.h"

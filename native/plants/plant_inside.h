@@ -1,8 +1,8 @@
 // plants/plant_inside.h - what the files of this room share.
 //
 // Plants of a stand live in blocks of DP_LANES neighbours; every number of a block is an array over
-// its lanes, so that loops over lanes become wide registers. A block without `state` is whole and in
-// its rest shape.
+// its lanes, so that loops over lanes become wide registers. A block without `state` is whole and
+// in its rest shape.
 #pragma once
 #include "base/vec.h"
 #include "plants/plants.h"

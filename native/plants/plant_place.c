@@ -1,8 +1,8 @@
 // plants/plant_place.c - where plants grow: by chance, but never too close. Poisson-disc, seeded.
 //
-// Darts are thrown until the ground has as many plants as its density asks for. A dart sticks with the
-// chance that `weight` gives its place, if no root stands nearer than sqrt(PACKING / density): a
-// maximal packing has 0.7, so there is always room.
+// Darts are thrown until the ground has as many plants as its density asks for. A dart sticks with
+// the chance that `weight` gives its place, if no root stands nearer than sqrt(PACKING / density):
+// a maximal packing has 0.7, so there is always room.
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 

@@ -1,9 +1,9 @@
 // plants/plant_push.c - soles and legs push stems aside, down and nowhere else.
 //
-// A particle under a sole stays between it and the ground; one that a sole has run into leaves by the
-// shorter way, down or to the side. Afterwards each stem is gone through from its foot upward: whoever
-// is too far from the particle below comes closer, and since that one is clear of every sole, there is
-// always a place that is.
+// A particle under a sole stays between it and the ground; one that a sole has run into leaves by
+// the shorter way, down or to the side. Afterwards each stem is gone through from its foot upward:
+// whoever is too far from the particle below comes closer, and since that one is clear of every
+// sole, there is always a place that is.
 #include <string.h>
 
 #include "plants/plant_inside.h"
@@ -240,8 +240,8 @@ static void push_one(const Probe* probe, int k, DpVec3 before, DpVec3 below, dou
     put(probe->block, k, p);
 }
 
-// a particle goes with its neighbour in the row when it would be torn from it: the more it leans like
-// that one, the nearer they are
+// a particle goes with its neighbour in the row when it would be torn from it: the more it leans
+// like that one, the nearer they are
 static bool keep_up(const Probe* probe, int own, int other, double apart, double most)
 {
     const PlantBlock* block = probe->block;

@@ -1,11 +1,10 @@
-// plants/plant_solve.c - how plants move: bends, edges and stems, one small step at a time. TRAIL (5)
+// plants/plant_solve.c - how plants move: bends, edges, stems, one small step at a time. TRAIL (5)
 //
-// XPBD with one pass a sub-step: a correction is C / (sum of weights + compliance / h^2), so stiffness
-// depends neither on passes nor on the time step. Lanes are plants: all do the same sums in the same
-// order, in narrow or wide registers.
+// XPBD with one pass a sub-step: a correction is C / (sum of weights + compliance / h^2), so
+// stiffness depends neither on passes nor on the time step. Lanes are plants: all do the same sums
+// in the same order, in narrow or wide registers.
 #include "base/wide.h"
 
-#include "base/assert.h"
 #include "plants/plant_inside.h"
 
 #if defined(__clang__)
@@ -111,8 +110,8 @@ void plant_soften(const PlantStand* stand, float* soft, double h)
     }
 }
 
-// stems stand upright on sloping ground: what joins them is as long as it is there; what is limp lets
-// go of its neighbours
+// stems stand upright on sloping ground: what joins them is as long as it is there; what is limp
+// lets go of its neighbours
 DP_CLONES
 static void lengths_of_edges(const PlantStand* stand, const PlantBlock* block, float* length)
 {
@@ -221,8 +220,8 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
     }
 }
 
-// the last word of a step: rows hold together, except under soles, who see to that themselves; then,
-// from the foot upward, no stem is longer than it may be
+// the last word of a step: rows hold together, except under soles, who see to that themselves;
+// then, from the foot upward, no stem is longer than it may be
 DP_CLONES
 static void shorten(const PlantStand* stand, PlantBlock* block, const float* length)
 {

@@ -1,7 +1,7 @@
 // plants/plant_step.c - one step of the meadow: who wakes, who moves, who may sleep again.
 //
-// Cost follows the walkers: of a sleeping block only the box of its roots is looked at. Blocks do not
-// touch each other, so any number of workers gives the same plants.
+// Cost follows the walkers: of a sleeping block only the box of its roots is looked at. Blocks do
+// not touch each other, so any number of workers gives the same plants.
 #include <string.h>
 
 #include "base/alloc.h"

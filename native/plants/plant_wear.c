@@ -1,10 +1,11 @@
 // plants/plant_wear.c - what bending costs a stem, and how it gets it back. TRAIL (6)
 //
 // Departures
-//   TRAIL (6): the loss is by seconds, not by frames, and its sum over a step is exact while phi stays
-//   in its range, so any dt gives the same strength. What breaks by phi > phi_max breaks at once.
-//   A bend above a broken one is held by nothing: it neither wears nor recovers, and TRAIL (7) does not
-//   count it, so that half the stems broken at their feet is half the cover.
+//   TRAIL (6): the loss is by seconds, not by frames, and its sum over a step is exact while phi
+//   stays in its range, so any dt gives the same strength. What breaks by phi > phi_max breaks at
+//   once.
+//   A bend above a broken one is held by nothing: it neither wears nor recovers, and
+//   TRAIL (7) does not count it, so that half the stems broken at their feet is half the cover.
 //   Strength is a double: a day's recovery in steps of a frame is below what a float can hold.
 #include "base/wide.h"
 

@@ -4,8 +4,9 @@
 //            TRAIL (5)        TRAIL (6)  TRAIL (7)(8)     TRAIL (9)
 //
 // A plant is a grid of particles: sheets of stems side by side, rows from the root upward. The two
-// lowest rows are held by the ground: row 0 is the root, one spacing deep, row 1 sits on the surface.
-// Plants far from feet and at rest sleep, whole ones without memory: cost follows the walkers.
+// lowest rows are held by the ground: row 0 is the root, one spacing deep, row 1 sits on the
+// surface. Plants far from feet and at rest sleep, whole ones without memory: cost follows the
+// walkers.
 //
 // Departures
 //   Rows sit height / (rows - 2) apart, so that a plant stands as high over the ground as it says.
@@ -109,8 +110,8 @@ typedef struct DpPlantsTold
     double x0, y0, x1, y1;  // [m]
 } DpPlantsTold;
 
-// Let plants live for dt seconds: wake those near a collider, solve (5), wear (6), let those at rest
-// sleep. ground may be NULL: roots stay where they are and the ground under a plant is level.
+// Let plants live for dt seconds: wake those near a collider, solve (5), wear (6), let those at
+// rest sleep. ground may be NULL: roots stay where they are and the ground under a plant is level.
 // The result is the same for any number of workers. dt > 0; no more than 64 sub-steps are taken.
 DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,

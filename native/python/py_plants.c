@@ -4,13 +4,13 @@
 //   sheet, particles, bends);  plants_wear(kind, reserve, strength, angle, dt) -> strength
 //   plants_regrow(kind, alpha, seconds) -> alpha
 //   plants_place(x0, y0, x1, y1, density, weight | None, seed, root) -> count
-//   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None, colliders, dt,
-//               steps, workers) -> dict of DpPlantsTold
+//   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None,
+//               colliders, dt, steps, workers) -> dict of DpPlantsTold
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
 //
 // kind: float64 (21) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
-// (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness, velocity,
-// friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
+// (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness,
+// velocity, friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
 #include <math.h>
 
 #include "base/alloc.h"

@@ -2,8 +2,8 @@
 //
 //   scripts/bench plants   or   build/bench_plants [frames]
 //
-// 200 plants of 28 particles, all awake, swaying, with a boot among them; the same projections, plant
-// by plant and constraint by constraint, in a plain loop; 100,000 plants with one walker.
+// 200 plants of 28 particles, all awake, swaying, with a boot among them; the same projections,
+// plant by plant and constraint by constraint, in a plain loop; 100,000 plants with one walker.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
