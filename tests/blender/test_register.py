@@ -7,7 +7,7 @@ import bpy
 import desire_path
 
 OPERATORS = ("ground_add", "walker_add", "bake", "free", "record", "cancel", "remove", "paint_add",
-             "paint_remove", "rig_detect")
+             "paint_remove", "rig_detect", "forces_show")
 
 
 def there():

@@ -5,6 +5,7 @@ import time
 import traceback
 
 import bpy
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
@@ -12,7 +13,7 @@ bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 desire_path.register()
 from desire_path import bake  # noqa: E402
-from desire_path.blender import op_bake, playback  # noqa: E402
+from desire_path.blender import op_bake, op_forces, playback  # noqa: E402
 from scenes import meshes, people  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
@@ -47,6 +48,17 @@ def until(condition, seconds=40):
 def shot(name):
     with bpy.context.temp_override(window=window(), screen=window().screen):
         bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
+
+
+def pixels(name):
+    """How many pixels of a screenshot are as orange as the arrows."""
+    shot(name)
+    image = bpy.data.images.load(str(FOLDER / f"{name}.png"))
+    found = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(found)
+    bpy.data.images.remove(image)
+    red, green, blue = found.reshape(-1, 4)[:, :3].T
+    return int(((red > 0.8) & (green > 0.45) & (green < 0.9) & (blue < 0.3)).sum())
 
 
 def story():
@@ -99,6 +111,28 @@ def story():
     meshes.activate(bpy.data.objects["Walker"])
     yield 0.5
     shot("walker")
+
+    # forces are drawn while they are shown, and gone with the file
+    bpy.context.scene.frame_set(30)
+    view = next(area for area in window().screen.areas if area.type == "VIEW_3D")
+    with bpy.context.temp_override(window=window(), area=view, region=view.regions[-1]):
+        bpy.ops.view3d.view_axis(type="RIGHT")
+        bpy.ops.view3d.view_selected()
+    yield 0.5
+    without = pixels("plain")
+    assert bpy.ops.object.desire_path_forces_show() == {"FINISHED"}
+    walker = bpy.data.objects["Walker"]
+    assert op_forces.shows(walker) and op_forces._handle is not None
+    yield 0.5
+    assert pixels("forces") > without + 100, "no arrow is seen"
+    assert bpy.ops.object.desire_path_forces_show() == {"FINISHED"}
+    assert op_forces._handle is None
+    yield 0.5
+    assert pixels("hidden") == without
+    bpy.ops.object.desire_path_forces_show()
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    assert op_forces._handle is None and not op_forces._shown
+    yield 0.5
     print("all seen", flush=True)
 
 
@@ -117,4 +151,4 @@ def tick():
     return None
 
 
-bpy.app.timers.register(tick, first_interval=1.0)
+bpy.app.timers.register(tick, first_interval=1.0, persistent=True)

@@ -3,9 +3,9 @@ import atexit
 
 import bpy
 
-from . import handlers, op_bake, op_walkers, panels, props
+from . import handlers, op_bake, op_forces, op_walkers, panels, props
 
-_CLASSES = op_walkers.CLASSES + op_bake.CLASSES + panels.CLASSES
+_CLASSES = op_walkers.CLASSES + op_bake.CLASSES + op_forces.CLASSES + panels.CLASSES
 
 
 def register():
@@ -21,6 +21,7 @@ def register():
 def unregister():
     atexit.unregister(unregister)
     handlers.unregister()
+    op_forces.hide()
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)
     props.unregister()

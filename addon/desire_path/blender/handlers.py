@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, op_bake, playback
+from . import ground, op_bake, op_forces, playback
 
 
 def refresh(scene, obj):
@@ -51,6 +51,7 @@ def _plays_from_elsewhere(obj, ours):
 
 @persistent
 def after_load(*_):
+    op_forces.hide()  # of the file before
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:

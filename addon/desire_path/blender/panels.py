@@ -3,7 +3,7 @@ import json
 
 import bpy
 
-from . import op_bake
+from . import op_bake, op_forces
 from .op_walkers import walkers
 
 
@@ -151,6 +151,9 @@ def draw_walker(layout, obj):
     row = layout.row(align=True)
     row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
+    shown = op_forces.shows(obj)
+    layout.operator("object.desire_path_forces_show", text="Hide Forces" if shown else "Show Forces",
+                    icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
