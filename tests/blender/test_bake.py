@@ -97,6 +97,16 @@ def test_bake_plays_what_the_core_pressed(folder):
     assert "contacts" in settings.summary and not settings.missing
 
 
+def test_a_mesh_without_points_in_the_prints_is_told(folder):
+    ground, _ = scene(folder, cell=0.01, frames=16, spacing=0.6)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert "subdivide it there, to about 0.01 m" in ground.desire_path.summary
+    finer = ground.modifiers.new("Finer", "SUBSURF")
+    finer.subdivision_type, finer.levels = "SIMPLE", 5
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert "subdivide" not in ground.desire_path.summary
+
+
 def test_free_gives_the_mesh_back(folder):
     for groups in (False, True):
         ground, walker = scene(folder, frames=12)

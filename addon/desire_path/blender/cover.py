@@ -11,6 +11,7 @@ from ..soil import SOILS
 from . import axes, compat, playback
 
 LEVELS = 1024  # of a weight in a vertex group
+COARSE = 0.05  # points farther apart than this do not show a foot [m]
 
 
 def make_groups(obj):
@@ -72,6 +73,21 @@ def remove(obj):
         if name in obj.vertex_groups:
             obj.vertex_groups.remove(obj.vertex_groups[name])
     settings.made_attributes = settings.made_groups = ""
+
+
+def few_points(obj, surface, index):
+    """Sentences: one where the mesh has too few points in the prints to show them."""
+    printed = _planes(index)["compression"] > 0.0
+    place = (surface.vertices[:, :2] - (index.x0, index.y0)) / index.cell
+    rows, columns = (np.flatnonzero(printed.any(axis=k)) for k in (1, 0))
+    if not len(rows):
+        return []
+    near = ((place >= (columns[0], rows[0])) & (place < (columns[-1] + 1, rows[-1] + 1))).all(axis=1)
+    i, j = place[near].astype(np.int64).T
+    if np.count_nonzero(printed[j, i]) * COARSE ** 2 >= np.count_nonzero(printed) * index.cell ** 2:
+        return []
+    return [f"'{obj.name}' has hardly a point where the prints are, so that they cannot be seen: "
+            f"subdivide it there, to about {index.cell:g} m."]
 
 
 def _planes(index):

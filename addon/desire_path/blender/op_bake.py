@@ -109,6 +109,7 @@ class Job:
         if report is None:
             settings.summary = ""
             return settings.missing or "Stopped."
+        self.warnings += cover.few_points(obj, self.surface, index)
         report = dict(report, seconds_recording=round(self.recorded, 3),
                       seconds_in_all=round(time.perf_counter() - self.begun, 3))
         self.warnings += [each for each in report["warnings"] if each not in self.warnings]
