@@ -444,6 +444,8 @@ def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
 
     toe_family = family(foot.toe, ()) if foot.toe else set()
     foot_family = family(foot.slots.foot, ()) - toe_family
+    if foot.slots.heel and foot.slots.heel not in toe_family:  # need not hang on the foot
+        foot_family.add(foot.slots.heel)
     if foot.toe:  # small toes beside the chosen one
         for name in list(foot_family):
             if name != foot.slots.foot and rigs.is_toe(name):

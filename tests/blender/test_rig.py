@@ -89,6 +89,25 @@ def test_slots_set_by_hand_are_heeded():
     assert slots(obj)[0][1] == "foot.L" and settings.hips == "hips"
 
 
+def test_a_heel_set_by_hand_brings_its_faces():
+    obj = people.walk(people.biped())
+    add_bones(obj, ("spur", "shin.L", (0.10, 0.02, 0.08), (0.10, 0.06, 0.01)))
+    mesh = meshes.grid(8, 16, 0.02, 0.03, -0.22, height=lambda x, y: 0.0 * x + 0.005, name="Shoe")
+    rows = np.arange(8 * 16) // 8
+    for bone, mine in (("foot.L", (rows > 4) & (rows < 12)), ("toe.L", rows <= 4),
+                       ("spur", rows >= 12)):
+        mesh.vertex_groups.new(name=bone).add(np.flatnonzero(mine).tolist(), 1.0, "REPLACE")
+    mesh.modifiers.new("Armature", "ARMATURE").object = obj
+    mesh.parent = obj
+    bpy.context.view_layer.update()
+    meshes.activate(obj)
+    operator.desire_path_rig_detect()
+    assert obj.desire_path.feet[0].heel == ""
+    without = np.ptp(record(obj).soles[0].vertices[:, 0])
+    obj.desire_path.feet[0].heel = "spur"
+    assert np.ptp(record(obj).soles[0].vertices[:, 0]) - without > 0.05
+
+
 def test_slots_that_name_no_bone():
     obj = people.walk(people.biped())
     operator.desire_path_rig_detect()

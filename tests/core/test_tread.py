@@ -96,6 +96,14 @@ def test_a_tread_elsewhere_is_centred_under_the_feet():
         np.testing.assert_allclose(middle(worn), middle(bare), atol=0.03)
 
 
+def test_between_the_feet_is_at_no_foot():
+    bones = person()
+    middle = Tread(boot().vertices - (0.10, 0.0, 0.0), boot().triangles, "'Boot'")
+    assert "lies at no foot" in gait(bones, walk(bones), tread=middle).warnings[0]
+    near = Tread(boot().vertices - (0.02, 0.0, 0.0), boot().triangles, "'Boot'")
+    assert not gait(bones, walk(bones), tread=near).warnings
+
+
 def test_a_shaft_presses_nothing():
     bones = person()
     plain = gait(bones, walk(bones), tread=boot())
