@@ -85,7 +85,8 @@ def _strip(stations, heel, length, left, origin, back):
 def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
     """(faces of the heel part, of the toe part) as (vertices, triangles) in the foot's frame, or None.
 
-    A face belongs to the bone that moves most of it. to_frame (4, 4) takes the skin's rest space to
+    A face belongs to the bone that moves most of it; those just behind the toes belong to both, so that a
+    bent foot has no gap. to_frame (4, 4) takes the skin's rest space to
     the foot's frame but for the height, which is the caller's to set; ankle_height [m] is the
     ankle's z there, and nothing above it counts.
     """
@@ -108,7 +109,31 @@ def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
         chosen = (mine >= 2) | ((part == 2) & (mine == 1) & ((votes == 1).sum(axis=1) == 1))
         chosen &= height < ankle_height
         soles.append(cut(vertices, triangles[chosen]))
+    if soles[0] is not None and soles[1] is not None:
+        soles[1] = _lapped(*soles)
     return soles
+
+
+def _lapped(heel, toe):
+    """The toe part with a lap under the heel part, as the built-in sole has it."""
+    back = toe[0][:, 0].min() - OVERLAP
+    corners = [piece for corner in heel[0][heel[1]] for piece in _ahead(corner, back)]
+    if not corners:
+        return toe
+    lap = np.array(corners)
+    faces = np.arange(3 * len(lap), dtype="i4").reshape(-1, 3) + len(toe[0])
+    return np.concatenate((toe[0], lap.reshape(-1, 3))), np.concatenate((toe[1], faces))
+
+
+def _ahead(corner, back):
+    """The part of a triangle (3, 3) that lies ahead of x = back, as triangles that face the same way."""
+    kept = []
+    for a, b in zip(corner, np.roll(corner, -1, axis=0)):
+        if a[0] >= back:
+            kept.append(a)
+        if (a[0] >= back) != (b[0] >= back):
+            kept.append(a + (b - a) * ((back - a[0]) / (b[0] - a[0])))
+    return [(kept[0], kept[k], kept[k + 1]) for k in range(1, len(kept) - 1)]
 
 
 def cut(vertices, triangles, most=4000):
