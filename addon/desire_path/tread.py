@@ -95,7 +95,8 @@ def soles(laid, left, ball):
     low, high = vertices[:, 0].min(), vertices[:, 0].max()
     edge = LEAST_PART * (high - low)
     at = float(np.clip(ball, low + edge, high - edge))
-    heel, toe = split(vertices, triangles, at)
+    heel, _ = split(vertices, triangles, at)
+    _, toe = split(vertices, triangles, at - sole.OVERLAP)  # laps under, as the built-in sole does
     return (Sole(*heel), Sole(toe[0] - (ball, 0.0, 0.0), toe[1])), -floor
 
 

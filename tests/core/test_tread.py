@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from desire_path import tread
+from desire_path import sole, tread
 from desire_path.errors import DesirePathError
 from desire_path.tread import Tread
 
@@ -67,8 +67,9 @@ def test_a_boot_at_one_foot_is_worn_on_both(side, skin):
         lug = heel[heel[:, 2] < -0.02]
         assert len(lug) and np.mean(lug[:, 0]) == pytest.approx(0.135 * outside, abs=5e-3)
         assert toe[:, 2].min() == pytest.approx(-0.01, abs=2e-3)
-        # cut at the ball, the joint the toes turn about
-        assert heel[:, 1].min() == pytest.approx(toe[:, 1].max(), abs=2e-3)
+        # cut at the ball, the joint the toes turn about, with a lap
+        assert g.soles[2 * limb + 1].vertices[:, 0].min() == pytest.approx(-sole.OVERLAP, abs=1e-6)
+        assert heel[:, 1].min() == pytest.approx(toe[:, 1].max() - sole.OVERLAP, abs=2e-3)
         # the underside still looks down
         for part, count in ((0, 2), (1, 1)):
             found = g.soles[2 * limb + part]

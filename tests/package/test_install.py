@@ -123,8 +123,10 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
         meta = files.read(next(n for n in names if n.endswith("METADATA"))).decode()
     assert "desire_path/_native.abi3.so" in names and "desire_path/blender/__init__.py" in names
     assert not [n for n in names if "test" in n or n.endswith((".pyc", ".c", ".h"))]
-    assert [line for line in meta.splitlines() if line.startswith("Requires-Dist")] == [
-        "Requires-Dist: numpy>=1.23"]
+    needs = [line for line in meta.splitlines() if line.startswith("Requires-Dist")]
+    assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy>=1.23"]
+    assert [line for line in needs if "extra ==" in line] == [
+        'Requires-Dist: matplotlib>=3.6; extra == "plot"']
 
 
 @pytest.mark.parametrize("python", [sys.executable, PY313], ids=["3.11", "3.13"])
