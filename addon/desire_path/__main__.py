@@ -45,7 +45,7 @@ def _bake(args):
     bake = Bake(
         gait, _ground(args.ground, args.spacing), args.soil, args.out, cell_size=args.cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, threads=args.threads,
+        heap=args.heap, threads=args.threads, origin=args.origin,
     )
     for progress in bake.run():
         _bar(progress)
@@ -90,6 +90,8 @@ def _parser():
     bake.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if it does not say")
     bake.add_argument("--soil", default="dry-sand", help=f"one of {', '.join(SOILS)}")
     bake.add_argument("--cell", type=float, default=0.01, help="side of a cell [m] (0.01)")
+    bake.add_argument("--origin", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
+                      help="where cells begin [m] (0 0); a report.json says where another bake's did")
     bake.add_argument("--out", required=True, help="folder for the files")
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")

@@ -33,7 +33,8 @@ from .sim import LOAD_MODELS, TILE, Simulation, as_soils
 from .version import VERSION
 
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
-MOST_PIXELS = 1 << 28  # of one frame
+RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
+MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
@@ -320,6 +321,9 @@ class Bake:
     def _report(self, sim, seconds):
         found = sim.report()
         warnings = list(self.gait.warnings) + list(self.loads.warnings)
+        if found["deepest_m"] >= RIGID * min(soil.layer_depth for soil in self.soils):
+            warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "
+                            "or choose a firmer soil.")
         if found["off_ground"] and walker.BESIDE not in warnings:
             warnings.append(walker.BESIDE)
         return {

@@ -182,7 +182,9 @@ static PyObject* simulation_normal(Simulation* self, PyObject* args)
         PyErr_SetString(PyExc_ValueError, "normal: expected a finite point and a radius > 0");
         return NULL;
     }
+    if (!dp_py_enter(self)) return NULL;
     const DpVec3 n = dp_terrain_normal(self->terrain, x, y, radius);
+    self->busy = false;
     return Py_BuildValue("(ddd)", n.x, n.y, n.z);
 }
 
@@ -291,7 +293,9 @@ static PyObject* simulation_reach(Simulation* self, PyObject* unused)
 {
     (void)unused;
     long reach[4];
+    if (!dp_py_enter(self)) return NULL;
     dp_sim_reach(self->sim, reach);
+    self->busy = false;
     return Py_BuildValue("(llll)", reach[0], reach[1], reach[2], reach[3]);
 }
 
@@ -322,7 +326,9 @@ static PyObject* simulation_settle(Simulation* self, PyObject* unused)
 static PyObject* simulation_report(Simulation* self, PyObject* unused)
 {
     (void)unused;
+    if (!dp_py_enter(self)) return NULL;
     const DpSimReport r = dp_sim_report(self->sim);
+    self->busy = false;
     return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:n}", "contacts", r.contacts, "off_ground",
                          r.off_ground, "deepest_m", r.deepest, "pressed_m3", r.pressed,
                          "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced,

@@ -312,3 +312,12 @@ def test_another_program_reads_the_same_bits(tmp_path):
                         "-o", str(raw)], check=True, env={**os.environ, "LD_LIBRARY_PATH": ""})
         again = maps.read(raw).planes
         assert np.array_equal(next(iter(again.values())), plane)
+
+
+def test_a_print_down_to_the_rigid_ground_is_told(tmp_path):
+    heavy, _ = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]],
+                             seconds=1.0, rate=24.0, lift=0.5, mass=1e5)
+    bake, _ = baked(tmp_path / "heavy", heavy)
+    assert any("rigid ground" in warning for warning in bake.report["warnings"])
+    bake, _ = baked(tmp_path / "light")
+    assert not any("rigid ground" in warning for warning in bake.report["warnings"])

@@ -40,6 +40,16 @@ def test_bake_on_flat_ground(tmp_path, walk):
     assert (tmp_path / "folder" / "maps_final.exr").exists()
 
 
+def test_cells_begin_where_they_are_told(tmp_path, walk):
+    for origin, folder in ((("0", "0"), "a"), (("0.005", "-0.005"), "b")):
+        done = run("bake", walk, "--soil", "mud", "--origin", *origin, "--out", tmp_path / folder)
+        assert done.returncode == 0, done.stderr
+        told = json.loads((tmp_path / folder / "report.json").read_text())["parameters"]["origin"]
+        assert told == [float(each) for each in origin]
+    places = [maps.read(tmp_path / folder / "maps_final.exr").notes["originX"] for folder in "ab"]
+    assert abs((places[1] - places[0]) % 0.64 - 0.005) < 1e-9
+
+
 def test_bake_on_a_height_map(tmp_path, walk):
     y, x = np.mgrid[-1:1:81j, -1:1:81j]
     maps.write(tmp_path / "height.exr", {"height": (0.05 * x).astype(np.float32)},

@@ -14,6 +14,7 @@ from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
 NEAR = 0.8  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
+FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
 BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
@@ -166,10 +167,12 @@ def _faces_up(obj, world, vertices, triangles):
 
 
 def _cell_corner(vertices, cell):
-    """Where cells begin: so that a regular mesh, its spacing a whole number of cells, has its points
-    on their centres; any other mesh lies between them anyway."""
+    """Where cells begin: so that a fine regular mesh, its spacing a few whole cells, has its points on
+    their centres; any other mesh lies between them anyway."""
     if not (np.isfinite(cell) and cell > 0.0):
         return (0.0, 0.0)  # the bake refuses it
+    if len(vertices) < 2 or np.abs(vertices[1, :2] - vertices[0, :2]).max() > FINE * cell:
+        return (0.0, 0.0)
     origin = tuple(float(each) for each in np.mod(vertices[0, :2] / cell - 0.5, 1.0) * cell)
     return (0.0, 0.0) if smooth(vertices, cell, origin) else origin
 
