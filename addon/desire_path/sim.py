@@ -66,6 +66,9 @@ class Ground:
             raise DesirePathError("The ground's sample spacing must be a positive number of metres.")
         if kind_weight is not None:
             kind_weight = np.ascontiguousarray(kind_weight, np.float32)
+            if kind_weight.ndim != 3 or kind_weight.shape[1:] != heights.shape:
+                raise DesirePathError(
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height.")
             kind_weight = kind_weight.reshape(len(kind_weight), -1)
         native = ("heights", heights, float(spacing), float(x0), float(y0), kind_weight)
         return Ground(native, "heights")
@@ -77,17 +80,27 @@ class Ground:
         vertices: (n, 3) world position [m]; triangles: (m, 3) indices.
         kind_weight: (kinds, n) >= 0, how much of each soil at each vertex; the heaviest wins.
         """
-        vertices = np.ascontiguousarray(vertices, np.float64).reshape(-1, 3)
-        triangles = np.ascontiguousarray(triangles, np.int32).reshape(-1, 3)
-        if len(triangles) == 0:
+        vertices, triangles = np.asarray(vertices, np.float64), np.asarray(triangles)
+        if triangles.size == 0:
             raise DesirePathError("The ground has no faces: give it at least one.")
+        if vertices.ndim != 2 or triangles.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
+            raise DesirePathError(
+                f"The ground has vertices of shape {vertices.shape} and triangles of shape "
+                f"{triangles.shape}: give (n, 3) positions and (m, 3) indices.")
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            raise DesirePathError("A triangle of the ground names a vertex that is not there: mend its indices.")
+        vertices = np.ascontiguousarray(vertices)
+        triangles = np.ascontiguousarray(triangles, np.int32)
         bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
         if len(bad):
             raise DesirePathError(
                 f"Vertex {bad[0]} of the ground is not a finite position: repair the mesh and bake again."
             )
         if kind_weight is not None:
-            kind_weight = np.ascontiguousarray(kind_weight, np.float32).reshape(-1, len(vertices))
+            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
+            if kind_weight.ndim != 2 or kind_weight.shape[1] != len(vertices):
+                raise DesirePathError(
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex.")
         return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
 
     def arrays(self):
@@ -147,6 +160,10 @@ class Simulation:
             raise DesirePathError(f"There is no heap law '{heap}': choose {' or '.join(HEAPS)}.")
         if not 0 <= threads <= 64:
             raise DesirePathError("The number of threads must be 0 (all) to 64.")
+        if not (math.isfinite(rim_width) and rim_width > 0):
+            raise DesirePathError(f"A rim width of {rim_width:g} m cannot be used: choose more than 0 (0.04 is usual).")
+        if not (math.isfinite(origin[0]) and math.isfinite(origin[1])):
+            raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
         self.cell_size = float(cell_size)
         self.origin = (float(origin[0]), float(origin[1]))
         self.soils = as_soils(soils)
@@ -209,6 +226,8 @@ class Simulation:
         "young_modulus" or "soil"."""
         if name not in _FIELDS:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(_FIELDS)}.")
+        if nx < 1 or ny < 1:
+            raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
         out = np.zeros((int(ny), int(nx)), np.float32)
         self._core.read(_FIELDS[name], int(i0), int(j0), out)
         return out

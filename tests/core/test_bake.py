@@ -16,7 +16,7 @@ from desire_path import maps
 from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
 from desire_path.gait import Sole
-from desire_path.sim import Ground
+from desire_path.sim import Ground, Simulation
 
 from tests.scenes import gaits
 
@@ -236,6 +236,23 @@ def test_bad_ground_is_a_sentence():
     assert not os.path.exists("unused")
 
 
+@pytest.mark.parametrize("words, make", [
+    ("positions", lambda: Ground.mesh([0, 0, 0], [[0, 0, 0]])),
+    ("not there", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]])),
+    ("weights", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[1, 1]])),
+    ("weights", lambda: Ground.heights(np.zeros((3, 3)), 0.5, kind_weight=np.ones((2, 3)))),
+    ("rim width", lambda: Simulation(Ground.flat(), rim_width=0.0)),
+    ("origin", lambda: Simulation(Ground.flat(), origin=(0.0, float("inf")))),
+    ("soil", lambda: Simulation(Ground.flat(), [])),
+    ("at least one", lambda: Simulation(Ground.flat()).read("heap", 0, 0, 0, 4)),
+    ("no field", lambda: Simulation(Ground.flat()).read("gold", 0, 0, 4, 4)),
+])
+def test_bad_numbers_are_a_sentence(words, make):
+    with pytest.raises(DesirePathError, match=words) as error:
+        make()
+    sentence(error)
+
+
 def test_a_walk_beside_the_ground_is_a_sentence(tmp_path):
     far = Ground.heights(np.zeros((3, 3)), 0.5, 50.0, 50.0)
     bake = Bake(standing(), far, "mud", tmp_path / "bake")
@@ -272,7 +289,7 @@ from tests.core.test_bake import standing
 from desire_path.bake import Bake
 from desire_path.errors import DesirePathError
 from desire_path.gait import Sole
-from desire_path.sim import Ground
+from desire_path.sim import Ground, Simulation
 bake = Bake(standing(), Ground.flat(), "snow", {folder!r}, threads=1, cell_size=0.002)
 run = bake.run()
 for _ in range(3):
