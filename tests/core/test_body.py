@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, rigs, sole, walker
+from desire_path import body, rigs, rotation, sole, walker
 from desire_path.body import Motion, Skeleton, Skin
 from desire_path.errors import DesirePathError
 from desire_path.gait import BALL, HEEL, TIP
@@ -371,4 +371,4 @@ def test_quaternions_come_back():
     turn = np.moveaxis(np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                                  [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                                  [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]), -1, 0)
-    assert abs((body.quaternion(turn) * q).sum(axis=1)) == pytest.approx(np.ones(200), abs=1e-12)
+    assert abs((rotation.quaternion(turn) * q).sum(axis=1)) == pytest.approx(np.ones(200), abs=1e-12)

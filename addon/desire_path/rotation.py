@@ -1,0 +1,59 @@
+"""Small tools for rotations as matrices (.., 3, 3) and for rates over time."""
+
+import numpy as np
+
+
+def quaternion(turn):
+    """Unit quaternions (n, 4) w x y z of rotation matrices (n, 3, 3), each near the one before."""
+    m = np.asarray(turn, float)
+    four = np.empty(m.shape[:-2] + (4, 4))  # 4 q q^T, the largest column is safe to divide by
+    xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
+    four[..., 0, 0] = 1 + xx + yy + zz
+    four[..., 1, 1] = 1 + xx - yy - zz
+    four[..., 2, 2] = 1 - xx + yy - zz
+    four[..., 3, 3] = 1 - xx - yy + zz
+    for a, b, value in ((0, 1, m[..., 2, 1] - m[..., 1, 2]), (0, 2, m[..., 0, 2] - m[..., 2, 0]),
+                        (0, 3, m[..., 1, 0] - m[..., 0, 1]), (1, 2, m[..., 1, 0] + m[..., 0, 1]),
+                        (1, 3, m[..., 0, 2] + m[..., 2, 0]), (2, 3, m[..., 2, 1] + m[..., 1, 2])):
+        four[..., a, b] = four[..., b, a] = value
+    best = np.einsum("...ii->...i", four).argmax(axis=-1)
+    q = np.take_along_axis(four, best[..., None, None], axis=-1)[..., 0]
+    q /= np.linalg.norm(q, axis=-1, keepdims=True)
+    if q.ndim == 2 and len(q) > 1:
+        flips = np.cumprod(np.where((q[1:] * q[:-1]).sum(axis=1) < 0, -1.0, 1.0))
+        q[1:] *= flips[:, None]
+    return q
+
+
+def unit(v):
+    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
+
+
+def square(turn):
+    """The rotation nearest to a matrix, so that leftover shear or scale does no harm."""
+    u, _, vt = np.linalg.svd(turn)
+    flip = np.ones(turn.shape[:-2] + (3,))
+    flip[..., 2] = np.sign(np.linalg.det(u @ vt))
+    return (u * flip[..., None, :]) @ vt
+
+
+def mean_turn(turns):
+    """The mean of rotations, counting those far from it for little."""
+    mean = square(turns.mean(axis=0))
+    for _ in range(4):
+        apart = np.sqrt(np.maximum(3.0 - np.einsum("tij,ij->t", turns, mean), 0.0))  # the angle, if small
+        weight = 1.0 / np.maximum(apart, 0.01)
+        mean = square(np.einsum("t,tij->ij", weight, turns) / weight.sum())
+    return mean
+
+
+def frame(forward, up):
+    """Rotation with x along `forward` across `up`, z along `up`."""
+    z = unit(np.asarray(up, float))
+    x = unit(forward - (forward * z).sum(axis=-1, keepdims=True) * z)
+    return np.stack([x, np.cross(z, x), np.broadcast_to(z, x.shape)], axis=-1)
+
+
+def rate_of(values, time):
+    """Change a second along the first axis."""
+    return np.gradient(values, time, axis=0) if len(time) > 1 else np.zeros_like(values)
