@@ -5,12 +5,12 @@ L limbs own P parts, P parts own K contact points, all over T times.
 """
 
 import os
-import tempfile
 import zipfile
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from . import whole
 from .errors import DesirePathError
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
@@ -182,22 +182,8 @@ class Gait:
         arrays["sole_triangle_count"] = np.array([len(s.triangles) for s in self.soles], "i4")
         arrays["sole_vertices"] = _stack([s.vertices for s in self.soles], "f4")
         arrays["sole_triangles"] = _stack([s.triangles for s in self.soles], "i4")
-        folder = os.path.dirname(os.path.abspath(path))
-        temporary = None
-        try:
-            handle, temporary = tempfile.mkstemp(suffix=".part", dir=folder)
-            with os.fdopen(handle, "wb") as stream:
-                np.savez(stream, **arrays)
-                stream.flush()
-                os.fsync(stream.fileno())
-            os.chmod(temporary, 0o666 & ~_umask())
-            os.replace(temporary, path)
-        except OSError as error:
-            if temporary and os.path.exists(temporary):
-                os.unlink(temporary)
-            raise DesirePathError(f"The recording cannot be written to {path} "
-                                  f"({error.strerror or error}): choose another folder or make "
-                                  "room.") from None
+        with whole.file(path, "The recording") as stream:
+            np.savez(stream, **arrays)
 
     @staticmethod
     def load(path):
@@ -294,9 +280,3 @@ def _unstack(arrays):
     vertices = np.split(arrays["sole_vertices"], np.cumsum(arrays["sole_vertex_count"])[:-1])
     triangles = np.split(arrays["sole_triangles"], np.cumsum(arrays["sole_triangle_count"])[:-1])
     return tuple(Sole(v, t) for v, t in zip(vertices, triangles, strict=True))
-
-
-def _umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

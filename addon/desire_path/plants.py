@@ -2,13 +2,12 @@
 
 import json
 import math
-import os
-import tempfile
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
+from . import whole
 from .errors import DesirePathError
 
 FORMS = ("surface", "tuft")
@@ -74,16 +73,9 @@ class Kind:
 
     def save(self, path):
         """Write this kind as JSON, whole or not at all."""
-        path = Path(path)
         text = json.dumps({"desire_path_plant": _VERSION, **asdict(self)}, indent=2) + "\n"
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8") as file:
-                file.write(text)
-            os.replace(name, path)
-        except BaseException:
-            os.unlink(name)
-            raise
+        with whole.file(path, "The kind", "w", encoding="utf-8") as stream:
+            stream.write(text)
 
     @staticmethod
     def load(path):

@@ -4,10 +4,10 @@ Needs Matplotlib, which nothing else here does: pip install desire-path[plot].
 """
 
 import os
-import tempfile
 
 import numpy as np
 
+from . import whole
 from .errors import DesirePathError
 from .walker import GRAVITY
 
@@ -76,16 +76,5 @@ def write(path, gait, loads):
         raise DesirePathError(f"{path} is no picture this can draw: let its name end in "
                               + ", ".join(KINDS[:-1]) + f" or {KINDS[-1]}.")
     made = figure(gait, loads)
-    temporary = None
-    try:
-        handle, temporary = tempfile.mkstemp(suffix=".part",
-                                             dir=os.path.dirname(os.path.abspath(path)))
-        with os.fdopen(handle, "wb") as stream:
-            made.savefig(stream, format=kind[1:], dpi=120)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-        raise DesirePathError(f"The picture cannot be written to {path} ({error.strerror or error}): "
-                              "choose another folder or make room.") from None
+    with whole.file(path, "The picture") as stream:
+        made.savefig(stream, format=kind[1:], dpi=120)

@@ -1,12 +1,11 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), design 4.2 and 4.3."""
 
 import csv
-import os
-import tempfile
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from . import whole
 from .errors import DesirePathError
 
 RATE = 120.0  # loads are found at this rate [1/s] ..
@@ -281,28 +280,16 @@ def _weigh(gait, touching, force):
 
 def write_loads(path, gait, loads):
     """The table `time,walker,limb,part,touching,fx,fy,fz,px,py,pz`, a row a part and sample."""
-    path = os.fspath(path)
-    folder = os.path.dirname(os.path.abspath(path))
-    temporary = None
     number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
-    try:
-        handle, temporary = tempfile.mkstemp(suffix=".part", dir=folder)
-        with os.fdopen(handle, "w", newline="", encoding="utf-8") as stream:
-            table = csv.writer(stream, lineterminator="\n")
-            table.writerow("time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(","))
-            names = [(gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
-                     for limb, part in zip(gait.part_limb, gait.part_name)]
-            for t, time in enumerate(loads.time):
-                for p, name in enumerate(names):
-                    table.writerow([number(time), *name, int(loads.touching[p, t]),
-                                    *map(number, loads.force[p, t]), *map(number, loads.point[p, t])])
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except OSError as error:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-        raise DesirePathError(f"The loads cannot be written to {path} ({error.strerror or error}): "
-                              "choose another folder or make room.") from None
+    with whole.file(path, "The table of loads", "w", newline="", encoding="utf-8") as stream:
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow("time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(","))
+        names = [(gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
+                 for limb, part in zip(gait.part_limb, gait.part_name)]
+        for t, time in enumerate(loads.time):
+            for p, name in enumerate(names):
+                table.writerow([number(time), *name, int(loads.touching[p, t]),
+                                *map(number, loads.force[p, t]), *map(number, loads.point[p, t])])
 
 
 @dataclass(frozen=True)

@@ -190,6 +190,14 @@ def free(obj):
     settings.summary = settings.missing = ""
 
 
+def idle_ground(operator, context):
+    """Whether a mesh is active and nothing bakes; else the button says why not."""
+    if _running is not None:
+        operator.poll_message_set("A bake is running")
+        return False
+    return active(operator, context, "MESH", "the ground")
+
+
 class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
     """Press the walkers' prints into the active ground, in files that play without this add-on"""
 
@@ -199,10 +207,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if _running is not None:
-            cls.poll_message_set("A bake is running")
-            return False
-        return active(cls, context, "MESH", "the ground")
+        return idle_ground(cls, context)
 
     def work(self, context):
         """All at once."""
@@ -338,10 +343,7 @@ class OBJECT_OT_desire_path_free(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if _running is not None:
-            cls.poll_message_set("A bake is running")
-            return False
-        return active(cls, context, "MESH", "the ground")
+        return idle_ground(cls, context)
 
     def work(self, context):
         obj = context.object
