@@ -8,7 +8,8 @@
 
 #define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
 #define HEAP_SPARE 4      // cells beyond the foot of the heap
-#define FEW_GROUPS 4      // with fewer, starting threads costs more than it gives
+#define FEW_GROUPS 4      // with fewer, starting threads costs more than it gives ..
+#define MANY_CELLS 8000   // .. unless their patches are as large as this
 
 // What a limb does in the interval from `sample` to the next, and on which cells.
 static void plan_limb(DpSim* sim, Limb* limb, int sample)
@@ -129,9 +130,16 @@ static DpStatus step_once(DpSim* sim, int sample)
                                                  limb->patch.j0, limb->patch.j1);
         if (status != DP_OK) return status;
     }
-    Step step = {sim, sample};
+    long cells = 0;
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        const Cells* at = &sim->limb[l].patch;
+        if (sim->limb[l].active && !sim->limb[l].lifts)
+            cells += (at->i1 - at->i0) * (at->j1 - at->j0);
+    }
+    const bool worth = groups >= FEW_GROUPS || (groups > 1 && cells >= MANY_CELLS);
+    Step       step = {sim, sample};
     for (int b = 0; b < sim->bench_count; ++b) sim->bench[b].status = DP_OK;
-    dp_parallel_for(groups, groups < FEW_GROUPS ? 1 : sim->bench_count, work_group, &step);
+    dp_parallel_for(groups, worth ? sim->bench_count : 1, work_group, &step);
     for (int b = 0; b < sim->bench_count; ++b)
         if (sim->bench[b].status != DP_OK) return sim->bench[b].status;
     const DpStatus status = settle_limbs(sim);

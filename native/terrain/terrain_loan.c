@@ -223,26 +223,41 @@ typedef struct Reading
     float*           out;
 } Reading;
 
-static float read_cell(const Reading* reading, const Tile* tile, const float* rest,
-                       const uint8_t* kind, size_t at)
+// the grid of a tile that a field is copied from; NULL where it is worked out from the soil
+static const float* grid_of(const Tile* tile, const float* rest, DpField field)
 {
-    switch (reading->field) {
+    switch (field) {
         case DP_FIELD_COMPRESSION:
-            return tile ? tile->compression[at] : 0.0f;
+            return tile->compression;
         case DP_FIELD_HEAP:
-            return tile ? tile->heap[at] : 0.0f;
+            return tile->heap;
         case DP_FIELD_PRESSURE_TIME:
-            return tile ? tile->pressure_time[at] : 0.0f;
+            return tile->pressure_time;
         case DP_FIELD_REST:
-            return rest[at];
+            return rest;
         case DP_FIELD_MODULUS:
-            return reading->terrain->soils[kind[at]].young_modulus;
         case DP_FIELD_KIND:
-            return (float)kind[at];
         case DP_FIELD_PLANT_STRENGTH:
-            return 0.0f;
+            break;
     }
-    return 0.0f;
+    return NULL;
+}
+
+static void read_row(const Reading* reading, const Tile* tile, const float* rest,
+                     const uint8_t* kind, size_t at, int count, float* out)
+{
+    const bool   there = tile || reading->field == DP_FIELD_REST;
+    const float* grid = there ? grid_of(tile, rest, reading->field) : NULL;
+    if (grid) {
+        memcpy(out, grid + at, (size_t)count * sizeof *out);
+        return;
+    }
+    for (int i = 0; i < count; ++i) {
+        const uint8_t soil = kind[at + (size_t)i];
+        out[i] = reading->field == DP_FIELD_MODULUS ? reading->terrain->soils[soil].young_modulus
+                 : reading->field == DP_FIELD_KIND  ? (float)soil
+                                                    : 0.0f;
+    }
 }
 
 static bool comes_from_ground(DpField field)
@@ -271,8 +286,7 @@ static void read_tile(void* context, int index, int worker)
     for (int j = 0; j < part.ny; ++j) {
         float*       out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
         const size_t at = part.in_tile + (size_t)j * DP_TILE;
-        for (int i = 0; i < part.nx; ++i)
-            out[i] = read_cell(reading, tile, rest, kind, at + (size_t)i);
+        read_row(reading, tile, rest, kind, at, part.nx, out);
     }
 }
 

@@ -22,6 +22,7 @@
 #include "soil/soil.h"
 
 #define FRAMES 36
+#define STANDING 16  // sweeps of a frame while the foot stands, as sim/sim_press.c; then to rest
 #define PI 3.14159265358979323846
 #define TENTH (0.1 * PI / 180.0)
 
@@ -154,7 +155,7 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         if (w.imprint.j1 + wide > reach[3]) reach[3] = w.imprint.j1 + wide;
         t0 = now();
         DpSettled settled;
-        dp_soil_stabilize(&w.patch, &w.imprint, reach, TENTH, 100000, scratch, &settled);
+        dp_soil_stabilize(&w.patch, &w.imprint, reach, TENTH, STANDING, scratch, &settled);
         cost.stabilize += now() - t0;
         cost.sweeps += settled.sweeps;
         if (settled.i0 < settled.i1) {

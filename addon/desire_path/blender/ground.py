@@ -13,7 +13,7 @@ from ..errors import DesirePathError
 from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
-NEAR = 0.8  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
+NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
 FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
 BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
@@ -122,7 +122,7 @@ def _reaching(faces, side):
     """The faces (f, k) that are not wholly beyond one side of the box."""
     if side is None or not len(faces):
         return faces
-    beyond = side[faces]
+    beyond = np.take(side, faces)
     if faces.shape[1] == 4:  # four bytes in one go
         beyond = beyond.view(np.uint32)[:, 0]
         beyond &= beyond >> 16
@@ -133,7 +133,7 @@ def _reaching(faces, side):
 
 def _halves(local, four):
     """Quads (f, 4) cut in two along the diagonal that lies inside."""
-    corner = local[four]  # (f, 4, 3)
+    corner = np.take(local, four, axis=0)  # (f, 4, 3)
     ab, ac, ad = (corner[:, k] - corner[:, 0] for k in (1, 2, 3))
     left = [ab[:, i] * ac[:, j] - ab[:, j] * ac[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
     right = [ac[:, i] * ad[:, j] - ac[:, j] * ad[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
