@@ -10,6 +10,7 @@ from pathlib import Path
 
 from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
 
@@ -32,6 +33,15 @@ class CMakeBuild(build_ext):
         shutil.copy2(folder / "_native.abi3.so", target)
 
 
+class WithCore(sdist):
+    """A source archive holds the core too."""
+
+    def add_defaults(self):
+        super().add_defaults()
+        self.filelist.extend(str(path.relative_to(HERE)) for path in sorted((HERE / "native").rglob("*"))
+                             if path.is_file())
+
+
 def version():
     text = (HERE / "addon/desire_path/version.py").read_text(encoding="utf-8")
     return re.search(r'^VERSION = "([^"]+)"', text, re.MULTILINE).group(1)
@@ -41,8 +51,8 @@ setup(
     version=version(),
     package_dir={"": "addon"},
     packages=find_packages("addon"),
-    package_data={"desire_path": ["blender_manifest.toml"]},
+    package_data={"desire_path": ["blender_manifest.toml", "THIRD-PARTY.md"]},
     ext_modules=[Extension("desire_path._native", [], py_limited_api=True)],
-    cmdclass={"build_ext": CMakeBuild},
+    cmdclass={"build_ext": CMakeBuild, "sdist": WithCore},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
 )

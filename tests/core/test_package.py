@@ -109,7 +109,7 @@ def test_the_licence_is_there_whole():
     text = (ROOT / "LICENSE").read_text(encoding="utf-8")
     assert "GNU GENERAL PUBLIC LICENSE" in text and "Version 3, 29 June 2007" in text
     assert "END OF TERMS AND CONDITIONS" in text
-    others = (ROOT / "THIRD-PARTY.md").read_text(encoding="utf-8")
+    others = (ROOT / "addon" / "desire_path" / "THIRD-PARTY.md").read_text(encoding="utf-8")
     assert "OpenEXR" in others and "libdeflate" in others
 
 
