@@ -60,11 +60,13 @@ class Gait:
     frame_rate: float = 24.0  # scene frames a second
     frame_start: int = 1  # scene frame at time[0]
     warnings: tuple = ()
+    cut: np.ndarray = ()  # samples at which a new piece begins: the motion jumps there (C,), rising
 
     def __post_init__(self):
         for name, kind, _ in _NUMBERS:
             value = np.ascontiguousarray(getattr(self, name), kind)
             object.__setattr__(self, name, value)
+        object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
         object.__setattr__(self, "soles", tuple(self.soles))
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in _NAMES:
@@ -87,6 +89,19 @@ class Gait:
 
     def bone(self, part):
         return self.limb_name[self.part_limb[part]]
+
+    # ---- pieces: between two cuts the motion is one ----------------------------------------------
+
+    def pieces(self):
+        """(first sample, sample after the last) of each piece."""
+        ends = [0, *self.cut.tolist(), len(self.time)]
+        return list(zip(ends[:-1], ends[1:]))
+
+    def piece(self, first, after):
+        """Samples first..after-1, which hold no cut, as a recording of their own."""
+        return replace(self, time=self.time[first:after], com=self.com[:, first:after],
+                       pose=self.pose[:, first:after], cut=(),
+                       frame_start=round(self.frame(first)), warnings=())
 
     # ---- what a recording must be ------------------------------------------------------------
 
@@ -118,6 +133,10 @@ class Gait:
         return self
 
     def _check_numbers(self):
+        if len(self.cut) and (self.cut[0] < 1 or self.cut[-1] >= len(self.time)
+                              or (np.diff(self.cut) < 1).any()):
+            raise DesirePathError("The recording's cuts do not rise from its second sample to its "
+                                  "last: record the walk again.")
         if not np.isfinite(self.time).all() or (np.diff(self.time) <= 0).any():
             raise DesirePathError("The recording's times do not increase: record the walk again.")
         if not (np.isfinite(self.frame_rate) and self.frame_rate > 0):
@@ -175,6 +194,7 @@ class Gait:
         arrays = {name: getattr(self, name) for name, _, _ in _NUMBERS}
         for name in ("limb_name", "part_name", "walker_name", "warnings"):
             arrays[name] = np.array(getattr(self, name), dtype="U")
+        arrays["cut"] = self.cut
         arrays["version"] = np.array(_VERSION)
         arrays["frame_rate"] = np.array(self.frame_rate)
         arrays["frame_start"] = np.array(self.frame_start)
@@ -211,7 +231,8 @@ class Gait:
             for name in ("limb_name", "part_name", "walker_name", "warnings"):
                 wanted[name] = tuple(arrays[name].tolist())
             gait = Gait(soles=_unstack(arrays), frame_rate=float(arrays["frame_rate"]),
-                        frame_start=int(arrays["frame_start"]), **wanted)
+                        frame_start=int(arrays["frame_start"]), cut=arrays.get("cut", ()),
+                        **wanted)
         except DesirePathError:
             raise
         except (KeyError, ValueError, TypeError, IndexError) as error:
@@ -247,14 +268,15 @@ class Gait:
             point_role=np.concatenate([g.point_role for g in gaits]),
             limb_name=chain("limb_name"), part_name=chain("part_name"),
             walker_name=chain("walker_name"), frame_rate=first.frame_rate,
-            frame_start=first.frame_start, warnings=tuple(dict.fromkeys(chain("warnings"))))
+            frame_start=first.frame_start, warnings=tuple(dict.fromkeys(chain("warnings"))),
+            cut=np.unique(np.concatenate([g.cut for g in gaits])))
 
     def rate(self):
-        """Samples a second if they are even, else None."""
-        if len(self.time) < 2:
+        """Samples a second if they are even within every piece, else None."""
+        steps = np.delete(np.diff(self.time), self.cut - 1)
+        if not len(steps):
             return None
-        steps = np.diff(self.time)
-        step = (self.time[-1] - self.time[0]) / (len(self.time) - 1)
+        step = steps.mean()
         return 1.0 / step if abs(steps - step).max() < 1e-3 * step else None
 
     def resample(self, rate):
@@ -264,12 +286,25 @@ class Gait:
         if not (np.isfinite(rate) and rate > 0):
             raise DesirePathError(f"A rate of {rate:g} samples a second cannot be used: give one "
                                   "above 0.")
+        if len(self.cut):
+            return self._resampled_pieces(rate)
         count = _native.resample_count(self.time[0], self.time[-1], float(rate))
         time = np.empty(count)
         com = np.empty((len(self.mass), count, 3))
         pose = np.empty((len(self.part_limb), count, 7))
         _native.resample(self.time, self.com, self.pose, float(rate), time, com, pose)
         return replace(self, time=time, com=com, pose=pose)
+
+    def _resampled_pieces(self, rate):
+        """Each piece begins when it began; in between may be a gap."""
+        have = self.rate()
+        if have is not None and abs(rate / have - 1.0) < 1e-9:
+            return self
+        parts = [self.piece(*ends).resample(rate) for ends in self.pieces()]
+        return replace(self, time=np.concatenate([p.time for p in parts]),
+                       com=np.concatenate([p.com for p in parts], axis=1),
+                       pose=np.concatenate([p.pose for p in parts], axis=1),
+                       cut=np.cumsum([len(p.time) for p in parts])[:-1])
 
 
 def _stack(blocks, kind):

@@ -1,6 +1,7 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), design 4.2 and 4.3."""
 
 import csv
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -96,6 +97,10 @@ def _find_contacts(gait, below, limits):
 def contacts(gait, ground_height=None, *, limits=None):
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
     gait.check()
+    if len(gait.cut):
+        touching, clearance = zip(*(contacts(piece, heights, limits=limits)
+                                    for piece, heights in _pieces(gait, ground_height)))
+        return _let_go(gait, np.concatenate(touching, axis=1)), np.median(clearance, axis=0)
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground_height)
     touching, clearance = _find_contacts(even, _carried_on(even, below), limits)
@@ -161,6 +166,10 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
     if not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
+    if len(gait.cut):
+        return _joined(gait, [loads(piece, model, heights, settle_time=settle_time, half_sine=half_sine,
+                                    limits=limits, options=options)
+                              for piece, heights in _pieces(gait, ground)])
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
@@ -178,6 +187,44 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     if not same:
         touching, force, point = _at(gait.time, even.time, touching, force, point)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
+
+
+# ---- a recording in pieces: every piece for itself, nothing carries over a cut -----------------------
+
+
+def _pieces(gait, ground):
+    """(piece, its ground) for each piece of a recording; ground as for ground_below."""
+    for first, after in gait.pieces():
+        one = ground is None or callable(ground) or np.ndim(ground) == 0
+        yield gait.piece(first, after), ground if one else np.asarray(ground)[:, first:after]
+
+
+def _let_go(gait, touching):
+    """Nothing touches at the samples on either side of a cut."""
+    touching[:, gait.cut] = touching[:, gait.cut - 1] = 0
+    return touching
+
+
+def _joined(gait, found):
+    """One FootForce of the whole recording from those of its pieces."""
+    chain = lambda name: np.concatenate([getattr(each, name) for each in found], axis=1)
+    touching, force, point = _let_go(gait, chain("touching")), chain("force"), chain("point")
+    force[touching == 0], point[touching == 0] = 0.0, np.nan
+    lengths = np.array([after - first for first, after in gait.pieces()], float)
+    mean = None
+    if found[0].mean is not None:
+        mean = np.average([each.mean for each in found], axis=0, weights=lengths)
+    return FootForce(gait.time, touching, force, point,
+                     np.median([each.clearance for each in found], axis=0), mean,
+                     _once(warning for each in found for warning in each.warnings))
+
+
+def _once(warnings):
+    """Sentences that differ in their numbers only are told once."""
+    told = {}
+    for warning in warnings:
+        told.setdefault(re.sub(r"-?\d+\.\d+", "#", warning), warning)
+    return tuple(told.values())
 
 
 def _at(want, have, touching, force, point):

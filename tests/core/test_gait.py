@@ -25,7 +25,7 @@ def gait(count=10, rate=24.0, shift=0.0):
 
 def same(a, b):
     for name in ("time", "com", "mass", "pose", "limb_walker", "part_limb", "point", "point_part",
-                 "point_role"):
+                 "point_role", "cut"):
         assert np.array_equal(getattr(a, name), getattr(b, name))
         assert getattr(a, name).dtype == getattr(b, name).dtype
     for name in ("limb_name", "part_name", "walker_name", "frame_rate", "frame_start", "warnings"):
@@ -107,6 +107,9 @@ def nan(array, *at):
     (lambda g: dict(soles=(Sole(np.zeros((0, 3)), np.zeros((0, 3))),) * 2), "no faces"),
     (lambda g: dict(soles=(Sole(np.zeros((2, 3)), [[0, 1, 2]]),) * 2), "without its vertices"),
     (lambda g: dict(frame_rate=0), "frame rate"),
+    (lambda g: dict(cut=[0]), "cuts do not rise"),
+    (lambda g: dict(cut=[10]), "cuts do not rise"),
+    (lambda g: dict(cut=[5, 5]), "cuts do not rise"),
 ])
 def test_bad_recordings_name_bone_and_frame(change, words):
     good = gait()
@@ -157,3 +160,34 @@ def test_thinned_motion_comes_back():
         thin = replace(g, time=time[::every], com=g.com[:, ::every], pose=g.pose[:, ::every])
         back = thin.resample(120.0)
         assert abs(back.com[0] - path(back.time)).max() < 1e-3 * (every / 8) ** 3
+
+
+# ---- pieces ------------------------------------------------------------------------------------------------
+
+
+def test_cuts_are_kept(tmp_path):
+    path = tmp_path / "walk.npz"
+    cut = replace(gait(), cut=[4, 7]).check()
+    cut.save(path)
+    same(Gait.load(path), cut)
+    assert Gait.join([cut, replace(gait(), cut=[2])]).cut.tolist() == [2, 4, 7]
+    assert cut.pieces() == [(0, 4), (4, 7), (7, 10)]
+    piece = cut.piece(4, 7).check()
+    assert np.array_equal(piece.pose, cut.pose[:, 4:7]) and not len(piece.cut) and piece.frame_start == 11
+    gait().save(path)  # one that knows no cuts, as earlier versions wrote it
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files if name != "cut"}
+    np.savez(path, **arrays)
+    same(Gait.load(path), gait())
+
+
+def test_resampling_keeps_to_the_pieces():
+    cut = replace(gait(), cut=[4])
+    fine = cut.resample(240.0).check()
+    whole = [cut.piece(*ends).resample(240.0) for ends in cut.pieces()]
+    assert fine.cut.tolist() == [31] and fine.rate() == pytest.approx(240.0)
+    assert np.array_equal(fine.pose, np.concatenate([piece.pose for piece in whole], axis=1))
+    assert fine.time[31] == pytest.approx(cut.time[4])
+    paused = replace(cut, time=cut.time + np.where(np.arange(10) < 4, 0.0, 5.0))
+    assert paused.rate() == pytest.approx(24.0) and paused.resample(24.0) is paused
+    assert replace(paused, cut=()).rate() is None

@@ -251,6 +251,28 @@ def test_mirrored_walk_has_mirrored_loads():
     assert (a.force * flip == b.force).all()
 
 
+def test_nothing_carries_over_a_cut():
+    a, b = two_feet(2), two_feet(3)
+    n = len(a.time)
+    both = replace(a, time=np.r_[a.time, a.time + a.time[-1] + a.time[1] - a.time[0]],
+                   com=np.concatenate([a.com, b.com + (9, 0, 0)], axis=1),
+                   pose=np.concatenate([a.pose, b.pose + np.eye(7)[0] * 9], axis=1), cut=[n])
+    loads, apart = walker.loads(both), (walker.loads(a), walker.loads(b))
+    assert not loads.touching[:, n - 1:n + 1].any() and not loads.force[:, n - 1:n + 1].any()
+    assert np.isnan(loads.point[:, n - 1:n + 1]).all()
+    assert np.array_equal(loads.touching[:, :n - 1], apart[0].touching[:, :-1])
+    assert np.array_equal(loads.force[:, :n - 1], apart[0].force[:, :-1])
+    assert abs(loads.force[:, n + 1:] - apart[1].force[:, 1:]).max() < 1e-6
+    assert loads.mean == pytest.approx((apart[0].mean + apart[1].mean) / 2)
+    on, _ = walker.contacts(both)
+    assert np.array_equal(on, loads.touching)
+    assert len(walker.loads(both, ground=lambda xy: np.full(len(xy), np.nan)).warnings) <= 1
+    heights = walker.loads(both, ground=np.zeros((len(both.point), 2 * n)))
+    assert np.array_equal(heights.force, loads.force)
+    fine = walker.loads(both.resample(30.0))
+    assert fine.force.shape[1] == len(fine.time)
+
+
 def test_parts_of_a_limb_carry_what_the_limb_carries():
     gait = two_feet(3)
     loads = walker.loads(gait)
