@@ -15,7 +15,7 @@ bl_info = {
 
 __version__ = ".".join(str(part) for part in bl_info["version"])
 
-_HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "Soil": "soil",
+_HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "place_feet": "place", "Soil": "soil",
          "SOILS": "soil", "Ground": "sim",
          "Simulation": "sim", "Bake": "bake", "read_index": "bake", "DesirePathError": "errors"}
 

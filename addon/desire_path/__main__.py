@@ -10,6 +10,7 @@ from . import maps, plot, walker
 from .bake import Bake
 from .errors import DesirePathError
 from .gait import Gait
+from .place import place_feet
 from .sim import HEAPS, LAWS, LOAD_MODELS, Ground
 from .soil import SOILS
 from .version import VERSION
@@ -41,9 +42,11 @@ def _bar(progress):
 
 
 def _bake(args):
-    gait = Gait.load(args.walk)
+    gait, ground = Gait.load(args.walk), _ground(args.ground, args.spacing)
+    if args.place_feet:
+        gait = place_feet(gait, ground)
     bake = Bake(
-        gait, _ground(args.ground, args.spacing), args.soil, args.out, cell_size=args.cell,
+        gait, ground, args.soil, args.out, cell_size=args.cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
         heap=args.heap, threads=args.threads, origin=args.origin,
     )
@@ -93,6 +96,8 @@ def _parser():
     bake.add_argument("--origin", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
                       help="where cells begin [m] (0 0); a report.json says where another bake's did")
     bake.add_argument("--out", required=True, help="folder for the files")
+    bake.add_argument("--place-feet", action="store_true",
+                      help="turn the feet to the ground's slope first; a walk of a level floor is carried there")
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")
     bake.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")

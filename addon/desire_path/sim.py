@@ -190,6 +190,14 @@ class Simulation:
         """World box of the ground (x0, y0, x1, y1) [m]; infinite for flat ground."""
         return self._core.bounds()
 
+    def place(self, gait, walker, numbers, clearance, pose, com, *, flat, carry):
+        """Turn a walker's feet to the ground, changing pose and com: place.place_feet is the door.
+
+        gait: walker.native_gait() of one.
+        """
+        self._core.place(gait, int(walker), bool(flat), bool(carry), np.ascontiguousarray(numbers, np.float64),
+                         np.ascontiguousarray(clearance, np.float64), pose, com)
+
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
         vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)

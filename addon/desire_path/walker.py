@@ -37,7 +37,7 @@ class FootForce:
     warnings: tuple = ()
 
 
-def _native_gait(gait):
+def native_gait(gait):
     return (gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point,
             gait.point_part, gait.point_role)
 
@@ -90,7 +90,7 @@ def _find_contacts(gait, below, limits):
 
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = np.zeros(len(gait.point))
-    _native.foot_contact(_native_gait(gait), below, touching, clearance, _numbers(LIMITS, limits))
+    _native.foot_contact(native_gait(gait), below, touching, clearance, _numbers(LIMITS, limits))
     return touching, clearance
 
 
@@ -176,7 +176,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     touching, clearance = _find_contacts(even, below, limits)
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
-    _native.foot_force(_native_gait(even), touching, below, MODELS[model], float(settle_time),
+    _native.foot_force(native_gait(even), touching, below, MODELS[model], float(settle_time),
                        bool(half_sine), force, point, _numbers(OPTIONS, options))
     mean, warnings = _weigh(even, touching, force) if model == "inertia" else (None, [])
     warnings = (_sinks(even, below) + _hovers(even, touching, clearance) + _slides(even, touching)

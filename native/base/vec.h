@@ -61,6 +61,31 @@ static inline DpVec3 dp_place(DpPose pose, DpVec3 point)
     return dp_add(pose.at, dp_turn(pose.turn, point));
 }
 
+// first b, then a
+static inline DpQuat dp_quat_product(DpQuat a, DpQuat b)
+{
+    const DpQuat q = {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+                      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+                      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+                      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+    return q;
+}
+
+// the turn back
+static inline DpQuat dp_quat_back(DpQuat q)
+{
+    const DpQuat back = {q.w, -q.x, -q.y, -q.z};
+    return back;
+}
+
+// by an angle [rad] about a unit axis
+static inline DpQuat dp_quat_about(DpVec3 axis, double angle)
+{
+    const double s = sin(0.5 * angle);
+    const DpQuat q = {cos(0.5 * angle), s * axis.x, s * axis.y, s * axis.z};
+    return q;
+}
+
 // the shortest way from a (w = 0) to b (w = 1) on the unit sphere
 static inline DpQuat dp_slerp(DpQuat a, DpQuat b, double w)
 {

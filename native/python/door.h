@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "base/status.h"
+#include "base/types.h"
 
 // Arrays opened from Python objects. Zero it, open into it, close it: everything is released.
 #define DP_DOOR_MOST 64
@@ -39,6 +40,10 @@ int dp_door_finite(const double* value, Py_ssize_t count, const char* name);
 // Set the Python exception for a status (`what` is a lower-case clause: "writing maps") and return
 // NULL. DP_OK: return None.
 PyObject* dp_door_result(DpStatus status, const char* what);
+
+// Open a gait given as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part,
+// point_role); 0, or -1 with an exception. It is valid until the door is closed.
+int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait);
 
 // Each py_<room>.c has one of these tables; module.c adds them all.
 extern PyMethodDef dp_py_walker_methods[];

@@ -370,6 +370,9 @@ static PyMethodDef methods[] = {
      "normal(x, y, radius) -> (x, y, z): normal of the rest ground, smoothed over radius [m]."},
     {"bounds", (PyCFunction)simulation_bounds, METH_NOARGS,
      "bounds() -> (x0, y0, x1, y1): world box of the ground [m]; infinite for flat ground."},
+    {"place", dp_py_place, METH_VARARGS,
+     "place(gait, walker, flat, carry, numbers (5,) f8, clearance (K,) f8, pose, com): turn a"
+     " walker's feet to the rest ground, changing pose and com. TRAIL (1) (2)"},
     {"load", (PyCFunction)simulation_load, METH_VARARGS,
      "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
      " sole_triangle_count, touching, force, point): take an evenly sampled recording with loads."},

@@ -53,3 +53,6 @@ void      dp_py_drop_frames(Simulation* self);
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
 PyObject* dp_py_write_frame(PyObject* object, PyObject* args);
 PyObject* dp_py_flush(PyObject* object, PyObject* unused);
+
+// py_place.c
+PyObject* dp_py_place(PyObject* object, PyObject* args);

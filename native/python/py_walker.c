@@ -5,9 +5,7 @@
 #include "python/door.h"
 #include "walker/walker.h"
 
-// A gait as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part,
-// point_role).
-static int open_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
+int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
 {
     if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != 9) {
         PyErr_SetString(PyExc_TypeError,
@@ -130,7 +128,7 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
                        l.touch_speed_share, l.release_speed,  l.slow_speed,         l.shortest,
                        l.point_cutoff,      l.com_cutoff,     l.support_fall};
     PyObject* result = NULL;
-    if (open_gait(&door, tuple, &gait) < 0) goto done;
+    if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
     const double* below =
         dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
     uint8_t* on = below ? dp_door_open(&door, touching, "touching", 'B',
@@ -166,7 +164,7 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
                           o.ramp_standing, o.ramp_alone, o.ramp_trust,  o.reach};
     PyObject*     result = NULL;
     double *      out_force = NULL, *out_point = NULL;
-    if (open_gait(&door, tuple, &gait) < 0) goto done;
+    if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
     const uint8_t* on =
         dp_door_open(&door, touching, "touching", 'B', DP_SHAPE2(gait.parts, gait.times), false);
     if (!on) goto done;

@@ -46,6 +46,11 @@ void     dp_sim_destroy(DpSim* sim);
 DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
                      const double* pressure_point);
 
+// Turn one walker's feet to the rest ground of a terrain, and carry it there: see dp_foot_place.
+DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
+                      const DpPlaceOptions* options, const double* clearance, double* pose,
+                      double* com);
+
 // Cells the loaded recording can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
 // empty (i0 >= i1) when nothing touches.
 void dp_sim_reach(const DpSim* sim, long reach[4]);

@@ -3,8 +3,10 @@
 //   gait_resample ---Gait at one rate---> foot_contact ---touching---> foot_force
 //   design 3                              TRAIL (4)                    TRAIL (3), SOFT22 (3)-(8)
 //
+//   foot_place: a Gait of the floor ---> a Gait of the slope, before all that. TRAIL (1) (2)
+//
 // These are whole-clip functions: forces are filtered without phase, so they need what comes after.
-// They know no terrain; the height of the ground below each contact point is given.
+// They know no terrain; the height of the ground below each contact point is given, or asked for.
 #pragma once
 #include "base/status.h"
 #include "base/types.h"
@@ -20,6 +22,41 @@ int dp_gait_resample_count(double first, double last, double rate);
 // memory for nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
 DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* time, double* com,
                           double* pose);
+
+// ---- TRAIL (1) (2): feet on a slope ---------------------------------------------------------------
+
+// The rest ground, asked for where feet come to be.
+typedef struct DpGroundBelow
+{
+    const void* ground;
+    double (*height)(const void* ground, double x, double y);                 // NaN = no ground [m]
+    DpVec3 (*normal)(const void* ground, double x, double y, double radius);  // unit, smoothed
+} DpGroundBelow;
+
+// Start from dp_place_options_default().
+typedef struct DpPlaceOptions
+{
+    double reach;        // d_max, feet this high over the ground are as recorded     [m]   > 0
+    double toe_slope;    // theta_0, up steeper slopes only the toes carry            [rad] >= 0
+    double foot_radius;  // the ground is smoothed over this under a foot             [m]   > 0
+    double body_radius;  // and over this under the body                              [m]   > 0
+    bool   flat;         // near the ground feet lie flat on it, as printed; else they keep their
+                         //   roll: they stand on the slope as they stood on the floor [-]
+    bool   carry;        // recorded on level floor: feet and body rise and sink with the ground [-]
+    double floor;        // height of that floor                                      [m]
+} DpPlaceOptions;
+
+DpPlaceOptions dp_place_options_default(void);
+
+// Turn one walker's feet to the ground below them; none is pushed into it. TRAIL (1) (2).
+// @param clearance  resting height of each point over floor (carry) or ground  [m] (K)
+// @param pose       changed where the walker's parts are             [m, -] (P, T, 7)
+// @param com        changed where the walker is carried              [m]    (W, T, 3)
+// pose and com are copies of the gait's own to begin with, of which other walkers' rows stay.
+// DP_NO_GROUND if one who is carried has a foot or the body never over the ground.
+DpStatus dp_foot_place(const DpGait* gait, int walker, const DpGroundBelow* below,
+                       const DpPlaceOptions* options, const double* clearance, double* pose,
+                       double* com);
 
 // ---- TRAIL (4): which part touches when ---------------------------------------------------------
 

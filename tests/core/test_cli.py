@@ -40,6 +40,19 @@ def test_bake_on_flat_ground(tmp_path, walk):
     assert (tmp_path / "folder" / "maps_final.exr").exists()
 
 
+def test_feet_are_placed_on_a_hill(tmp_path, walk):
+    step = np.arange(-2.0, 2.01, 0.1)
+    hill = 3.0 + 0.3 * np.broadcast_to(step, (len(step), len(step)))
+    maps.write(tmp_path / "hill.exr", {"height": hill.astype("f4")},
+               [("cell", 0.1), ("originX", -2.05), ("originY", -2.05)])
+    on_hill = ("bake", walk, "--ground", tmp_path / "hill.exr", "--out", tmp_path / "folder")
+    assert run(*on_hill).returncode == 1  # it stands three metres deep in the hill
+    done = run(*on_hill, "--place-feet")
+    assert done.returncode == 0, done.stderr
+    report = json.loads((tmp_path / "folder" / "report.json").read_text())
+    assert report["contacts"] == 1 and 0.005 < report["deepest_m"] < 0.1 and not report["warnings"]
+
+
 def test_cells_begin_where_they_are_told(tmp_path, walk):
     for origin, folder in ((("0", "0"), "a"), (("0.005", "-0.005"), "b")):
         done = run("bake", walk, "--soil", "mud", "--origin", *origin, "--out", tmp_path / folder)

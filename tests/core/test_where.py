@@ -73,7 +73,7 @@ def test_where_without_words_is_a_table(tree):
     assert "soil/soil_press.c:3" in lines[2]
 
 
-@pytest.mark.parametrize("number", [3, 4, 9, 10, 11, 12, 13, 14, 15, 16, 17])
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 9, 10, 11, 12, 13, 14, 15, 16, 17])
 def test_every_equation_is_on_the_line_that_computes_it(number):
     told = run("where", number).stdout
     assert re.search(r"\n  computed: .*\n    native/\w+/\w+\.c:\d+ ", told), told

@@ -1,0 +1,110 @@
+"""Feet put on the ground they walk over, and the walker carried there. TRAIL (1) (2), design 4.1
+
+    Gait of a level floor --carry: feet and body rise with the ground--> --tilt: (1), (2)--> Gait of the hill
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from . import walker as walks
+from .errors import DesirePathError
+
+REACH = 0.20  # d_max: feet this high over the ground are as recorded [m]
+TOE_SLOPE = math.radians(15.0)  # theta_0: up steeper slopes the heels stay up [rad]
+BODY = 0.5  # the body follows the ground smoothed over this, in heights of the mass centre
+SLOW = 0.25  # points that rest are slower [m/s]
+CLEARLY = 0.01  # the floor fits a clip better than the ground only by more than this [m]
+
+
+def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, carry=None, floor=None,
+               foot_radius=None, body_radius=None, walkers=None):
+    """The same walk with its feet on this ground, as a new Gait. TRAIL (1) (2)
+
+    ground: a Ground or a Simulation. reach: d_max [m]. toe_slope: theta_0 [rad], the slope from which heels
+    stay up. roll: feet keep the roll they have over their floor; False: they lie flat near the ground, as the
+    paper prints (1). carry: the clip was recorded on a level floor, so that feet and body rise and sink with
+    the ground; None: where the floor fits it better, or it is far from the ground. floor: its height [m], None: where the
+    feet rest. foot_radius, body_radius: over which the ground is smoothed [m], None: a foot's length, half
+    the height of the mass centre. walkers: their indices, None: all.
+    """
+    from .sim import Ground, Simulation
+
+    gait.check()
+    land = Simulation(ground) if isinstance(ground, Ground) else ground
+    if not isinstance(land, Simulation):
+        raise DesirePathError("Feet are placed on a Ground or a Simulation: make one of the ground first.")
+    for name, value in (("reach", reach), ("smoothing radius of a foot", foot_radius),
+                        ("smoothing radius of the body", body_radius)):
+        if value is not None and not (math.isfinite(value) and value > 0.0):
+            raise DesirePathError(f"A {name} of {value:g} m cannot be used: give one above 0.")
+    if not 0.0 <= toe_slope <= math.pi / 2:
+        raise DesirePathError(f"A toe slope of {toe_slope:g} rad cannot be used: give 0 to {math.pi / 2:.2f}.")
+    if floor is not None and not math.isfinite(floor):
+        raise DesirePathError("The floor's height is not a number: give it in metres, or none.")
+    rows = range(len(gait.mass)) if walkers is None else walkers
+    pose, com = gait.pose.copy(), gait.com.copy()
+    for row in rows:
+        if not 0 <= row < len(gait.mass):
+            raise DesirePathError(f"There is no walker {row}: the recording has {len(gait.mass)}.")
+        carried = carries(gait, land, row) if carry is None else bool(carry)
+        clearance, stood = _stands(gait, land, row, carried, floor)
+        high = float(np.median(gait.com[row, :, 2])) - stood
+        numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row),
+                   body_radius or BODY * max(high, 0.1), stood)
+        try:
+            land.place(walks.native_gait(gait), row, numbers, clearance, pose, com, flat=not roll, carry=carried)
+        except ValueError as problem:
+            if "no ground" not in str(problem):
+                raise
+            raise DesirePathError(f"{gait.walker_name[row]} walks beside the ground: move the walker or the "
+                                  "ground so that one lies over the other.") from None
+    return replace(gait, pose=pose, com=com)
+
+
+def carries(gait, land, row):
+    """Was this walker recorded on a level floor rather than on this ground?"""
+    own = _points_of(gait, row)
+    places = walks.point_places(gait)[own]
+    flat = places[..., 2]
+    over = flat - land.rest_height(places[..., :2].reshape(-1, 2)).reshape(flat.shape)
+    if len(gait.time) > 1:
+        rests = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2) < SLOW
+    else:
+        rests = np.ones(flat.shape, bool)
+    rests &= np.isfinite(over)
+    if rests.sum() < 3:
+        return True
+    if abs(float(np.median(over[rests]))) > walks.HOVER:
+        return True
+    return _spread(over, rests) > _spread(flat, rests) + CLEARLY
+
+
+def _spread(height, rests):
+    """How far a point's resting places are apart in height, for three of four of them [m]."""
+    apart = [np.abs(row[on] - np.median(row[on])) for row, on in zip(height, rests) if on.any()]
+    return float(np.quantile(np.concatenate(apart), 0.75))
+
+
+def _points_of(gait, row):
+    return np.flatnonzero(gait.limb_walker[gait.part_limb[gait.point_part]] == row)
+
+
+def _foot_length(gait, row):
+    """Of one walker's soles, the parts of a limb end to end [m]."""
+    length = np.zeros(len(gait.limb_walker))
+    for part, limb in enumerate(gait.part_limb):
+        length[limb] += float(np.ptp(gait.soles[part].vertices[:, 0]))
+    return max(float(np.median(length[gait.limb_walker == row])), 0.02)
+
+
+def _stands(gait, land, row, carried, floor):
+    """Resting clearance of each point over what it stood on (K,), and the height of a level floor [m]."""
+    touching, clearance = walks.contacts(gait, None if carried else land.rest_height)
+    if not carried:
+        return clearance, 0.0
+    own = _points_of(gait, row)
+    used = own[touching[gait.point_part[own]].any(axis=1)]
+    stood = float(np.median(clearance[used if len(used) else own])) if floor is None else float(floor)
+    return clearance - stood, stood

@@ -1,0 +1,193 @@
+"""Feet on slopes: against a literal twin, and prints up, down and across a hill. TRAIL (1) (2), oracle 13."""
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from desire_path import body, place, walker
+from desire_path.errors import DesirePathError
+from desire_path.gait import BALL, HEEL, TIP, Gait, Sole
+from desire_path.sim import Ground, Simulation
+from reference import place as twin
+from scenes import bvh
+
+WALK = Path(__file__).resolve().parents[1] / "scenes" / "walks" / "cmu_12_01_walk.bvh"
+SOLE = Sole([[-0.1, -0.05, 0], [0.1, -0.05, 0], [0.1, 0.05, 0], [-0.1, 0.05, 0]], [[0, 1, 2], [0, 2, 3]])
+CELL = 0.01
+
+
+def plane(x, y, height=0.0, half=8.0):
+    """Ground that rises by x and y along the axes."""
+    step = np.linspace(-half, half, 65)
+    across, along = np.meshgrid(step, step)
+    return Ground.heights(height + x * across + y * along, 2 * half / 64, -half, -half)
+
+
+@lru_cache(maxsize=1)
+def cmu():
+    skeleton, motion, rate = bvh.load(WALK, scale=0.056444)
+    return body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=rate)
+
+
+def quaternions(random, count, most):
+    """Turns about any axis by at most `most` [rad], then about z by anything."""
+    axis = random.normal(size=(count, 3))
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    half, yaw = random.uniform(-most, most, count) / 2, random.uniform(-1.5, 1.5, count)
+    w, (x, y, z) = np.cos(half), np.sin(half) * axis.T
+    c, s = np.cos(yaw), np.sin(yaw)
+    return np.stack([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w], axis=1)
+
+
+# ---- the twin ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("roll", [True, False])
+def test_places_as_trail_1_and_2_say(seed, roll):
+    random = np.random.default_rng(seed)
+    count = 20
+    pose = np.zeros((2, count, 7))
+    pose[0, :, :3] = random.uniform((-1, -1, 0), (1, 1, 0.25), (count, 3))
+    pose[1, :, :3] = pose[0, :, :3] + random.uniform(-0.2, 0.2, (count, 3))
+    pose[:, :, 3:] = quaternions(random, 2 * count, 0.5).reshape(2, count, 4)
+    points = [np.array([(-0.06, 0.01, 0.0), (0.14, 0, 0.0)]), np.array([(0, 0, 0), (0.06, 0, 0.0)])]
+    gait = Gait(time=np.arange(count) / 20.0, com=np.tile((0.0, 0.0, 0.9), (1, count, 1)), mass=[70.0],
+                pose=pose, limb_walker=[0], part_limb=[0, 0], soles=(SOLE, SOLE),
+                point=np.concatenate(points), point_part=[0, 0, 1, 1], point_role=[HEEL, BALL, BALL, TIP],
+                frame_rate=20.0)
+    x, y = random.uniform(-0.6, 0.6, 2)
+    normal = np.array([-x, -y, 1.0]) / math.sqrt(x * x + y * y + 1)
+    got = place.place_feet(gait, plane(x, y, 5.0), roll=roll, carry=True, floor=0.0, reach=0.3,
+                           toe_slope=0.1)
+    clearance = walker.contacts(gait)[1]
+    tips = walker.point_places(gait)[[0, 3], :, 2] - clearance[[0, 3], None]
+    for t in range(count):
+        want = twin.place(pose[:, t], points, tips[:, t], lambda a, b: 5.0 + x * a + y * b, normal, floor=0.0,
+                          d_max=0.3, theta_0=0.1, flat=not roll)
+        for part, (at, turn) in enumerate(want):
+            np.testing.assert_allclose(got.pose[part, t, :3], at, atol=2e-6)  # heights are float32
+            np.testing.assert_allclose(twin.matrix(got.pose[part, t, 3:]), turn, atol=2e-6)
+    np.testing.assert_allclose(got.com[0, :, 2], 0.9 + 5.0, atol=1e-5)
+
+
+# ---- what holds of any walk -------------------------------------------------------------------------
+
+
+def test_level_ground_leaves_a_walk_as_it_is():
+    gait = cmu()
+    for carry in (None, False):
+        same = place.place_feet(gait, Ground.flat(), carry=carry)
+        np.testing.assert_allclose(same.pose, gait.pose, atol=1e-9)
+        np.testing.assert_array_equal(same.com, gait.com)
+    raised = place.place_feet(gait, Ground.flat(2.0), carry=True, floor=0.0)
+    np.testing.assert_allclose(raised.pose[..., 2], gait.pose[..., 2] + 2.0, atol=1e-9)
+    np.testing.assert_allclose(raised.com, gait.com + (0, 0, 2.0), atol=1e-9)
+
+
+def test_a_walk_of_the_hill_is_not_carried_twice():
+    hill = plane(0.2, -0.3)
+    once = place.place_feet(cmu(), hill)
+    land = Simulation(hill)
+    assert place.carries(cmu(), land, 0) and not place.carries(once, land, 0)
+    again = place.place_feet(once, hill, roll=False)
+    np.testing.assert_array_equal(again.com, once.com)
+
+
+def test_it_stands_and_weighs_as_on_the_floor():
+    gait = cmu()
+    land = Simulation(plane(0.1, -0.25, 3.0))
+    placed = place.place_feet(gait, land)
+    flat, hill = walker.loads(gait), walker.loads(placed, ground=land.rest_height)
+    assert not hill.warnings
+    assert hill.mean == pytest.approx(flat.mean, rel=0.01)
+    assert (hill.touching != flat.touching).mean() < 0.03
+    # nobody stands in the hill
+    places = walker.point_places(placed)
+    over = places[..., 2] - land.rest_height(places[..., :2].reshape(-1, 2)).reshape(places.shape[:2])
+    before = walker.point_places(gait)[..., 2]
+    assert over.min() > min(before.min() - np.median(walker.contacts(gait)[1]), 0.0) - 1e-6
+
+
+def test_on_rough_ground_the_body_goes_smoothly():
+    x = np.arange(-3.0, 3.0, 0.05)
+    random = np.random.default_rng(2)
+    rough = Ground.heights(random.uniform(-0.02, 0.02, (len(x), len(x))), 0.05, -3.0, -3.0)
+    placed = place.place_feet(cmu(), rough, carry=True)
+    rise = placed.com[0, :, 2] - cmu().com[0, :, 2]
+    assert np.ptp(rise) < 0.01
+    assert walker.loads(placed, ground=Simulation(rough).rest_height).mean == pytest.approx([1.0], abs=0.03)
+
+
+def test_one_of_two_walkers():
+    gait = cmu()
+    two = Gait.join([gait, replace(gait, walker_name=("Other",))])
+    placed = place.place_feet(two, plane(0.2, 0.1), walkers=[1])
+    alone = place.place_feet(gait, plane(0.2, 0.1))
+    parts = len(gait.part_limb)
+    np.testing.assert_array_equal(placed.pose[:parts], gait.pose)
+    np.testing.assert_array_equal(placed.com[0], gait.com[0])
+    np.testing.assert_allclose(placed.pose[parts:], alone.pose, atol=1e-12)
+
+
+@pytest.mark.parametrize("words, arguments", [
+    ("walks beside the ground", {"ground": Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0), "carry": True}),
+    ("A reach of 0 m", {"reach": 0.0}), ("toe slope of -1", {"toe_slope": -1.0}),
+    ("radius of a foot of -1 m", {"foot_radius": -1.0}), ("no walker 3", {"walkers": [3]}),
+    ("floor's height", {"floor": math.nan}), ("Ground or a Simulation", {"ground": 0.0}),
+])
+def test_what_cannot_be_is_a_sentence(words, arguments):
+    arguments = {"ground": plane(0.1, 0.1), **arguments}
+    with pytest.raises(DesirePathError, match=words):
+        place.place_feet(cmu(), **arguments)
+
+
+# ---- oracle 13, TRAIL Fig. 12 -------------------------------------------------------------------------
+
+
+def tracks(steep, turned):
+    """Prints of the walk on a slope that rises by `steep` [degrees] along its way turned by `turned`.
+
+    (mean length of a whole print along the slope, how far the heaps' centre lies ahead of the prints', how
+    far to the left) [m]
+    """
+    gait = cmu()
+    way = gait.com[0, -1, :2] - gait.com[0, 0, :2]
+    ahead = math.atan2(way[1], way[0])
+    rise = math.tan(math.radians(steep))
+    land = Simulation(plane(rise * math.cos(ahead + turned), rise * math.sin(ahead + turned)), "dry-sand", CELL)
+    placed = place.place_feet(gait, land)
+    land.load(placed, walker.loads(placed, ground=land.rest_height))
+    i0, i1, j0, j1 = land.reach()
+    land.run(len(placed.time) - 1)
+    land.settle()
+    pressed, heap = (land.read(name, i0, j0, i1 - i0, j1 - j0) for name in ("compression", "heap"))
+    x, y = np.meshgrid((np.arange(i0, i1) + 0.5) * CELL, (np.arange(j0, j1) + 0.5) * CELL)
+    along = x * math.cos(ahead) + y * math.sin(ahead)
+    aside = y * math.cos(ahead) - x * math.sin(ahead)
+    centre = lambda of, weight: float((of * weight).sum() / weight.sum())
+    prints = np.sort(along[pressed > 0.25 * pressed.max()])
+    cuts = np.flatnonzero(np.diff(prints) > 0.2) + 1
+    assert 6 <= len(cuts) + 1 <= 8
+    lengths = [np.ptp(each) for each in np.split(prints, cuts)][1:-1]
+    stretch = math.hypot(1.0, rise * math.cos(turned))
+    return (float(np.mean(lengths)) * stretch, centre(along, heap) - centre(along, pressed),
+            centre(aside, heap) - centre(aside, pressed))
+
+
+def test_prints_of_a_hill():
+    level, fore, _ = tracks(0.0, 0.0)
+    up, up_fore, _ = tracks(25.0, 0.0)
+    down, down_fore, _ = tracks(25.0, math.pi)
+    side, _, side_left = tracks(25.0, math.pi / 2)  # rises to the left
+    assert up < 0.75 * level  # toes alone
+    assert down > level > up  # the whole foot, and longer
+    assert side > 0.97 * level
+    assert up_fore < fore - 0.02 and down_fore > fore + 0.02  # the heap behind; ahead
+    assert side_left < -0.02  # on the low side
+    gentle, _, _ = tracks(10.0, 0.0)
+    assert gentle > 0.95 * level  # below theta_0 heels come down
