@@ -361,7 +361,7 @@ def test_table_has_a_row_a_part_and_sample(tmp_path):
 
 def test_native_door_checks():
     gait = two_feet(1)
-    good = walker._native_gait(gait)
+    good = walker.native_gait(gait)
     on, clear, ground = np.zeros((2, 300), "u1"), np.zeros(2), np.zeros((2, 300))
     _native.foot_contact(good, ground, on, clear)
     for bad in (good[:8], good[:3] + (gait.pose[:, :-1].copy(),) + good[4:],
