@@ -3,8 +3,9 @@
 //   recording          walker                  imprint        soil                    maps
 //   DpGait  ------->   contact, forces  ---->  cells under -> pressed, pushed aside, -> EXR
 //   (who walked how)   TRAIL (3) (4)           the sole       at rest TRAIL (9)-(16)   TRAIL (17)
-//                                                  ^              ^
-//                                                  +-- terrain ---+   sparse tiles, patches lent
+//                                                  ^              ^   ^
+//                                                  +-- terrain ---+   +-- plants bend, wear, hold
+//                                        sparse tiles, patches lent       the soil TRAIL (5)-(8)
 //
 // sim/ runs one step in the paper's order and is the only place where rooms meet. The frame and the
 // units are said in base/types.h. Tags such as `TRAIL (13)` name equations of
@@ -16,6 +17,7 @@
 #include "walker/walker.h"
 #include "imprint/imprint.h"
 #include "soil/soil.h"
+#include "plants/plants.h"
 #include "terrain/terrain.h"
 #include "maps/maps.h"
 #include "sim/sim.h"

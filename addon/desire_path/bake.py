@@ -29,6 +29,7 @@ from . import maps, walker
 from .errors import DesirePathError
 from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
+from .plants import as_plantings
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils
 from .version import VERSION
 
@@ -52,13 +53,14 @@ class Bake:
 
     gait: Gait; ground: Ground; soils as for Simulation; folder: where the files go.
     cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
-    load_model: "inertia" or "impulse"; law, heap, rim_width, threads: as for Simulation.
+    load_model: "inertia" or "impulse"; law, heap, rim_width, threads, plants: as for Simulation.
     resume: go on where the same bake was stopped. map_seconds: write maps after every second.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
-                 rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True):
+                 rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
+                 plants=()):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -67,6 +69,7 @@ class Bake:
         self.gait = gait
         self.ground = ground
         self.soils = as_soils(soils)
+        self.plants = as_plantings(plants)
         self.folder = os.path.abspath(os.fspath(folder))
         self.frame_rate = float(gait.frame_rate)
         last = gait.frame_start + math.floor(
@@ -93,6 +96,7 @@ class Bake:
     # ---- what is baked --------------------------------------------------------------------------
 
     def _parameters(self):
+        grown = {"plants": [planting.told() for planting in self.plants]} if self.plants else {}
         return {
             "cell_size": self.cell_size,
             "frame_start": self.frame_start,
@@ -104,6 +108,7 @@ class Bake:
             "walkers": list(self.gait.walker_name),
             "mass_kg": [float(mass) for mass in self.gait.mass],
             **self.options,
+            **grown,
         }
 
     def _signature(self):
@@ -113,6 +118,8 @@ class Bake:
         arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
+        for planting in self.plants:
+            arrays += planting.arrays()
         for array in arrays + self.ground.arrays():
             digest.update(np.ascontiguousarray(array).data)
         digest.update(repr([part for part in self.ground.native if isinstance(part, float)]).encode())
@@ -122,7 +129,8 @@ class Bake:
         """The ground with the recording on it, at a whole number of samples a frame."""
         self.samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
         gait = self.gait.resample(self.frame_rate * self.samples)
-        sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads, **self.options)
+        sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads,
+                         plants=self.plants, **self.options)
         walks = walker.Walker(self.load_model, settle_time=self.soils[0].settle_time)  # tau of TRAIL (3)
         self.loads = walks.loads(gait, sim.rest_height)
         sim.load(gait, self.loads)
@@ -189,6 +197,7 @@ class Bake:
         sim = self._simulation()
         tiles = self._rectangle(sim)
         sim.open_frames(*tiles)
+        start = self._start_maps(sim, tiles)
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
         fresh = os.path.join(self.folder, "frames.new")
@@ -220,7 +229,7 @@ class Bake:
 
         seconds["step"], seconds["write"] = spent_step, spent_write
         self._maps(sim, tiles, os.path.join(self.folder, "maps_final.exr"), frame)
-        self._start_maps(sim, tiles)
+        maps.write(os.path.join(self.folder, "maps_start.exr"), start, self._notes(tiles, self.gait.frame_start))
         write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
         seconds["total"] = time.perf_counter() - seconds["total"]
         self.report = self._report(sim, seconds)
@@ -313,10 +322,8 @@ class Bake:
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles
         window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-        modulus = sim.read("young_modulus", *window)
-        planes = {"plant_strength_in": np.zeros_like(modulus), "young_modulus_in": modulus}
-        maps.write(os.path.join(self.folder, "maps_start.exr"), planes,
-                   self._notes(tiles, self.gait.frame_start))
+        return {"plant_strength_in": sim.read("plant_strength", *window),
+                "young_modulus_in": sim.read("young_modulus", *window)}
 
     def _report(self, sim, seconds):
         found = sim.report()

@@ -1,5 +1,14 @@
-"""Kinds of plants, design 7 and 9: data in SI units that can be saved, changed and shared."""
+"""Plants, design 7 and 9: kinds, as data in SI units that can be saved, changed and shared, and where they stand.
 
+    lawn = Planting(KINDS["lawn"], seed=3)                       # wherever the walk goes, 300 plants a m^2
+    meadow = Planting("meadow", weight=grid, rectangle=(0, 0, 8, 5))   # thinned by an image over 8 x 5 m
+    sim = Simulation(ground, soils, plants=[lawn, meadow])       # several kinds on one ground
+    bake = Bake(gait, ground, soils, folder, plants=[lawn])
+"""
+
+from __future__ import annotations
+
+import functools
 import json
 import math
 from dataclasses import asdict, dataclass, fields
@@ -7,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import whole
+from . import _native, whole
 from .errors import DesirePathError
 
 FORMS = ("surface", "tuft")
@@ -117,3 +126,161 @@ KINDS = {
     "fern": _kind(0.45, 0.16, 0.05, 1.4, 8, 50, 0.06, form="tuft", sheets=3, curl_deg=11, radius=0.006, across=10.0,
                   reach=0.30, full_density=5.0, density=8.0, modulus=5e6),
 }
+
+
+# ---- where they stand ------------------------------------------------------------------------------------------
+
+SQUARE = 2.0  # side of the squares in which ground is planted [m]; the same seed gives each the same roots
+MOST_PLANTS = 4_000_000  # of one planting
+
+
+@dataclass(frozen=True, eq=False)
+class Planting:
+    """Plants of one kind on a ground: by density and seed, thinned by weight, or roots given outright.
+
+    kind: a Kind, or a name in KINDS. density [1/m^2] > 0: None = the kind's own. seed: whole number >= 0; the same
+    seed puts the same plants in the same places, whatever part of the ground is walked on.
+    rectangle: (x0, y0, x1, y1) [m], where they may stand: None = everywhere on the ground.
+    weight: (ny, nx), 0..1, over the rectangle, row 0 at the lowest y: thins the density; None = 1.
+    roots: (n, 2) [m]: exactly these plants, in place of density, rectangle and weight.
+    """
+
+    kind: Kind
+    density: float | None = None
+    seed: int = 0
+    weight: np.ndarray | None = None
+    rectangle: tuple | None = None
+    roots: np.ndarray | None = None
+
+    def __post_init__(self):
+        put = functools.partial(object.__setattr__, self)
+        put("kind", as_kind(self.kind))
+        if self.density is not None and not (_is_number(self.density) and 1e-6 <= self.density <= 1e5):
+            raise DesirePathError(f"A density of {self.density} plants a m^2 cannot be planted: choose one from 1e-6 "
+                                  "to 100000, or None for the kind's own.")
+        put("density", float(self.kind.density if self.density is None else self.density))
+        if isinstance(self.seed, bool) or not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 1 << 64:
+            raise DesirePathError(f"A seed of {self.seed} cannot be used: choose a whole number, 0 or more.")
+        if self.rectangle is not None:
+            box = tuple(float(value) for value in self.rectangle)
+            if len(box) != 4 or not all(map(math.isfinite, box)) or box[0] >= box[2] or box[1] >= box[3]:
+                raise DesirePathError(f"The rectangle {self.rectangle} holds no ground: give x0, y0, x1, y1 in metres.")
+            put("rectangle", box)
+        if self.weight is not None:
+            weight = np.ascontiguousarray(self.weight, np.float32)
+            if weight.ndim != 2 or 0 in weight.shape or self.rectangle is None:
+                raise DesirePathError("The weight of a planting needs rows and columns, and a rectangle to lie over.")
+            if not (np.isfinite(weight).all() and weight.min() >= 0):
+                raise DesirePathError("The weight of a planting must be 0 to 1 everywhere: mend what is not.")
+            put("weight", weight)
+        if self.roots is not None:
+            roots = np.ascontiguousarray(self.roots, np.float32)
+            if roots.ndim != 2 or roots.shape[1] != 2 or not np.isfinite(roots).all():
+                raise DesirePathError(f"Roots of shape {roots.shape} cannot be planted: give finite x, y [m], (n, 2).")
+            put("roots", roots)
+
+    def within(self, x0, y0, x1, y1):
+        """Roots (n, 2) float32 [m] of the squares that a rectangle [m] meets: what may stand there."""
+        return self.in_squares(self.squares(x0, y0, x1, y1))
+
+    def squares(self, x0, y0, x1, y1):
+        """Squares (sx, sy) of side SQUARE that a rectangle [m] and the planting's own have in common."""
+        if self.roots is not None:
+            return []
+        if self.rectangle is not None:
+            x0, y0 = max(x0, self.rectangle[0]), max(y0, self.rectangle[1])
+            x1, y1 = min(x1, self.rectangle[2]), min(y1, self.rectangle[3])
+        if x0 >= x1 or y0 >= y1:
+            return []
+        columns = range(math.floor(x0 / SQUARE), math.ceil(x1 / SQUARE))
+        rows = range(math.floor(y0 / SQUARE), math.ceil(y1 / SQUARE))
+        if len(columns) * len(rows) * SQUARE ** 2 * self.density > MOST_PLANTS:
+            raise DesirePathError(f"The walk would meet more than {MOST_PLANTS} plants: choose a lower density, or "
+                                  "plant a rectangle.")
+        return [(column, row) for row in rows for column in columns]
+
+    def in_squares(self, squares):
+        """Roots (n, 2) float32 [m] that stand in squares."""
+        found = [np.zeros((0, 2), np.float32)]
+        room = np.zeros((int(2 * SQUARE ** 2 * self.density) + 16, 2), np.float32)
+        for column, row in squares:
+            x0, y0 = column * SQUARE, row * SQUARE
+            count = _native.plants_place(x0, y0, x0 + SQUARE, y0 + SQUARE, self.density, None,
+                                         _mixed(self.seed, column, row), room)
+            found.append(room[:count].copy())
+        roots = np.concatenate(found)
+        if self.rectangle is not None:
+            x0, y0, x1, y1 = self.rectangle
+            inside = (roots[:, 0] >= x0) & (roots[:, 0] < x1) & (roots[:, 1] >= y0) & (roots[:, 1] < y1)
+            roots = roots[inside]
+        if self.weight is not None and len(roots):
+            rows, columns = self.weight.shape
+            i = np.clip(((roots[:, 0] - x0) / (x1 - x0) * columns).astype(int), 0, columns - 1)
+            j = np.clip(((roots[:, 1] - y0) / (y1 - y0) * rows).astype(int), 0, rows - 1)
+            roots = roots[_chances(self.seed, roots) < self.weight[j, i]]
+        return np.ascontiguousarray(roots)
+
+    def told(self):
+        """What it is, for a report: numbers and words only."""
+        told = {"kind": asdict(self.kind), "density": self.density, "seed": int(self.seed)}
+        if self.rectangle is not None:
+            told["rectangle"] = list(self.rectangle)
+        return told
+
+    def arrays(self):
+        """The arrays that tell one planting from another."""
+        return [array for array in (self.weight, self.roots) if array is not None]
+
+
+def as_kind(kind):
+    """A Kind from a Kind or the name of one."""
+    if isinstance(kind, str):
+        if kind not in KINDS:
+            raise DesirePathError(f"There is no plant '{kind}': choose one of {', '.join(KINDS)}.")
+        return KINDS[kind]
+    if not isinstance(kind, Kind):
+        raise DesirePathError(f"{kind!r} is no kind of plant: give a Kind or one of {', '.join(KINDS)}.")
+    return kind
+
+
+def as_plantings(plants):
+    """A list of Planting from one, one kind or its name, or a sequence of any of these."""
+    if plants is None:
+        return []
+    if isinstance(plants, (str, Kind, Planting)):
+        plants = [plants]
+    return [planted if isinstance(planted, Planting) else Planting(planted) for planted in plants]
+
+
+def seed_of(plantings):
+    """One seed for what differs from plant to plant in a stand of several plantings."""
+    seed = 0
+    for planting in plantings:
+        seed = _mixed(seed, int(planting.seed), 0)
+    return seed
+
+
+def _is_number(value):
+    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+
+
+def _mixed(seed, a, b):
+    """A seed from three whole numbers (splitmix64)."""
+    for value in (a, b):
+        seed = (int(seed) ^ (value & _WORD)) + 0x9E3779B97F4A7C15 & _WORD
+        seed = (seed ^ seed >> 30) * 0xBF58476D1CE4E5B9 & _WORD
+        seed = (seed ^ seed >> 27) * 0x94D049BB133111EB & _WORD
+        seed ^= seed >> 31
+    return seed
+
+
+def _chances(seed, roots):
+    """A number 0..1 for every root (n, 2), from its place."""
+    mixed = roots.view(np.uint32).astype(np.uint64) * np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], np.uint64)
+    mixed = mixed[:, 0] ^ mixed[:, 1] ^ np.uint64(_mixed(seed, 1, 0))
+    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+        mixed = (mixed ^ mixed >> np.uint64(shift)) * np.uint64(factor)
+    return (mixed >> np.uint64(11)).astype(float) / (1 << 53)
+
+
+_WORD = (1 << 64) - 1

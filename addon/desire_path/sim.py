@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _native
 from .errors import DesirePathError
+from .plants import as_plantings, seed_of
 from .soil import SOILS, Soil
 from .version import VERSION
 
@@ -146,10 +147,12 @@ class Simulation:
     cell_size: side of a cell [m], 0.0005 to 1.
     law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: reach of a "paper" heap.
     threads: 0 = as many as the machine has; the result is the same for any number.
+    plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
+        a loaded walk can reach them and cost nothing elsewhere.
     """
 
     def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
-                 heap="rest", rim_width=0.04, threads=0):
+                 heap="rest", rim_width=0.04, threads=0, plants=()):
         if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
             raise DesirePathError(
                 f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
@@ -167,6 +170,9 @@ class Simulation:
         self.cell_size = float(cell_size)
         self.origin = (float(origin[0]), float(origin[1]))
         self.soils = as_soils(soils)
+        self.plantings = as_plantings(plants)
+        self.stands = []  # (stand, number of the planting, plants), in the order they were planted
+        self._planted = [set() for _ in self.plantings]  # squares
         try:
             self._core = _native.Simulation(
                 ground.native, _soil_rows(self.soils), self.cell_size, self.origin,
@@ -178,6 +184,36 @@ class Simulation:
                     "The ground has no area seen from above: it stands upright. Lay it down and bake again."
                 ) from None
             raise DesirePathError(f"The ground cannot be used: {problem}.") from None
+        if self.plantings:
+            self._core.open_plants(seed_of(self.plantings))
+        for number, planting in enumerate(self.plantings):
+            if planting.roots is not None:
+                self._plant(number, planting.roots)
+
+    def _plant(self, number, roots):
+        """Plant roots (n, 2) of a planting where there is ground."""
+        height = self.rest_height(roots)
+        there = np.isfinite(height)
+        if there.any():
+            root = np.column_stack([roots, height])[there].astype(np.float32)
+            stand = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(root), None)
+            self.stands.append((stand, number, len(root)))
+
+    def _plant_reach(self):
+        """Plant what the loaded recording can reach and is not planted yet."""
+        i0, i1, j0, j1 = self.reach()
+        cell, (ox, oy), bounds = self.cell_size, self.origin, self.bounds()
+        if i0 >= i1:
+            return
+        for number, planting in enumerate(self.plantings):
+            wide = planting.kind.reach + planting.kind.height
+            box = (ox + i0 * cell - wide, oy + j0 * cell - wide, ox + i1 * cell + wide, oy + j1 * cell + wide)
+            box = (*np.maximum(box[:2], bounds[:2]), *np.minimum(box[2:], bounds[2:]))
+            fresh = [at for at in planting.squares(*box) if at not in self._planted[number]]
+            self._planted[number].update(fresh)
+            roots = planting.in_squares(fresh)
+            if len(roots):
+                self._plant(number, roots)
 
     def rest_height(self, xy):
         """Height of the ground before any walker [m] at points xy (n, 2); NaN where there is none."""
@@ -212,6 +248,8 @@ class Simulation:
             np.ascontiguousarray(loads.touching, np.uint8), np.ascontiguousarray(loads.force),
             np.ascontiguousarray(loads.point),
         )
+        if self.plantings:
+            self._plant_reach()
 
     def reach(self):
         """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
@@ -224,6 +262,45 @@ class Simulation:
     def settle(self):
         """Lift all feet and let everything loose come to rest."""
         self._core.settle()
+
+    def rest_plants(self, seconds):
+        """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
+        if not (math.isfinite(seconds) and 0 <= seconds < 1e12):
+            raise DesirePathError(f"Plants cannot rest for {seconds} seconds: give 0 or more.")
+        if self.plantings:
+            self._core.rest_plants(float(seconds))
+
+    def plants_count(self):
+        """How many plants stand on the ground so far."""
+        return sum(count for _, _, count in self.stands)
+
+    def plants_shape(self, stand):
+        """(rows, stems, stems of a sheet, particles, bends) of a plant of a stand in `stands`."""
+        return _native.plants_shape(self.plantings[self._stand(stand)[1]].kind.numbers())
+
+    def plants_positions(self, stand):
+        """Particles of all plants of a stand, float32 (n, particles, 3) [m]; particle = stem * rows + row."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
+        self._core.read_plants(stand, 0, out, None, None)
+        return out
+
+    def plants_strength(self, stand):
+        """eps_b of every bend, float64 (n, bends), TRAIL (6); 0 = broken."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[4]))
+        self._core.read_plants(stand, 0, None, out, None)
+        return out
+
+    def plants_alpha(self, stand):
+        """alpha_k of every plant, float64 (n,), TRAIL (7): its share of bends with nothing broken below."""
+        out = np.zeros(self._stand(stand)[2])
+        self._core.read_plants(stand, 0, None, None, out)
+        return out
+
+    def _stand(self, name):
+        for stand in self.stands:
+            if stand[0] == name:
+                return stand
+        raise DesirePathError(f"There is no stand {name}: choose one of those in `stands`.")
 
     def report(self):
         """Contacts, depths [m] and volumes [m^3] so far, as a dict."""

@@ -104,6 +104,14 @@ double plant_normal(uint64_t seed, uint64_t a, uint64_t b)
     return sqrt(-2.0 * log(u)) * cos(2.0 * PI * v);
 }
 
+uint64_t plant_name(float x, float y)
+{
+    uint32_t    bits[2];
+    const float at[2] = {x + 0.0f, y + 0.0f};  // -0 is 0
+    memcpy(bits, at, sizeof bits);
+    return (uint64_t)bits[0] << 32 | bits[1];
+}
+
 // ---- shape -----------------------------------------------------------------------------------
 
 // squared frequency of a stem of n free particles, of mass and bending stiffness 1: the lowest
@@ -228,7 +236,7 @@ static int by_place(const void* a, const void* b)
 }
 
 // fill blocks with neighbours, strip by strip
-static bool fill_blocks(const DpPlants* plants, PlantStand* stand, int name, const float* root,
+static bool fill_blocks(const DpPlants* plants, PlantStand* stand, const float* root,
                         const float* heading)
 {
     const int n = stand->count;
@@ -246,14 +254,14 @@ static bool fill_blocks(const DpPlants* plants, PlantStand* stand, int name, con
         order[k] = (Order){(int)(((double)root[3 * k + 1] - box[1]) / high), k, root[3 * k]};
     qsort(order, (size_t)n, sizeof(Order), by_place);
     for (int slot = 0; slot < stand->blocks * DP_LANES; ++slot) {
-        PlantBlock*  block = &stand->block[slot / DP_LANES];
-        const int    lane = slot % DP_LANES;
-        const int    from = slot < n ? slot : slot - lane;  // spare lanes repeat lane 0
-        const int    k = order[from].plant;
-        const double facing =
-            heading ? (double)heading[k]
-                    : 2.0 * PI * plant_hash(plants->seed, (uint64_t)(2 * name), (uint64_t)k);
-        const double z = plant_normal(plants->seed, (uint64_t)(2 * name + 1), (uint64_t)k);
+        PlantBlock*    block = &stand->block[slot / DP_LANES];
+        const int      lane = slot % DP_LANES;
+        const int      from = slot < n ? slot : slot - lane;  // spare lanes repeat lane 0
+        const int      k = order[from].plant;
+        const uint64_t name = plant_name(root[3 * k], root[3 * k + 1]);
+        const double   facing =
+            heading ? (double)heading[k] : 2.0 * PI * plant_hash(plants->seed, name, 0);
+        const double z = plant_normal(plants->seed, name, 1);
         for (int d = 0; d < 3; ++d) {
             block->root[d][lane] = root[3 * k + d];
             if (lane == 0) block->origin[d] = (double)root[3 * k + d];
@@ -355,12 +363,18 @@ DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* r
     const bool room = stand->rest && stand->rest_bend && stand->limit && stand->edge &&
                       stand->block && stand->box && stand->up && stand->where;
     if (room) rest_shape(stand), join_edges(stand), plant_limits(stand);
-    if (!room || !fill_blocks(plants, stand, plants->stands, root, heading)) {
+    if (!room || !fill_blocks(plants, stand, root, heading)) {
         unmake(stand);
         return DP_NO_MEMORY;
     }
     *stand_name = plants->stands++;
     return DP_OK;
+}
+
+DpPlantShape dp_plants_shape(const DpPlants* plants, int stand)
+{
+    const bool there = plants && stand >= 0 && stand < plants->stands;
+    return there ? plants->stand[stand].shape : (DpPlantShape){0};
 }
 
 int dp_plants_count(const DpPlants* plants, int stand)

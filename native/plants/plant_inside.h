@@ -93,6 +93,8 @@ struct DpPlants
 
 // a number 0..1 from three names; the same on every machine
 double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
+// what a plant is called by its root, whoever planted it with whatever others
+uint64_t plant_name(float x, float y);
 // a normal number
 double plant_normal(uint64_t seed, uint64_t a, uint64_t b);
 
@@ -147,5 +149,7 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
 void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
 // fill the distances to the side of a sole
 void plant_side_field(const DpPlantCollider* collider, float* out);
+// can all pieces be read? NULL can
+bool plant_ground_ok(const DpPlantGround* ground);
 // surface at a point; NaN off the ground
 double plant_ground_at(const DpPlantGround* ground, double x, double y);

@@ -11,9 +11,9 @@
 #define ROW_PASSES 4
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
-double plant_ground_at(const DpPlantGround* ground, double x, double y)
+// of one piece of ground
+static double piece_at(const DpPlantGround* ground, double x, double y)
 {
-    if (!ground) return NAN;
     const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
     if (!(u >= -0.5 && v >= -0.5 && u <= ground->nx - 0.5 && v <= ground->ny - 0.5)) return NAN;
     const double fu = floor(dp_clamp(u, 0.0, ground->nx - 1.0));
@@ -25,6 +25,13 @@ double plant_ground_at(const DpPlantGround* ground, double x, double y)
     const float* high = ground->height + (size_t)j1 * (size_t)ground->row;
     return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +
            b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
+}
+
+double plant_ground_at(const DpPlantGround* ground, double x, double y)
+{
+    double height = NAN;
+    for (; ground && !isfinite(height); ground = ground->next) height = piece_at(ground, x, y);
+    return height;
 }
 
 // distances to the nearest cell without sole, by the two-pass chamfer metric

@@ -4,13 +4,11 @@
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 
-DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
+// plants within one piece of the ground
+static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantGround* piece)
 {
-    if (!plants || !ground || !ground->height || ground->nx < 1 || ground->ny < 1 ||
-        ground->row < ground->nx || !(ground->cell > 0.0))
-        return DP_BAD_ARGUMENT;
-    const double x0 = ground->x0 - ground->cell, x1 = ground->x0 + ground->nx * ground->cell;
-    const double y0 = ground->y0 - ground->cell, y1 = ground->y0 + ground->ny * ground->cell;
+    const double x0 = piece->x0 - piece->cell, x1 = piece->x0 + piece->nx * piece->cell;
+    const double y0 = piece->y0 - piece->cell, y1 = piece->y0 + piece->ny * piece->cell;
     for (int s = 0; s < plants->stands; ++s) {
         PlantStand* stand = &plants->stand[s];
         for (int b = 0; b < stand->blocks; ++b) {
@@ -30,7 +28,29 @@ DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
             }
         }
     }
+}
+
+DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
+{
+    if (!plants || !ground || !plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
+    for (const DpPlantGround* piece = ground; piece; piece = piece->next)
+        follow(plants, ground, piece);
     return DP_OK;
+}
+
+double dp_plants_extent(const DpPlants* plants)
+{
+    double most = 0.0;
+    for (int s = 0; s < plants->stands; ++s)
+        most = fmax(most, (double)plants->stand[s].extent + (double)plants->stand[s].kind.radius);
+    return most;
+}
+
+double dp_plants_reach(const DpPlants* plants)
+{
+    double most = 0.0;
+    for (int s = 0; s < plants->stands; ++s) most = fmax(most, (double)plants->stand[s].kind.reach);
+    return most;
 }
 
 static PlantBlock* find(const DpPlants* plants, int stand, int plant, int* lane)

@@ -128,10 +128,17 @@ static bool collider_ok(const DpPlantCollider* c)
            fabs(c->x0) < 1e9 && fabs(c->y0) < 1e9 && c->thickness > 0.0 && c->thickness < 1e6;
 }
 
-static bool ground_ok(const DpPlantGround* g)
+static bool piece_ok(const DpPlantGround* g)
 {
     return g->nx > 0 && g->ny > 0 && g->row >= g->nx && g->height && g->cell > 0.0 &&
            g->cell < 1e6 && fabs(g->x0) < 1e9 && fabs(g->y0) < 1e9;
+}
+
+bool plant_ground_ok(const DpPlantGround* ground)
+{
+    bool ok = true;
+    for (; ground && ok; ground = ground->next) ok = piece_ok(ground);
+    return ok;
 }
 
 // the box a collider goes through; false if it is nowhere
@@ -292,7 +299,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         DpPlantsTold* told)
 {
     if (!plants || !told || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
-    if (!(dt > 0.0 && dt < 1e6) || (ground && !ground_ok(ground))) return DP_BAD_ARGUMENT;
+    if (!(dt > 0.0 && dt < 1e6) || !plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
     for (int k = 0; k < count; ++k)
         if (!collider_ok(&colliders[k])) return DP_BAD_ARGUMENT;
     memset(told, 0, sizeof *told);

@@ -191,7 +191,7 @@ DpStatus dp_plants_rest(DpPlants* plants, double seconds)
                 if (!(alpha < 1.0) || !(block->alpha[l] < 1.0f)) continue;
                 const double   grown = dp_plant_regrow(&stand->kind, alpha, seconds);
                 const double   chance = (grown - alpha) / (1.0 - alpha);
-                const uint64_t name = ((uint64_t)s << 32) + (uint64_t)block->plant[l];
+                const uint64_t name = plant_name(block->root[0][l], block->root[1][l]);
                 regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->rests, name);
             }
             plant_count_broken(stand, block);

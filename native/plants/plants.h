@@ -71,18 +71,24 @@ typedef struct DpPlants DpPlants;
 DpPlants*               dp_plants_create(uint64_t seed);
 void                    dp_plants_destroy(DpPlants* plants);
 
-// Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed.
+// Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed. What
+// differs from plant to plant hangs on the seed and the place of its root alone.
 // *stand names them from now on, 0, 1, 2..
-DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
-                       const float* heading, int count, int* stand);
-int      dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
+DpStatus     dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
+                           const float* heading, int count, int* stand);
+int          dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
+DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand that is there
+// How far a plant can reach from its root, with its leaves and with its roots; of all stands [m].
+double dp_plants_extent(const DpPlants* plants);
+double dp_plants_reach(const DpPlants* plants);
 
 // Heights of the ground's current surface at cell centres, NaN = no ground.
 typedef struct DpPlantGround
 {
-    int          nx, ny, row;
-    double       cell, x0, y0;  // side of a cell, centre of cell (0, 0)  [m]
-    const float* height;        // [m] (ny, nx)
+    int                         nx, ny, row;
+    double                      cell, x0, y0;  // side of a cell, centre of cell (0, 0)  [m]
+    const float*                height;        // [m] (ny, nx)
+    const struct DpPlantGround* next;  // ground elsewhere, or NULL; where two lie, the first counts
 } DpPlantGround;
 
 // What pushes plants: the underside of a part, or a capsule when bottom is NULL. Where it stands is

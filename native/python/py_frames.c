@@ -151,6 +151,36 @@ PyObject* dp_py_flush(PyObject* object, PyObject* unused)
     return frame_result(self, status);
 }
 
+// Planted ground shows before anybody walks on it: frames begin with every tile.
+typedef struct Rest
+{
+    const Simulation* self;
+    DpFrames*         frames;
+    atomic_int        failed;
+} Rest;
+
+static void pack_rest(void* context, int index, int worker)
+{
+    Rest*             rest = context;
+    const Simulation* self = rest->self;
+    const int         tx = index % self->tiles_x, ty = index / self->tiles_x;
+    float*            rgba = dp_alloc(TILE_FLOATS, sizeof *rgba);
+    bool              any = false;
+    DpStatus          status = rgba ? DP_OK : DP_NO_MEMORY;
+    if (rgba) dp_terrain_tile_rgba(self->terrain, self->tile_x + tx, self->tile_y + ty, rgba);
+    for (size_t k = 0; rgba && !any && k < TILE_FLOATS; ++k) any = rgba[k] > 0.0f || rgba[k] < 0.0f;
+    if (any) status = dp_frames_set_tile(rest->frames, tx, ty, rgba, worker);
+    if (status != DP_OK) atomic_store(&rest->failed, (int)status);
+    dp_free(rgba);
+}
+
+static DpStatus pack_all(Simulation* self)
+{
+    Rest rest = {self, self->frames, DP_OK};
+    dp_parallel_for(self->tiles_x * self->tiles_y, self->workers, pack_rest, &rest);
+    return (DpStatus)atomic_load(&rest.failed);
+}
+
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
@@ -175,13 +205,15 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     };
     DpFrames* frames = NULL;
     (void)dp_py_finish_frame(self);
-    const DpStatus status =
-        dp_frames_create(&frames, nx, ny, notes, (int)(sizeof notes / sizeof *notes));
+    DpStatus status = dp_frames_create(&frames, nx, ny, notes, (int)(sizeof notes / sizeof *notes));
     if (status == DP_OK) {
         dp_frames_destroy(self->frames);
         self->frames = frames;
         self->tile_x = tx, self->tile_y = ty;
         self->tiles_x = nx, self->tiles_y = ny;
+        Py_BEGIN_ALLOW_THREADS
+        if (self->plants) status = pack_all(self);
+        Py_END_ALLOW_THREADS
     }
     self->busy = false;
     return dp_door_result(status, "opening the frames");

@@ -14,13 +14,12 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "plants/plants.h"
-#include "python/door.h"
+#include "python/py_sim.h"
 
 #define KIND_NUMBERS 21
 #define COLLIDERS_MOST 16
 
-static int open_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
+int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
 {
     const double* v = dp_door_open(door, object, "kind", 'd', DP_SHAPE1(KIND_NUMBERS), false);
     if (!v || dp_door_finite(v, KIND_NUMBERS, "kind") < 0) return -1;
@@ -68,7 +67,7 @@ static PyObject* plants_shape(PyObject* module, PyObject* object)
     DpDoor      door = {0};
     DpPlantKind kind;
     PyObject*   answer = NULL;
-    if (open_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&door, object, &kind) == 0) {
         const DpPlantShape s = dp_plant_shape(&kind);
         answer = Py_BuildValue("(iiiii)", s.rows, s.stems, s.stems_a_sheet, s.particles, s.bends);
     }
@@ -86,7 +85,7 @@ static PyObject* plants_wear(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle,
                           &dt))
         return NULL;
-    if (open_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&door, object, &kind) == 0) {
         if (!(reserve > 0.0) || !(strength >= 0.0) || !isfinite(angle) || !(dt >= 0.0))
             PyErr_SetString(PyExc_ValueError,
                             "reserve, strength, angle, dt: one is out of its range");
@@ -105,7 +104,7 @@ static PyObject* plants_regrow(PyObject* module, PyObject* arguments)
     DpDoor      door = {0};
     DpPlantKind kind;
     if (!PyArg_ParseTuple(arguments, "Odd:plants_regrow", &object, &alpha, &seconds)) return NULL;
-    if (open_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&door, object, &kind) == 0) {
         if (!(alpha >= 0.0 && alpha <= 1.0) || !(seconds >= 0.0))
             PyErr_SetString(PyExc_ValueError, "alpha must be 0 to 1, seconds 0 or more");
         else
@@ -174,7 +173,7 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
 {
     DpShape      list = {2, {-1, 3}}, row = {1, {-1}};
     const float *root, *heading = NULL;
-    if (open_kind(&stand->door, kind, &stand->kind) < 0) return -1;
+    if (dp_py_kind(&stand->door, kind, &stand->kind) < 0) return -1;
     stand->shape = dp_plant_shape(&stand->kind);
     if (!(root = dp_door_open(&stand->door, roots, "root", 'f', &list, false))) return -1;
     row.n[0] = list.n[0];

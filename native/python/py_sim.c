@@ -12,97 +12,11 @@ static void simulation_dealloc(PyObject* object)
     PyTypeObject* type = Py_TYPE(object);
     dp_py_drop_frames(self);
     dp_sim_destroy(self->sim);
+    dp_plants_destroy(self->plants);
     dp_terrain_destroy(self->terrain);
     freefunc release = (freefunc)PyType_GetSlot(type, Py_tp_free);
     release(object);
     Py_DECREF(type);
-}
-
-// Soils as rows of six floats in the order of DpSoil.
-static DpSoil* read_soils(DpDoor* door, PyObject* object, int* count)
-{
-    DpShape shape = {2, {-1, 6}};
-    float*  row = dp_door_open(door, object, "soils", 'f', &shape, false);
-    if (!row) return NULL;
-    if (shape.n[0] < 1 || shape.n[0] > 255) {
-        PyErr_SetString(PyExc_ValueError, "soils: give 1 to 255 soils");
-        return NULL;
-    }
-    *count = (int)shape.n[0];
-    DpSoil* soils = dp_alloc((size_t)*count, sizeof *soils);
-    if (!soils) {
-        PyErr_NoMemory();
-        return NULL;
-    }
-    for (int s = 0; s < *count; ++s, row += 6) {
-        soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5]};
-        if (dp_soil_check(&soils[s]) == DP_OK) continue;
-        PyErr_Format(PyExc_ValueError, "soils: a number of soil %d is out of its range", s);
-        dp_free(soils);
-        return NULL;
-    }
-    return soils;
-}
-
-// The weights of painted soils, (kinds, n); None = all of it is soil 0.
-static bool read_kinds(DpDoor* door, PyObject* object, Py_ssize_t n, DpGround* ground)
-{
-    if (object == Py_None) return true;
-    DpShape shape = {2, {-1, n}};
-    ground->kind_weight = dp_door_open(door, object, "kind_weight", 'f', &shape, false);
-    ground->kind_count = ground->kind_weight ? (int)shape.n[0] : 0;
-    return ground->kind_weight != NULL;
-}
-
-// ("flat", z) | ("heights", array, spacing, x0, y0, kinds) | ("mesh", vertices, triangles, kinds)
-static bool read_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
-{
-    const char* kind = NULL;
-    PyObject *  a = NULL, *b = NULL, *kinds = Py_None;
-    memset(ground, 0, sizeof *ground);
-    PyObject* first = PyTuple_Check(tuple) ? PyTuple_GetItem(tuple, 0) : NULL;
-    kind = first ? PyUnicode_AsUTF8AndSize(first, NULL) : NULL;
-    if (!kind) {
-        PyErr_SetString(PyExc_TypeError, "ground: expected a tuple that begins with its kind");
-        return false;
-    }
-    if (strcmp(kind, "flat") == 0) {
-        ground->kind = DP_GROUND_FLAT;
-        return PyArg_ParseTuple(tuple, "sd;ground", &kind, &ground->height);
-    }
-    if (strcmp(kind, "heights") == 0) {
-        ground->kind = DP_GROUND_HEIGHTS;
-        if (!PyArg_ParseTuple(tuple, "sOdddO;ground", &kind, &a, &ground->spacing, &ground->x0,
-                              &ground->y0, &kinds))
-            return false;
-        DpShape shape = {2, {-1, -1}};
-        ground->heights = dp_door_open(door, a, "heights", 'f', &shape, false);
-        if (!ground->heights) return false;
-        if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX) {
-            PyErr_SetString(PyExc_ValueError, "heights: too many samples");
-            return false;
-        }
-        ground->ny = (int)shape.n[0], ground->nx = (int)shape.n[1];
-        return read_kinds(door, kinds, shape.n[0] * shape.n[1], ground);
-    }
-    if (strcmp(kind, "mesh") == 0) {
-        ground->kind = DP_GROUND_MESH;
-        if (!PyArg_ParseTuple(tuple, "sOOO;ground", &kind, &a, &b, &kinds)) return false;
-        DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
-        ground->vertex = dp_door_open(door, a, "vertices", 'd', &vertices, false);
-        if (!ground->vertex) return false;
-        ground->triangle = dp_door_open(door, b, "triangles", 'i', &triangles, false);
-        if (!ground->triangle) return false;
-        if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
-            PyErr_SetString(PyExc_ValueError, "ground: too many vertices or triangles");
-            return false;
-        }
-        ground->vertex_count = (int)vertices.n[0];
-        ground->triangle_count = (int)triangles.n[0];
-        return read_kinds(door, kinds, vertices.n[0], ground);
-    }
-    PyErr_Format(PyExc_ValueError, "ground: '%s' is not flat, heights or mesh", kind);
-    return false;
 }
 
 static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
@@ -131,8 +45,8 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpGround  ground;
     int       soil_count = 0;
     PyObject* made = NULL;
-    DpSoil*   soils = read_soils(&door, soils_object, &soil_count);
-    if (soils && read_ground(&door, ground_tuple, &ground)) {
+    DpSoil*   soils = dp_py_soils(&door, soils_object, &soil_count);
+    if (soils && dp_py_ground(&door, ground_tuple, &ground)) {
         const DpTerrainOptions terrain = {cell,  origin[0],  origin[1],
                                           soils, soil_count, options.workers};
         DpStatus               status;
@@ -329,11 +243,12 @@ static PyObject* simulation_report(Simulation* self, PyObject* unused)
     if (!dp_py_enter(self)) return NULL;
     const DpSimReport r = dp_sim_report(self->sim);
     self->busy = false;
-    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:n}", "contacts", r.contacts, "off_ground",
-                         r.off_ground, "deepest_m", r.deepest, "pressed_m3", r.pressed,
-                         "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced,
+    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:n,s:i,s:i,s:l}", "contacts", r.contacts,
+                         "off_ground", r.off_ground, "deepest_m", r.deepest, "pressed_m3",
+                         r.pressed, "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced,
                          "heaped_m3", r.heaped, "tiles",
-                         (Py_ssize_t)dp_terrain_tile_count(self->terrain));
+                         (Py_ssize_t)dp_terrain_tile_count(self->terrain), "plants",
+                         dp_plants_count(self->plants, -1), "awake", r.awake, "broke", r.broke);
 }
 
 static PyObject* simulation_read(Simulation* self, PyObject* args)
@@ -386,6 +301,16 @@ static PyMethodDef methods[] = {
      "report() -> dict: contacts, depths [m] and volumes [m^3] so far."},
     {"read", (PyCFunction)simulation_read, METH_VARARGS,
      "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
+    {"open_plants", dp_py_open_plants, METH_VARARGS,
+     "open_plants(seed): something may grow here; before anything is loaded or read."},
+    {"plant", dp_py_plant, METH_VARARGS,
+     "plant(kind (21,) f8, root (n, 3) f4, heading (n,) f4 or None) -> stand: its name from now "
+     "on."},
+    {"rest_plants", dp_py_rest_plants, METH_VARARGS,
+     "rest_plants(seconds): time passes without walkers; plants recover and grow again."},
+    {"read_plants", dp_py_read_plants, METH_VARARGS,
+     "read_plants(stand, first, position (n, particles, 3) f4 or None, strength (n, bends) f8 or"
+     " None, alpha (n,) f8 or None): plants of a stand from `first` on, as they are."},
     {"open_frames", dp_py_open_frames, METH_VARARGS,
      "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
     {"write_frame", dp_py_write_frame, METH_VARARGS,

@@ -1,4 +1,5 @@
-// python/py_sim.h - the simulation as Python holds it; for py_sim.c and py_frames.c only.
+// python/py_sim.h - the simulation as Python holds it; for py_sim.c, py_ground.c, py_frames.c
+// and py_meadow.c only.
 #pragma once
 #include <pthread.h>
 #include <stdatomic.h>
@@ -27,6 +28,7 @@ typedef struct Simulation
     PyObject_HEAD
     DpTerrain* terrain;
     DpSim*     sim;
+    DpPlants*  plants;  // NULL: bare ground
     DpFrames*  frames;
     long       tile_x, tile_y;    // lowest tile of the frames
     int        tiles_x, tiles_y;  // 0 = no frames opened
@@ -46,6 +48,21 @@ static inline bool dp_py_enter(Simulation* self)
     self->busy = true;
     return true;
 }
+
+// py_ground.c: what arrays and tuples say; NULL or false with an exception.
+// Soils are rows of six floats in the order of DpSoil; the caller frees them. A ground is
+// ("flat", z) | ("heights", array, spacing, x0, y0, kinds) | ("mesh", vertices, triangles, kinds).
+DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count);
+bool    dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground);
+
+// py_plants.c: 21 numbers of DpPlantKind; 0 or -1 with an exception.
+int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind);
+
+// py_meadow.c
+PyObject* dp_py_open_plants(PyObject* object, PyObject* args);
+PyObject* dp_py_plant(PyObject* object, PyObject* args);
+PyObject* dp_py_rest_plants(PyObject* object, PyObject* args);
+PyObject* dp_py_read_plants(PyObject* object, PyObject* args);
 
 // py_frames.c
 DpStatus  dp_py_finish_frame(Simulation* self);  // waits for the frame that is being written

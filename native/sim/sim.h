@@ -1,11 +1,14 @@
 // sim/sim.h - one step, in the paper's order; the only place where rooms meet.
 //
 //   contact, force ---> imprint ---> compress ---> accumulate ---> stabilize ---> tiles changed
+//                                       ^                              |
+//                                     cover <--- wear <--- solve <--- plants follow the surface
 //
 // A simulation holds a terrain and one recording at an even rate. Each limb that touches presses
 // its sole; a limb that has let go lets its rim come to rest. Limbs whose patches do not overlap are
 // worked on at once; the result is the same for any number of workers.
 #pragma once
+#include "plants/plants.h"
 #include "soil/soil.h"
 #include "terrain/terrain.h"
 #include "walker/walker.h"
@@ -35,11 +38,23 @@ typedef struct DpSimReport
     double pressed_heap;  // V_b, pressed out of loose heaps           [m^3]
     double displaced;     // 2 nu (V_c + V_b), what the ledger laid down [m^3]
     double heaped;        // sum of heap * cell^2                      [m^3]
+    long   broke;         // bends of stems that broke, and those above them [-]
+    int    awake;         // plants that moved in the last step        [-]
 } DpSimReport;
 
 // The simulation borrows terrain (must outlive it) and copies the rest.
 DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
 void     dp_sim_destroy(DpSim* sim);
+
+// Plants on this ground; borrowed like the terrain, on which nobody has walked yet. Stands may be
+// added to them at any time: tell by dp_sim_planted().
+DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
+
+// Plants have come, gone or rested within x0..x1, y0..y1 [m]: the ground asks for its cover again.
+void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1);
+
+// Time passes without walkers [s]: plants regain strength and grow again.
+DpStatus dp_sim_rest(DpSim* sim, double seconds);
 
 // Take a recording, evenly sampled, with what its parts touch and press (walker/walker.h). Copied.
 // Pressed prints stay: recordings may follow each other on the same ground.

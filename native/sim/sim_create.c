@@ -61,6 +61,7 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
 
 static void drop_recording(DpSim* sim)
 {
+    dp_meadow_drop(sim);
     void* const blocks[] = {sim->time,  sim->pose,        sim->mass,           sim->sole,
                             sim->force, sim->limb,        sim->sole_vertex,    sim->sole_triangle,
                             sim->group, sim->order,       sim->pressure_point, sim->touching,
@@ -190,6 +191,7 @@ DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, co
     drop_recording(sim);
     DpStatus status = copy_soles(sim, gait);
     if (status == DP_OK) status = make_limbs(sim, gait);
+    if (status == DP_OK) status = dp_meadow_fit(sim, gait->parts, gait->limbs);
     sim->time = copy(gait->time, (size_t)gait->times, sizeof *sim->time);
     sim->pose = copy(gait->pose, 7 * samples, sizeof *sim->pose);
     sim->mass = copy(gait->mass, (size_t)gait->walkers, sizeof *sim->mass);

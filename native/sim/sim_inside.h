@@ -18,6 +18,8 @@ typedef struct Limb
     bool   stands;       // in a stance
     double heap_height;  // T of the rest heap, from step to step of a stance          [m]
     double unlaid;       // displaced volume that found no border cell yet             [m^3]
+    double sink;         // how far its soles stand below where they were recorded     [m]
+    double lowered;      // the same as plants saw it at the end of the last step      [m]
     Cells  trodden;      // cells its patches covered during this stance
 
     // this step's work and what came of it
@@ -41,6 +43,36 @@ typedef struct Bench
     DpPose*           pose;
     DpStatus          status;
 } Bench;
+
+// A part between two samples
+typedef struct Way
+{
+    DpPose pose;      // at the end
+    DpBox  from, to;  // [m]
+    DpVec3 way;       // of its middle [m]
+    bool   jumps;     // was put elsewhere: nothing lies between
+    bool   near;      // so low that plants can meet it
+} Way;
+
+// Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
+typedef struct Meadow
+{
+    DpPlants* plants;
+    double    extent, reach;  // of the largest plant, above and below ground [m]
+
+    int              parts, limbs;  // of the recording
+    Way*             way;           // (parts)
+    DpPlantCollider* sole;          // of parts near the ground (parts)
+    float**          bottom;
+    size_t*          bottom_room;
+    float*           cover;  // scratch of one imprint
+    size_t           cover_room;
+
+    DpPlantGround* ground;  // around limbs near the ground (limbs)
+    float**        height;
+    size_t*        height_room;
+    int            soles, grounds;  // of this step
+} Meadow;
 
 struct DpSim
 {
@@ -70,6 +102,7 @@ struct DpSim
     int*   order;
     int*   start;
 
+    Meadow      meadow;
     DpSimReport report;
 };
 
@@ -99,6 +132,12 @@ DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
 Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
+
+// sim_plants.c: room for a recording's soles; what plants do in a step, after the soil
+DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs);
+void     dp_meadow_drop(DpSim* sim);
+DpStatus dp_meadow_step(DpSim* sim, int sample);
+double   dp_meadow_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
 
 // sim_press.c: one limb's step, and its settling
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench);

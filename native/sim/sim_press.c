@@ -63,6 +63,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
         limb->off_ground = true;
         return DP_OK;
     }
+    limb->sink = pressed.sink;
     limb->firm += pressed.firm;
     limb->loose += pressed.loose;
     limb->deepest = fmax(limb->deepest, pressed.deepest);

@@ -114,7 +114,7 @@ static void count(DpSim* sim)
     }
 }
 
-static DpStatus step_once(DpSim* sim, int sample)
+static DpStatus step_soil(DpSim* sim, int sample)
 {
     bool any = false;
     for (int l = 0; l < sim->gait.limbs; ++l) {
@@ -147,6 +147,12 @@ static DpStatus step_once(DpSim* sim, int sample)
     return status;
 }
 
+static DpStatus step_once(DpSim* sim, int sample)
+{
+    const DpStatus status = step_soil(sim, sample);
+    return status == DP_OK && sim->meadow.plants ? dp_meadow_step(sim, sample) : status;
+}
+
 DpStatus dp_sim_run(DpSim* sim, int sample)
 {
     if (!sim->limb) return DP_BAD_ARGUMENT;
@@ -173,12 +179,13 @@ DpStatus dp_sim_settle(DpSim* sim)
 
 void dp_sim_reach(const DpSim* sim, long reach[4])
 {
-    Cells cells = {0, 0, 0, 0};
+    Cells        cells = {0, 0, 0, 0};
+    const double margin = 3 * HEAP_MARGIN + dp_meadow_margin(sim);
     for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
         for (int k = 0; k + 1 < sim->gait.times; ++k)
             if (dp_limb_touches(sim, &sim->limb[l], k) ||
                 dp_limb_touches(sim, &sim->limb[l], k + 1))
-                cells = dp_cells_join(cells, dp_limb_cells(sim, &sim->limb[l], k, 3 * HEAP_MARGIN));
+                cells = dp_cells_join(cells, dp_limb_cells(sim, &sim->limb[l], k, margin));
     reach[0] = cells.i0, reach[1] = cells.i1, reach[2] = cells.j0, reach[3] = cells.j1;
 }
 

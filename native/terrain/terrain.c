@@ -186,6 +186,7 @@ static void fill_tile(void* context, int index, int worker)
     const TileGrid   grid = tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
     rest_tile(&terrain->rest, &grid, tile->rest, tile->kind);
+    if (terrain->cover) tile_plant(terrain, tile->tx, tile->ty, tile->plant);
 }
 
 DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1)
@@ -201,13 +202,14 @@ DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1
         for (long tx = tx0; tx <= tx1; ++tx) missing += !tile_find(terrain, tx, ty);
     if (missing == 0) return DP_OK;
 
-    Tile** fresh = dp_alloc(missing, sizeof *fresh);
-    size_t made = 0;
-    bool   enough = fresh && make_room(terrain, missing);
+    const size_t size = sizeof(Tile) + (terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0);
+    Tile**       fresh = dp_alloc(missing, sizeof *fresh);
+    size_t       made = 0;
+    bool         enough = fresh && make_room(terrain, missing);
     for (long ty = ty0; ty <= ty1 && enough; ++ty)
         for (long tx = tx0; tx <= tx1 && enough; ++tx) {
             if (tile_find(terrain, tx, ty)) continue;
-            Tile* tile = dp_alloc(1, sizeof *tile);
+            Tile* tile = dp_alloc(1, size);
             enough = tile != NULL;
             if (!enough) continue;
             tile->tx = tx, tile->ty = ty;
@@ -236,6 +238,12 @@ static int by_row(const void* a, const void* b)
     const Tile* const one = *(Tile* const*)a;
     const Tile* const two = *(Tile* const*)b;
     return comes_before(one, two) ? -1 : comes_before(two, one) ? 1 : 0;
+}
+
+void tile_mark(DpTerrain* terrain, Tile* tile)
+{
+    if (atomic_exchange(&tile->changed, 1) == 0)
+        terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
 }
 
 void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context)

@@ -85,6 +85,20 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
 // indices) back into the tiles and mark the tiles in which a value is new.
 void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1);
 
+// ---- what grows on it ------------------------------------------------------------------------
+
+// alpha_veg [-] and E_v [Pa] of cells (ny, nx), the first with its centre at (x0, y0); a pure
+// function, called from several threads. TRAIL (7), TRAIL (8)
+typedef void (*DpTerrainCover)(const void* context, double x0, double y0, double cell, int nx,
+                               int ny, float* strength, float* roots);
+
+// From now on the ground is planted: a tile asks for its cover when it is made, an untouched one
+// whenever it is read. Once tiles are there: DP_BAD_ARGUMENT.
+DpStatus dp_terrain_plant(DpTerrain* terrain, DpTerrainCover cover, const void* context);
+
+// Cover has changed on cells i0 <= i < i1, j0 <= j < j1: tiles that are there ask for it again.
+void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
+
 // ---- reading ---------------------------------------------------------------------------------
 
 typedef enum DpField
@@ -93,7 +107,7 @@ typedef enum DpField
     DP_FIELD_HEAP = 1,           // [m]
     DP_FIELD_PRESSURE_TIME = 2,  // [Pa s]
     DP_FIELD_REST = 3,           // [m], NaN = no ground
-    DP_FIELD_MODULUS = 4,        // E_g of the cell's soil [Pa]
+    DP_FIELD_MODULUS = 4,        // E = E_g + E_v, TRAIL (9) [Pa]
     DP_FIELD_KIND = 5,           // soil index
     DP_FIELD_PLANT_STRENGTH = 6  // alpha_veg, TRAIL (7) [-]; 0 without plants
 } DpField;
@@ -109,8 +123,13 @@ typedef void (*DpTileVisit)(void* context, long tx, long ty);
 void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 
 // Playback pixels of one tile: R height change (heap - compression), G plant strength,
-// B compression, A pressure_time; rgba (DP_TILE, DP_TILE, 4), row 0 = lowest y. Zero if untouched.
+// B compression, A pressure_time; rgba (DP_TILE, DP_TILE, 4), row 0 = lowest y. Zero if untouched,
+// but for the plants.
 void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba);
+
+// Heights of the current surface, h0 - compression + heap [m], NaN = no ground, of a rectangle of
+// cells whose tiles were touched; out (ny, nx).
+void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out);
 
 // Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest);

@@ -83,6 +83,7 @@ typedef struct Tile
     uint8_t    kind[TILE_CELLS];
     long       tx, ty;
     atomic_int changed;
+    float      plant[];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS)
 } Tile;
 
 struct DpTerrain
@@ -93,6 +94,9 @@ struct DpTerrain
     float*  slope;  // tan(rest_angle) of each soil
     Rest    rest;
 
+    DpTerrainCover cover;  // NULL = nothing grows here
+    const void*    cover_context;
+
     Tile**        slot;  // hash of (tx, ty): a power of two of slots, at most half of them full
     size_t        slots;
     Tile**        sorted;       // all tiles, ascending (ty, tx)
@@ -100,6 +104,21 @@ struct DpTerrain
     size_t        tiles, room;  // how many there are; how many sorted and marked can hold
     atomic_size_t marks;
 };
+
+// terrain_plant.c: strength and E_v of a whole tile, (2, TILE_CELLS)
+void tile_plant(const DpTerrain* terrain, long tx, long ty, float* plant);
+
+// let the next dp_terrain_changed tell of a tile
+void tile_mark(DpTerrain* terrain, Tile* tile);
+
+// the part of a rectangle of cells that one tile holds
+typedef struct TilePart
+{
+    long   tx, ty;
+    int    i, j, nx, ny;  // in the rectangle
+    size_t in_tile;       // its first cell in the tile
+} TilePart;
+TilePart tile_part(long tx, long ty, long i0, long i1, long j0, long j1);
 
 // NULL if nobody touched it.
 Tile*    tile_find(const DpTerrain* terrain, long tx, long ty);

@@ -53,14 +53,6 @@ static bool make_room(DpLoan* loan, size_t cells)
     return true;
 }
 
-// the part of a rectangle of cells that one tile holds
-typedef struct Part
-{
-    long   tx, ty;
-    int    i, j, nx, ny;  // in the rectangle
-    size_t in_tile;       // its first cell in the tile
-} Part;
-
 static long later(long a, long b)
 {
     return a > b ? a : b;
@@ -71,18 +63,17 @@ static long earlier(long a, long b)
     return a < b ? a : b;
 }
 
-static Part part_of(long tx, long ty, long i0, long i1, long j0, long j1)
+TilePart tile_part(long tx, long ty, long i0, long i1, long j0, long j1)
 {
     const long from_i = later(i0, tx * DP_TILE), to_i = earlier(i1, (tx + 1) * DP_TILE);
     const long from_j = later(j0, ty * DP_TILE), to_j = earlier(j1, (ty + 1) * DP_TILE);
-    const Part part = {tx,
-                       ty,
-                       (int)(from_i - i0),
-                       (int)(from_j - j0),
-                       (int)(to_i - from_i),
-                       (int)(to_j - from_j),
-                       (size_t)(from_j - ty * DP_TILE) * DP_TILE + (size_t)(from_i - tx * DP_TILE)};
-    return part;
+    return (TilePart){tx,
+                      ty,
+                      (int)(from_i - i0),
+                      (int)(from_j - j0),
+                      (int)(to_i - from_i),
+                      (int)(to_j - from_j),
+                      (size_t)(from_j - ty * DP_TILE) * DP_TILE + (size_t)(from_i - tx * DP_TILE)};
 }
 
 // what kernels may read beyond the end of a row: no ground, at rest
@@ -100,7 +91,7 @@ static void fill_padding(const DpTerrain* terrain, DpLoan* loan, float* const* g
     }
 }
 
-static void copy_in(const DpTerrain* terrain, const Tile* tile, const Part* part, DpLoan* loan,
+static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* part, DpLoan* loan,
                     float* const* grid)
 {
     const float* from[4] = {tile->rest, tile->compression, tile->heap, tile->pressure_time};
@@ -114,6 +105,9 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const Part* part
             grid[4][to + i] = terrain->soils[tile->kind[at + i]].young_modulus;  // TRAIL (9), E_g
             grid[5][to + i] = terrain->slope[tile->kind[at + i]];
         }
+        if (!terrain->cover) continue;
+        const float* roots = tile->plant + TILE_CELLS + at;
+        for (size_t i = 0; i < wide; ++i) grid[4][to + i] += roots[i];  // TRAIL (9), E_v
     }
 }
 
@@ -152,7 +146,7 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
     loan->j0 = j0;
     for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
         for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const Part part = part_of(tx, ty, i0, i1, j0, j1);
+            const TilePart part = tile_part(tx, ty, i0, i1, j0, j1);
             copy_in(terrain, tile_find(terrain, tx, ty), &part, loan, grid);
         }
     fill_padding(terrain, loan, grid);
@@ -185,12 +179,6 @@ static bool copy_out(const DpLoan* loan, size_t from, Tile* tile, size_t to, int
     return differs != 0;
 }
 
-static void mark(DpTerrain* terrain, Tile* tile)
-{
-    if (atomic_exchange(&tile->changed, 1) == 0)
-        terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
-}
-
 void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1)
 {
     DP_ASSERT(di0 >= 0 && di1 <= loan->patch.nx && dj0 >= 0 && dj1 <= loan->patch.ny);
@@ -199,15 +187,15 @@ void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, in
     const long j0 = loan->j0 + dj0, j1 = loan->j0 + dj1;
     for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
         for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const Part part = part_of(tx, ty, i0, i1, j0, j1);
-            Tile*      tile = tile_find(terrain, tx, ty);
-            bool       differs = false;
+            const TilePart part = tile_part(tx, ty, i0, i1, j0, j1);
+            Tile*          tile = tile_find(terrain, tx, ty);
+            bool           differs = false;
             for (int j = 0; j < part.ny; ++j) {
                 const size_t from =
                     (size_t)(dj0 + part.j + j) * (size_t)loan->patch.row + (size_t)(di0 + part.i);
                 differs |= copy_out(loan, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
             }
-            if (differs) mark(terrain, tile);
+            if (differs) tile_mark(terrain, tile);
         }
 }
 
@@ -243,8 +231,17 @@ static const float* grid_of(const Tile* tile, const float* rest, DpField field)
     return NULL;
 }
 
+// what a cell's soil says
+static float from_soil(const DpTerrain* terrain, DpField field, uint8_t soil)
+{
+    return field == DP_FIELD_MODULUS ? terrain->soils[soil].young_modulus  // TRAIL (9), E_g
+           : field == DP_FIELD_KIND  ? (float)soil
+                                     : 0.0f;
+}
+
+// plant: NULL on bare ground
 static void read_row(const Reading* reading, const Tile* tile, const float* rest,
-                     const uint8_t* kind, size_t at, int count, float* out)
+                     const uint8_t* kind, const float* plant, size_t at, int count, float* out)
 {
     const bool   there = tile || reading->field == DP_FIELD_REST;
     const float* grid = there ? grid_of(tile, rest, reading->field) : NULL;
@@ -252,17 +249,23 @@ static void read_row(const Reading* reading, const Tile* tile, const float* rest
         memcpy(out, grid + at, (size_t)count * sizeof *out);
         return;
     }
+    const bool roots = plant && reading->field == DP_FIELD_MODULUS;
     for (int i = 0; i < count; ++i) {
-        const uint8_t soil = kind[at + (size_t)i];
-        out[i] = reading->field == DP_FIELD_MODULUS ? reading->terrain->soils[soil].young_modulus
-                 : reading->field == DP_FIELD_KIND  ? (float)soil
-                                                    : 0.0f;
+        const size_t p = at + (size_t)i;
+        out[i] = from_soil(reading->terrain, reading->field, kind[p]);
+        if (roots) out[i] += plant[TILE_CELLS + p];  // TRAIL (9), E_v
+        if (plant && reading->field == DP_FIELD_PLANT_STRENGTH) out[i] = plant[p];
     }
 }
 
 static bool comes_from_ground(DpField field)
 {
     return field == DP_FIELD_REST || field == DP_FIELD_MODULUS || field == DP_FIELD_KIND;
+}
+
+static bool is_of_plants(DpField field)
+{
+    return field == DP_FIELD_MODULUS || field == DP_FIELD_PLANT_STRENGTH;
 }
 
 // one tile of the rectangle; an untouched one is made for the moment
@@ -273,20 +276,24 @@ static void read_tile(void* context, int index, int worker)
     const long     ty = reading->ty0 + index / reading->tiles_x;
     const Tile*    tile = tile_find(reading->terrain, tx, ty);
     float          made_rest[TILE_CELLS];
-    uint8_t        made_kind[TILE_CELLS];
+    uint8_t        made_kind[TILE_CELLS] = {0};
+    float          made_plant[2 * TILE_CELLS];
     const float*   rest = tile ? tile->rest : made_rest;
     const uint8_t* kind = tile ? tile->kind : made_kind;
+    const bool     grows = reading->terrain->cover && is_of_plants(reading->field);
+    const float*   plant = !grows ? NULL : tile ? tile->plant : made_plant;
     (void)worker;
+    if (plant == made_plant) tile_plant(reading->terrain, tx, ty, made_plant);
     if (!tile && comes_from_ground(reading->field)) {
         const TileGrid grid = tile_grid(reading->terrain, tx, ty);
         rest_tile(&reading->terrain->rest, &grid, made_rest, made_kind);
     }
-    const Part   part = part_of(tx, ty, reading->i0, reading->i1, reading->j0, reading->j1);
-    const size_t nx = (size_t)(reading->i1 - reading->i0);
+    const TilePart part = tile_part(tx, ty, reading->i0, reading->i1, reading->j0, reading->j1);
+    const size_t   nx = (size_t)(reading->i1 - reading->i0);
     for (int j = 0; j < part.ny; ++j) {
         float*       out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
         const size_t at = part.in_tile + (size_t)j * DP_TILE;
-        read_row(reading, tile, rest, kind, at, part.nx, out);
+        read_row(reading, tile, rest, kind, plant, at, part.nx, out);
     }
 }
 
@@ -306,9 +313,12 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
 void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba)
 {
     const Tile* tile = tile_find(terrain, tx, ty);
+    float       made[2 * TILE_CELLS];
+    if (terrain->cover && !tile) tile_plant(terrain, tx, ty, made);
+    const float* strength = !terrain->cover ? NULL : tile ? tile->plant : made;
     for (size_t n = 0; n < TILE_CELLS; ++n) {
         rgba[4 * n] = tile ? tile->heap[n] - tile->compression[n] : 0.0f;
-        rgba[4 * n + 1] = 0.0f;  // no plants yet
+        rgba[4 * n + 1] = strength ? strength[n] : 0.0f;
         rgba[4 * n + 2] = tile ? tile->compression[n] : 0.0f;
         rgba[4 * n + 3] = tile ? tile->pressure_time[n] : 0.0f;
     }

@@ -1,0 +1,125 @@
+// python/py_meadow.c - the plants of a simulation: planting, resting, and reading them one by one.
+#include "base/alloc.h"
+#include "python/py_sim.h"
+
+PyObject* dp_py_open_plants(PyObject* object, PyObject* args)
+{
+    Simulation*        self = (Simulation*)object;
+    unsigned long long seed;
+    if (!PyArg_ParseTuple(args, "K:open_plants", &seed)) return NULL;
+    if (self->plants) {
+        PyErr_SetString(PyExc_ValueError, "open_plants: plants grow here already");
+        return NULL;
+    }
+    DpPlants* plants = dp_plants_create(seed);
+    if (!plants) return PyErr_NoMemory();
+    const DpStatus status = dp_sim_plant(self->sim, plants);
+    if (status == DP_OK)
+        self->plants = plants;
+    else
+        dp_plants_destroy(plants);
+    return dp_door_result(status, "planting trodden ground");
+}
+
+// Plants are there to be talked about, and nobody else is at them.
+static bool enter(Simulation* self)
+{
+    if (self->plants) return dp_py_enter(self);
+    PyErr_SetString(PyExc_ValueError, "nothing grows here: call open_plants first");
+    return false;
+}
+
+PyObject* dp_py_plant(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    PyObject *  o_kind, *o_root, *o_heading;
+    if (!PyArg_ParseTuple(args, "OOO:plant", &o_kind, &o_root, &o_heading)) return NULL;
+    DpDoor       door = {.count = 0};
+    DpShape      list = {2, {-1, 3}};
+    DpPlantKind  kind;
+    const float *root = NULL, *heading = NULL;
+    PyObject*    result = NULL;
+    bool         ready = dp_py_kind(&door, o_kind, &kind) == 0;
+    ready = ready && (root = dp_door_open(&door, o_root, "root", 'f', &list, false));
+    ready =
+        ready && (o_heading == Py_None || (heading = dp_door_open(&door, o_heading, "heading", 'f',
+                                                                  DP_SHAPE1(list.n[0]), false)));
+    if (ready && enter(self)) {
+        int      stand = 0;
+        DpStatus status = list.n[0] < 1 << 26 ? DP_OK : DP_BAD_ARGUMENT;
+        Py_BEGIN_ALLOW_THREADS
+        const int count = (int)list.n[0];
+        if (status == DP_OK)
+            status = dp_plants_add(self->plants, &kind, root, heading, count, &stand);
+        double box[4] = {1e9, 1e9, -1e9, -1e9};
+        for (int k = 0; k < count && status == DP_OK; ++k)
+            for (int d = 0; d < 2; ++d) {
+                const double at = (double)root[3 * k + d];
+                box[d] = at < box[d] ? at : box[d];
+                box[2 + d] = at > box[2 + d] ? at : box[2 + d];
+            }
+        if (status == DP_OK) dp_sim_planted(self->sim, box[0], box[1], box[2], box[3]);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = status == DP_OK ? PyLong_FromLong(stand) : dp_door_result(status, "planting");
+    }
+    dp_door_close(&door);
+    return result;
+}
+
+PyObject* dp_py_rest_plants(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    double      seconds;
+    if (!PyArg_ParseTuple(args, "d:rest_plants", &seconds) || !enter(self)) return NULL;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_sim_rest(self->sim, seconds);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return dp_door_result(status, "letting plants rest");
+}
+
+PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    int         stand, first;
+    PyObject *  o_position, *o_strength, *o_alpha;
+    if (!PyArg_ParseTuple(args, "iiOOO:read_plants", &stand, &first, &o_position, &o_strength,
+                          &o_alpha))
+        return NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   places = {3, {-1, -1, 3}}, bends = {2, {-1, -1}}, list = {1, {-1}};
+    float*    position = NULL;
+    double *  strength = NULL, *alpha = NULL;
+    PyObject* result = NULL;
+    bool      ready = true;
+    if (o_position != Py_None)
+        ready = (position = dp_door_open(&door, o_position, "position", 'f', &places, true));
+    if (ready && o_strength != Py_None)
+        ready = (strength = dp_door_open(&door, o_strength, "strength", 'd', &bends, true));
+    if (ready && o_alpha != Py_None)
+        ready = (alpha = dp_door_open(&door, o_alpha, "alpha", 'd', &list, true));
+    if (!ready || !enter(self)) goto done;
+    const DpPlantShape shape = dp_plants_shape(self->plants, stand);
+    const Py_ssize_t   count = position ? places.n[0] : strength ? bends.n[0] : list.n[0];
+    const bool         fits = first >= 0 && count <= dp_plants_count(self->plants, stand) - first &&
+                      (!position || places.n[1] == shape.particles) &&
+                      (!strength || (bends.n[0] == count && bends.n[1] == shape.bends)) &&
+                      (!alpha || list.n[0] == count);
+    if (fits) {
+        Py_BEGIN_ALLOW_THREADS
+        for (int k = 0; k < (int)count; ++k) {
+            float*  at = position ? position + 3 * (size_t)k * (size_t)shape.particles : NULL;
+            double* of = strength ? strength + (size_t)k * (size_t)shape.bends : NULL;
+            if (at || of) dp_plants_read(self->plants, stand, first + k, at, NULL, of);
+            if (alpha) alpha[k] = dp_plants_alpha(self->plants, stand, first + k);
+        }
+        Py_END_ALLOW_THREADS
+    }
+    self->busy = false;
+    result = dp_door_result(fits ? DP_OK : DP_BAD_ARGUMENT, "reading plants");
+done:
+    dp_door_close(&door);
+    return result;
+}

@@ -1,0 +1,264 @@
+// sim/sim_plants.c - what plants do in a step, once the soil has moved: roots follow the surface,
+// soles press and brush, stems wear, and cover changes what the next step presses. TRAIL 4.1
+//
+// The soles are those that press the soil, where the pressed soil holds them: never below it. Feet
+// in swing brush what they come near to.
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define FOOT_HIGH 0.15     // above its sole a foot is at least so high [m]
+#define FRICTION 0.5       // of leaves on a sole [-]
+#define FASTEST 25.0       // a sole that is faster was put elsewhere [m/s]
+#define RISE_TIME 0.1      // in which a sole that let go is where it was recorded [s]
+#define MARGIN_MOST 0.5    // beside a sole [m]
+#define SETTLED_MARGIN 16  // cells around trodden ground whose soil came to rest
+
+// ---- a life ----------------------------------------------------------------------------------
+
+static void cover_of(const void* context, double x0, double y0, double cell, int nx, int ny,
+                     float* strength, float* roots)
+{
+    const DpPlantWindow window = {nx, ny, nx, cell, x0, y0};
+    dp_plants_cover(context, &window, DP_COVER_FULL, strength, roots);
+}
+
+static void measure(Meadow* meadow)
+{
+    meadow->extent = dp_plants_extent(meadow->plants);
+    meadow->reach = dp_plants_reach(meadow->plants);
+}
+
+DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
+{
+    if (!sim || !plants || sim->meadow.plants) return DP_BAD_ARGUMENT;
+    const DpStatus status = dp_terrain_plant(sim->terrain, cover_of, plants);
+    if (status != DP_OK) return status;
+    sim->meadow.plants = plants;
+    measure(&sim->meadow);
+    return DP_OK;
+}
+
+// cells whose centres may lie in a box
+static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double y1)
+{
+    const double most = 1e9;
+    const Cells cells = {(long)dp_clamp(floor((x0 - sim->origin_x) / sim->cell - 0.5), -most, most),
+                         (long)dp_clamp(ceil((x1 - sim->origin_x) / sim->cell + 0.5), -most, most),
+                         (long)dp_clamp(floor((y0 - sim->origin_y) / sim->cell - 0.5), -most, most),
+                         (long)dp_clamp(ceil((y1 - sim->origin_y) / sim->cell + 0.5), -most, most)};
+    return cells;
+}
+
+void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1)
+{
+    if (!sim->meadow.plants) return;
+    measure(&sim->meadow);
+    const double r = sim->meadow.reach;
+    const Cells  at = cells_of(sim, x0 - r, y0 - r, x1 + r, y1 + r);
+    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+}
+
+DpStatus dp_sim_rest(DpSim* sim, double seconds)
+{
+    if (!sim->meadow.plants) return DP_OK;
+    const DpStatus status = dp_plants_rest(sim->meadow.plants, seconds);
+    if (status == DP_OK) dp_sim_planted(sim, -1e9, -1e9, 1e9, 1e9);
+    return status;
+}
+
+double dp_meadow_margin(const DpSim* sim)
+{
+    return fmin(sim->meadow.extent + sim->meadow.reach, MARGIN_MOST);
+}
+
+DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs)
+{
+    Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_OK;
+    m->parts = parts, m->limbs = limbs;
+    m->way = dp_alloc((size_t)parts, sizeof *m->way);
+    m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
+    m->bottom = dp_alloc((size_t)parts, sizeof *m->bottom);
+    m->bottom_room = dp_alloc((size_t)parts, sizeof *m->bottom_room);
+    m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
+    m->height = dp_alloc((size_t)limbs, sizeof *m->height);
+    m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
+    const bool whole =
+        m->sole && m->bottom && m->bottom_room && m->ground && m->height && m->height_room;
+    return whole ? DP_OK : DP_NO_MEMORY;
+}
+
+void dp_meadow_drop(DpSim* sim)
+{
+    Meadow* m = &sim->meadow;
+    for (int p = 0; m->bottom && p < m->parts; ++p) dp_free(m->bottom[p]);
+    for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
+    dp_free(m->way), dp_free(m->sole), dp_free(m->bottom), dp_free(m->bottom_room),
+        dp_free(m->cover);
+    dp_free(m->ground), dp_free(m->height), dp_free(m->height_room);
+    *m = (Meadow){.plants = m->plants, .extent = m->extent, .reach = m->reach};
+}
+
+static bool make_room(float** grid, size_t* room, size_t cells)
+{
+    if (cells <= *room) return true;
+    dp_free(*grid);
+    *room = cells + cells / 4;
+    *grid = dp_alloc(*room, sizeof **grid);
+    if (!*grid) *room = 0;
+    return *grid != NULL;
+}
+
+// ---- a step ----------------------------------------------------------------------------------
+
+static Way way_of(const DpSim* sim, const Limb* limb, int part, int sample, double dt)
+{
+    const DpMesh* mesh = &sim->sole[part];
+    Way           way = {.pose = dp_limb_pose(sim, part, sample, 1.0)};
+    way.from = dp_imprint_box(mesh, dp_limb_pose(sim, part, sample, 0.0));
+    way.to = dp_imprint_box(mesh, way.pose);
+    way.way = dp_vec3(0.5 * (way.to.x0 + way.to.x1 - way.from.x0 - way.from.x1),
+                      0.5 * (way.to.y0 + way.to.y1 - way.from.y0 - way.from.y1),
+                      0.5 * (way.to.z0 + way.to.z1 - way.from.z0 - way.from.z1));
+    way.jumps = dp_length(way.way) > FASTEST * dt;
+    if (way.jumps) way.from = way.to, way.way = dp_vec3(0, 0, 0);
+    const double low = fmin(way.from.z0, way.to.z0) - fmax(limb->lowered, 0.0);
+    const double xy[2] = {0.25 * (way.from.x0 + way.from.x1 + way.to.x0 + way.to.x1),
+                          0.25 * (way.from.y0 + way.from.y1 + way.to.y0 + way.to.y1)};
+    double       ground;
+    dp_terrain_rest(sim->terrain, 1, xy, &ground);
+    way.near = low < ground + sim->meadow.extent;  // not where there is no ground
+    return way;
+}
+
+// the surface around a limb: what its soles can push plants onto, and what its soil moved
+static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
+{
+    Meadow* m = &sim->meadow;
+    Cells   at = near;
+    if (limb->active) {
+        const long  spare = limb->lifts ? SETTLED_MARGIN : 0;
+        const Cells soil = {limb->patch.i0 - spare, limb->patch.i1 + spare, limb->patch.j0 - spare,
+                            limb->patch.j1 + spare};
+        if (!dp_cells_empty(limb->patch)) at = dp_cells_join(at, soil);
+    }
+    if (dp_cells_empty(at)) return DP_OK;
+    const DpStatus status = dp_terrain_touch(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+    if (status != DP_OK) return status;
+    const int l = m->grounds, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    if (!make_room(&m->height[l], &m->height_room[l], (size_t)nx * (size_t)ny)) return DP_NO_MEMORY;
+    dp_terrain_surface(sim->terrain, at.i0, at.j0, nx, ny, m->height[l]);
+    m->ground[l] = (DpPlantGround){.nx = nx,
+                                   .ny = ny,
+                                   .row = nx,
+                                   .cell = sim->cell,
+                                   .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
+                                   .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell,
+                                   .height = m->height[l]};
+    if (l > 0) m->ground[l - 1].next = &m->ground[l];
+    ++m->grounds;
+    return DP_OK;
+}
+
+// height of the surface at a cell of the ground taken last, -inf where there is none
+static float surface_at(const DpPlantGround* ground, long i, long j)
+{
+    if (i < 0 || j < 0 || i >= ground->nx || j >= ground->ny) return -INFINITY;
+    const float height = ground->height[j * ground->row + i];
+    return isfinite(height) ? height : -INFINITY;
+}
+
+// a part's underside at the end of the step, lowered as its limb is, on the ground and not in it
+static DpStatus take_sole(DpSim* sim, const Limb* limb, int part, const Way* way, double was,
+                          double dt)
+{
+    Meadow*              m = &sim->meadow;
+    const DpMesh*        mesh = &sim->sole[part];
+    const DpBox          to = way->to;
+    const Cells          at = cells_of(sim, to.x0, to.y0, to.x1, to.y1);
+    const DpPlantGround* ground = &m->ground[m->grounds - 1];
+    const int            s = m->soles, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    const size_t         cells = (size_t)nx * (size_t)ny;
+    if (!make_room(&m->bottom[s], &m->bottom_room[s], cells) ||
+        !make_room(&m->cover, &m->cover_room, cells))
+        return DP_NO_MEMORY;
+    const DpSoilPatch patch = {.nx = nx,
+                               .ny = ny,
+                               .row = nx,
+                               .cell = sim->cell,
+                               .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
+                               .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell};
+    DpImprint         imprint = {.bottom = m->bottom[s], .cover = m->cover};
+    const DpStatus    status =
+        dp_imprint_foot(&imprint, &patch, mesh, &way->pose, 1, 1, sim->bench[0].imprint_scratch);
+    if (status != DP_OK || imprint.i0 >= imprint.i1) return status;
+    const long di = lround((patch.x0 - ground->x0) / sim->cell);
+    const long dj = lround((patch.y0 - ground->y0) / sim->cell);
+    for (int j = imprint.j0; j < imprint.j1; ++j)
+        for (int i = imprint.i0; i < imprint.i1; ++i) {
+            float* bottom = &imprint.bottom[j * nx + i];
+            if (isfinite(*bottom))
+                *bottom = fmaxf(*bottom - (float)limb->lowered, surface_at(ground, i + di, j + dj));
+        }
+    DpVec3 moved = way->way;
+    moved.z -= way->jumps ? 0.0 : limb->lowered - was;
+    m->sole[m->soles++] = (DpPlantCollider){.nx = nx,
+                                            .ny = ny,
+                                            .row = nx,
+                                            .cell = sim->cell,
+                                            .x0 = patch.x0,
+                                            .y0 = patch.y0,
+                                            .bottom = m->bottom[s],
+                                            .thickness = fmax(FOOT_HIGH, to.z1 - to.z0),
+                                            .velocity = dp_scale(moved, 1.0 / dt),
+                                            .friction = FRICTION};
+    return DP_OK;
+}
+
+// a limb's soles and the ground around them
+static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
+{
+    Meadow*      m = &sim->meadow;
+    const double was = limb->lowered, margin = fmin(m->extent, MARGIN_MOST);
+    const int    grounds = m->grounds;
+    Cells        near = {0, 0, 0, 0};
+    limb->lowered = limb->stands ? limb->sink : was * exp(-dt / RISE_TIME);
+    for (int p = 0; p < limb->part_count; ++p) {
+        const Way   way = m->way[limb->part[p]] = way_of(sim, limb, limb->part[p], sample, dt);
+        const DpBox a = way.from, b = way.to;
+        if (!way.near) continue;
+        near =
+            dp_cells_join(near, cells_of(sim, fmin(a.x0, b.x0) - margin, fmin(a.y0, b.y0) - margin,
+                                         fmax(a.x1, b.x1) + margin, fmax(a.y1, b.y1) + margin));
+    }
+    DpStatus status = take_ground(sim, limb, near);
+    for (int p = 0; p < limb->part_count && m->grounds > grounds && status == DP_OK; ++p) {
+        const Way* way = &m->way[limb->part[p]];
+        if (way->near) status = take_sole(sim, limb, limb->part[p], way, was, dt);
+    }
+    return status;
+}
+
+DpStatus dp_meadow_step(DpSim* sim, int sample)
+{
+    Meadow*      m = &sim->meadow;
+    const double dt = sim->time[sample + 1] - sim->time[sample];
+    DpStatus     status = DP_OK;
+    m->soles = m->grounds = 0;
+    for (int l = 0; l < sim->gait.limbs && status == DP_OK; ++l)
+        status = take_limb(sim, &sim->limb[l], sample, dt);
+    const DpPlantGround* ground = m->grounds > 0 ? m->ground : NULL;
+    if (status == DP_OK && ground) status = dp_plants_follow(m->plants, ground);
+    if (status != DP_OK) return status;
+
+    DpPlantsTold told;
+    status = dp_plants_step(m->plants, ground, m->sole, m->soles, dt, sim->bench_count, &told);
+    if (status != DP_OK) return status;
+    sim->report.awake = told.awake;
+    sim->report.broke += told.broke;
+    if (!told.changed) return DP_OK;
+    const Cells at = cells_of(sim, told.x0, told.y0, told.x1, told.y1);
+    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);  // TRAIL (8)(9), in the next step
+    return DP_OK;
+}

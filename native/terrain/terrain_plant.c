@@ -1,0 +1,75 @@
+// Planted ground: what grows on a tile, and the surface plants stand on. Cover is asked for, never
+// worked out here: who plants the ground knows its plants.
+#include <math.h>
+#include <string.h>
+
+#include "terrain/terrain_inside.h"
+
+DpStatus dp_terrain_plant(DpTerrain* terrain, DpTerrainCover cover, const void* context)
+{
+    if (!terrain || terrain->tiles > 0) return DP_BAD_ARGUMENT;
+    terrain->cover = cover;
+    terrain->cover_context = context;
+    return DP_OK;
+}
+
+void tile_plant(const DpTerrain* terrain, long tx, long ty, float* plant)
+{
+    const double x0 = cell_at(terrain->origin_x, terrain->cell, tx * DP_TILE);
+    const double y0 = cell_at(terrain->origin_y, terrain->cell, ty * DP_TILE);
+    terrain->cover(terrain->cover_context, x0, y0, terrain->cell, DP_TILE, DP_TILE, plant,
+                   plant + TILE_CELLS);
+}
+
+// a part of a tile, anew
+static void replant(DpTerrain* terrain, Tile* tile, const TilePart* part)
+{
+    float      fresh[2 * TILE_CELLS];
+    const long i0 = tile->tx * DP_TILE + (long)(part->in_tile % DP_TILE);
+    const long j0 = tile->ty * DP_TILE + (long)(part->in_tile / DP_TILE);
+    float*     roots = fresh + part->nx * part->ny;
+    bool       differs = false;
+    terrain->cover(terrain->cover_context, cell_at(terrain->origin_x, terrain->cell, i0),
+                   cell_at(terrain->origin_y, terrain->cell, j0), terrain->cell, part->nx, part->ny,
+                   fresh, roots);
+    for (int j = 0; j < part->ny; ++j)
+        for (int i = 0; i < part->nx; ++i) {
+            const int    from = j * part->nx + i;
+            const size_t to = part->in_tile + (size_t)j * DP_TILE + (size_t)i;
+            differs = differs || fresh[from] < tile->plant[to] || fresh[from] > tile->plant[to];
+            tile->plant[to] = fresh[from];
+            tile->plant[TILE_CELLS + to] = roots[from];
+        }
+    if (differs) tile_mark(terrain, tile);
+}
+
+void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1)
+{
+    if (!terrain->cover || !is_rectangle(i0, i1, j0, j1)) return;
+    for (size_t t = 0; t < terrain->tiles; ++t) {
+        Tile* tile = terrain->sorted[t];
+        if (tile->ty < tile_of(j0) || tile->ty > tile_of(j1 - 1) || tile->tx < tile_of(i0) ||
+            tile->tx > tile_of(i1 - 1))
+            continue;
+        const TilePart part = tile_part(tile->tx, tile->ty, i0, i1, j0, j1);
+        replant(terrain, tile, &part);
+    }
+}
+
+void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out)
+{
+    const long i1 = i0 + nx, j1 = j0 + ny;
+    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
+        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
+            const TilePart part = tile_part(tx, ty, i0, i1, j0, j1);
+            const Tile*    tile = tile_find(terrain, tx, ty);
+            for (int j = 0; j < part.ny; ++j) {
+                float*       to = out + (size_t)(part.j + j) * (size_t)nx + (size_t)part.i;
+                const size_t at = part.in_tile + (size_t)j * DP_TILE;
+                for (int i = 0; i < part.nx; ++i) {
+                    const size_t p = at + (size_t)i;
+                    to[i] = tile ? tile->rest[p] - tile->compression[p] + tile->heap[p] : NAN;
+                }
+            }
+        }
+}
