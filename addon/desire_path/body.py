@@ -116,13 +116,41 @@ def mass_centre(bones, rig):
         return np.mean([bones.point(f.foot) for f in rig.feet], axis=0) + (0.0, 0.0, 0.9)
     total = sum(s.mass for s in rig.segments)
     com = 0.0
+    ahead = _facing(bones, rig) if any(s.knee for s in rig.segments) else None
     for segment in rig.segments:
         start = bones.mean(segment.start)
         end = bones.mean(segment.end) if segment.end else start
+        if segment.knee:
+            knee = _knee(bones, segment, start, end, ahead)
+            start, end = (start, knee) if segment.knee == "above" else (knee, end)
         at = start + segment.along * (end - start)
         at[:, 2] += segment.lift
         com = com + segment.mass / total * at
     return com
+
+
+def _facing(bones, rig):
+    """The way two feet point between them, level (T, 3); zero where they do not or are not two."""
+    way = 0.0
+    for foot in rig.feet:
+        ahead = bones.point(foot.toe) if foot.toe else bones.point(foot.foot, 1.0)
+        way = way + (ahead - bones.point(foot.foot)) * (1.0, 1.0, 0.0)
+    return way * (len(rig.feet) == 2)
+
+
+def _knee(bones, leg, hip, ankle, ahead):
+    """Where the knee is that a leg has no bone for (T, 3).
+
+    A leg is as long as in the rest pose, halved by its knee (Winter, figure 4.1: 0.245 and 0.246 of the
+    height): an ankle nearer to the hip than that bends it ahead, the way the feet point.
+    """
+    half = np.linalg.norm(bones.mean(leg.end, rest=True) - bones.mean(leg.start, rest=True)) / 2.0
+    down = ankle - hip
+    reach = np.linalg.norm(down, axis=1, keepdims=True)
+    down = down / np.maximum(reach, 1e-9)
+    ahead = ahead - (ahead * down).sum(axis=1, keepdims=True) * down
+    ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
+    return (hip + ankle) / 2.0 + np.sqrt(np.maximum(half ** 2 - reach ** 2 / 4.0, 0.0)) * ahead
 
 
 def rest_up(bones, rig):

@@ -70,7 +70,8 @@ class Segment:
     """A piece of the body: its mass sits `along` the way from start to end.
 
     start and end are means of points ((bone, 0 head .. 1 tail), ..); without an end the centre lies
-    `lift` [m] above start.
+    `lift` [m] above start. A leg without a knee bone goes from start to end as a whole: its segment is
+    the one "above" or "below" the knee.
     """
 
     name: str
@@ -79,6 +80,7 @@ class Segment:
     start: tuple
     end: tuple = ()
     lift: float = 0.0
+    knee: str = ""  # "above", "below", or "" for a segment from joint to joint
 
 
 @dataclass(frozen=True)
@@ -415,10 +417,11 @@ def build(skeleton, feet, hips=None, *, warnings=()):
             knee = ((foot.shank, 0.0),)
             segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1], top, knee))
             segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, LOWER[1], knee, ankle))
-        else:  # no knee: a straight leg, halved by it
-            segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1] / 2, top, ankle))
-            segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, 0.5 + LOWER[1] / 2, top,
-                                    ankle))
+        else:
+            segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1], top, ankle,
+                                    knee="above"))
+            segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, LOWER[1], top, ankle,
+                                    knee="below"))
         ball = ((foot.toe, 0.0),) if foot.toe else ((foot.foot, 1.0),)
         segments.append(Segment(f"{foot.limb} foot", SOLE[0] * scale, SOLE[1], ankle, ball))
     return Rig(tuple(feet), bones.names[at] if at >= 0 else None, tuple(segments), tuple(warnings))

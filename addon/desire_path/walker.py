@@ -22,8 +22,9 @@ BESIDE = "Some steps land beside the ground and leave no print there."
 LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
           "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
           "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5}
-OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "overlap_most": 0.3,
-           "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25, "reach": 0.3}
+OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "cutoff_level": 2.0 / 3.0,
+           "overlap_most": 0.3, "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25,
+           "reach": 0.3}
 
 
 @dataclass(frozen=True)

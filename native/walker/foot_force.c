@@ -23,7 +23,8 @@
 #define STILL 0.1                // accelerations below this share of g are near rest [-]
 #define SOLE_LIFT 0.04           // a point this far above its limb's lowest carries nothing [m]
 #define TIP_CAPACITY 0.25        // toes carry a quarter of what heel or ball does      [-]
-#define STEP_SHORTEST 0.15       // touch-downs closer than this are one step         [s]
+#define TRAVEL 0.5               // who moves this fast is under way                  [m/s]
+#define GRIP 0.6                 // feet oppose each other by no more of their load   [-]
 
 DpLoadOptions dp_load_options_default(void)
 {
@@ -33,6 +34,7 @@ DpLoadOptions dp_load_options_default(void)
                                    .cutoff_share = 3.0,
                                    .cutoff_low = 5.0,
                                    .cutoff_high = 10.0,
+                                   .cutoff_level = 2.0 / 3.0,
                                    .overlap_most = 0.3,
                                    .ramp_standing = 0.1,
                                    .ramp_alone = 0.03,
@@ -59,6 +61,7 @@ typedef struct Load
     double*              limb_weight;   // W_i of limbs                        (limbs, T)
     double*              point_weight;  // and of points within their limb     (points, T)
     double*              accel;         // a_com                               (3, T)
+    double*              way;           // v_com over the ground               (2, T)
     DpVec3*              landing;       // v0 latched for the impulse          (limbs)
     int*                 landed;        // its sample; -1 = never              (limbs)
 } Load;
@@ -67,7 +70,7 @@ static void close_load(Load* l)
 {
     dp_free(l->limb), dp_free(l->point), dp_free(l->first), dp_free(l->capacity), dp_free(l->place);
     dp_free(l->limb_on), dp_free(l->point_on), dp_free(l->limb_weight), dp_free(l->point_weight);
-    dp_free(l->accel), dp_free(l->landing), dp_free(l->landed);
+    dp_free(l->accel), dp_free(l->way), dp_free(l->landing), dp_free(l->landed);
 }
 
 static bool open_load(Load* l)
@@ -84,10 +87,12 @@ static bool open_load(Load* l)
     l->limb_weight = dp_alloc(limbs * times, sizeof(double));
     l->point_weight = dp_alloc(points * times, sizeof(double));
     l->accel = dp_alloc(3 * times, sizeof(double));
+    l->way = dp_alloc(2 * times, sizeof(double));
     l->landing = dp_alloc(limbs, sizeof(DpVec3));
     l->landed = dp_alloc(limbs, sizeof(int));
     return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on &&
-           l->point_on && l->limb_weight && l->point_weight && l->accel && l->landing && l->landed;
+           l->point_on && l->limb_weight && l->point_weight && l->accel && l->way && l->landing &&
+           l->landed;
 }
 
 // Which points of a limb carry: those of touching parts, near the height of the limb's lowest one.
@@ -144,94 +149,13 @@ static void gather(Load* l, int walker, const uint8_t* touching)
     walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, false, l->limb_weight);
 }
 
-// ---- how fast the walker steps ------------------------------------------------------------------
-
-static int by_value(const void* a, const void* b)
-{
-    const double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
+// ---- landing
+// ---------------------------------------------------------------------------------------
 
 static bool begins(const uint8_t* on, int t)
 {
     return t > 0 && on[t] && !on[t - 1];
 }
-
-// median time between touch-downs of one limb, of any limbs if none comes down twice; 0 if unknown
-static double step_time(const Load* l, double* scratch)
-{
-    const int times = l->gait->times;
-    int       count = 0;
-    for (int i = 0; i < l->limbs; ++i) {
-        const uint8_t* on = l->limb_on + (size_t)i * (size_t)times;
-        int            last = -1;
-        for (int t = 1; t < times; ++t) {
-            if (!begins(on, t)) continue;
-            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * l->rate && count < times)
-                scratch[count++] = (double)(t - last) / l->rate / (l->limbs > 1 ? 2.0 : 1.0);
-            last = t;
-        }
-    }
-    if (count == 0) {
-        int last = -1;
-        for (int t = 1; t < times; ++t) {
-            bool lands = false;
-            for (int i = 0; i < l->limbs; ++i)
-                lands = lands || begins(l->limb_on + (size_t)i * (size_t)times, t);
-            if (!lands) continue;
-            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * l->rate)
-                scratch[count++] = (double)(t - last) / l->rate;
-            last = t;
-        }
-    }
-    if (count == 0) return 0.0;
-    qsort(scratch, (size_t)count, sizeof *scratch, by_value);
-    return scratch[count / 2];
-}
-
-// does the walker ever leave the ground?
-static bool flies(const Load* l)
-{
-    for (int t = 0; t < l->gait->times; ++t) {
-        bool on = false;
-        for (int i = 0; i < l->limbs; ++i)
-            on = on || l->limb_on[(size_t)i * (size_t)l->gait->times + (size_t)t];
-        if (!on) return true;
-    }
-    return false;
-}
-
-// a_com, low-passed at three times the step frequency
-static DpStatus accelerate(Load* l)
-{
-    const DpLoadOptions* o = l->options;
-    const int            times = l->gait->times;
-    double*              line = dp_alloc((size_t)times, sizeof(double));
-    double*              scratch = dp_alloc(3 * (size_t)times + 8, sizeof(double));
-    if (!line || !scratch) {
-        dp_free(line), dp_free(scratch);
-        return DP_NO_MEMORY;
-    }
-    const double step = step_time(l, line);
-    const double cutoff = step > 0.0
-                              ? dp_clamp(o->cutoff_share / step, o->cutoff_low, o->cutoff_high)
-                          : flies(l) ? o->cutoff_high
-                                     : o->cutoff_low;
-    for (int c = 0; c < 3; ++c) {
-        for (int t = 0; t < times; ++t) {
-            const DpVec3 com = walker_com(l->gait, l->walker, t);
-            line[t] = c == 0 ? com.x : c == 1 ? com.y : com.z;
-        }
-        walker_low_pass(line, times, l->rate, cutoff, scratch);
-        for (int t = 0; t < times; ++t)
-            l->accel[c * times + t] = walker_acceleration(line, times, t, l->rate);
-    }
-    dp_free(line), dp_free(scratch);
-    return DP_OK;
-}
-
-// ---- landing
-// ---------------------------------------------------------------------------------------
 
 // the velocity of the mass centre at a sample, from the parabola through the last 1/30 s
 static DpVec3 latched_velocity(const Load* l, int t)
@@ -362,6 +286,24 @@ static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, 
     }
 }
 
+// Two feet under way push against each other: the one ahead brakes while the one behind drives,
+// each along the line from its centre of pressure to the mass centre, so that neither turns the body
+// over (Herr and Popovic 2008: walking keeps its angular momentum near zero). For a mass of 1; the sum is
+// zero, so that Newton's law stays as it is. Sideways legs hang on hips as far apart as the feet, and
+// with more than two legs each has a joint above it: none there.
+static void oppose(const Load* l, const Supports* limbs, int t, double pull, double height,
+                   double* push)
+{
+    const DpVec3 v = dp_vec3(l->way[t], l->way[l->gait->times + t], 0.0);
+    push[0] = push[1] = 0.0;
+    if (l->limbs != 2 || limbs->count != 2 || !(height > 0.0) || !(dp_length(v) > 0.0)) return;
+    const DpVec3 apart = dp_sub(limbs->at[1], limbs->at[0]);
+    const double lever = dp_dot(apart, dp_unit(v)) / height;
+    push[0] = -dp_smoothstep(dp_length(v) / TRAVEL) * fmax(pull, 0.0) * limbs->share[0] *
+              limbs->share[1] * dp_clamp(lever, -GRIP, GRIP);
+    push[1] = -push[0];
+}
+
 static void load_sample(Load* l, int t, double* out_force, double* out_point)
 {
     const size_t  times = (size_t)l->gait->times;
@@ -399,12 +341,16 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     DpVec3 miss = zmp;  // what the limbs' centres leave to their points
     for (int k = 0; k < limbs.count; ++k)
         miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));
+    double push[2] = {0.0, 0.0};
+    if (inertia) oppose(l, &limbs, t, pull, com.z - low / (double)limbs.count, push);
+    const DpVec3 ahead = dp_unit(dp_vec3(l->way[t], l->way[times + (size_t)t], 0.0));
     for (int k = 0; k < limbs.count; ++k) {
         const int i = limbs.index[k];
         DpVec3    force = dp_vec3(-accel.x, -accel.y, -pull);  // of a mass of 1, on the ground
         if (!inertia) force = dp_add(force, landing_push(l, i, t));  // TRAIL (3)
         // ground does not pull
         force = force.z < 0.0 ? dp_scale(force, mass * limbs.share[k]) : dp_vec3(0.0, 0.0, 0.0);
+        if (limbs.count == 2) force = dp_add(force, dp_scale(ahead, mass * push[k]));
         load_parts(l, i, t, force, accel, dp_add(limbs.at[k], miss), out_force, out_point);
     }
 }
@@ -412,9 +358,10 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
 static bool options_ok(const DpLoadOptions* o)
 {
     return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
-           o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->overlap_most > 0.0 &&
-           o->ramp_standing > 0.0 && o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 &&
-           o->reach > 0.0 && (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
+           o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_level > 0.0 &&
+           o->overlap_most > 0.0 && o->ramp_standing > 0.0 && o->ramp_alone > 0.0 &&
+           o->ramp_trust >= 0.0 && o->reach > 0.0 &&
+           (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
 }
 
 DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double* ground,
@@ -436,7 +383,8 @@ DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double
     for (int walker = 0; walker < gait->walkers && status == DP_OK; ++walker) {
         gather(&l, walker, touching);
         for (int i = 0; i < l.limbs; ++i) l.landed[i] = -1;
-        status = accelerate(&l);
+        status =
+            walker_accelerate(gait, walker, l.limb_on, l.limbs, l.rate, options, l.accel, l.way);
         for (int t = 0; t < gait->times && status == DP_OK; ++t)
             load_sample(&l, t, force, pressure_point);
     }

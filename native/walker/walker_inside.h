@@ -46,6 +46,13 @@ static inline DpVec3 walker_point(const DpGait* gait, int point)
 DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, const double* speed,
                             double slow, double rate);
 
+// Acceleration and velocity over the ground of a walker's mass centre, low-passed by its steps.
+// @param limb_on  (limbs, T) where its limbs touch
+// @param accel    out [m/s^2] (3, T);  way: out [m/s] (2, T)
+// Needs memory: DP_NO_MEMORY.
+DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
+                           double rate, const DpLoadOptions* options, double* accel, double* way);
+
 // How much of the weight each of `count` supports carries: ramps first, corrected by the
 // zero-moment point where the supports are far apart. Design 4.3.
 // @param share   in: s_i of the ramps, sum 1; out: a_i >= 0, sum 1  [-] (count)

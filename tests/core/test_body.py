@@ -372,3 +372,33 @@ def test_quaternions_come_back():
                                  [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                                  [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]), -1, 0)
     assert abs((rotation.quaternion(turn) * q).sum(axis=1)) == pytest.approx(np.ones(200), abs=1e-12)
+
+
+def test_a_leg_without_a_knee_bends_it_ahead():
+    """The mass centre of a person who squats is the same with knee bones and without."""
+    bones = person()
+    count = 5
+    motion = np.tile(bones.rest, (count, 1, 1, 1))
+    row = {name: k for k, name in enumerate(bones.names)}
+    fold = np.linspace(0.0, 0.8, count)  # of the thighs, forward; the shanks as much back
+    for t, angle in enumerate(fold):
+        for side in "LR":
+            hip, ankle = bones.rest[row[f"thigh.{side}"], :3, 3], bones.rest[row[f"foot.{side}"], :3, 3]
+            half = np.linalg.norm(hip - ankle) / 2
+            knee = ankle + half * np.array([0.0, -np.sin(angle), np.cos(angle)])
+            motion[t, row[f"shin.{side}"], :3, 3] = knee
+            motion[t, row[f"thigh.{side}"], :3, 3] = knee + half * np.array([0.0, np.sin(angle), np.cos(angle)])
+        sunk = motion[t, row["thigh.L"], :3, 3] - bones.rest[row["thigh.L"], :3, 3]
+        for name in ("hips", "neck"):
+            motion[t, row[name], :3, 3] += sunk
+    time = np.arange(count) / 30.0
+    whole = body.gait_from_bones(bones, Motion(time, bones.names, motion), mass=70.0, frame_rate=30.0)
+    keep = [k for k, name in enumerate(bones.names) if not name.startswith(("thigh", "shin"))]
+    parents = [0 if name.startswith(("foot", "neck")) else keep.index(bones.parents[k]) if k else -1
+               for k, name in ((k, bones.names[k]) for k in keep)]
+    names = tuple(bones.names[k] for k in keep)
+    few = Skeleton(names, np.array(parents, "i4"), bones.rest[keep], bones.length[keep])
+    kneeless = body.gait_from_bones(few, Motion(time, names, motion[:, keep]), mass=70.0, frame_rate=30.0)
+    drop = lambda g: g.com[0, :, 1:] - g.com[0, 0, 1:]
+    assert drop(whole)[-1, 1] < -0.15
+    assert abs(drop(kneeless) - drop(whole)).max() < 0.02

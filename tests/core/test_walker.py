@@ -3,21 +3,17 @@
 import csv
 import os
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from desire_path import _native, body, rigs, walker
+from desire_path import _native, body, walker
 from desire_path.errors import DesirePathError
 from desire_path.gait import Gait, Sole
 from reference import walker as twin
-from scenes import bvh, gaits
+from scenes import bvh, gaits, plates
 
-REPO = Path(__file__).resolve().parents[2]
-DATA = Path(os.environ.get("DESIRE_PATH_DATA", REPO.parent / "shared" / "data"))
-plates = pytest.mark.skipif(not (DATA / "gait_bmc_walk1").is_dir(),
-                            reason="reference data not found: set DESIRE_PATH_DATA")
+measured = pytest.mark.skipif(not plates.here(), reason="reference data not found: set DESIRE_PATH_DATA")
 SOLE = Sole([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]], [[0, 2, 1]])
 
 
@@ -112,103 +108,102 @@ def test_sphere_from_two_and_a_half_metres():
 
 # ---- plates ----------------------------------------------------------------------------------------------
 
-TRIALS = (("gait_bmc_walk1", 77.3, (0.31, 2.42)), ("gait_opensim_walk", 72.6, (0.05, 2.45)))
+TRIALS = tuple(plates.TRIALS)
 
 
-def trial(name, mass, every=1):
-    skeleton, motion, rate = bvh.load(DATA / name / "armature.bvh", every=every)
-    return body.gait_from_bones(skeleton, motion, mass=mass, frame_rate=rate)
+def errors(name, model="inertia", gait=None, window=None, **more):
+    gait = gait or plates.trial(name)
+    return plates.errors(name, walker.loads(gait, model, **more), gait, window)
 
 
-def measured(name, mass, time):
-    table = np.genfromtxt(DATA / name / "grf.csv", delimiter=",", names=True)
-    weight = mass * 9.81
-    force = np.stack([np.interp(time, table["time"], table[f"{s}_fz"]) for s in "LR"]) / weight
-    on = np.stack([np.interp(time, table["time"], (table[f"{s}_fz"] > 20) * 1.0) > 0.5 for s in "LR"])
-    cop = np.stack([np.interp(time, table["time"], np.nan_to_num(table[f"{s}_cop_x"])) for s in "LR"])
-    return force, on, cop
-
-
-def by_foot(gait, loads, mass):
-    force = np.stack([-loads.force[gait.part_limb == limb, :, 2].sum(axis=0) for limb in (0, 1)])
-    on = np.stack([loads.touching[gait.part_limb == limb].any(axis=0) for limb in (0, 1)])
-    return force / (mass * 9.81), on
-
-
-def errors(name, mass, window, model, every=1, **more):
-    gait = trial(name, mass, every)
-    loads = walker.loads(gait, model, **more)
-    force, on = by_foot(gait, loads, mass)
-    truth, truth_on, cop = measured(name, mass, loads.time)
-    inside = (loads.time >= window[0]) & (loads.time <= window[1])
-    rmse = np.sqrt(np.mean((force - truth)[:, inside] ** 2, axis=1))
-    r = [np.corrcoef(force[i, inside], truth[i, inside])[0, 1] for i in (0, 1)]
-    return rmse, r, force[:, inside].sum(axis=0).mean(), (gait, loads, on, truth_on, cop, inside)
-
-
-@plates
-@pytest.mark.parametrize("name,mass,window", TRIALS)
-def test_forces_hold_up_against_plates(name, mass, window):
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_forces_hold_up_against_plates(name):
     """Oracle 12."""
-    for model in ("inertia", "impulse"):
-        rmse, r, mean, _ = errors(name, mass, window, model)
-        print(f"{name} {model}: RMSE {rmse[0]:.3f} {rmse[1]:.3f} body weights, r {r[0]:.3f} {r[1]:.3f}, "
-              f"mean {mean:.3f}")
-        if model == "inertia":
-            assert max(rmse) <= 0.10 and min(r) >= 0.97 and 0.97 <= mean <= 1.05
+    found = errors(name)
+    print(f"{name}: RMSE {found.rmse[0]:.3f} {found.rmse[1]:.3f} body weights, r {found.r[0]:.3f} {found.r[1]:.3f}, "
+          f"mean {found.mean:.3f}")
+    assert np.sqrt((found.rmse ** 2).mean()) <= 0.08 and max(found.rmse) <= 0.10
+    assert min(found.r) >= 0.98 and 0.97 <= found.mean <= 1.03
+    # bmc's right plate loses weight at the end of the record, see below: until then both feet fit
+    assert max(errors(name, window=(plates.TRIALS[name].window[0], 2.1)).rmse) <= 0.06
+    papers = errors(name, "impulse")
+    assert max(papers.rmse) <= 0.20 and min(papers.r) >= 0.90
 
 
-@plates
-@pytest.mark.parametrize("name,mass,window", TRIALS)
-def test_contact_times_hold_up_against_plates(name, mass, window):
-    gait, loads, on, truth, _, inside = errors(name, mass, window, "inertia")[3]
-    time, count = loads.time, 0
-    for foot in (0, 1):
-        for begin, end in twin.stances(truth[foot]):
-            mine = [(a, b) for a, b in twin.stances(on[foot]) if a < end and b > begin]
-            for which, edge in ((0, begin), (1, end)):
-                if 2 < edge < len(time) - 2 and inside[edge]:
-                    nearest = min(abs(time[m[which]] - time[edge]) for m in mine if m[which] < len(time))
-                    assert nearest <= 0.060
-                    count += 1
-    assert count >= 5
-    times_on = [len(twin.stances(row)) for row in on]
-    assert max(times_on) <= 3  # no stance is broken
+@measured
+def test_the_last_plate_of_bmc_misses_weight():
+    """From 2.1 s on its plates add up to a body that falls; the recorded one does not."""
+    gait = plates.trial("gait_bmc_walk1")
+    total = plates.measured("gait_bmc_walk1", gait.time).weight.sum(axis=0)
+    late = gait.time > 2.1
+    gained = ((total[late] - 1.0) * 9.81).sum() / gait.rate()
+    speed = np.gradient(twin.low_pass(gait.com[0, :, 2], gait.rate(), 6.0), gait.time)[late]
+    assert gained < -0.7 and speed[-1] - speed[0] > -0.25  # [m/s]
 
 
-@plates
-@pytest.mark.parametrize("name,mass,window", TRIALS)
-def test_centre_of_pressure_holds_up_against_plates(name, mass, window):
-    gait, loads, on, truth, cop, inside = errors(name, mass, window, "inertia")[3]
-    for limb in (0, 1):
-        parts = gait.part_limb == limb
-        weight = -loads.force[parts, :, 2]
-        both = inside & (measured(name, mass, loads.time)[0][limb] > 0.15) & (weight.sum(axis=0) > 100)
-        mine = np.nansum(np.where(weight > 0, loads.point[parts, :, 0], 0) * weight, axis=0)
-        apart = abs(mine[both] / weight.sum(axis=0)[both] - cop[limb, both])
-        print(f"{name} foot {limb}: centre of pressure {apart.mean() * 100:.1f} cm off")
-        assert apart.mean() < 0.04
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_feet_push_and_brake_as_on_plates(name):
+    assert max(errors(name).drive) <= 0.045
 
 
-@plates
-@pytest.mark.parametrize("name,mass,window", TRIALS)
-def test_no_constant_carries_the_result(name, mass, window):
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_contact_times_hold_up_against_plates(name):
+    found = errors(name)
+    assert len(found.late) >= 5 and max(abs(found.late)) <= 0.051  # the recording's frames are 17 ms apart
+    gait = plates.trial(name)
+    on = plates.by_foot(gait, walker.loads(gait))[1]
+    assert max(len(twin.stances(row)) for row in on) <= 3  # no stance is broken
+
+
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_centre_of_pressure_holds_up_against_plates(name):
+    apart = errors(name).apart
+    print(f"{name}: centre of pressure {apart[0] * 100:.1f} {apart[1] * 100:.1f} cm off")
+    assert max(apart) < 0.03
+
+
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_no_constant_carries_the_result(name):
     """Each constant moved by 30 % either way moves the errors by 0.03 at most."""
-    base = errors(name, mass, window, "inertia")[0]
+    gait = plates.trial(name)
+    base = errors(name, gait=gait).rmse
     for table, kind in ((walker.LIMITS, "limits"), (walker.OPTIONS, "options")):
         for constant, value in table.items():
             for factor in (0.7, 1.3):
-                moved = errors(name, mass, window, "inertia", **{kind: {constant: value * factor}})[0]
+                moved = errors(name, gait=gait, **{kind: {constant: value * factor}}).rmse
                 assert abs(moved - base).max() < 0.03, constant
 
 
-@plates
+@measured
+@pytest.mark.parametrize("name", TRIALS)
+def test_a_trial_seen_otherwise_weighs_the_same(name):
+    """Fewer frames, noise, another floor, mirrored, fewer bones."""
+    gait = plates.trial(name)
+    base = errors(name, gait=gait)
+    seen = {rate: gait.resample(rate) for rate in (24.0, 30.0, 60.0, 120.0, 240.0)}
+    seen |= {"noise": plates.noisy(gait, 0.001), "up": plates.raised(gait, 0.05),
+             "down": plates.raised(gait, -0.05), "tilt": plates.tilted(gait, np.radians(0.5)),
+             "mirror": plates.mirrored(gait), "no toes": plates.trial(name, without=("Toe",)),
+             "no knees": plates.trial(name, without=("LeftLeg", "RightLeg", "UpLeg")),
+             "no spine": plates.trial(name, without=("Spine", "Neck"))}
+    for what, other in seen.items():
+        found = errors(name, gait=other)
+        assert max(found.rmse - base.rmse) <= 0.01, what
+        assert max(abs(found.late)) <= 0.055 and max(found.apart) <= 0.03, what
+
+
+@measured
 def test_frame_rate_does_not_matter():
-    name, mass, window = TRIALS[0]
-    base = errors(name, mass, window, "inertia")[0]
+    name = TRIALS[0]
+    base = errors(name).rmse
     for every in (2, 5):  # 75 and 30 frames a second
-        assert abs(errors(name, mass, window, "inertia", every=every)[0] - base).max() < 0.008
-    gait = trial(name, mass)
+        assert abs(errors(name, gait=plates.trial(name, every)).rmse - base).max() < 0.008
+    gait = plates.trial(name)
     whole = None
     for rate in (240, 120, 60, 30, 24):
         loads = walker.loads(gait.resample(rate))
@@ -221,13 +216,14 @@ CLIPS = (("cmu_12_01_walk", (3, 5), 0.1), ("cmu_02_03_run", (1, 3), 0.8), ("cmu_
          ("cmu_03_02_uneven", (2, 4), 0.5))
 
 
-@plates
+@measured
 @pytest.mark.parametrize("name,stances,air", CLIPS)
 def test_clips_without_plates(name, stances, air):
-    skeleton, motion, rate = bvh.load(DATA / "mocap" / f"{name}.bvh", scale=0.056444)
+    skeleton, motion, rate = bvh.load(plates.DATA / "mocap" / f"{name}.bvh", scale=0.056444)
     gait = body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=rate)
     loads = walker.loads(gait)
-    force, on = by_foot(gait, loads, 75.0)
+    force, on, _ = plates.by_foot(gait, loads)
+    force = force[..., 2]
     for foot in on:
         assert stances[0] <= len(twin.stances(foot)) <= stances[1]
     assert (~on.any(axis=0)).mean() * gait.time[-1] < air

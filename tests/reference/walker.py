@@ -147,7 +147,9 @@ def share_of_two(s, a_star, length, mu, reach=0.3):
 
 def inertia_of_two(com, mass, feet, on, rate, cutoff):
     """Forces (2, T, 3) of two one-point limbs at feet (2, T, 3) on the ground."""
-    accel = np.stack([acceleration(com[:, c], rate, cutoff) for c in range(3)], axis=1)
+    level = cutoff * 2 / 3  # of what goes on over the ground
+    accel = np.stack([acceleration(com[:, c], rate, level if c < 2 else cutoff) for c in range(3)], axis=1)
+    way = np.gradient(np.stack([low_pass(com[:, c], rate, level) for c in (0, 1)], axis=1), 1 / rate, axis=0)
     weight = ramps_of_two(on, rate)
     force = np.zeros((2,) + com.shape)
     for t in range(len(com)):
@@ -162,7 +164,15 @@ def inertia_of_two(com, mass, feet, on, rate, cutoff):
             still = smoothstep(np.linalg.norm(accel[t]) / (0.1 * G))
             mu = 0.25 * max(still, 1 - weight[0, t], 1 - weight[1, t])
             a = share_of_two(s, a_star, np.linalg.norm(d), mu)
+            # the foot ahead brakes, the one behind drives, both along their lines to the mass centre
+            fast = np.linalg.norm(way[t])
+            ahead = way[t] / max(fast, 1e-12)
+            height = com[t, 2] - (feet[0, t, 2] + feet[1, t, 2]) / 2
+            lever = min(max(d @ ahead / height, -0.6), 0.6)
+            drive = smoothstep(fast / 0.5) * -total[2] * a * (1 - a) * lever
             force[0, t], force[1, t] = a * total, (1 - a) * total
+            force[0, t, :2] += drive * ahead
+            force[1, t, :2] -= drive * ahead
         elif on[0, t] or on[1, t]:
             force[0 if on[0, t] else 1, t] = total
     return force

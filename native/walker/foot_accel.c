@@ -1,0 +1,99 @@
+// walker/foot_accel.c - how the ground accelerates a body, low-passed by how often it steps.
+//
+// Departures
+//   Design 4.3 low-passes a_com at three step frequencies. Up and down that is kept: the force
+//   rises and falls twice a step. Over the ground it changes less often, forward once a step
+//   (brake, drive) and sideways once in two, so that two step frequencies hold it, and what lies
+//   above is the recording's noise, which the zero-moment point would take for steps.
+//   test_foot_force.c, level_noise_is_not_a_step.
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "walker/walker_inside.h"
+
+#define STEP_SHORTEST 0.15  // touch-downs closer than this are one step [s]
+
+static int by_value(const void* a, const void* b)
+{
+    const double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+static bool begins(const uint8_t* on, int t)
+{
+    return t > 0 && on[t] && !on[t - 1];
+}
+
+// median time between touch-downs of one limb, of any limbs if none comes down twice; 0 if unknown
+static double step_time(const uint8_t* limb_on, int limbs, int times, double rate, double* scratch)
+{
+    int count = 0;
+    for (int i = 0; i < limbs; ++i) {
+        const uint8_t* on = limb_on + (size_t)i * (size_t)times;
+        int            last = -1;
+        for (int t = 1; t < times; ++t) {
+            if (!begins(on, t)) continue;
+            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * rate && count < times)
+                scratch[count++] = (double)(t - last) / rate / (limbs > 1 ? 2.0 : 1.0);
+            last = t;
+        }
+    }
+    if (count == 0) {
+        int last = -1;
+        for (int t = 1; t < times; ++t) {
+            bool lands = false;
+            for (int i = 0; i < limbs; ++i)
+                lands = lands || begins(limb_on + (size_t)i * (size_t)times, t);
+            if (!lands) continue;
+            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * rate)
+                scratch[count++] = (double)(t - last) / rate;
+            last = t;
+        }
+    }
+    if (count == 0) return 0.0;
+    qsort(scratch, (size_t)count, sizeof *scratch, by_value);
+    return scratch[count / 2];
+}
+
+// does the walker ever leave the ground?
+static bool flies(const uint8_t* limb_on, int limbs, int times)
+{
+    for (int t = 0; t < times; ++t) {
+        bool on = false;
+        for (int i = 0; i < limbs; ++i) on = on || limb_on[(size_t)i * (size_t)times + (size_t)t];
+        if (!on) return true;
+    }
+    return false;
+}
+
+DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
+                           double rate, const DpLoadOptions* options, double* accel, double* way)
+{
+    const int times = gait->times;
+    double*   line = dp_alloc((size_t)times, sizeof(double));
+    double*   scratch = dp_alloc(3 * (size_t)times + 8, sizeof(double));
+    if (!line || !scratch) {
+        dp_free(line), dp_free(scratch);
+        return DP_NO_MEMORY;
+    }
+    const double step = step_time(limb_on, limbs, times, rate, line);
+    const double up = step > 0.0 ? dp_clamp(options->cutoff_share / step, options->cutoff_low,
+                                            options->cutoff_high)
+                      : flies(limb_on, limbs, times) ? options->cutoff_high
+                                                     : options->cutoff_low;
+    for (int c = 0; c < 3; ++c) {
+        for (int t = 0; t < times; ++t) {
+            const DpVec3 com = walker_com(gait, walker, t);
+            line[t] = c == 0 ? com.x : c == 1 ? com.y : com.z;
+        }
+        walker_low_pass(line, times, rate, c < 2 ? up * options->cutoff_level : up, scratch);
+        for (int t = 0; t < times; ++t) {
+            accel[c * times + t] = walker_acceleration(line, times, t, rate);
+            if (c < 2) way[c * times + t] = walker_velocity(line, times, t, rate);
+        }
+    }
+    dp_free(line), dp_free(scratch);
+    return DP_OK;
+}
