@@ -287,10 +287,10 @@ static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, 
 }
 
 // Two feet under way push against each other: the one ahead brakes while the one behind drives,
-// each along the line from its centre of pressure to the mass centre, so that neither turns the body
-// over (Herr and Popovic 2008: walking keeps its angular momentum near zero). For a mass of 1; the sum is
-// zero, so that Newton's law stays as it is. Sideways legs hang on hips as far apart as the feet, and
-// with more than two legs each has a joint above it: none there.
+// each along the line from its centre of pressure to the mass centre, so that neither turns the
+// body over (Herr and Popovic 2008: walking keeps its angular momentum near zero). For a mass of 1;
+// the sum is zero, so that Newton's law stays as it is. Sideways legs hang on hips as far apart as
+// the feet, and with more than two legs each has a joint above it: none there.
 static void oppose(const Load* l, const Supports* limbs, int t, double pull, double height,
                    double* push)
 {
