@@ -45,7 +45,8 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     made->soil_count = options->soil_count;
     made->soils = dp_alloc(soils, sizeof *made->soils);
     made->slope = dp_alloc(soils, sizeof *made->slope);
-    DpStatus status = made->soils && made->slope ? rest_create(&made->rest, ground) : DP_NO_MEMORY;
+    DpStatus status =
+        made->soils && made->slope ? rest_create(&made->rest, ground, made->workers) : DP_NO_MEMORY;
     if (status != DP_OK) {
         dp_terrain_destroy(made);
         return status;

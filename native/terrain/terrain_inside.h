@@ -14,15 +14,27 @@
 
 // ---- ground, terrain_rest.c and terrain_mesh.c ------------------------------------------------
 
-// triangles in a uniform grid of bins: those of bin b are item[start[b]] .. item[start[b + 1] - 1]
+#define MOST_GRIDS 16  // of bins: 2^15 bins along a side of the finest, one bin in the coarsest
+
+// one of the grids; grid l has bins 2^l times as wide as the finest
+typedef struct BinGrid
+{
+    int  nx, ny;
+    int  first;  // its bin (0, 0) among all bins
+    bool used;   // whether any triangle stands in it
+} BinGrid;
+
+// triangles in grids of bins: those of bin b are item[start[b]] .. item[start[b + 1] - 1]
 typedef struct MeshGround
 {
     int      vertex_count, triangle_count;
-    double*  vertex;       // [m] (vertex_count, 3)
-    int32_t* triangle;     // (triangle_count, 3)
-    double   x0, y0, bin;  // corner and side of bin (0, 0) [m]
-    int      nx, ny;       // bins
-    size_t*  start;        // (nx * ny + 1)
+    double*  vertex;           // [m] (vertex_count, 3)
+    int32_t* triangle;         // (triangle_count, 3)
+    double   x0, y0, per_bin;  // corner of bin (0, 0) [m]; finest bins in a metre [1/m]
+    int      nx, ny;           // finest bins
+    BinGrid  grid[MOST_GRIDS];
+    int      grids, bins;  // grids there are; bins of all of them
+    int32_t* start;        // (bins + 1)
     int32_t* item;         // triangles, ascending within a bin
 } MeshGround;
 
@@ -41,7 +53,7 @@ typedef struct Rest
     double       bounds[4];    // {x0, y0, x1, y1} [m]
 } Rest;
 
-DpStatus rest_create(Rest* rest, const DpGround* ground);
+DpStatus rest_create(Rest* rest, const DpGround* ground, int workers);
 void     rest_destroy(Rest* rest);
 
 // Height at a point, NaN where there is none; the kind of ground there goes to *kind if not NULL.
@@ -58,7 +70,7 @@ typedef struct TileGrid
 // Heights and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)rest_at at cell centres.
 void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
 
-DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, double bounds[4]);
+DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4]);
 void     mesh_destroy(MeshGround* mesh);
 double   mesh_at(const Rest* rest, double x, double y, uint8_t* kind);
 void     mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);

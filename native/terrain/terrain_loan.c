@@ -258,9 +258,11 @@ static void read_row(const Reading* reading, const Tile* tile, const float* rest
     }
 }
 
-static bool comes_from_ground(DpField field)
+// whether an untouched tile has to be made for it; ground that is not painted is soil 0 all over
+static bool comes_from_ground(const DpTerrain* terrain, DpField field)
 {
-    return field == DP_FIELD_REST || field == DP_FIELD_MODULUS || field == DP_FIELD_KIND;
+    return field == DP_FIELD_REST ||
+           (terrain->rest.kind_count > 0 && (field == DP_FIELD_MODULUS || field == DP_FIELD_KIND));
 }
 
 static bool is_of_plants(DpField field)
@@ -284,7 +286,7 @@ static void read_tile(void* context, int index, int worker)
     const float*   plant = !grows ? NULL : tile ? tile->plant : made_plant;
     (void)worker;
     if (plant == made_plant) tile_plant(reading->terrain, tx, ty, made_plant);
-    if (!tile && comes_from_ground(reading->field)) {
+    if (!tile && comes_from_ground(reading->terrain, reading->field)) {
         const TileGrid grid = tile_grid(reading->terrain, tx, ty);
         rest_tile(&reading->terrain->rest, &grid, made_rest, made_kind);
     }

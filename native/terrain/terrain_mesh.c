@@ -1,19 +1,23 @@
 // Ground made of triangles: the upper envelope, seen from straight above.
 //
-// Triangles lie in a uniform grid of bins. A point asks the triangles of its bin, a tile those of
-// the bins under it; both use facet_at, so both get the same bits. A triangle reaches a hair beyond
-// its edges: a point on an edge, or on a needle too thin to be kept, is never lost between two.
+// Triangles lie in grids of bins, each grid twice as coarse as the one before. A triangle stands
+// once: in the bin of its lower left corner, in the finest grid where it ends in that bin or in the
+// next one. A point asks the bins it lies in and those before them, a tile the bins under it and
+// before; both use facet_at, so both get the same bits. A triangle reaches a hair beyond its edges:
+// a point on an edge, or on a needle too thin to be kept, is never lost between two.
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "base/vec.h"
 #include "terrain/terrain_inside.h"
 
 #define NEEDLE 1e-10          // twice the area seen from above, over the longest edge squared
 #define SLACK (2.0 * NEEDLE)  // how far it reaches beyond its edges, over the longest edge
-#define BIN_SHARE 6           // entries in bins, per triangle, before bins are made coarser
 #define MOST_BINS 30000       // along one side
+#define CHUNK 32768           // triangles or points looked at by one worker at a time
+#define NOWHERE UINT32_MAX    // the bin of a triangle that is not ground
 
 // a triangle seen from above
 typedef struct Facet
@@ -103,9 +107,10 @@ static inline bool facet_at(const Facet* facet, double x, double y, double* z, d
 
 // ---- bins -------------------------------------------------------------------------------------
 
-static int bin_of(double at, double from, double bin, int bins)
+// column or row of the finest bins
+static inline int bin_of(double at, double from, double per_bin, int bins)
 {
-    const double steps = (at - from) / bin;
+    const double steps = (at - from) * per_bin;
     return steps <= 0.0 ? 0 : steps >= (double)(bins - 1) ? bins - 1 : (int)steps;
 }
 
@@ -115,125 +120,191 @@ typedef struct Bins
     int x0, x1, y0, y1;
 } Bins;
 
-static Bins bins_of(const MeshGround* mesh, double x_min, double x_max, double y_min, double y_max)
+static inline Bins bins_of(const MeshGround* mesh, double x_min, double x_max, double y_min,
+                           double y_max)
 {
-    const Bins bins = {
-        bin_of(x_min, mesh->x0, mesh->bin, mesh->nx), bin_of(x_max, mesh->x0, mesh->bin, mesh->nx),
-        bin_of(y_min, mesh->y0, mesh->bin, mesh->ny), bin_of(y_max, mesh->y0, mesh->bin, mesh->ny)};
+    const Bins bins = {bin_of(x_min, mesh->x0, mesh->per_bin, mesh->nx),
+                       bin_of(x_max, mesh->x0, mesh->per_bin, mesh->nx),
+                       bin_of(y_min, mesh->y0, mesh->per_bin, mesh->ny),
+                       bin_of(y_max, mesh->y0, mesh->per_bin, mesh->ny)};
     return bins;
 }
 
-static Bins facet_bins(const MeshGround* mesh, const Facet* facet)
+// the finest grid a triangle fits, and its bin there
+static uint32_t place_of(const MeshGround* mesh, const Facet* facet)
 {
-    return bins_of(mesh, facet->x_min, facet->x_max, facet->y_min, facet->y_max);
+    const Bins at = bins_of(mesh, facet->x_min, facet->x_max, facet->y_min, facet->y_max);
+    int        l = 0;
+    while ((at.x1 >> l) - (at.x0 >> l) > 1 || (at.y1 >> l) - (at.y0 >> l) > 1) ++l;
+    const BinGrid* grid = &mesh->grid[l];
+    return (uint32_t)(grid->first + (at.y0 >> l) * grid->nx + (at.x0 >> l));
 }
 
-static void set_bins(MeshGround* mesh, const double bounds[4], double bin)
-{
-    mesh->x0 = bounds[0], mesh->y0 = bounds[1];
-    mesh->bin = bin;
-    mesh->nx = (int)((bounds[2] - bounds[0]) / bin) + 1;
-    mesh->ny = (int)((bounds[3] - bounds[1]) / bin) + 1;
-}
-
-static size_t count_entries(const MeshGround* mesh)
-{
-    size_t entries = 0;
-    for (int32_t t = 0; t < mesh->triangle_count; ++t) {
-        const Facet facet = facet_of(mesh, t);
-        if (facet.sign == 0.0) continue;
-        const Bins bins = facet_bins(mesh, &facet);
-        entries += (size_t)(bins.x1 - bins.x0 + 1) * (size_t)(bins.y1 - bins.y0 + 1);
-    }
-    return entries;
-}
-
-// a few triangles a bin and a few bins a triangle; a huge triangle among small ones asks for
-// coarser bins, one bin for all at the worst
-static size_t choose_bins(MeshGround* mesh, const double bounds[4], size_t facing)
+// a few triangles a bin
+static void choose_bins(MeshGround* mesh, const double bounds[4], size_t facing)
 {
     const double wide = bounds[2] - bounds[0], high = bounds[3] - bounds[1];
     const double longer = fmax(wide, high);
-    double       bin = fmax(2.0 * sqrt(wide * high / (double)facing),
+    const double bin = fmax(2.0 * sqrt(wide * high / (double)facing),
                             longer / fmin((double)facing, (double)MOST_BINS));
-    for (;; bin *= 2.0) {
-        set_bins(mesh, bounds, bin);
-        const size_t entries = count_entries(mesh);
-        if (entries <= BIN_SHARE * facing + 64 || (mesh->nx == 1 && mesh->ny == 1)) return entries;
+    mesh->x0 = bounds[0], mesh->y0 = bounds[1];
+    mesh->per_bin = 1.0 / bin;
+    mesh->nx = (int)(wide / bin) + 1;
+    mesh->ny = (int)(high / bin) + 1;
+    int first = 0;
+    for (int l = 0;; ++l) {
+        const int nx = ((mesh->nx - 1) >> l) + 1, ny = ((mesh->ny - 1) >> l) + 1;
+        mesh->grid[l] = (BinGrid){nx, ny, first, false};
+        first += nx * ny;
+        mesh->grids = l + 1;
+        if (nx == 1 && ny == 1) break;
+    }
+    mesh->bins = first;
+}
+
+typedef struct Binning
+{
+    const DpGround* ground;
+    MeshGround*     mesh;
+    uint32_t*       place;  // bin of every triangle
+    struct Share
+    {
+        double bounds[4];
+        size_t facing;
+        bool   bad;
+    } * share;  // what every chunk found
+} Binning;
+
+static int chunks_of(size_t count)
+{
+    return (int)((count + CHUNK - 1) / CHUNK);
+}
+
+static int end_of(int chunk, int count)
+{
+    return count - chunk * CHUNK < CHUNK ? count : (chunk + 1) * CHUNK;
+}
+
+static void take_points(void* context, int chunk, int worker)
+{
+    Binning*      binning = context;
+    const double* vertex = binning->ground->vertex;
+    const size_t  first = 3 * (size_t)chunk * CHUNK;
+    const size_t  end = 3 * (size_t)end_of(chunk, binning->ground->vertex_count);
+    bool          bad = false;
+    (void)worker;
+    for (size_t n = first; n < end; ++n) bad |= !(fabs(vertex[n]) < 1e100);  // squares are finite
+    binning->share[chunk].bad = bad;
+    memcpy(binning->mesh->vertex + first, vertex + first, (end - first) * sizeof *vertex);
+}
+
+static void take_triangles(void* context, int chunk, int worker)
+{
+    Binning*       binning = context;
+    MeshGround*    mesh = binning->mesh;
+    struct Share*  share = &binning->share[chunk];
+    const int32_t* corner = binning->ground->triangle;
+    const int      end = end_of(chunk, mesh->triangle_count);
+    double         x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
+    (void)worker;
+    for (int t = chunk * CHUNK; t < end; ++t) {
+        for (size_t n = 3 * (size_t)t; n < 3 * (size_t)t + 3; ++n) {
+            share->bad |= corner[n] < 0 || corner[n] >= mesh->vertex_count;
+            mesh->triangle[n] = corner[n];
+        }
+        if (share->bad) return;
+        const Facet facet = facet_of(mesh, t);
+        if (facet.sign == 0.0) continue;
+        ++share->facing;
+        x0 = fmin(x0, least(facet.x)), x1 = fmax(x1, most(facet.x));
+        y0 = fmin(y0, least(facet.y)), y1 = fmax(y1, most(facet.y));
+    }
+    share->bounds[0] = x0, share->bounds[1] = y0, share->bounds[2] = x1, share->bounds[3] = y1;
+}
+
+static void find_places(void* context, int chunk, int worker)
+{
+    const Binning* binning = context;
+    const int      end = end_of(chunk, binning->mesh->triangle_count);
+    (void)worker;
+    for (int t = chunk * CHUNK; t < end; ++t) {
+        const Facet facet = facet_of(binning->mesh, t);
+        binning->place[t] = facet.sign == 0.0 ? NOWHERE : place_of(binning->mesh, &facet);
     }
 }
 
-static void count_or_place(MeshGround* mesh, int32_t triangle, bool place)
+// points, then triangles, copied and looked through; how many face up or down, and where they lie
+static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_t* facing)
 {
-    const Facet facet = facet_of(mesh, triangle);
-    if (facet.sign == 0.0) return;
-    const Bins at = facet_bins(mesh, &facet);
-    for (int by = at.y0; by <= at.y1; ++by)
-        for (int bx = at.x0; bx <= at.x1; ++bx) {
-            size_t* start = &mesh->start[(size_t)by * (size_t)mesh->nx + (size_t)bx];
-            if (place)
-                mesh->item[--*start] = triangle;
-            else
-                ++*start;
+    const DpGround* ground = binning->ground;
+    const int       point_chunks = chunks_of((size_t)ground->vertex_count);
+    const int       chunks = chunks_of((size_t)ground->triangle_count);
+    dp_parallel_for(point_chunks, workers, take_points, binning);
+    for (int c = 0; c < point_chunks; ++c)
+        if (binning->share[c].bad) return DP_BAD_ARGUMENT;
+    dp_parallel_for(chunks, workers, take_triangles, binning);
+    bounds[0] = bounds[1] = INFINITY, bounds[2] = bounds[3] = -INFINITY;
+    *facing = 0;
+    for (int c = 0; c < chunks; ++c) {
+        const struct Share* share = &binning->share[c];
+        if (share->bad) return DP_BAD_ARGUMENT;
+        if (share->facing == 0) continue;
+        *facing += share->facing;
+        for (int k = 0; k < 2; ++k) {
+            bounds[k] = fmin(bounds[k], share->bounds[k]);
+            bounds[k + 2] = fmax(bounds[k + 2], share->bounds[k + 2]);
         }
+    }
+    return *facing == 0 ? DP_NO_GROUND : DP_OK;
 }
 
 // counted, summed up, filled from the back: ascending within a bin
-static bool fill_bins(MeshGround* mesh, size_t entries)
+static bool fill_bins(MeshGround* mesh, const uint32_t* place, size_t facing)
 {
-    const size_t bins = (size_t)mesh->nx * (size_t)mesh->ny;
-    mesh->start = dp_alloc(bins + 1, sizeof *mesh->start);
-    mesh->item = dp_alloc(entries, sizeof *mesh->item);
+    mesh->start = dp_alloc((size_t)mesh->bins + 1, sizeof *mesh->start);
+    mesh->item = dp_alloc(facing, sizeof *mesh->item);
     if (!mesh->start || !mesh->item) return false;
-    for (int32_t t = 0; t < mesh->triangle_count; ++t) count_or_place(mesh, t, false);
-    size_t sum = 0;
-    for (size_t b = 0; b <= bins; ++b) {
+    for (int32_t t = 0; t < mesh->triangle_count; ++t)
+        if (place[t] != NOWHERE) ++mesh->start[place[t]];
+    int32_t sum = 0;
+    for (int b = 0; b <= mesh->bins; ++b) {
         sum += mesh->start[b];
         mesh->start[b] = sum;  // where the bin ends; placing moves it back to where it begins
     }
-    for (int32_t t = mesh->triangle_count; t-- > 0;) count_or_place(mesh, t, true);
+    for (int32_t t = mesh->triangle_count; t-- > 0;)
+        if (place[t] != NOWHERE) mesh->item[--mesh->start[place[t]]] = t;
+    for (int l = 0; l < mesh->grids; ++l) {
+        BinGrid* grid = &mesh->grid[l];
+        grid->used = mesh->start[grid->first] < mesh->start[grid->first + grid->nx * grid->ny];
+    }
     return true;
 }
 
-static DpStatus check_mesh(const DpGround* ground)
+DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4])
 {
     if (ground->vertex_count < 3 || ground->triangle_count < 1 || !ground->vertex ||
         !ground->triangle)
         return DP_BAD_ARGUMENT;
-    const size_t numbers = 3 * (size_t)ground->vertex_count;
-    for (size_t n = 0; n < numbers; ++n)
-        if (!(fabs(ground->vertex[n]) < 1e100)) return DP_BAD_ARGUMENT;  // squares must be finite
-    const size_t corners = 3 * (size_t)ground->triangle_count;
-    for (size_t n = 0; n < corners; ++n)
-        if (ground->triangle[n] < 0 || ground->triangle[n] >= ground->vertex_count)
-            return DP_BAD_ARGUMENT;
-    return DP_OK;
-}
-
-DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, double bounds[4])
-{
-    const DpStatus status = check_mesh(ground);
-    if (status != DP_OK) return status;
+    const size_t points = (size_t)ground->vertex_count, triangles = (size_t)ground->triangle_count;
+    const int    chunks = chunks_of(points > triangles ? points : triangles);
     mesh->vertex_count = ground->vertex_count;
     mesh->triangle_count = ground->triangle_count;
-    mesh->vertex = dp_alloc((size_t)ground->vertex_count, 3 * sizeof(double));
-    mesh->triangle = dp_alloc((size_t)ground->triangle_count, 3 * sizeof(int32_t));
-    if (!mesh->vertex || !mesh->triangle) return DP_NO_MEMORY;
-    memcpy(mesh->vertex, ground->vertex, (size_t)ground->vertex_count * 3 * sizeof(double));
-    memcpy(mesh->triangle, ground->triangle, (size_t)ground->triangle_count * 3 * sizeof(int32_t));
-
-    size_t facing = 0;
-    bounds[0] = bounds[1] = INFINITY, bounds[2] = bounds[3] = -INFINITY;
-    for (int32_t t = 0; t < mesh->triangle_count; ++t) {
-        const Facet facet = facet_of(mesh, t);
-        if (facet.sign == 0.0) continue;
-        ++facing;
-        bounds[0] = fmin(bounds[0], least(facet.x)), bounds[2] = fmax(bounds[2], most(facet.x));
-        bounds[1] = fmin(bounds[1], least(facet.y)), bounds[3] = fmax(bounds[3], most(facet.y));
+    mesh->vertex = dp_alloc(points, 3 * sizeof(double));
+    mesh->triangle = dp_alloc(triangles, 3 * sizeof(int32_t));
+    Binning  binning = {ground, mesh, dp_alloc(triangles, sizeof(uint32_t)),
+                        dp_alloc((size_t)chunks, sizeof(struct Share))};
+    size_t   facing = 0;
+    DpStatus status = DP_NO_MEMORY;
+    if (mesh->vertex && mesh->triangle && binning.place && binning.share)
+        status = take_mesh(&binning, workers, bounds, &facing);
+    if (status == DP_OK) {
+        choose_bins(mesh, bounds, facing);
+        dp_parallel_for(chunks_of(triangles), workers, find_places, &binning);
+        if (!fill_bins(mesh, binning.place, facing)) status = DP_NO_MEMORY;
     }
-    if (facing == 0) return DP_NO_GROUND;
-    const size_t entries = choose_bins(mesh, bounds, facing);
-    return fill_bins(mesh, entries) ? DP_OK : DP_NO_MEMORY;
+    dp_free(binning.place);
+    dp_free(binning.share);
+    return status;
 }
 
 void mesh_destroy(MeshGround* mesh)
@@ -271,46 +342,89 @@ static uint8_t kind_of(const Rest* rest, int32_t triangle, double x, double y)
     return facet_at(&facet, x, y, &z, share) ? heaviest_kind(rest, 3, of, share) : 0;
 }
 
+// the triangles of a row of bins that can lie over a rectangle of finest bins
+typedef struct Items
+{
+    const int32_t *at, *end;
+} Items;
+
+static inline Items items_of(const MeshGround* mesh, const BinGrid* grid, int l, const Bins* under,
+                             int row)
+{
+    const int   before = (under->x0 >> l) - 1;
+    const int   first = grid->first + row * grid->nx + (before < 0 ? 0 : before);
+    const int   last = grid->first + row * grid->nx + (under->x1 >> l);
+    const Items items = {mesh->item + mesh->start[first], mesh->item + mesh->start[last + 1]};
+    return items;
+}
+
+static inline int first_row(int l, const Bins* under)
+{
+    const int before = (under->y0 >> l) - 1;
+    return before < 0 ? 0 : before;
+}
+
 double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
 {
     const MeshGround* mesh = &rest->mesh;
     if (!isfinite(x) || !isfinite(y)) return NAN;
-    const Bins   at = bins_of(mesh, x, x, y, y);
-    const size_t bin = (size_t)at.y0 * (size_t)mesh->nx + (size_t)at.x0;
-    Highest      top = {NAN, -1};
-    for (size_t n = mesh->start[bin]; n < mesh->start[bin + 1]; ++n) {
-        Facet  facet = facet_box(mesh, mesh->item[n]);
-        double z, share[3];
-        if (!in_box(&facet, x, y)) continue;
-        facet_finish(&facet);
-        if (facet_at(&facet, x, y, &z, share)) rise(&top, z, mesh->item[n]);
+    const Bins at = bins_of(mesh, x, x, y, y);
+    Highest    top = {NAN, -1};
+    for (int l = 0; l < mesh->grids; ++l) {
+        const BinGrid* grid = &mesh->grid[l];
+        if (!grid->used) continue;
+        for (int row = first_row(l, &at); row <= at.y1 >> l; ++row) {
+            const Items items = items_of(mesh, grid, l, &at, row);
+            for (const int32_t* item = items.at; item < items.end; ++item) {
+                Facet  facet = facet_box(mesh, *item);
+                double z, share[3];
+                if (!in_box(&facet, x, y)) continue;
+                facet_finish(&facet);
+                if (facet_at(&facet, x, y, &z, share)) rise(&top, z, *item);
+            }
+        }
     }
     if (kind) *kind = kind_of(rest, top.triangle, x, y);
     return top.z;
 }
 
 // cells whose centres can lie in low..high; facet_at has the last word
-static inline void cell_range(double low, double high, double origin, double cell, long from,
+static inline void cell_range(double low, double high, double origin, double per_cell, long from,
                               int* first, int* last)
 {
-    const double before = dp_clamp((low - origin) / cell - 1.5 - (double)from, 0.0, DP_TILE);
-    const double after = dp_clamp((high - origin) / cell + 0.5 - (double)from, -1.0, DP_TILE - 1);
-    *first = (int)before;
-    *last = (int)ceil(after);
-    if (*last > DP_TILE - 1) *last = DP_TILE - 1;
+    const double spare = 0.01 + fabs((double)from) * 0x1p-48;  // more than rounding takes
+    const double before =
+        dp_clamp((low - origin) * per_cell - (double)from - 0.5 - spare, -1.0, DP_TILE);
+    const double after =
+        dp_clamp((high - origin) * per_cell - (double)from - 0.5 + spare, -1.0, DP_TILE - 1);
+    *first = (int)(before + 1.0);  // ceil of what is not whole
+    *last = (int)(after + 1.0) - 1;
 }
 
-static void raise_cells(const Facet* facet, int32_t triangle, const TileGrid* grid, Highest* top)
+static inline bool can_rise(const Highest* top, double z_most, int32_t triangle)
+{
+    return top->triangle < 0 || z_most > top->z || (z_most == top->z && triangle < top->triangle);
+}
+
+static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, double per_cell,
+                        Highest* top)
 {
     int i0, i1, j0, j1;
-    cell_range(facet->x_min, facet->x_max, grid->origin_x, grid->cell, grid->i0, &i0, &i1);
-    cell_range(facet->y_min, facet->y_max, grid->origin_y, grid->cell, grid->j0, &j0, &j1);
+    cell_range(facet->x_min, facet->x_max, grid->origin_x, per_cell, grid->i0, &i0, &i1);
+    cell_range(facet->y_min, facet->y_max, grid->origin_y, per_cell, grid->j0, &j0, &j1);
+    if (i0 > i1 || j0 > j1) return;
+    const double z_most = most(facet->z);
+    bool         finished = false;
     for (int j = j0; j <= j1; ++j) {
         const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
         for (int i = i0; i <= i1; ++i) {
+            Highest* here = &top[j * DP_TILE + i];
+            if (!can_rise(here, z_most, triangle)) continue;
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
             double       z, share[3];
-            if (facet_at(facet, x, y, &z, share)) rise(&top[j * DP_TILE + i], z, triangle);
+            if (!finished) facet_finish(facet);
+            finished = true;
+            if (facet_at(facet, x, y, &z, share)) rise(here, z, triangle);
         }
     }
 }
@@ -318,6 +432,7 @@ static void raise_cells(const Facet* facet, int32_t triangle, const TileGrid* gr
 void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind)
 {
     const MeshGround* mesh = &rest->mesh;
+    const double      per_cell = 1.0 / grid->cell;
     Highest           top[TILE_CELLS];
     for (int n = 0; n < TILE_CELLS; ++n) top[n] = (Highest){NAN, -1};
 
@@ -325,19 +440,17 @@ void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
                                cell_at(grid->origin_x, grid->cell, grid->i0 + DP_TILE - 1),
                                cell_at(grid->origin_y, grid->cell, grid->j0),
                                cell_at(grid->origin_y, grid->cell, grid->j0 + DP_TILE - 1));
-    for (int by = under.y0; by <= under.y1; ++by)
-        for (int bx = under.x0; bx <= under.x1; ++bx) {
-            const size_t bin = (size_t)by * (size_t)mesh->nx + (size_t)bx;
-            for (size_t n = mesh->start[bin]; n < mesh->start[bin + 1]; ++n) {
-                Facet      facet = facet_box(mesh, mesh->item[n]);
-                const Bins at = facet_bins(mesh, &facet);
-                const int  once_x = at.x0 > under.x0 ? at.x0 : under.x0;
-                const int  once_y = at.y0 > under.y0 ? at.y0 : under.y0;
-                if (bx != once_x || by != once_y) continue;  // it stands in other bins too
-                facet_finish(&facet);
-                raise_cells(&facet, mesh->item[n], grid, top);
+    for (int l = 0; l < mesh->grids; ++l) {
+        const BinGrid* bins = &mesh->grid[l];
+        if (!bins->used) continue;
+        for (int row = first_row(l, &under); row <= under.y1 >> l; ++row) {
+            const Items items = items_of(mesh, bins, l, &under, row);
+            for (const int32_t* item = items.at; item < items.end; ++item) {
+                Facet facet = facet_box(mesh, *item);
+                raise_cells(&facet, *item, grid, per_cell, top);
             }
         }
+    }
 
     for (int j = 0; j < DP_TILE; ++j) {
         const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);

@@ -56,7 +56,7 @@ static DpStatus copy_weights(Rest* rest, const DpGround* ground, size_t weights)
     return DP_OK;
 }
 
-DpStatus rest_create(Rest* rest, const DpGround* ground)
+DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
 {
     DpStatus status = DP_OK;
     size_t   weights = 0;
@@ -74,7 +74,7 @@ DpStatus rest_create(Rest* rest, const DpGround* ground)
             weights = (size_t)rest->nx * (size_t)rest->ny;
             break;
         case DP_GROUND_MESH:
-            status = mesh_create(&rest->mesh, ground, rest->bounds);
+            status = mesh_create(&rest->mesh, ground, workers, rest->bounds);
             weights = (size_t)rest->mesh.vertex_count;
             break;
         default:
