@@ -14,6 +14,7 @@ from . import whole
 from .errors import DesirePathError
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
+AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]
 
 _VERSION = 1
 _NUMBERS = (  # name, type, shape by letters
@@ -96,6 +97,10 @@ class Gait:
         """(first sample, sample after the last) of each piece."""
         ends = [0, *self.cut.tolist(), len(self.time)]
         return list(zip(ends[:-1], ends[1:]))
+
+    def there(self, first, after):
+        """Numbers of the walkers that are there in samples first..after-1, rising."""
+        return np.flatnonzero(self.com[:, first:after, 2].min(axis=1) < AWAY)
 
     def piece(self, first, after):
         """Samples first..after-1, which hold no cut, as a recording of their own."""
@@ -185,6 +190,19 @@ class Gait:
         if set(range(len(self.part_limb))) - set(self.point_part.tolist()):
             raise DesirePathError("A part of the recording has no contact point: record the walk "
                                   "again.")
+
+    def only(self, walkers):
+        """Some walkers of the recording, by their numbers."""
+        limbs = np.flatnonzero(np.isin(self.limb_walker, walkers))
+        parts = np.flatnonzero(np.isin(self.part_limb, limbs))
+        points = np.flatnonzero(np.isin(self.point_part, parts))
+        return replace(
+            self, com=self.com[walkers], mass=self.mass[walkers], pose=self.pose[parts],
+            limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
+            part_limb=np.searchsorted(limbs, self.part_limb[parts]), soles=[self.soles[p] for p in parts],
+            point=self.point[points], point_part=np.searchsorted(parts, self.point_part[points]),
+            point_role=self.point_role[points], limb_name=[self.limb_name[limb] for limb in limbs],
+            part_name=[self.part_name[p] for p in parts], walker_name=[self.walker_name[w] for w in walkers])
 
     # ---- to disk and back ----------------------------------------------------------------------
 
@@ -294,6 +312,21 @@ class Gait:
         pose = np.empty((len(self.part_limb), count, 7))
         _native.resample(self.time, self.com, self.pose, float(rate), time, com, pose)
         return replace(self, time=time, com=com, pose=pose)
+
+    def carried(self):
+        """Walkers that walk in place carried ahead by their own speed; itself if there are none."""
+        from . import cycle
+
+        return cycle.carried(self)
+
+    def along(self, path, passes=1, **more):
+        """The walk's cycle carried along a path (n, 2 or 3) [m] as often as wanted: see passes.along().
+
+        back_and_forth=True, lateral=0.1 [m], timing=0.05, stride=0.05, seed=0, pause=0 [s], ground=None
+        """
+        from . import passes as walked
+
+        return walked.along(self, path, passes, **more)
 
     def _resampled_pieces(self, rate):
         """Each piece begins when it began; in between may be a gap."""

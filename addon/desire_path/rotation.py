@@ -57,3 +57,30 @@ def frame(forward, up):
 def rate_of(values, time):
     """Change a second along the first axis."""
     return np.gradient(values, time, axis=0) if len(time) > 1 else np.zeros_like(values)
+
+
+def product(a, b):
+    """Unit quaternions (.., 4) w x y z that turn by b, then by a."""
+    aw, ax, ay, az = np.moveaxis(np.asarray(a, float), -1, 0)
+    bw, bx, by, bz = np.moveaxis(np.asarray(b, float), -1, 0)
+    return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
+                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], axis=-1)
+
+
+def inverse(q):
+    """The turn back."""
+    return np.asarray(q, float) * (1.0, -1.0, -1.0, -1.0)
+
+
+def about_z(angle):
+    """Unit quaternions (.., 4) of turns about +Z [rad]."""
+    half = 0.5 * np.asarray(angle, float)
+    zero = np.zeros_like(half)
+    return np.stack([np.cos(half), zero, zero, np.sin(half)], axis=-1)
+
+
+def turned(q, v):
+    """Vectors (.., 3) turned by unit quaternions (.., 4)."""
+    u, w = q[..., 1:], q[..., :1]
+    t = 2.0 * np.cross(u, v)
+    return v + w * t + np.cross(u, t)

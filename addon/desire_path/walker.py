@@ -99,9 +99,7 @@ def contacts(gait, ground_height=None, *, limits=None):
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
     gait.check()
     if len(gait.cut):
-        touching, clearance = zip(*(contacts(piece, heights, limits=limits)
-                                    for piece, heights in _pieces(gait, ground_height)))
-        return _let_go(gait, np.concatenate(touching, axis=1)), np.median(clearance, axis=0)
+        return _contacts_by_piece(gait, ground_height, limits)
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground_height)
     touching, clearance = _find_contacts(even, _carried_on(even, below), limits)
@@ -168,9 +166,8 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     if not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
     if len(gait.cut):
-        return _joined(gait, [loads(piece, model, heights, settle_time=settle_time, half_sine=half_sine,
-                                    limits=limits, options=options)
-                              for piece, heights in _pieces(gait, ground)])
+        return _loads_by_piece(gait, ground, lambda piece, heights: loads(
+            piece, model, heights, settle_time=settle_time, half_sine=half_sine, limits=limits, options=options))
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
@@ -194,10 +191,16 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
 
 
 def _pieces(gait, ground):
-    """(piece, its ground) for each piece of a recording; ground as for ground_below."""
+    """(samples, parts, points, recording of those who are there, its ground) for each piece that has any."""
     for first, after in gait.pieces():
+        there = gait.there(first, after)
+        if not len(there):
+            continue
+        parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], there))
+        points = np.flatnonzero(np.isin(gait.point_part, parts))
         one = ground is None or callable(ground) or np.ndim(ground) == 0
-        yield gait.piece(first, after), ground if one else np.asarray(ground)[:, first:after]
+        heights = ground if one else np.asarray(ground)[points, first:after]
+        yield slice(first, after), parts, points, gait.piece(first, after).only(there), heights
 
 
 def _let_go(gait, touching):
@@ -206,18 +209,50 @@ def _let_go(gait, touching):
     return touching
 
 
-def _joined(gait, found):
-    """One FootForce of the whole recording from those of its pieces."""
-    chain = lambda name: np.concatenate([getattr(each, name) for each in found], axis=1)
-    touching, force, point = _let_go(gait, chain("touching")), chain("force"), chain("point")
+def _contacts_by_piece(gait, ground, limits):
+    touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
+    clearance = []
+    for samples, parts, points, piece, heights in _pieces(gait, ground):
+        touching[parts, samples], rest = contacts(piece, heights, limits=limits)
+        clearance.append(_known(gait, points, touching[gait.point_part[points], samples], rest))
+    return _let_go(gait, touching), _middle(clearance)
+
+
+def _known(gait, points, touching, rest):
+    """Clearances (K,) from one piece, NaN for points that are not there or whose part never touches."""
+    clearance = np.full(len(gait.point), np.nan)
+    clearance[points] = np.where(touching.any(axis=1), rest, np.nan)
+    return clearance
+
+
+def _middle(clearance):
+    """Clearance of each point (K,) over all pieces; 0 where none knows."""
+    clearance = np.array(clearance)
+    known = np.isfinite(clearance).any(axis=0)
+    clearance[:, ~known] = 0.0
+    return np.nanmedian(clearance, axis=0)
+
+
+def _loads_by_piece(gait, ground, find):
+    """FootForce of the whole recording; find(piece, ground) gives that of a piece."""
+    shape = (len(gait.part_limb), len(gait.time))
+    touching, force, point = np.zeros(shape, "u1"), np.zeros(shape + (3,)), np.full(shape + (3,), np.nan)
+    clearance, told = [], []
+    weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
+    for samples, parts, points, piece, heights in _pieces(gait, ground):
+        found = find(piece, heights)
+        touching[parts, samples] = found.touching
+        force[parts, samples], point[parts, samples] = found.force, found.point
+        clearance.append(_known(gait, points, touching[gait.point_part[points], samples], found.clearance))
+        told += found.warnings
+        if found.mean is not None:
+            there = gait.there(samples.start, samples.stop)
+            weighed[there] += len(piece.time) * found.mean
+            span[there] += len(piece.time)
+    _let_go(gait, touching)
     force[touching == 0], point[touching == 0] = 0.0, np.nan
-    lengths = np.array([after - first for first, after in gait.pieces()], float)
-    mean = None
-    if found[0].mean is not None:
-        mean = np.average([each.mean for each in found], axis=0, weights=lengths)
-    return FootForce(gait.time, touching, force, point,
-                     np.median([each.clearance for each in found], axis=0), mean,
-                     _once(warning for each in found for warning in each.warnings))
+    return FootForce(gait.time, touching, force, point, _middle(clearance),
+                     weighed / np.maximum(span, 1.0) if span.any() else None, _once(told))
 
 
 def _once(warnings):

@@ -1,0 +1,279 @@
+"""A clip's cycle carried along a path: the feet stand still, passes differ, seeds repeat."""
+
+from dataclasses import replace
+from pathlib import Path as File
+
+import numpy as np
+import pytest
+
+from desire_path import body, cycle, passes, path, walker
+from desire_path.errors import DesirePathError
+from desire_path.gait import Gait
+from desire_path.path import Path
+from scenes import bvh
+
+WALK = File(__file__).resolve().parents[1] / "scenes" / "walks" / "cmu_12_01_walk.bvh"
+
+
+@pytest.fixture(scope="module")
+def walk():
+    """The recorded walk at 60 frames a second."""
+    skeleton, motion, rate = bvh.load(WALK, scale=0.056444, every=2)
+    return body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=round(rate))
+
+
+def in_place(gait):
+    """The same walk on a belt: the body stays, the feet slide back."""
+    speed = (gait.com[0, -1] - gait.com[0, 0]) / (gait.time[-1] - gait.time[0]) * (1, 1, 0)
+    back = gait.time[:, None] * speed
+    pose = gait.pose.copy()
+    pose[..., :3] -= back
+    return replace(gait, com=gait.com - back, pose=pose), float(np.hypot(*speed[:2]))
+
+
+def slides(gait):
+    """How far contact points move while they touch and are at their lowest [m] for each stance and point."""
+    loads = walker.loads(gait)
+    on, at = loads.touching, walker.point_places(gait)
+    found = []
+    for k, part in enumerate(gait.point_part):
+        low = (at[k, :, 2] < loads.clearance[k] + 0.01) & (on[part] != 0)
+        edges = np.flatnonzero(np.diff(np.r_[0, low.astype(int), 0]))
+        found += [np.ptp(at[k, a:b, :2], axis=0).max() for a, b in zip(edges[::2], edges[1::2])]
+    return np.array(found)
+
+
+# ---- the cycle -------------------------------------------------------------------------------------------
+
+
+def test_the_cycle_closes(walk):
+    found = cycle.find(walk)
+    assert found.speed == pytest.approx(0.89, abs=0.03) and 3.0 < found.seconds < 4.3
+    wild = abs(np.diff(walk.resample(120.0).com[0], n=2, axis=0)).max() * 120.0 ** 2  # [m/s^2]
+    for phase in (np.linspace(0.999, 1.001, 41), np.linspace(0, 3, 1501)):
+        com, pose, stand = found.at(phase)
+        step = found.seconds * np.diff(phase)[0]
+        assert abs(np.diff(com, n=2, axis=0)).max() / step ** 2 < 1.3 * wild  # no kick at the seam
+        assert np.linalg.norm(np.diff(pose[..., :3], axis=1), axis=-1).max() / step < 6.0
+    com, pose, stand = found.at([0.25, 1.25, 7.25])
+    assert np.diff(com[:, 0]) == pytest.approx([found.way, 6 * found.way])
+    assert pose[:, 1] - pose[:, 0] == pytest.approx(np.tile([found.way] + [0] * 6, (4, 1)), abs=1e-9)
+
+
+def test_where_a_limb_stands_is_still_while_it_touches(walk):
+    found = cycle.find(walk)
+    phase = np.arange(2000) / 500
+    com, pose, stand = found.at(phase)
+    carried = replace(walk, time=phase * found.seconds, com=com[None], pose=pose)
+    on = walker.contacts(carried)[0]
+    for limb in range(2):
+        touch = on[walk.part_limb == limb].any(axis=0)
+        both = touch[1:] & touch[:-1]
+        assert abs(np.diff(stand[limb], axis=0)[both]).max() < 1e-4
+
+
+def test_a_clip_in_place_is_carried_by_its_own_speed(walk):
+    still, speed = in_place(walk)
+    carried = still.carried()
+    assert "in place" in carried.warnings[-1]
+    went = carried.com[0, -1, :2] - carried.com[0, 0, :2]
+    wanted = walk.com[0, -1, :2] - walk.com[0, 0, :2]
+    assert went == pytest.approx(wanted, abs=0.08 * np.hypot(*wanted))
+    assert walk.carried() is walk
+    assert cycle.find(still).speed == pytest.approx(speed, rel=0.05)
+
+
+@pytest.mark.parametrize("closing", (True, False))
+@pytest.mark.parametrize("fps", (24, 30))
+def test_a_loop_is_taken_whole(walk, closing, fps):
+    """As libraries sell them: whole strides at the scene's rate, in place, the last frame the first or not."""
+    found = cycle.find(walk)
+    count = int(fps * found.seconds)
+    seconds = count / fps
+    phase = np.arange(count + closing) / count
+    com, pose, _ = found.at(phase)
+    way = found.way * phase[:, None] * (1, 0, 0)
+    pose[..., :3] -= way
+    clip = replace(walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps)
+    again = cycle.find(clip)
+    assert again.seconds == pytest.approx(seconds, rel=1e-6)
+    assert again.speed == pytest.approx(found.way / seconds, rel=0.08)
+
+
+def test_who_does_not_walk_is_told(walk):
+    still = replace(walk, com=walk.com[:, :1] + 0 * walk.com, pose=walk.pose[:, :1] + 0 * walk.pose)
+    with pytest.raises(DesirePathError, match="does not walk ahead"):
+        still.along([(0, 0), (5, 0)])
+    with pytest.raises(DesirePathError, match="too short"):
+        walk.piece(0, 10).along([(0, 0), (5, 0)])
+
+
+# ---- along -----------------------------------------------------------------------------------------------
+
+
+def test_feet_do_not_slide_more_than_in_the_clip(walk):
+    recorded = slides(walk)
+    straight = slides(walk.along([(0, 0), (6, 0)], 3))
+    bend = slides(walk.along([(0, 0), (3, 0), (3, 3), (0, 3)], 3, stride=0.1, timing=0.1))
+    for found in (straight, bend):
+        assert len(found) > 20
+        assert np.median(found) < 1.1 * np.median(recorded) + 0.001
+        assert found.max() < 1.3 * recorded.max() + 0.001
+
+
+def test_passes_follow_the_path_there_and_back(walk):
+    gait = walk.along([(1, 2), (7, 2)], 4, lateral=0.05).check()
+    assert len(gait.cut) == 3
+    for n, (first, after) in enumerate(gait.pieces()):
+        x, y = gait.com[0, first:after, 0], gait.com[0, first:after, 1]
+        ends = (1, 7) if n % 2 == 0 else (7, 1)
+        assert (x[0], x[-1]) == pytest.approx(ends, abs=0.1)
+        assert abs(y - 2).max() < 0.4
+        speed = abs(x[-1] - x[0]) / (gait.time[after - 1] - gait.time[first])
+        assert speed == pytest.approx(0.89, rel=0.25)
+    loads = walker.loads(gait)
+    assert loads.mean[0] == pytest.approx(1.0, abs=0.03) and not loads.warnings
+    one_way = walk.along([(1, 2), (7, 2)], 3, back_and_forth=False)
+    assert all(one_way.com[0, first, 0] < 2 for first, _ in one_way.pieces())
+
+
+def test_the_first_pass_keeps_to_the_line_and_seeds_repeat(walk):
+    line = [(0, 0), (5, 0)]
+    first = walk.along(line, 1, lateral=0.3, seed=3)
+    assert abs(first.com[0, :, 1]).max() < 0.1
+    few, many = walk.along(line, 3, seed=3), walk.along(line, 5, seed=3)
+    n = len(few.time)
+    assert np.array_equal(few.pose, many.pose[:, :n]) and np.array_equal(few.com, many.com[:, :n])
+    other = walk.along(line, 3, seed=4)
+    assert other.com.shape != few.com.shape or not np.array_equal(other.com, few.com)
+
+
+def test_scatter_is_what_was_asked_for(walk):
+    gait = walk.along([(0, 0), (4, 0)], 200, lateral=0.2, timing=0.1, stride=0.1, seed=1)
+    spans = gait.pieces()[1:]
+    side = [gait.com[0, (a + b) // 2, 1] * (1 if gait.com[0, a, 0] < 2 else -1) for a, b in spans]
+    assert np.std(side) == pytest.approx(0.2, rel=0.15) and abs(np.mean(side)) < 0.05
+    lasted = np.log([gait.time[b - 1] - gait.time[a] for a, b in spans])
+    assert np.std(lasted) == pytest.approx(np.hypot(0.1, 0.1), rel=0.2)
+
+
+def test_a_pause_is_a_gap_in_time(walk):
+    gait = walk.along([(0, 0), (3, 0)], 3, pause=5.0)
+    steps = np.diff(gait.time)
+    assert np.flatnonzero(steps > 1).tolist() == (gait.cut - 1).tolist()
+    assert steps.max() == pytest.approx(5.0 + 1 / 60) and gait.rate() == pytest.approx(60.0)
+
+
+def test_who_goes_round_a_bend_leans_into_it(walk):
+    angle = np.linspace(0, np.pi, 80)
+    gait = walk.along(3.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    middle = slice(len(gait.time) // 4, 3 * len(gait.time) // 4)
+    feet = gait.pose[:, middle, :2].mean(axis=0)
+    inside = np.hypot(*feet.T).mean() - np.hypot(*gait.com[0, middle, :2].T).mean()
+    assert 0.005 < inside < 0.1
+    heights = np.hypot(*gait.com[0, middle, :2].T)
+    assert abs(heights - 3.0).max() < 0.2
+
+
+# ---- ground ----------------------------------------------------------------------------------------------
+
+
+def test_a_walk_follows_the_height_of_its_path(walk):
+    gait = walk.along([(0, 0, 1.0), (6, 0, 2.2)])
+    ground = lambda xy: 1.0 + 0.2 * np.clip(xy[:, 0], 0, 6)
+    loads = walker.loads(gait, ground=ground)
+    flat = walker.loads(walk.along([(0, 0), (6, 0)]))
+    assert abs(loads.clearance).max() < 0.03
+    assert abs((loads.touching != 0).mean() - (flat.touching != 0).mean()) < 0.05
+    assert loads.mean[0] == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_walk_follows_the_ground(walk):
+    ground = lambda xy: 0.5 + 0.15 * np.sin(xy[:, 0]) + 0.05 * xy[:, 1]
+    gait = walk.along([(0, 0), (8, 1)], 2, ground=ground)
+    loads = walker.loads(gait, ground=ground)
+    assert abs(loads.clearance).max() < 0.03 and loads.mean[0] == pytest.approx(1.0, abs=0.05)
+    assert not loads.warnings
+    at = walker.point_places(gait)
+    over = at[..., 2] - ground(at[..., :2].reshape(-1, 2)).reshape(at.shape[:2])
+    assert over[loads.touching[gait.point_part] != 0].max() < 0.2 and over.min() > -0.08
+
+
+def test_holes_in_the_ground_do_no_harm(walk):
+    ground = lambda xy: np.where(xy[:, 0] < 4, 0.3, np.nan)
+    gait = walk.along([(0, 0), (8, 0)], ground=ground).check()
+    assert abs(gait.com[0, :, 2] - walk.com[0, :, 2].mean() - 0.3).max() < 0.1
+    walk.along([(0, 0), (8, 0)], ground=lambda xy: np.full(len(xy), np.nan)).check()
+
+
+# ---- several walkers -------------------------------------------------------------------------------------
+
+
+def test_walkers_go_in_turn(walk):
+    heavy = replace(walk, mass=[110.0], walker_name=("Heavy",), com=walk.com + (3, 0, 0),
+                    pose=walk.pose + np.eye(7)[0] * 3)
+    both = Gait.join([walk, heavy]).along([(0, 0), (4, 0)], 3, seed=2).check()
+    alone = walk.along([(0, 0), (4, 0)], 3, seed=2)
+    assert len(both.pieces()) == 6
+    loads = walker.loads(both)
+    assert loads.mean == pytest.approx([1.0, 1.0], abs=0.03) and not loads.warnings
+    limbs = both.limb_walker[both.part_limb]
+    for n, (first, after) in enumerate(both.pieces()):
+        on = loads.touching[:, first:after].any(axis=1)
+        assert on[limbs == n % 2].all() and not on[limbs != n % 2].any()
+    first, after = both.pieces()[2]
+    assert np.array_equal(both.pose[:4, first:after], alone.pose[:, slice(*alone.pieces()[1])])
+    uneven = passes.in_turn([walk.along([(0, 0), (4, 0)], 3), heavy.along([(0, 0), (0, 4)], 1)]).check()
+    assert len(uneven.pieces()) == 4
+    with pytest.raises(DesirePathError, match="different rates"):
+        passes.in_turn([alone, replace(heavy, frame_rate=48.0).along([(0, 0), (4, 0)])])
+
+
+def test_many_passes_are_made_at_once(walk):
+    gait = walk.along([(0, 0), (5, 0)], 500)
+    assert len(gait.cut) == 499 and gait.pose.nbytes < 100e6
+
+
+# ---- paths -----------------------------------------------------------------------------------------------
+
+
+def test_a_path_is_measured_along_itself():
+    line = Path([(0, 0), (0, 0), (3, 0), (3, 4)])
+    assert line.length == pytest.approx(7.0, abs=0.15)
+    place, heading = line.at([0.0, line.length, -1.0, line.length + 2.0])
+    assert place == pytest.approx(np.array([(0, 0), (3, 4), (-1, 0), (3, 6)]), abs=1e-3)
+    assert heading == pytest.approx([0, np.pi / 2] * 2, abs=1e-3)
+    back = line.backwards()
+    s = np.linspace(0, line.length, 50)
+    assert back.at(s)[0] == pytest.approx(line.at(line.length - s)[0], abs=1e-9)
+    assert back.bend_at(s) == pytest.approx(-line.bend_at(line.length - s), abs=1e-9)
+    turned = np.trapezoid if hasattr(np, "trapezoid") else np.trapz
+    assert turned(line.bend, line.s) == pytest.approx(np.pi / 2, abs=0.01)
+    assert Path([(0, 0, 1), (2, 0, 3)]).height([0.0, 1.0, 9.0]) == pytest.approx([1, 2, 3], abs=1e-3)
+
+
+def test_paths_are_read(tmp_path):
+    file = tmp_path / "path.csv"
+    file.write_text("x,y,z\n0,0,1\n2,0,1.5\n\n")
+    assert path.read(file).tolist() == [[0, 0, 1], [2, 0, 1.5]]
+    file.write_text("\ufeffname, Y ,X\na,1,2\nb,3,4\n", encoding="utf-8")
+    assert path.read(file).tolist() == [[2, 1], [4, 3]]
+    for text, words in (("", "no columns"), ("a,b\n1,2\n", "no columns"), ("x,y\n1,2\n", "at least two"),
+                        ("x,y\n1,2\n3\n", "Line 3"), ("x,y\n1,2\n3,four\n", "Line 3"),
+                        ("x,y\n1,2\nnan,4\n", "Row 2")):
+        file.write_text(text)
+        with pytest.raises(DesirePathError, match=words):
+            path.read(file)
+    with pytest.raises(DesirePathError, match="cannot be read"):
+        path.read(tmp_path / "nothing.csv")
+
+
+@pytest.mark.parametrize("bad, words", [
+    (dict(path=[(0, 0)]), "two rows"), (dict(path=[(0, 0), (0, 0)]), "no length"), (dict(path="abc"), "list of places"),
+    (dict(path=[(0, 0), (np.nan, 1)]), "Row 2"), (dict(passes=0), "0 passes"), (dict(passes=1.5), "1.5 passes"),
+    (dict(lateral=-1), "lateral of -1"), (dict(stride=2), "stride of 2"), (dict(timing=np.nan), "timing of nan"),
+    (dict(pause=-1), "pause"), (dict(passes=10 ** 7), "too long for one recording"),
+])
+def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
+    with pytest.raises(DesirePathError, match=words):
+        walk.along(**{"path": [(0, 0), (5, 0)], **bad})
