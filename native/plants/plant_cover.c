@@ -199,7 +199,7 @@ void plant_stature(const DpPlants* plants, const DpPlantWindow* window, float* h
                 const double share = full[i] > 0.0 ? 1.0 / full[i] : 0.0;
                 if (height) height[at] = (float)(share * high[i]);
                 if (rate) rate[at] = (float)(share * rise[i]);
-                broken[at] = (float)dp_clamp(1.0 - share * whole[i], 0.0, share > 0.0 ? 1.0 : 0.0);
+                broken[at] = (float)(share * (full[i] - whole[i]));
             }
         }
 }

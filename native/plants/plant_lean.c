@@ -258,7 +258,8 @@ static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, 
     const double ox = side * edge.i / length, oy = side * edge.j / length;
     if (!under) {
         const double size = pressed * near * near;
-        press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, ox, oy);
+        if (size > (double)AT_REST)
+            press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, ox, oy);
         return;
     }
     if (pressed < (double)tile->crushed[t]) return;  // it may rise to the sole
@@ -368,23 +369,39 @@ DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCo
     return DP_OK;
 }
 
-DpStatus dp_lean_planted(DpLean* lean, double x0, double y0, double x1, double y1, bool come)
+// what grows within a box on one tile, anew
+static void grow_box(const DpLean* lean, LeanTile* tile, const double box[4], bool first)
 {
-    if (!lean || !(x0 <= x1 && y0 <= y1)) return DP_BAD_ARGUMENT;
-    const double low[2] = {x0, y0}, high[2] = {x1, y1}, side = DP_TILE * lean->cell;
-    for (int t = 0; t < lean->tiles; ++t) {
-        LeanTile* tile = lean->tile[t];
-        int       from[2], to[2];
-        for (int d = 0; d < 2; ++d) {
-            const double at = lean->origin[d] + side * (double)(d ? tile->ty : tile->tx);
-            from[d] = (int)dp_clamp(floor((low[d] - at) / lean->cell) - 1.0, 0.0, DP_TILE);
-            to[d] = (int)dp_clamp(ceil((high[d] - at) / lean->cell) + 1.0, 0.0, DP_TILE);
-        }
-        if (from[0] >= to[0] || from[1] >= to[1]) continue;
-        grow(lean, tile, from[0], to[0], from[1], to[1], come);
-        tile->changed = true;
-        may_move(tile, from[0], from[1]), may_move(tile, to[0] - 1, to[1] - 1);
+    const double side = DP_TILE * lean->cell;
+    int          from[2], to[2];
+    for (int d = 0; d < 2; ++d) {
+        const double at = lean->origin[d] + side * (double)(d ? tile->ty : tile->tx);
+        from[d] = (int)dp_clamp(floor((box[d] - at) / lean->cell) - 1.0, 0.0, DP_TILE);
+        to[d] = (int)dp_clamp(ceil((box[2 + d] - at) / lean->cell) + 1.0, 0.0, DP_TILE);
     }
+    if (from[0] >= to[0] || from[1] >= to[1]) return;
+    grow(lean, tile, from[0], to[0], from[1], to[1], first);
+    tile->changed = true;
+    may_move(tile, from[0], from[1]), may_move(tile, to[0] - 1, to[1] - 1);
+}
+
+void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1)
+{
+    const double box[4] = {x0, y0, x1, y1};
+    for (int t = 0; t < lean->tiles; ++t) grow_box(lean, lean->tile[t], box, true);
+}
+
+DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1)
+{
+    if (!lean || !(x0 <= x1 && y0 <= y1 && x1 - x0 < 1e6 && y1 - y0 < 1e6)) return DP_BAD_ARGUMENT;
+    const double box[4] = {x0, y0, x1, y1};
+    const long   tx1 = tile_of(cell_of(lean, 0, x1)), ty1 = tile_of(cell_of(lean, 1, y1));
+    for (long ty = tile_of(cell_of(lean, 1, y0)); ty <= ty1; ++ty)
+        for (long tx = tile_of(cell_of(lean, 0, x0)); tx <= tx1; ++tx) {
+            LeanTile* tile = touch(lean, tx, ty);
+            if (!tile) return DP_NO_MEMORY;
+            grow_box(lean, tile, box, false);
+        }
     return DP_OK;
 }
 

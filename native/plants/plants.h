@@ -191,8 +191,10 @@ void     dp_lean_destroy(DpLean* lean);
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt);
 
-// Plants have worn or grown within x0..x1, y0..y1 [m]; come: there are new ones.
-DpStatus dp_lean_planted(DpLean* lean, double x0, double y0, double x1, double y1, bool come);
+// Plants have worn within x0..x1, y0..y1 [m].
+DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);
+// Plants have come or grown there: cells that nothing touched yet will see for themselves.
+void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1);
 
 // Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways and the share of height that
 // is lost, as for dp_plants_lean(); NULL is left out.

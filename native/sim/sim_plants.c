@@ -60,12 +60,11 @@ static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double 
     return cells;
 }
 
-// the ground and its grass ask again for what grows within a box [m]
-static DpStatus cover_anew(DpSim* sim, double x0, double y0, double x1, double y1, bool come)
+// the ground asks again for its cover within a box [m]
+static void cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
 {
     const Cells at = cells_of(sim, x0, y0, x1, y1);
     dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
-    return dp_lean_planted(sim->meadow.lean, x0, y0, x1, y1, come);
 }
 
 void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1)
@@ -73,17 +72,17 @@ void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1)
     if (!sim->meadow.plants) return;
     measure(&sim->meadow);
     const double r = sim->meadow.reach;
-    (void)cover_anew(sim, x0 - r, y0 - r, x1 + r, y1 + r, true);
+    cover_anew(sim, x0 - r, y0 - r, x1 + r, y1 + r);
+    dp_lean_grown(sim->meadow.lean, x0 - r, y0 - r, x1 + r, y1 + r);
 }
 
 DpStatus dp_sim_rest(DpSim* sim, double seconds)
 {
     if (!sim->meadow.plants) return DP_OK;
-    DpStatus status = dp_plants_rest(sim->meadow.plants, seconds);
-    if (status == DP_OK) status = cover_anew(sim, -1e9, -1e9, 1e9, 1e9, false);
-    if (status == DP_OK && seconds > 0.0)
-        status = dp_lean_step(sim->meadow.lean, NULL, NULL, 0, seconds);
-    return status;
+    const DpStatus status = dp_plants_rest(sim->meadow.plants, seconds);
+    if (status != DP_OK) return status;
+    dp_sim_planted(sim, -1e9, -1e9, 1e9, 1e9);
+    return seconds > 0.0 ? dp_lean_step(sim->meadow.lean, NULL, NULL, 0, seconds) : DP_OK;
 }
 
 double dp_meadow_margin(const DpSim* sim)
@@ -103,8 +102,8 @@ DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs)
     m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
     m->height = dp_alloc((size_t)limbs, sizeof *m->height);
     m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
-    const bool whole =
-        m->way && m->sole && m->bottom && m->bottom_room && m->ground && m->height && m->height_room;
+    const bool whole = m->way && m->sole && m->bottom && m->bottom_room && m->ground && m->height &&
+                       m->height_room;
     return whole ? DP_OK : DP_NO_MEMORY;
 }
 
@@ -276,8 +275,10 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     if (status != DP_OK) return status;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
-    if (told.changed)  // TRAIL (9), in the next step
-        status = cover_anew(sim, told.x0, told.y0, told.x1, told.y1, false);
+    if (told.changed) {
+        cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
+        status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
+    }
     if (status == DP_OK) status = dp_lean_step(m->lean, ground, m->sole, m->soles, dt);
     return status;
 }
