@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import foot as feet_of, rigs, rotation
+from . import foot as feet_of, rigs, rotation, slope
 from .errors import DesirePathError
 from .gait import Gait
 
@@ -167,10 +167,11 @@ def rest_up(bones, rig):
 
 
 def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, tread=None,
-                    frame_rate, frame_start=1):
+                    frame_rate, frame_start=1, land=None):
     """What the walker did, from sampled bones. Refuses bad recordings with a sentence.
 
-    Soles: the tread (a Tread), else the skin's underside, else built in.
+    Soles: the tread (a Tread), else the skin's underside, else built in. land: the ground it walks on, a
+    Simulation: feet that lie on its slopes have soles that do; None: level.
     """
     rig = rig or rigs.detect(skeleton)
     _check(skeleton, motion, rig, mass, frame_rate, frame_start)
@@ -199,8 +200,14 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         warnings += laid.warnings
     poses, soles, points, part_limb, point_part, point_role = [], [], [], [], [], []
     for limb, foot in enumerate(feet):
-        pose, sole_pair, marks = feet_of.parts(bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
-                                        skeleton, laid, warnings)
+        hill = slope.below(land, foot, time, up_rest) if land is not None else None
+        if hill is not None:
+            flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
+            foot = feet_of.Foot(flat, foot.slots, leg, person)
+        pose, sole_pair, marks = feet_of.parts(foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
+                                               skeleton, laid, warnings)
+        if hill is not None:
+            pose = [hill.back(each) for each in pose]
         first = len(poses)
         poses += pose
         soles += sole_pair

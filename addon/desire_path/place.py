@@ -25,7 +25,8 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
     ground: a Ground or a Simulation. reach: d_max [m]. toe_slope: theta_0 [rad], the slope from which heels
     stay up. roll: feet keep the roll they have over their floor; False: they lie flat near the ground, as the
     paper prints (1). carry: the clip was recorded on a level floor, so that feet and body rise and sink with
-    the ground; None: where the floor fits it better, or it is far from the ground. floor: its height [m], None: where the
+    the ground; None: where the floor fits it better, or it is far from the ground. One who is not carried and
+    whose feet lie on the ground already is left as it is. floor: its height [m], None: where the
     feet rest. foot_radius, body_radius: over which the ground is smoothed [m], None: a foot's length, half
     the height of the mass centre. walkers: their indices, None: all.
     """
@@ -49,6 +50,8 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
         if not 0 <= row < len(gait.mass):
             raise DesirePathError(f"There is no walker {row}: the recording has {len(gait.mass)}.")
         carried = carries(gait, land, row) if carry is None else bool(carry)
+        if roll and not carried and lies(gait, land, row):
+            continue
         clearance, stood = _stands(gait, land, row, carried, floor)
         high = float(np.median(gait.com[row, :, 2])) - stood
         numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row),
@@ -79,6 +82,21 @@ def carries(gait, land, row):
     if abs(float(np.median(over[rests]))) > walks.HOVER:
         return True
     return _spread(over, rests) > _spread(flat, rests) + CLEARLY
+
+
+def lies(gait, land, row):
+    """Do this walker's feet, where they stand, lie on this ground rather than level?"""
+    touching, _ = walks.contacts(gait, land.rest_height)
+    nearer = []
+    for part in np.flatnonzero(gait.limb_walker[gait.part_limb] == row):
+        at = gait.pose[part]
+        rests = touching[part] != 0
+        if len(gait.time) > 1:
+            rests &= np.linalg.norm(np.gradient(at[:, :3], gait.time, axis=0), axis=1) < SLOW
+        for x, y, _, w, i, j, k in at[rests]:
+            up = (2 * (i * k + w * j), 2 * (j * k - w * i), 1 - 2 * (i * i + j * j))
+            nearer.append(float(np.dot(up, land.normal((x, y), _foot_length(gait, row)))) - up[2])
+    return bool(nearer) and float(np.mean(nearer)) > 0.0
 
 
 def _spread(height, rests):

@@ -25,6 +25,15 @@ def quaternion(turn):
     return q
 
 
+def matrix(q):
+    """Rotation matrices (.., 3, 3) of unit quaternions (.., 4) w x y z."""
+    w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
 def unit(v):
     return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
 

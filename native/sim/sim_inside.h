@@ -58,7 +58,6 @@ typedef struct Way
 typedef struct Meadow
 {
     DpPlants* plants;
-    DpLean*   lean;
     double    extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording

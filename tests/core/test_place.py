@@ -94,8 +94,20 @@ def test_a_walk_of_the_hill_is_not_carried_twice():
     once = place.place_feet(cmu(), hill)
     land = Simulation(hill)
     assert place.carries(cmu(), land, 0) and not place.carries(once, land, 0)
-    again = place.place_feet(once, hill, roll=False)
+    again = place.place_feet(once, hill)
     np.testing.assert_array_equal(again.com, once.com)
+    np.testing.assert_array_equal(again.pose, once.pose)
+    # one who is on the hill with level feet has them turned
+    level = replace(once, pose=np.concatenate([once.pose[..., :3], cmu().pose[..., 3:]], axis=2))
+    turned = place.place_feet(level, hill)
+    np.testing.assert_array_equal(turned.com, once.com)
+    stands = walker.loads(once, ground=land.rest_height).touching != 0
+    up = [np.stack([2 * (q[..., 1] * q[..., 3] + q[..., 0] * q[..., 2]),
+                    2 * (q[..., 2] * q[..., 3] - q[..., 0] * q[..., 1]),
+                    1 - 2 * (q[..., 1] ** 2 + q[..., 2] ** 2)], axis=-1)
+          for q in (each.pose[..., 3:] for each in (level, turned, once))]
+    aligned = [np.mean(np.sum(each * up[2], axis=-1)[stands]) for each in up]
+    assert aligned[0] < 0.96 < 0.99 < aligned[1]
 
 
 def test_it_stands_and_weighs_as_on_the_floor():

@@ -103,3 +103,24 @@ def action_range(animation):
     if not strips:
         return None
     return float(min(s.frame_start for s in strips)), float(max(s.frame_end for s in strips))
+
+
+def curves(animation, owner):
+    """The F-curves of an object's action, in the slot it uses; made where there are none yet."""
+    action = animation.action
+    if not hasattr(action, "layers"):
+        return action.fcurves
+    slot = animation.action_slot
+    if slot is None:
+        slot = action.slots.new(id_type="OBJECT", name=owner.name)
+        animation.action_slot = slot
+    layer = action.layers[0] if len(action.layers) else action.layers.new("Layer")
+    strip = layer.strips[0] if len(layer.strips) else layer.strips.new(type="KEYFRAME")
+    return strip.channelbag(slot, ensure=True).fcurves
+
+
+def use_action(animation, action, slot=None):
+    """Let an object play an action; `slot` where actions have slots, else the one that fits."""
+    animation.action = action
+    if slot is not None and hasattr(animation, "action_slot"):
+        animation.action_slot = slot

@@ -14,6 +14,7 @@ from . import axes, compat, playback, sample
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
 NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
+LEVEL = 0.01  # ground that rises less than this is level [m]
 FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
 BLOCK = 1 << 16  # faces looked at in one go
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
@@ -180,6 +181,20 @@ def _cell_corner(vertices, cell):
 def smooth(vertices, cell, corner):
     """Whether points lie between the centres of cells, so that playback must interpolate."""
     return axes.cell_offset(vertices, cell, corner) >= playback.ALIGNED
+
+
+def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
+    """A recording as it is on this ground: feet that lie on slopes have soles that do, and the feet of walkers
+    that ask for it are placed."""
+    asks = [row for row, each in enumerate(walkers) if each.desire_path.place_feet]
+    if not asks and np.ptp(surface.vertices[:, 2]) < LEVEL:
+        return gait
+    from .. import place, slope
+    from ..sim import Simulation
+    land = Simulation(surface.ground, cell_size=cell)
+    if slope.steep(land, gait):
+        gait = sample.gaits(scene, walkers, frame_start, frame_end, land)
+    return place.place_feet(gait, land, walkers=asks) if asks else gait
 
 
 # ---- painted soils ---------------------------------------------------------------------------------

@@ -84,6 +84,7 @@ class Job:
         self.surface = ground.read(scene, obj, cell, settings.frame_start, settings.frame_end,
                                    box=ground.under(gait))
         self.warnings += self.surface.warnings
+        gait = ground.walked(scene, there, gait, self.surface, cell, settings.frame_start, settings.frame_end)
         self.recorded = time.perf_counter() - self.begun
         yield
         self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path,

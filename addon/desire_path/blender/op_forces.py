@@ -46,6 +46,7 @@ def read(scene, armature):
     if land is not None:
         cell = axes.typed(land.desire_path.cell_size)
         surface = ground.read(scene, land, cell, first, box=ground.under(gait))
+        gait = ground.walked(scene, [armature], gait, surface, cell, first, last)
         below = Simulation(surface.ground, cell_size=cell).rest_height
     loads = walker.loads(gait, settings.load_model, ground=below)
     return limbs(gait, loads, axes.unit_scale(scene)), gait.warnings + loads.warnings

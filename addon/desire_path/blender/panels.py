@@ -151,6 +151,9 @@ def draw_walker(layout, obj):
     row = layout.row(align=True)
     row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
+    row = layout.row(align=True)
+    row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
+    row.prop(settings, "place_feet", text="In Prints", toggle=True)
     shown = op_forces.shows(obj)
     layout.operator("object.desire_path_forces_show", text="Hide Forces" if shown else "Show Forces",
                     icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)

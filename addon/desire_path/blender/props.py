@@ -123,6 +123,9 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         name="Sole", type=bpy.types.Object, poll=is_sole,
         description="A mesh whose underside is the sole of every foot, mirrored for the other side; "
         "place it at a foot of the rest pose. Empty = the walker's own feet or shoes")
+    place_feet: BoolProperty(
+        name="Placed Feet in Prints", description="Prints are pressed as if the feet were placed on the ground's "
+        "slopes; the character stays as it is. Place Feet changes the character too")
     load_model: EnumProperty(
         name="Load", description="How the weight on each foot is found",
         items=(("inertia", "Body in motion",

@@ -287,8 +287,11 @@ def tread(scene, armature, feet, world, scale):
 # ---- all of it --------------------------------------------------------------------------------------
 
 
-def record(scene, armature, frame_start, frame_end, samples=None):
-    """What one armature did from frame to frame, as a Gait of one walker."""
+def record(scene, armature, frame_start, frame_end, samples=None, land=None):
+    """What one armature did from frame to frame, as a Gait of one walker.
+
+    land: a Simulation of its ground, for feet that lie on slopes
+    """
     if armature is None or armature.type != "ARMATURE":
         raise DesirePathError("There is no armature to record: select the one that walks.")
     if frame_end <= frame_start:
@@ -307,11 +310,11 @@ def record(scene, armature, frame_start, frame_end, samples=None):
     worn = skin(scene, armature, found.feet, world, scale)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
                                 tread=tread(scene, armature, found.feet, world, scale),
-                                frame_rate=rate, frame_start=frame_start)
+                                frame_rate=rate, frame_start=frame_start, land=land)
     return replace(gait, warnings=gait.warnings + told)
 
 
-def gaits(scene, walkers, frame_start, frame_end):
-    """All walkers of a ground as one recording."""
+def gaits(scene, walkers, frame_start, frame_end, land=None):
+    """All walkers of a ground as one recording; land: a Simulation of it, for feet that lie on slopes."""
     samples = max(each.desire_path.subframes for each in walkers)
-    return Gait.join([record(scene, each, frame_start, frame_end, samples) for each in walkers])
+    return Gait.join([record(scene, each, frame_start, frame_end, samples, land) for each in walkers])

@@ -1,0 +1,468 @@
+"""op_place.py - the feet of an armature are put on its ground, in an action of its own.
+
+    record -> place.place_feet -> where feet and body go -> legs reach for them -> keys in a new action
+
+The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for their feet,
+feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
+"""
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from .. import leg, place, rotation, slope
+from ..errors import DesirePathError
+from . import axes, compat, ground, sample
+from .op_walkers import Refusal, active
+
+SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
+EASE = 0.15  # hips come down over this before and after they must [s]
+OFF = 0.02  # a foot this far from its place was held back, in leg lengths
+LOCKED = 1e-4  # a locked channel may change by rounding only
+ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
+
+
+@dataclass(frozen=True)
+class Bones:
+    """What the bones of an armature do over the frames, in its own axes."""
+
+    frames: list  # scene frames (T)
+    world: np.ndarray  # the object's matrix (T, 4, 4)
+    pose: dict  # bone name -> (T, 4, 4)
+    scale: float  # metres in a unit [m]
+
+    def at(self, name):
+        """A bone in the world (T, 4, 4)."""
+        return self.world @ self.pose[name]
+
+
+# ---- what is there ------------------------------------------------------------------------------------
+
+
+def look(scene, armature, names, frames):
+    """Bones as they are seen at each frame, constraints and all."""
+    world, pose = [], {name: [] for name in names}
+    with sample.still(armature), sample.private_scene(scene, armature) as own:
+        for frame in frames:
+            seen = sample.evaluated(own, armature, frame)
+            world.append(np.array(seen.matrix_world, np.float64))
+            for name in names:
+                pose[name].append(np.array(seen.pose.bones[name].matrix, np.float64))
+    return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()},
+                 axes.unit_scale(scene))
+
+
+def holders(armature, name):
+    """What would not let keys move a bone, as a phrase; None where keys do."""
+    bone = armature.pose.bones[name]
+    for each in bone.constraints:
+        if not each.mute and each.influence > 0.0 and not each.type.startswith("LIMIT"):
+            return f"follows its constraint '{each.name}'"
+    animation = armature.animation_data
+    start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
+    for each in animation.drivers if animation is not None else ():
+        if each.data_path.startswith((start + "location", start + "rotation")):
+            return "is moved by a driver"
+    return None
+
+
+def free(armature, name):
+    held = holders(armature, name)
+    if held is not None:
+        raise DesirePathError(
+            f"Bone '{name}' of '{armature.name}' {held}, so that keys would not move it: bake the animation to "
+            "keys first (Pose > Animation > Bake Action, with Visual Keying and Clear Constraints), or choose "
+            "the bone that leads it as the foot.")
+    return name
+
+
+def ik_target(armature, foot, thigh):
+    """(the bone an IK constraint between foot and thigh reaches for, the bone that has it), or None."""
+    bone = armature.pose.bones[foot]
+    while bone is not None:
+        for each in bone.constraints:
+            if each.type == "IK" and not each.mute and each.influence > 0.0 and each.target is not None:
+                if each.target != armature or not each.subtarget:
+                    raise DesirePathError(
+                        f"The leg of '{foot}' reaches for the object '{each.target.name}': move that object, or "
+                        "let the constraint reach for a bone of the armature.")
+                return each.subtarget
+        if bone.name == thigh:
+            return None
+        bone = bone.parent
+    return None
+
+
+def under(armature, name, ancestor):
+    bone = armature.data.bones[name].parent
+    while bone is not None and bone.name != ancestor:
+        bone = bone.parent
+    return bone is not None
+
+
+# ---- where bones go -----------------------------------------------------------------------------------
+
+
+def _moves(old, new, scale):
+    """Rigid moves of the world (T, 4, 4), in the scene's units, from poses (T, 7) to others."""
+    turn = [rotation.matrix(pose[:, 3:]) for pose in (old, new)]
+    out = np.tile(np.eye(4), (len(old), 1, 1))
+    out[:, :3, :3] = turn[1] @ np.swapaxes(turn[0], 1, 2)
+    out[:, :3, 3] = (new[:, :3] - np.einsum("tij,tj->ti", out[:, :3, :3], old[:, :3])) / scale
+    return out
+
+
+def _turned(turn, about, to):
+    """Moves (T, 4, 4) that turn about points (T, 3) and bring them to others."""
+    out = np.tile(np.eye(4), (len(turn), 1, 1))
+    out[:, :3, :3] = turn
+    out[:, :3, 3] = to - np.einsum("tij,tj->ti", turn, about)
+    return out
+
+
+def _at(move, points):
+    return np.einsum("tij,tj->ti", move[:, :3, :3], points) + move[:, :3, 3]
+
+
+class Plan:
+    """Which bones are keyed, and how each moves in the world."""
+
+    def __init__(self, scene, armature, found, gait, placed, frames):
+        self.armature = armature
+        self.move = {}  # bone -> (T, 4, 4), in the order in which they are keyed
+        self.keyed = {}  # bone -> "location", "rotation" or both
+        self.late = []  # bones whose parents are moved by a solver
+        self.fresh = []  # (path, index, value) of channels that had no keys
+        self.stood = {bone.name: {prop: tuple(getattr(bone, prop)) for prop in (
+            "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle")}
+            for bone in armature.pose.bones}
+        self.goal = {}  # foot bone -> where its head must come to be (T, 3)
+        bones = armature.data.bones
+        self.roots = [b.name for b in bones if b.parent is None and holders(armature, b.name) is None]
+        chain = bones[found.hips or found.feet[0].thigh or found.feet[0].foot]
+        while chain.parent is not None:
+            chain = chain.parent
+        free(armature, chain.name)
+        self.feet = found.feet
+        self.targets = [ik_target(armature, foot.foot, foot.thigh) for foot in found.feet]
+        names = dict.fromkeys(self.roots)
+        for foot, target in zip(self.feet, self.targets):
+            names.update(dict.fromkeys(filter(None, (foot.thigh, foot.shank, foot.foot, foot.toe, target))))
+        for name in list(names):
+            if bones[name].parent is not None:
+                names[bones[name].parent.name] = None
+        self.bones = look(scene, armature, list(names), frames)
+        self._carry(gait, placed)
+        for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
+            self._foot(limb, foot, target, gait, placed)
+
+    def heads(self, name):
+        return self.bones.at(name)[:, :3, 3]
+
+    def hangs(self, foot):
+        """Does a foot hang on a leg of two bones that keys can move?"""
+        return bool(foot.thigh and foot.shank and under(self.armature, foot.foot, foot.shank)
+                    and under(self.armature, foot.shank, foot.thigh))
+
+    def _carry(self, gait, placed):
+        """Roots rise with the body, and come down as far as legs are too short."""
+        rise = (placed.com[0, :, 2] - gait.com[0, :, 2]) / self.bones.scale
+        up = np.array((0.0, 0.0, 1.0))
+        down = np.zeros(len(rise))
+        for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
+            if not self.hangs(foot):
+                continue
+            hip, knee, ankle = (self.heads(n) for n in (foot.thigh, foot.shank, foot.foot))
+            goal = _at(self._foot_move(limb, gait, placed), ankle)
+            lift = rise[:, None] * up
+            down = np.maximum(down, leg.drop(hip + lift, knee + lift, ankle + lift, goal))
+        down = leg.eased(down, round(EASE * gait.frame_rate))
+        carried = np.tile(np.eye(4), (len(rise), 1, 1))
+        carried[:, 2, 3] = rise - down
+        for root in self.roots:
+            self._key(root, carried, "location")
+        self.down = down
+
+    def _foot_move(self, limb, gait, placed):
+        part = int(np.flatnonzero(gait.part_limb == limb)[0])
+        return _moves(gait.pose[part], placed.pose[part], self.bones.scale)
+
+    def _foot(self, limb, foot, target, gait, placed):
+        parts = np.flatnonzero(gait.part_limb == limb)
+        move = self._foot_move(limb, gait, placed)
+        ankle = self.heads(foot.foot)
+        self.goal[foot.foot] = _at(move, ankle)
+        if target is not None:
+            self._key(free(self.armature, target), move, "location", "rotation")
+            if holders(self.armature, foot.foot) is None and foot.foot != target:
+                self._key(foot.foot, move, "rotation", late=True)
+        elif self.hangs(foot):
+            for name in (foot.thigh, foot.shank, foot.foot):
+                free(self.armature, name)
+            base = self.inherited(foot.thigh)
+            hip, knee, old = (_at(base, self.heads(n)) for n in (foot.thigh, foot.shank, foot.foot))
+            ahead = rotation.matrix(gait.pose[parts[0], :, 3:])[:, :, 0]
+            thigh, shank, at = leg.reach(hip, knee, old, self.goal[foot.foot], ahead)
+            self._key(foot.thigh, _turned(thigh, hip, hip) @ base, "rotation")
+            self._key(foot.shank, _turned(shank, knee, at) @ base, "rotation")
+            self._key(foot.foot, move, "rotation")
+        else:
+            bone = self.armature.data.bones[foot.foot]
+            if bone.use_connect:
+                raise DesirePathError(
+                    f"Bone '{foot.foot}' of '{self.armature.name}' is fixed to its parent and no leg of two bones "
+                    "was found above it: choose the foot bone of a leg, or disconnect it in Edit Mode.")
+            self._key(free(self.armature, foot.foot), move, "location", "rotation")
+        if foot.toe and len(parts) > 1 and holders(self.armature, foot.toe) is None:
+            toes = _moves(gait.pose[parts[1]], placed.pose[parts[1]], self.bones.scale)
+            head = self.heads(foot.toe)
+            apart = not under(self.armature, foot.toe, foot.foot)
+            self._key(foot.toe, _turned(toes[:, :3, :3], head, _at(move, head)),
+                      *(("location", "rotation") if apart else ("rotation",)), late=target is not None)
+
+    def _key(self, name, move, *channels, late=False):
+        self.move[name] = move
+        self.keyed[name] = channels
+        if late:
+            self.late.append(name)
+
+    def inherited(self, name):
+        """How a bone moves because those above it do (T, 4, 4)."""
+        bone = self.armature.data.bones[name].parent
+        while bone is not None:
+            if bone.name in self.move:
+                return self.move[bone.name]
+            bone = bone.parent
+        return np.tile(np.eye(4), (len(self.bones.frames), 1, 1))
+
+    # ---- keys ---------------------------------------------------------------------------------------
+
+    def basis(self, name, parents):
+        """Basis matrices that put a bone where it goes; parents: theirs, where they are (T, 4, 4) or None."""
+        bone = self.armature.data.bones[name]
+        to_pose = np.linalg.inv(self.bones.world)
+        wanted = to_pose @ self.move[name] @ self.bones.at(name)
+        for t, matrix in enumerate(wanted):
+            more = {} if parents is None else {"parent_matrix": Matrix(parents[t].tolist()),
+                                               "parent_matrix_local": bone.parent.matrix_local}
+            yield bone.convert_local_to_pose(Matrix(matrix.tolist()), bone.matrix_local, invert=True, **more)
+
+    def parents(self, name):
+        bone = self.armature.data.bones[name].parent
+        if bone is None:
+            return None
+        move = self.move.get(bone.name)
+        move = self.inherited(bone.name) if move is None else move
+        return np.linalg.inv(self.bones.world) @ move @ self.bones.at(bone.name)
+
+    def channels(self, name, parents):
+        """(property, index, values (T,)) of a bone's keys; refuses to change what is locked."""
+        bone = self.armature.pose.bones[name]
+        mode = bone.rotation_mode
+        turn = ROTATIONS.get(mode, "rotation_euler")
+        rows = {"location": [], turn: []}
+        last = None
+        for basis in self.basis(name, parents):
+            at, quaternion, _ = basis.decompose()
+            rows["location"].append(tuple(at))
+            if mode == "QUATERNION":
+                if last is not None and last.dot(quaternion) < 0.0:
+                    quaternion.negate()
+                last = quaternion
+                rows[turn].append(tuple(quaternion))
+            elif mode == "AXIS_ANGLE":
+                axis, angle = quaternion.to_axis_angle()
+                rows[turn].append((angle, *axis))
+            else:
+                last = quaternion.to_euler(mode, last) if last is not None else quaternion.to_euler(mode)
+                rows[turn].append(tuple(last))
+        for kind, prop in (("location", "location"), ("rotation", turn)):
+            if kind in self.keyed[name]:
+                values = np.array(rows[prop], np.float32)
+                self._unlocked(bone, kind, values)
+                for index in range(values.shape[1]):
+                    yield prop, index, values[:, index]
+
+    def _unlocked(self, bone, kind, values):
+        if kind == "location" and any(bone.lock_location):
+            moved = values[:, [bool(each) for each in bone.lock_location]]
+        elif kind == "rotation" and any(bone.lock_rotation) and values.shape[1] == 3:
+            moved = values[:, [bool(each) for each in bone.lock_rotation]]
+        elif kind == "rotation" and all(bone.lock_rotation):
+            moved = values
+        else:
+            return
+        if np.ptp(moved, axis=0).max() > LOCKED:
+            raise DesirePathError(
+                f"The {kind} of bone '{bone.name}' is locked and would have to change: unlock it (Item in the "
+                "sidebar of the 3D view), or place the feet of another rig.")
+
+    def write(self, curves, names, parents_of):
+        for name in names:
+            start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
+            for prop, index, values in list(self.channels(name, parents_of(name))):
+                if not set_curve(curves, start + prop, index, self.bones.frames, values):
+                    self.fresh.append((start + prop, index, self.stood[name][prop][index]))
+
+
+def set_curve(curves, path, index, frames, values):
+    """One value a frame, straight in between; was it keyed before?"""
+    curve = curves.find(path, index=index)
+    keyed = curve is not None
+    if keyed:
+        curves.remove(curve)
+    curve = curves.new(path, index=index)
+    curve.keyframe_points.add(len(frames))
+    co = np.stack([np.asarray(frames, np.float32), values], axis=1)
+    curve.keyframe_points.foreach_set("co", co.ravel())
+    linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
+    curve.keyframe_points.foreach_set("interpolation", np.full(len(frames), linear, np.int32))
+    curve.update()
+    return keyed
+
+
+# ---- all of it ----------------------------------------------------------------------------------------
+
+
+def frames_of(scene, armature, land):
+    """Scene frames of the armature's animation and of its ground's bake."""
+    first, last = sample.frame_range(scene, armature)
+    if not land.desire_path.frames_auto:
+        first = min(first, land.desire_path.frame_start)
+        last = max(last, land.desire_path.frame_end)
+    return list(range(first, last + 1))
+
+
+def read(scene, armature, land, frames):
+    """(the walk as it is, the walk as it should be, warnings)."""
+    from ..sim import Simulation
+    gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
+    cell = axes.typed(land.desire_path.cell_size)
+    surface = ground.read(scene, land, cell, frames[0], box=ground.under(gait))
+    below = Simulation(surface.ground, cell_size=cell)
+    if slope.steep(below, gait):
+        gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
+    return gait, place.place_feet(gait, below), surface.warnings
+
+
+def source(armature):
+    """(action, slot) the feet are placed from: the one a placed action was made of, else the one in use."""
+    animation = armature.animation_data
+    if animation is None or animation.action is None:
+        return None, None
+    action, slot = animation.action, getattr(animation, "action_slot", None)
+    first = bpy.data.actions.get(action.get(SOURCE, ""))
+    if first is None:
+        return action, slot
+    slots = getattr(first, "slots", ())
+    same = [each for each in slots if slot is not None and each.identifier == slot.identifier]
+    return first, same[0] if same else None
+
+
+def bake(scene, armature, land):
+    """Give an armature a new action with its feet on the ground; (action, rise and fall [m], warnings)."""
+    animation = armature.animation_data or armature.animation_data_create()
+    before, before_slot = animation.action, getattr(animation, "action_slot", None)
+    action, slot = source(armature)
+    if action is not None:
+        compat.use_action(animation, action, slot)
+    made = None
+    try:
+        frames = frames_of(scene, armature, land)
+        gait, placed, warnings = read(scene, armature, land, frames)
+        if np.abs(placed.pose - gait.pose).max() < 1e-6 and np.abs(placed.com - gait.com).max() < 1e-6:
+            raise DesirePathError(f"The feet of '{armature.name}' lie on '{land.name}' already: there is nothing "
+                                  "to place.")
+        with sample.private_scene(scene, armature) as own:
+            world = axes.matrix(sample.evaluated(own, armature, frames[0]).matrix_world, armature.name)
+            found = sample.rig(armature, sample.skeleton(armature, world, axes.unit_scale(scene)))
+        plan = Plan(scene, armature, found, gait, placed, frames)
+        made = action.copy() if action is not None else bpy.data.actions.new(armature.name)
+        made.name = f"{action.name if action is not None else armature.name}_placed"
+        if action is not None:
+            made[SOURCE] = action.name
+            action.use_fake_user = True  # to go back to, even after saving
+        compat.use_action(animation, made, None)
+        curves = compat.curves(animation, armature)
+        early = [name for name in plan.move if name not in plan.late]
+        plan.write(curves, early, plan.parents)
+        if plan.late:
+            above = {name: armature.data.bones[name].parent.name for name in plan.late}
+            for name in plan.late:  # a foot before its toes
+                seen = look(scene, armature, [above[name]], frames)
+                plan.write(curves, [name], lambda n, seen=seen: seen.pose[above[n]])
+        check(scene, armature, plan, frames)
+        if action is not None and action.library is None:
+            hold(animation, armature, action, slot, plan.fresh, frames[0])
+            compat.use_action(animation, made, None)
+    except BaseException:
+        if before is not None:
+            compat.use_action(animation, before, before_slot)
+        else:
+            animation.action = None
+        if made is not None:
+            bpy.data.actions.remove(made)
+        raise
+    if before is not None and before != action and before.get(SOURCE) and before.users == 0:
+        bpy.data.actions.remove(before)
+    rise = placed.com[0, :, 2] - gait.com[0, :, 2] - plan.down * plan.bones.scale
+    return made, rise, tuple(warnings)
+
+
+def hold(animation, armature, action, slot, channels, frame):
+    """Key what an action left to itself at the value it has, so that it shows the same after another."""
+    compat.use_action(animation, action, slot)
+    curves = compat.curves(animation, armature)
+    for path, index, value in channels:
+        if curves.find(path, index=index) is None:
+            set_curve(curves, path, index, [frame], np.array([value], np.float32))
+
+
+def check(scene, armature, plan, frames):
+    """Refuse where feet did not come to their places: something else holds them."""
+    some = sorted({round(k) for k in np.linspace(0, len(frames) - 1, 12)})
+    seen = look(scene, armature, list(plan.goal), [frames[k] for k in some])
+    for foot in plan.feet:
+        goal = plan.goal[foot.foot][some]
+        far = np.linalg.norm(seen.at(foot.foot)[:, :3, 3] - goal, axis=1)
+        size = float(np.median(np.linalg.norm(plan.heads(foot.thigh) - plan.heads(foot.foot), axis=1))
+                     if foot.thigh else np.ptp(goal, axis=0).max())
+        if far.max() > OFF * max(size, 1e-9):
+            raise DesirePathError(
+                f"Bone '{foot.foot}' of '{armature.name}' stays {far.max() * plan.bones.scale:.2f} m from its place "
+                f"at frame {frames[some[int(far.argmax())]]}, since constraints or limits hold it: bake the "
+                "animation to keys first (Pose > Animation > Bake Action, with Visual Keying and Clear "
+                "Constraints).")
+
+
+class OBJECT_OT_desire_path_place_feet(Refusal, bpy.types.Operator):
+    """Put the feet of the active armature on its ground: up, down and across slopes, carried there from a level \
+floor. Makes a new action; the one it had stays"""
+
+    bl_idname = "object.desire_path_place_feet"
+    bl_label = "Place Feet"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks")
+
+    def work(self, context):
+        obj = context.object
+        land = obj.desire_path.ground
+        if land is None:
+            raise DesirePathError(f"'{obj.name}' walks on no ground yet: press Add Walker, or choose its ground.")
+        if obj.override_library is not None and obj.animation_data is None:
+            raise DesirePathError(f"'{obj.name}' cannot be given keys: make its override editable first.")
+        context.view_layer.update()
+        action, rise, warnings = bake(context.scene, obj, land)
+        for each in warnings:
+            self.report({"WARNING"}, each)
+        back = action.get(SOURCE)
+        self.report({"INFO"}, f"'{obj.name}' plays '{action.name}', its feet on '{land.name}'"
+                    + (f"; '{back}' is as it was." if back else "."))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_desire_path_place_feet,)

@@ -1,0 +1,76 @@
+"""A foot that lies on a slope, seen as if the ground below it were level and at height 0.
+
+    bones over a hill ---flattened---> bones over a floor --foot.parts--> poses ---back---> poses on the hill
+"""
+
+import copy
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import leg, rotation
+
+RADIUS = 0.25  # the ground is smoothed over this, about a foot's length [m]
+STEEP = 2e-4  # ground whose normal leaves the vertical less than this is level: 1 - cosine of 1.1 degrees
+NEARER = 1e-3  # a foot lies on the slope when its own normal is nearer to the ground's by this [-]
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Ground below one foot over time."""
+
+    turn: np.ndarray  # level to slope (T, 3, 3)
+    at: np.ndarray  # the ground's point below the ankle (T, 3) [m]
+
+    def flattened(self, bones, names):
+        """Bones with these turned and lowered to a level floor at height 0."""
+        back = np.tile(np.eye(4), (len(self.at), 1, 1))
+        back[:, :3, :3] = np.swapaxes(self.turn, 1, 2)
+        level = self.at * (1.0, 1.0, 0.0)
+        back[:, :3, 3] = level - np.einsum("tij,tj->ti", back[:, :3, :3], self.at)
+        flat = copy.copy(bones)
+        flat.matrix, flat.turns = bones.matrix.copy(), {}
+        for name in filter(None, names):
+            flat.matrix[:, bones.column[name]] = back @ bones.matrix[:, bones.column[name]]
+        return flat
+
+    def back(self, pose):
+        """Poses (T, 7) of the level floor, on the slope."""
+        out = np.empty_like(pose)
+        level = self.at * (1.0, 1.0, 0.0)
+        out[:, :3] = self.at + np.einsum("tij,tj->ti", self.turn, pose[:, :3] - level)
+        out[:, 3:] = rotation.quaternion(self.turn @ rotation.matrix(pose[:, 3:]))
+        return out
+
+
+def steep(land, gait):
+    """Is the ground below a recording's feet anywhere steeper than level?"""
+    step = max(1, int(0.1 * len(gait.time) / max(gait.time[-1] - gait.time[0], 1e-9))) if len(gait.time) > 1 else 1
+    return any(land.normal(xy, RADIUS)[2] < 1.0 - STEEP for xy in gait.pose[:, ::step, :2].reshape(-1, 2))
+
+
+def below(land, foot, time, up_rest):
+    """The Slope a foot lies on, or None where the ground is level or the foot does not lie on it.
+
+    land: a Simulation of the ground. That a foot lies on the slope is told by its bone: where it stands, the
+    rest pose's sole is nearer to the slope than to the level.
+    """
+    ankle = foot.joints()[0]
+    height = land.rest_height(ankle[:, :2])
+    known = np.isfinite(height)
+    if not known.any():
+        return None
+    sample = np.arange(len(height))
+    height = np.interp(sample, sample[known], height[known])
+    normal = np.array([land.normal(xy, RADIUS) for xy in ankle[:, :2]])
+    if (normal[:, 2] > 1.0 - STEEP).all():
+        return None
+    stands = foot.flat(time)
+    if not stands.any():
+        return None
+    bone = foot.bones.rest[foot.bones.row[foot.slots.foot], :3, :3]
+    up = foot.bones.turn(foot.slots.foot)[stands] @ (rotation.square(bone).T @ up_rest)
+    if np.mean(np.sum(up * normal[stands], axis=1) - up[:, 2]) < NEARER:
+        return None
+    turn = leg.turn_between(np.broadcast_to((0.0, 0.0, 1.0), normal.shape), normal)
+    return Slope(turn, np.concatenate([ankle[:, :2], height[:, None]], axis=1))
