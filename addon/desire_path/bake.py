@@ -2,10 +2,11 @@
 
     folder/frames/trail_0000.exr   the ground at rest (all zero)
     folder/frames/trail_0001.exr   the first frame, then one file a frame
+    folder/frames/lean_0001.exr    with plants: how the grass lies, likewise from lean_0000.exr on
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps_start.exr          plant_strength_in, young_modulus_in
-    folder/maps_final.exr          compression, heap, pressure_time, plant_strength
+    folder/maps_final.exr          compression, heap, pressure_time, plant_strength; lean_x, lean_y, crushed
     folder/report.json             what happened, in numbers
 
 A bake grows in folder/frames.new and folder/maps.new and takes the place of an earlier one, which plays
@@ -27,7 +28,7 @@ import numpy as np
 
 from . import maps, walker
 from .errors import DesirePathError
-from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, publish, write_json
+from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, frames_there, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .plants import as_plantings
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils
@@ -207,14 +208,14 @@ class Bake:
         count = self.frame_end - self.frame_start + 1
         try:
             if done < 0:
-                sim.write_frame(frame_path(fresh, 0), 0.0)
+                self._write(sim, fresh, 0, 0.0)
             for number in range(1, count + 1):
                 frame = self.frame_start + number - 1
                 begun = time.perf_counter()
                 sim.run(self._sample(frame))
                 stepped = time.perf_counter()
-                path = frame_path(fresh, number) if number > done else None
-                sim.write_frame(path, (frame - self.gait.frame_start) / self.frame_rate)
+                self._write(sim, fresh if number > done else None, number,
+                            (frame - self.gait.frame_start) / self.frame_rate)
                 if self.map_seconds:
                     self._second(sim, tiles, frame)
                 spent_step += stepped - begun
@@ -236,6 +237,12 @@ class Bake:
         write_json(os.path.join(self.folder, "report.json"), self.report)
         publish(self.folder)
 
+    def _write(self, sim, fresh, number, seconds):
+        """One frame of every film into the folder `fresh`; None: it is there already."""
+        sim.write_frame(fresh and frame_path(fresh, number), seconds)
+        if self.plants:
+            sim.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
+
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
         return max(0, (frame - self.gait.frame_start) * self.samples)
@@ -249,6 +256,7 @@ class Bake:
             "cell": self.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
             "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
             "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
+            **({"lean": True} if self.plants else {}),
         }
 
     def _prepare(self, fresh, index):
@@ -267,10 +275,9 @@ class Bake:
             except (OSError, ValueError):
                 continue
             same = self.resume and old.get("signature") == index["signature"] and not old.get("complete")
-            if same and os.path.exists(frame_path(place, 0)):
-                done = 0
-                while os.path.exists(frame_path(place, done + 1)):
-                    done += 1
+            there = frames_there(place, bool(self.plants)) if same else -1
+            if there >= 0:
+                done = there
                 if place != fresh:
                     delete(fresh, FRAMES)
                     os.rename(place, fresh)
@@ -301,13 +308,16 @@ class Bake:
             ("originY", oy + ty * side), ("time", (frame - self.gait.frame_start) / self.frame_rate),
             ("parameters", json.dumps(self._parameters())),
         ]
-        return notes + [(f"unit_{entry.name}", entry.unit) for entry in maps.MAPS]
+        return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
+
+    def _fields(self):
+        return maps.MAPS + (maps.LEAN if self.plants else ())
 
     def _maps(self, sim, tiles, path, frame):
         tx, ty, nx, ny = tiles
         planes = {
             entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-            for entry in maps.MAPS
+            for entry in self._fields()
         }
         maps.write(path, planes, self._notes(tiles, frame))
 
@@ -322,8 +332,12 @@ class Bake:
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles
         window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-        return {"plant_strength_in": sim.read("plant_strength", *window),
-                "young_modulus_in": sim.read("young_modulus", *window)}
+        planes = {"plant_strength_in": sim.read("plant_strength", *window),
+                  "young_modulus_in": sim.read("young_modulus", *window)}
+        if self.plants:
+            planes["plant_strength"] = planes["plant_strength_in"]
+            planes.update({entry.name: sim.read(entry.name, *window) for entry in maps.LEAN})
+        return planes
 
     def _report(self, sim, seconds):
         found = sim.report()

@@ -1,6 +1,7 @@
 """The folder of a bake: what can be played from it, how a fresh bake takes its place, and how it goes.
 
     frames/     trail_0000.exr .., index.json      frames.new/   the bake that is being made
+                lean_0000.exr .., with plants
     maps/       second_0001.exr ..                 maps.new/     its maps
 Files of others in these folders are left alone. bake.py says what each file holds.
 """
@@ -16,7 +17,7 @@ from pathlib import Path
 from .errors import DesirePathError
 
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
-FRAMES = ("trail_*.exr", "trail_*.part", "index.json", "index.json.part")
+FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
 MAPS = ("second_*.exr", "second_*.part")
 OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
         "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part")}
@@ -37,6 +38,7 @@ class FrameIndex:
     frame_rate: float  # [1/s]
     frames: int  # files that are there and whole, counted from trail_0001.exr on
     complete: bool
+    lean: bool = False  # with lean_0000.exr .., how the grass lies
 
     @property
     def missing(self):
@@ -47,10 +49,23 @@ class FrameIndex:
         """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
         return frame_path(self.folder, number)
 
+    def lean_path(self, number):
+        """The same of how the grass lies, if `lean`."""
+        return frame_path(self.folder, number, "lean")
 
-def frame_path(frames_folder, number):
-    """trail_0001.exr and so on."""
-    return os.path.join(frames_folder, f"trail_{number:04d}.exr")
+
+def frame_path(frames_folder, number, film="trail"):
+    """trail_0001.exr or lean_0001.exr and so on."""
+    return os.path.join(frames_folder, f"{film}_{number:04d}.exr")
+
+
+def frames_there(frames_folder, lean):
+    """How many frames are whole, counted from number 1 on; -1 without the ground at rest."""
+    films = ("trail", "lean") if lean else ("trail",)
+    number = -1
+    while all(os.path.exists(frame_path(frames_folder, number + 1, film)) for film in films):
+        number += 1
+    return number
 
 
 def read_index(folder):
@@ -73,13 +88,12 @@ def read_index(folder):
             )
         try:
             count = int(data["frame_end"]) - int(data["frame_start"]) + 1
-            there = 0
-            while there < count and os.path.exists(frame_path(frames, there + 1)):
-                there += 1
+            lean = bool(data.get("lean", False))
+            there = max(0, min(count, frames_there(frames, lean)))
             return FrameIndex(
                 frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
                 int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
-                float(data["frame_rate"]), there, there == count,
+                float(data["frame_rate"]), there, there == count, lean,
             )
         except (KeyError, TypeError, ValueError):
             raise DesirePathError(f"{path} is damaged: bake again.") from None

@@ -33,6 +33,11 @@ MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
     Map("pressure_time", "Pa s", "TRAIL (17)", "stress summed over the walk"),
     Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
 )
+LEAN = (  # beside them where plants grow
+    Map("lean_x", "-", "", "how far grass leans along x, by its height, -1..1"),
+    Map("lean_y", "-", "", "how far it leans along y"),
+    Map("crushed", "-", "", "share of its height that is pressed down, 0..1"),
+)
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ _FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
     "soil": 5,
     "plant_strength": 6,
 }
+_LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
 
 
 @dataclass(frozen=True)
@@ -311,14 +312,17 @@ class Simulation:
         return self._core.report()
 
     def read(self, name, i0, j0, nx, ny):
-        """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS, "rest",
-        "young_modulus" or "soil"."""
-        if name not in _FIELDS:
-            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(_FIELDS)}.")
+        """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS or
+        maps.LEAN, "rest", "young_modulus" or "soil"."""
+        if name not in _FIELDS and name not in _LEAN:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*_FIELDS, *_LEAN])}.")
         if nx < 1 or ny < 1:
             raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
         out = np.zeros((int(ny), int(nx)), np.float32)
-        self._core.read(_FIELDS[name], int(i0), int(j0), out)
+        if name in _FIELDS:
+            self._core.read(_FIELDS[name], int(i0), int(j0), out)
+        elif self.plantings:
+            self._core.read_lean(_LEAN.index(name), int(i0), int(j0), out)
         return out
 
     def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
@@ -331,6 +335,10 @@ class Simulation:
         The file is written while the next steps run: OSError tells of the frame before, see flush().
         """
         self._core.write_frame(None if path is None else str(path), float(time))
+
+    def write_lean(self, path, time):
+        """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
+        self._core.write_frame(None if path is None else str(path), float(time), True)
 
     def flush(self):
         """Wait until the last frame is written; OSError when it could not be."""

@@ -4,11 +4,14 @@
 //   TRAIL (7): as printed, the mean of (1 - d/w) alpha cannot reach 1 and does not know density.
 //   Here the kernels' sum is set against the sum under full cover, K_ref = density * pi R^2 / 3, or
 //   against itself where plants stand denser. DP_COVER_PAPER is as printed.
+#include "base/wide.h"
+
 #include <string.h>
 
 #include "plants/plant_inside.h"
 
 #define PI 3.14159265358979323846
+#define CHUNK 64  // cells of a row summed at once
 
 // sums over the plants around a point
 typedef struct Sums
@@ -20,11 +23,12 @@ typedef struct Sums
     int    plants;
 } Sums;
 
-// the bins that a circle meets: false if none
-static bool bins_around(const PlantStand* stand, double x, double y, double reach, int range[4])
+// the bins that circles about x0..x1, y meet: false if none
+static bool bins_around(const PlantStand* stand, double x0, double x1, double y, double reach,
+                        int range[4])
 {
-    const double i0 = floor((x - reach - stand->bx0) / stand->bin);
-    const double i1 = floor((x + reach - stand->bx0) / stand->bin);
+    const double i0 = floor((x0 - reach - stand->bx0) / stand->bin);
+    const double i1 = floor((x1 + reach - stand->bx0) / stand->bin);
     const double j0 = floor((y - reach - stand->by0) / stand->bin);
     const double j1 = floor((y + reach - stand->by0) / stand->bin);
     if (i1 < 0.0 || j1 < 0.0 || i0 >= stand->bnx || j0 >= stand->bny) return false;
@@ -38,7 +42,7 @@ static void add_plants(Sums* sums, const PlantStand* stand, double x, double y)
     const double reach = (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
     const double full = (double)stand->kind.full_density * PI * reach * reach / 3.0;  // K_ref
     int          range[4];
-    if (!bins_around(stand, x, y, reach, range)) return;
+    if (!bins_around(stand, x, x, y, reach, range)) return;
     for (int j = range[2]; j <= range[3]; ++j)
         for (int i = range[0]; i <= range[1]; ++i) {
             const int* start = stand->bin_start + (size_t)j * (size_t)stand->bnx + (size_t)i;
@@ -79,24 +83,125 @@ static bool window_ok(const DpPlantWindow* w)
            fabs(w->x0) < 1e9 && fabs(w->y0) < 1e9;
 }
 
-DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
-                         float* strength, float* modulus)
+// the same over a row of cells, stand by stand; a cell's sums do not know the row's other cells
+typedef struct Row
 {
-    if (!plants || !window_ok(window) || (law != DP_COVER_FULL && law != DP_COVER_PAPER))
-        return DP_BAD_ARGUMENT;
+    double full[CHUNK], whole[CHUNK], root[CHUNK];
+} Row;
+
+// one plant adds to cells a <= i < b, whose centres lie at first + i * cell from it
+DP_CLONES
+static void add_plant(Row* row, int a, int b, double first, double cell, double dy2, double reach,
+                      double weight, double alpha, double modulus)
+{
+    const double inverse = 1.0 / reach, whole = weight * alpha, root = whole * modulus;
+    for (int i = a; i < b; ++i) {
+        const double dx = first + i * cell;
+        const double kernel = 1.0 - sqrt(dx * dx + dy2) * inverse;  // K = 1 - d/R
+        const double k = kernel > 0.0 ? kernel : 0.0;
+        row->full[i] += k * weight;
+        row->whole[i] += k * whole;
+        row->root[i] += k * root;
+    }
+}
+
+static void add_stand(Row* row, const PlantStand* stand, double x0, double y, double cell, int n)
+{
+    const double reach = (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
+    const double weight = 3.0 / ((double)stand->kind.full_density * PI * reach * reach);  // 1/K_ref
+    int          range[4];
+    if (!bins_around(stand, x0, x0 + (n - 1) * cell, y, reach, range)) return;
+    for (int j = range[2]; j <= range[3]; ++j) {
+        const int* start = stand->bin_start + (size_t)j * (size_t)stand->bnx;
+        for (int k = start[range[0]]; k < start[range[1] + 1]; ++k) {
+            const int         slot = stand->bin_item[k], lane = slot % DP_LANES;
+            const PlantBlock* block = &stand->block[slot / DP_LANES];
+            const double      first = x0 - (double)block->root[0][lane];
+            const double      dy = y - (double)block->root[1][lane], dy2 = dy * dy;
+            if (dy2 >= reach * reach) continue;
+            const double wide = sqrt(reach * reach - dy2);
+            const double a = (-wide - first) / cell, b = (wide - first) / cell + 1.0;
+            const int    from = a > 0.0 ? (a < n ? (int)a : n) : 0;
+            const int    to = b < n ? (b > 0.0 ? (int)b : 0) : n;
+            add_plant(row, from, to, first, cell, dy2, reach, weight, (double)block->alpha[lane],
+                      modulus);
+        }
+    }
+}
+
+static void cover_printed(const DpPlants* plants, const DpPlantWindow* window, float* strength,
+                          float* modulus)
+{
     for (int j = 0; j < window->ny; ++j)
         for (int i = 0; i < window->nx; ++i) {
             const size_t at = (size_t)j * (size_t)window->row + (size_t)i;
             const Sums   sums =
                 sums_at(plants, window->x0 + i * window->cell, window->y0 + j * window->cell);
-            const double share = law == DP_COVER_PAPER ? (sums.plants ? 1.0 / sums.plants : 0.0)
-                                                       : 1.0 / fmax(sums.full, 1.0);
-            const double alpha = share * (law == DP_COVER_PAPER ? sums.paper : sums.whole);
-            const double root = share * (law == DP_COVER_PAPER ? sums.paper_root : sums.root);
-            if (strength) strength[at] = (float)fmin(alpha, 1.0);  // TRAIL (7)
-            if (modulus) modulus[at] = (float)root;                // TRAIL (8)
+            const double share = sums.plants ? 1.0 / sums.plants : 0.0;
+            if (strength) strength[at] = (float)fmin(share * sums.paper, 1.0);  // TRAIL (7)
+            if (modulus) modulus[at] = (float)(share * sums.paper_root);        // TRAIL (8)
+        }
+}
+
+DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
+                         float* strength, float* modulus)
+{
+    if (!plants || !window_ok(window) || (law != DP_COVER_FULL && law != DP_COVER_PAPER))
+        return DP_BAD_ARGUMENT;
+    if (law == DP_COVER_PAPER) {
+        cover_printed(plants, window, strength, modulus);
+        return DP_OK;
+    }
+    for (int j = 0; j < window->ny; ++j)
+        for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {
+            const int n = window->nx - i0 < CHUNK ? window->nx - i0 : CHUNK;
+            Row       row = {0};
+            for (int s = 0; s < plants->stands; ++s)
+                add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,
+                          window->y0 + j * window->cell, window->cell, n);
+            for (int i = 0; i < n; ++i) {
+                const size_t at = (size_t)j * (size_t)window->row + (size_t)(i0 + i);
+                const double share = 1.0 / fmax(row.full[i], 1.0);
+                if (strength) strength[at] = (float)fmin(share * row.whole[i], 1.0);  // TRAIL (7)
+                if (modulus) modulus[at] = (float)(share * row.root[i]);              // TRAIL (8)
+            }
         }
     return DP_OK;
+}
+
+// envelope of a stem that swings, or the speed at which an overdamped one creeps back
+static double rise_rate(const DpPlantKind* kind)
+{
+    const double swing = 2.0 * PI * (double)kind->sway, damping = (double)kind->damping;
+    return damping > 2.0 * swing ? swing * swing / damping : 0.5 * damping;
+}
+
+void plant_stature(const DpPlants* plants, const DpPlantWindow* window, float* height, float* rate,
+                   float* broken)
+{
+    for (int j = 0; j < window->ny; ++j)
+        for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {
+            const int n = window->nx - i0 < CHUNK ? window->nx - i0 : CHUNK;
+            double    full[CHUNK] = {0}, whole[CHUNK] = {0}, high[CHUNK] = {0}, rise[CHUNK] = {0};
+            for (int s = 0; s < plants->stands; ++s) {
+                const DpPlantKind* kind = &plants->stand[s].kind;
+                Row                row = {0};
+                add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,
+                          window->y0 + j * window->cell, window->cell, n);
+                for (int i = 0; i < n; ++i) {
+                    full[i] += row.full[i], whole[i] += row.whole[i];
+                    high[i] += row.full[i] * (double)kind->height;
+                    rise[i] += row.full[i] * rise_rate(kind);
+                }
+            }
+            for (int i = 0; i < n; ++i) {
+                const size_t at = (size_t)j * (size_t)window->row + (size_t)(i0 + i);
+                const double share = full[i] > 0.0 ? 1.0 / full[i] : 0.0;
+                if (height) height[at] = (float)(share * high[i]);
+                if (rate) rate[at] = (float)(share * rise[i]);
+                broken[at] = (float)(share * (full[i] - whole[i]));
+            }
+        }
 }
 
 // how one plant lies: mean of its stems' tips against their feet, by height

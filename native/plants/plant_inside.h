@@ -110,7 +110,11 @@ double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, 
 void   plant_limits(PlantStand* stand);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);
-void  plant_count_broken(const PlantStand* stand, PlantBlock* block);
+// one stem for each cell of a window, the mean of what grows there: height [m], rate at which it
+// rises [1/s] (NULL is left out), share of bends that is broken; 0 where nothing grows
+void plant_stature(const DpPlants* plants, const DpPlantWindow* window, float* height, float* rate,
+                   float* broken);
+void plant_count_broken(const PlantStand* stand, PlantBlock* block);
 
 // stiffness of edges over a sub-step of h
 void plant_soften(const PlantStand* stand, float* soft, double h);

@@ -174,3 +174,32 @@ DpStatus dp_plants_lean(const DpPlants* plants, const DpPlantWindow* window, flo
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
                          const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
                          int* count);
+
+// ---- how grass lies, cell by cell -------------------------------------------------------------
+
+// Plants are sparse, soles have edges: every planted cell that was touched keeps the lean of one
+// stem. It takes memory and time where something touched the grass, and nowhere else.
+typedef struct DpLean DpLean;
+
+// Cell (i, j) has its centre at origin + (i + 0.5, j + 0.5) cell [m]; plants are borrowed.
+DpStatus dp_lean_create(DpLean** lean, const DpPlants* plants, double cell, double origin_x,
+                        double origin_y);
+void     dp_lean_destroy(DpLean* lean);
+
+// dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands up
+// to the share of its stems that is broken. Grass is met where the ground is told.
+DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
+                      int count, double dt);
+
+// Plants have worn within x0..x1, y0..y1 [m].
+DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);
+// Plants have come or grown there: cells that nothing touched yet will see for themselves.
+void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1);
+
+// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways and the share of height that
+// is lost, as for dp_plants_lean(); NULL is left out.
+void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* lean_x,
+                  float* lean_y, float* crushed);
+
+// Tiles of DP_TILE x DP_TILE cells that changed since the last call, in ascending (ty, tx) order.
+void dp_lean_changed(DpLean* lean, void (*visit)(void* context, long tx, long ty), void* context);

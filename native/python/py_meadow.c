@@ -123,3 +123,28 @@ done:
     dp_door_close(&door);
     return result;
 }
+
+PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    int         axis;
+    long        i0, j0;
+    PyObject*   o_out;
+    if (!PyArg_ParseTuple(args, "illO:read_lean", &axis, &i0, &j0, &o_out)) return NULL;
+    DpDoor     door = {.count = 0};
+    DpShape    shape = {2, {-1, -1}};
+    PyObject*  result = NULL;
+    float*     out = dp_door_open(&door, o_out, "out", 'f', &shape, true);
+    const bool fits = axis >= 0 && axis < 3 && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX;
+    if (out && !fits) dp_door_result(DP_BAD_ARGUMENT, "reading how grass lies");
+    if (out && fits && enter(self)) {
+        Py_BEGIN_ALLOW_THREADS
+        dp_lean_read(dp_sim_lean(self->sim), i0, j0, (int)shape.n[1], (int)shape.n[0],
+                     axis == 0 ? out : NULL, axis == 1 ? out : NULL, axis == 2 ? out : NULL);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_door_result(DP_OK, "");
+    }
+    dp_door_close(&door);
+    return result;
+}

@@ -311,10 +311,14 @@ static PyMethodDef methods[] = {
     {"read_plants", dp_py_read_plants, METH_VARARGS,
      "read_plants(stand, first, position (n, particles, 3) f4 or None, strength (n, bends) f8 or"
      " None, alpha (n,) f8 or None): plants of a stand from `first` on, as they are."},
+    {"read_lean", dp_py_read_lean, METH_VARARGS,
+     "read_lean(axis, i0, j0, out (ny, nx) f4): how grass lies; axis 0 lean_x, 1 lean_y, 2 "
+     "crushed."},
     {"open_frames", dp_py_open_frames, METH_VARARGS,
      "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
     {"write_frame", dp_py_write_frame, METH_VARARGS,
-     "write_frame(path or None, time): take in the tiles that changed and write the frame, in the"
+     "write_frame(path or None, time, lean=False): take in the tiles that changed and write the "
+     "frame, in the"
      " background; tells how the frame before went."},
     {"flush", dp_py_flush, METH_NOARGS,
      "flush(): wait for the frame that is being written; tells how it went."},

@@ -11,9 +11,9 @@
 // A frame on its way to the disk: the tiles that changed, copied, and the thread that packs them.
 typedef struct Frame
 {
-    DpFrames*  frames;
-    long*      tile;  // place in the frame (room, 2)
-    float*     rgba;  // (room, DP_TILE, DP_TILE, 4)
+    DpFrames*  frames;  // of its film
+    long*      tile;    // place in the frame (room, 2)
+    float*     rgba;    // (room, DP_TILE, DP_TILE, 4)
     int        count, room, workers;
     char*      path;  // NULL: packed only
     double     time;
@@ -23,17 +23,30 @@ typedef struct Frame
     pthread_t  thread;
 } Frame;
 
+// Frames of one kind.
+typedef struct Film
+{
+    DpFrames* frames;
+    Frame     frame[2];  // one is filled while the other is written
+    int       fresh;     // which one is filled next
+} Film;
+
+enum
+{
+    DP_FILM_TRAIL = 0,
+    DP_FILM_LEAN = 1,
+    DP_FILMS = 2
+};  // lean: on planted ground only
+
 typedef struct Simulation
 {
     PyObject_HEAD
     DpTerrain* terrain;
     DpSim*     sim;
     DpPlants*  plants;  // NULL: bare ground
-    DpFrames*  frames;
+    Film       film[DP_FILMS];
     long       tile_x, tile_y;    // lowest tile of the frames
     int        tiles_x, tiles_y;  // 0 = no frames opened
-    Frame      frame[2];          // one is filled while the other is written
-    int        fresh;             // which one is filled next
     int        workers;
     bool       busy;  // a call without the GIL is under way
 } Simulation;
@@ -63,9 +76,10 @@ PyObject* dp_py_open_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_plant(PyObject* object, PyObject* args);
 PyObject* dp_py_rest_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_read_plants(PyObject* object, PyObject* args);
+PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
 // py_frames.c
-DpStatus  dp_py_finish_frame(Simulation* self);  // waits for the frame that is being written
+DpStatus  dp_py_finish_frame(Film* film);  // waits for the frame that is being written
 void      dp_py_drop_frames(Simulation* self);
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
 PyObject* dp_py_write_frame(PyObject* object, PyObject* args);

@@ -53,6 +53,9 @@ DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
 // Plants have come, gone or rested within x0..x1, y0..y1 [m]: the ground asks for its cover again.
 void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1);
 
+// How the grass lies on the terrain's cells; NULL on bare ground. It belongs to the simulation.
+DpLean* dp_sim_lean(const DpSim* sim);
+
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_rest(DpSim* sim, double seconds);
 

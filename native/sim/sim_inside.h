@@ -58,6 +58,7 @@ typedef struct Way
 typedef struct Meadow
 {
     DpPlants* plants;
+    DpLean*   lean;
     double    extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording

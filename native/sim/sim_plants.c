@@ -32,11 +32,21 @@ static void measure(Meadow* meadow)
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
 {
     if (!sim || !plants || sim->meadow.plants) return DP_BAD_ARGUMENT;
-    const DpStatus status = dp_terrain_plant(sim->terrain, cover_of, plants);
-    if (status != DP_OK) return status;
-    sim->meadow.plants = plants;
+    DpLean*  lean = NULL;
+    DpStatus status = dp_lean_create(&lean, plants, sim->cell, sim->origin_x, sim->origin_y);
+    if (status == DP_OK) status = dp_terrain_plant(sim->terrain, cover_of, plants);
+    if (status != DP_OK) {
+        dp_lean_destroy(lean);
+        return status;
+    }
+    sim->meadow.plants = plants, sim->meadow.lean = lean;
     measure(&sim->meadow);
     return DP_OK;
+}
+
+DpLean* dp_sim_lean(const DpSim* sim)
+{
+    return sim->meadow.lean;
 }
 
 // cells whose centres may lie in a box
@@ -50,21 +60,29 @@ static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double 
     return cells;
 }
 
+// the ground asks again for its cover within a box [m]
+static void cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
+{
+    const Cells at = cells_of(sim, x0, y0, x1, y1);
+    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+}
+
 void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1)
 {
     if (!sim->meadow.plants) return;
     measure(&sim->meadow);
     const double r = sim->meadow.reach;
-    const Cells  at = cells_of(sim, x0 - r, y0 - r, x1 + r, y1 + r);
-    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+    cover_anew(sim, x0 - r, y0 - r, x1 + r, y1 + r);
+    dp_lean_grown(sim->meadow.lean, x0 - r, y0 - r, x1 + r, y1 + r);
 }
 
 DpStatus dp_sim_rest(DpSim* sim, double seconds)
 {
     if (!sim->meadow.plants) return DP_OK;
     const DpStatus status = dp_plants_rest(sim->meadow.plants, seconds);
-    if (status == DP_OK) dp_sim_planted(sim, -1e9, -1e9, 1e9, 1e9);
-    return status;
+    if (status != DP_OK) return status;
+    dp_sim_planted(sim, -1e9, -1e9, 1e9, 1e9);
+    return seconds > 0.0 ? dp_lean_step(sim->meadow.lean, NULL, NULL, 0, seconds) : DP_OK;
 }
 
 double dp_meadow_margin(const DpSim* sim)
@@ -84,8 +102,8 @@ DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs)
     m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
     m->height = dp_alloc((size_t)limbs, sizeof *m->height);
     m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
-    const bool whole =
-        m->sole && m->bottom && m->bottom_room && m->ground && m->height && m->height_room;
+    const bool whole = m->way && m->sole && m->bottom && m->bottom_room && m->ground && m->height &&
+                       m->height_room;
     return whole ? DP_OK : DP_NO_MEMORY;
 }
 
@@ -97,7 +115,7 @@ void dp_meadow_drop(DpSim* sim)
     dp_free(m->way), dp_free(m->sole), dp_free(m->bottom), dp_free(m->bottom_room),
         dp_free(m->cover);
     dp_free(m->ground), dp_free(m->height), dp_free(m->height_room);
-    *m = (Meadow){.plants = m->plants, .extent = m->extent, .reach = m->reach};
+    *m = (Meadow){.plants = m->plants, .lean = m->lean, .extent = m->extent, .reach = m->reach};
 }
 
 static bool make_room(float** grid, size_t* room, size_t cells)
@@ -257,8 +275,10 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     if (status != DP_OK) return status;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
-    if (!told.changed) return DP_OK;
-    const Cells at = cells_of(sim, told.x0, told.y0, told.x1, told.y1);
-    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);  // TRAIL (8)(9), in the next step
-    return DP_OK;
+    if (told.changed) {
+        cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
+        status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
+    }
+    if (status == DP_OK) status = dp_lean_step(m->lean, ground, m->sole, m->soles, dt);
+    return status;
 }

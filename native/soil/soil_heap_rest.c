@@ -8,7 +8,10 @@
 // gamma_r), so a border cell with share omega carries a cone of height T sqrt(omega) over its firm
 // ground and slope tan gamma_r. Soil fills the ground up to the envelope of the cones. Distances
 // are chamfer distances with 1 and sqrt(2), the metric in which soil_stabilize.c compares
-// neighbours: what is laid here is at rest there. They lead around the sole, not through it.
+// neighbours: what is laid here is at rest there. They lead around the sole, not through it. A cone is
+// lower the farther its cell lies from the edge of the sole, which runs through cells that are covered in
+// part and past the corners of others: else rims would be lower the larger the cells, most of all where the
+// edge runs aslant.
 //
 // A sole that rolls leaves a hollow behind. No cone stands in it or reaches into it: what is pushed aside
 // now piles up at its edge, and soil_stabilize.c lets slide in what does not stay. Else every step
@@ -44,6 +47,7 @@ typedef struct Apex
     int    i, j;    // of the patch
     double ground;  // firm ground [m]
     double root;    // sqrt(omega) [-]
+    double away;    // from the sole's edge, beyond half a cell [cells]
 } Apex;
 
 typedef struct Heap
@@ -195,7 +199,8 @@ static Laid fill_to(const Heap* heap, double height)
     for (size_t k = 0; k < cells; ++k) window->fill[k] = NOTHING;
     for (int k = 0; k < heap->apex_count; ++k) {
         const Apex*  apex = &heap->apex[k];
-        const double top = (apex->ground - heap->level + height * apex->root) / heap->step;
+        const double top = (apex->ground - heap->level + height * apex->root) / heap->step -
+                           apex->away * (double)heap->straight;
         row_of(window, window->fill, apex->j - window->j0)[apex->i - window->i0] =
             (int32_t)floor(top + 0.5);
     }
@@ -333,6 +338,21 @@ static void add_row(float* restrict heap, const int32_t* restrict fill,
     }
 }
 
+// how far the edge of the sole is from the middle of a border cell, beyond half a cell [cells]
+static double edge_of(const DpSoilPatch* patch, const DpImprint* imprint, int i, int j)
+{
+    double away = sqrt(2.0);
+    for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+            if (i + di < 0 || i + di >= patch->nx || j + dj < 0 || j + dj >= patch->ny) continue;
+            const size_t p = soil_at(patch, i + di, j + dj);
+            if (imprint->ring[p] != 0) continue;
+            const double far = di && dj ? sqrt(2.0) : 1.0;
+            away = soil_least(away, far - (double)imprint->cover[p]);
+        }
+    return away;
+}
+
 // border cells with a share; returns how many, *width = sum of omega * cell, the border's length
 static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double* width, int box[4])
 {
@@ -351,7 +371,7 @@ static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double*
             if (!(share > 0.0)) continue;
             if (apex) {
                 const double firm = (double)patch->rest[p] - (double)patch->compression[p];
-                apex[count] = (Apex){i, j, firm, sqrt(share)};
+                apex[count] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
             }
             ++count;
             sum += share;

@@ -1,8 +1,12 @@
 """Plants on the ground that is walked on: Simulation and Bake with plants. TRAIL (5)-(9), design 7 and 8."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from desire_path import maps
+from desire_path.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
 from desire_path.plants import KINDS, Planting
 from desire_path.sim import Ground, Simulation
@@ -71,3 +75,120 @@ def test_plantings_that_make_no_sense_are_refused():
         with pytest.raises(DesirePathError) as problem:
             Planting(**wrong)
         assert str(problem.value).count(".") >= 1
+
+
+# ---- how grass lies, cell by cell --------------------------------------------------------------------------------
+
+
+def lean(sim, window=(-64, -64, 128, 128)):
+    return [sim.read(name, *window) for name in ("lean_x", "lean_y", "crushed")]
+
+
+def standing(kind, seconds_after):
+    """A lawn under a standing box (cells -14..13, -5..4), and so long after it has left."""
+    sim = Simulation(Ground.flat(), "wet-soil", 0.01, plants=[kind])
+    gait, loads = gaits.pressed([gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -735]],
+                                seconds=0.5 + seconds_after)
+    loads.force[:, 60:] = 0.0
+    loads.touching[:, 60:] = 0
+    gait.pose[:, 60:, 2] = 1.0
+    sim.load(gait, loads)
+    sim.run(58)
+    down = lean(sim)
+    sim.run(60 + int(120 * seconds_after))
+    return sim, down, lean(sim)
+
+
+def test_grass_is_flat_under_the_sole_and_leans_away_beside_it():
+    kind = KINDS["lawn"]
+    _, (x, y, crushed), _ = standing(kind, 0.1)
+    size = np.hypot(x, y)
+    assert size.max() <= 1.0 + 1e-6 and crushed.min() >= 0.0 and crushed.max() <= 1.0
+    assert (crushed[60:68, 51:77] > 0.999).all() and (size[60:68, 51:77] > 0.95).all()
+    above, below = (slice(69, 71), slice(54, 74)), (slice(57, 59), slice(54, 74))
+    assert (y[above] > 0.05).all() and (y[below] < -0.05).all()  # away from the sole
+    reach = int(np.ceil(kind.height / 2 / 0.01)) + 1
+    far = np.ones_like(crushed, bool)
+    far[59 - reach:69 + reach, 50 - reach:78 + reach] = False
+    assert not crushed[far].any() and not size[far].any()
+    assert (np.diff(size[69:69 + reach, 64]) <= 0.0).all()  # less and less
+
+
+def test_grass_stands_up_with_its_kinds_time_to_the_share_that_is_whole():
+    whole = replace(KINDS["lawn"], break_angle=10.0, degrade_rate=0.0)  # nothing wears
+    _, down, up = standing(whole, 0.4)
+    before, after = down[2][60:68, 51:77], up[2][60:68, 51:77]
+    np.testing.assert_allclose(after, np.exp(-whole.damping / 2 * 0.4) * before, rtol=0.05)
+    _, _, later = standing(whole, 4.0)
+    assert not any(plane.any() for plane in later)
+    brittle = replace(whole, break_angle=whole.degrade_angle)  # what bends breaks
+    sim, down, up = standing(brittle, 4.0)
+    alpha = sim.read("plant_strength", -64, -64, 128, 128)  # dense: 1 to begin with
+    np.testing.assert_allclose(up[2][60:68, 51:77], 1.0 - alpha[60:68, 51:77], atol=0.02)
+    assert up[2][60:68, 51:77].mean() > 0.3
+
+
+def test_a_slipping_foot_combs_the_grass_its_way():
+    sim = Simulation(Ground.flat(), "wet-soil", 0.01, plants=["moss"])
+    gait, loads = gaits.pressed([gaits.box(0.28, 0.20, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -100]], seconds=0.4)
+    gait.pose[:, :, 0] += 1.5 * gait.time
+    loads.point[:, :, 0] += 1.5 * gait.time
+    sim.load(gait, loads)
+    sim.run(40)
+    x, y, crushed = lean(sim)
+    trail = (slice(58, 70), slice(60, 100))
+    assert (x[trail] > 0.05).all() and (np.abs(y[trail]) < 0.5 * x[trail]).all()
+
+
+# ---- baked -------------------------------------------------------------------------------------------------------
+
+
+def bake(folder, plants, **more):
+    gait, _ = gaits.pressed([gaits.box(0.28, 0.10)] * 2, [[0, 0, 0, 1, 0, 0, 0], [0.1, 0.3, 0, 1, 0, 0, 0]],
+                            [[0, 0, -370]] * 2, seconds=1.2)
+    made = Bake(gait, Ground.flat(), "snow", folder, plants=plants, **more)
+    for _ in made.run():
+        pass
+    return made
+
+
+def test_frames_and_maps_show_the_plants(tmp_path):
+    bake(tmp_path, [Planting("lawn", seed=2), "moss"])
+    index = read_index(tmp_path)
+    assert index.lean and index.complete
+    rest, last = (maps.read(index.path(number)).planes for number in (0, index.frames))
+    flat, pressed = (maps.read(index.lean_path(number)).planes for number in (0, index.frames // 2))
+    assert rest["G"].mean() > 0.95 and not rest["R"].any()
+    assert not flat["R"].any() and not flat["B"].any() and pressed["B"].max() > 0.9
+    np.testing.assert_array_equal(flat["A"], rest["G"])
+    np.testing.assert_array_equal(maps.read(index.lean_path(index.frames)).planes["A"], last["G"])
+    assert rest["R"].shape == pressed["R"].shape == (index.ny, index.nx)
+    start, final = (maps.read(tmp_path / f"maps_{name}.exr") for name in ("start", "final"))
+    assert set(final.planes) == {entry.name for entry in maps.MAPS + maps.LEAN}
+    assert start.planes["young_modulus_in"].max() > 5e6 and start.planes["plant_strength_in"].mean() > 0.95
+    np.testing.assert_array_equal(final.planes["plant_strength"], last["G"])
+    assert {"plant_strength", "lean_x", "lean_y", "crushed"} <= set(start.planes)
+    free(tmp_path)
+    assert not list(tmp_path.rglob("*.exr"))
+
+
+def test_a_stopped_bake_with_plants_goes_on_and_other_plants_are_another_bake(tmp_path):
+    whole = bake(tmp_path / "whole", ["carex"])
+    gait = whole.gait
+    stopped = Bake(gait, Ground.flat(), "snow", tmp_path / "stopped", plants=["carex"])
+    run = stopped.run()
+    for _ in range(60):
+        next(run)
+    run.close()
+    again = Bake(gait, Ground.flat(), "snow", tmp_path / "stopped", plants=["carex"])
+    for _ in again.run():
+        pass
+    one, two = read_index(tmp_path / "whole"), read_index(tmp_path / "stopped")
+    for number in (0, 30, 61, one.frames):
+        for film in ("path", "lean_path"):
+            with open(getattr(one, film)(number), "rb") as a, open(getattr(two, film)(number), "rb") as b:
+                assert a.read() == b.read()
+    signatures = {Bake(gait, Ground.flat(), "snow", tmp_path, plants=plants)._signature()
+                  for plants in ((), ["carex"], ["lawn"], [Planting("carex", seed=1)], [Planting("carex", density=9)],
+                                 [Planting("carex", roots=[[0, 0]])], [Planting("carex", roots=[[0, 1]])])}
+    assert len(signatures) == 7

@@ -119,7 +119,7 @@ def test_accumulate_rest_is_the_envelope_of_cones(seed, push):
     for volume in (1e-4, 4e-4, 1e-4):
         before = both.native["heap"].sum(dtype=float)
         height = _native.soil_accumulate(both.patch(), (bottom, cover, ring), foot, volume, REST, 0.04, 200.0, height)
-        expected = twin.accumulate_rest(both.twin, ring, foot, volume, 200.0, slope)
+        expected = twin.accumulate_rest(both.twin, ring, cover, foot, volume, 200.0, slope)
         assert (both.native["heap"].sum(dtype=float) - before) * both.cell**2 == pytest.approx(volume, rel=1e-5)
         # the kernel stops within 0.02 % of the volume and scales what it lays
         assert height == pytest.approx(expected, rel=0.001)

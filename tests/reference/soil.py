@@ -165,11 +165,19 @@ def _distances(start, wall, cell):
     return far
 
 
-def accumulate_rest(patch, ring, foot, volume, threshold, slope):
+def _edge(c, ring, cover, cell):
+    """How much farther than half a cell the edge of the sole is from the middle of a border cell."""
+    near = [math.hypot(j - c[0], i - c[1]) - cover[j, i] for j, i in np.argwhere(ring == 0)
+            if max(abs(j - c[0]), abs(i - c[1])) == 1]
+    return cell * min(near)
+
+
+def accumulate_rest(patch, ring, cover, foot, volume, threshold, slope):
     """Cones of height T sqrt(omega) on the border cells, filled up to their envelope; returns T.
 
     Untouched cells pressed to half the deepest under the sole are the hollow it has left: no cone
-    stands in them or reaches through them, unless there is no other cell with a share.
+    stands in them or reaches through them, unless there is no other cell with a share. A cone falls from
+    the edge of the sole on, which lies within the touched cells beside it: as far in as they are covered.
     """
     border = [tuple(c) for c in np.argwhere((ring == 1) & ~np.isnan(patch["rest"]))]
     omega = shares(border, patch, *foot, threshold)
@@ -187,7 +195,8 @@ def accumulate_rest(patch, ring, foot, volume, threshold, slope):
     root = np.sqrt(omega[omega > 0])
     firm = patch["rest"] - patch["compression"]
     surface = np.where(wall, np.inf, firm + patch["heap"])
-    falls = [firm[c] - slope * _distances(c, wall, patch["cell"]) for c in border]
+    cell = patch["cell"]
+    falls = [firm[c] - slope * (_edge(c, ring, cover, cell) + _distances(c, wall, cell)) for c in border]
 
     def laid(height):
         fill = np.max([fall + height * w for fall, w in zip(falls, root)], axis=0)

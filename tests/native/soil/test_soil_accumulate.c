@@ -269,6 +269,7 @@ TEST(mirrored_to_the_bit)
                 const float high = (float)(0.005 * check_random(&seed));
                 for (int m = 0; m < 3; ++m) {
                     g[m].rest[at[m]] = high;
+                    g[m].imprint.cover[at[m]] = g[0].imprint.cover[at[0]];
                     g[m].imprint.ring[at[m]] = g[0].imprint.cover[at[0]] > 0.0f ? 0 : DP_RING_FAR;
                     g[m].imprint.i0 = g[m].imprint.j0 = 0;
                     g[m].imprint.i1 = g[m].imprint.j1 = SIDE;

@@ -186,23 +186,26 @@ TEST(windows_do_not_matter)
 // slides where (a hard count of lower neighbours made 1.3 mm of it)
 TEST(rounding_does_not_matter)
 {
-    Ground   g[2];
-    unsigned seed = 17;
-    for (int m = 0; m < 2; ++m) {
-        g[m] = ground_make(110, 80, 0.01, sand(15.0));
-        for (int k = 0; k < 110 * 80 && m == 1; ++k)
-            g[m].rest[k] = (float)(2e-9 * check_random(&seed));
-        double        ledger = 0.0;
-        const BoxSole sole = {.length = 0.28, .width = 0.10, .heading = 0.3, .pitch = 0.3};
-        footfall(&g[m], sole, 750.0, DP_HEAP_REST, &ledger);
-        (void)settle(&g[m], NULL, NULL, 100000);
+    for (int turn = 0; turn < 8; ++turn) {
+        Ground   g[2];
+        unsigned seed = 17;
+        for (int m = 0; m < 2; ++m) {
+            g[m] = ground_make(110, 80, 0.01, sand(turn % 2 ? 15.0 : 30.0));
+            for (int k = 0; k < 110 * 80 && m == 1; ++k)
+                g[m].rest[k] = (float)(2e-9 * check_random(&seed));
+            double        ledger = 0.0;
+            const BoxSole sole = {
+                .length = 0.28, .width = 0.10, .heading = 0.1 * turn, .pitch = 0.3};
+            footfall(&g[m], sole, 750.0, DP_HEAP_REST, &ledger);
+            (void)settle(&g[m], NULL, NULL, 100000);
+        }
+        double most = 0.0;
+        for (int k = 0; k < 110 * 80; ++k)
+            most = fmax(most, fabs((double)g[0].heap[k] - (double)g[1].heap[k]));
+        CHECK(most < 4e-4);
+        CHECK(ground_most(&g[0], g[0].heap) > 0.01);
+        for (int m = 0; m < 2; ++m) ground_free(&g[m]);
     }
-    double most = 0.0;
-    for (int k = 0; k < 110 * 80; ++k)
-        most = fmax(most, fabs((double)g[0].heap[k] - (double)g[1].heap[k]));
-    CHECK(most < 5e-5);
-    CHECK(ground_most(&g[0], g[0].heap) > 0.01);
-    for (int m = 0; m < 2; ++m) ground_free(&g[m]);
 }
 
 TEST(mirrored_to_the_bit)
