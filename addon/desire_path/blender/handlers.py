@@ -4,12 +4,13 @@ A Blender that was killed in the middle of a bake leaves files that its .blend k
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
 import os
+from contextlib import suppress
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, op_bake, op_forces, playback
+from . import ground, op_bake, op_forces, op_plants, playback
 
 
 def refresh(scene, obj):
@@ -65,6 +66,9 @@ def after_undo(*_):
             if (obj.type == "MESH" and obj.desire_path.is_ground
                     and playback.modifier(obj) is not None):
                 refresh(scene, obj)
+            if obj.type == "MESH" and obj.desire_path.is_ground and obj.library is None:
+                with suppress(DesirePathError):  # the next bake says what is wrong
+                    op_plants.refresh(scene, obj)
 
 
 def register():

@@ -14,7 +14,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import axes, cover, ground, playback, props, sample
+from . import axes, cover, ground, playback, plants, props, sample
 from .op_walkers import Refusal, active, grounds, sentence, walkers
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -153,13 +153,20 @@ def play(obj, surface):
         smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
-                        layer_depth=depth)
+                        layer_depth=depth, standing=plants.standing(obj))
         warnings = cover.fill(obj, surface, index, depth)
     else:
         playback.detach(obj)
         warnings = []
+    plants.show(obj, index)
     settings.missing = missing(index)
     return index, warnings
+
+
+def show_plants(obj):
+    """Let the grass of a ground follow what it plays."""
+    from ..bake import read_index
+    plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
 
 
 def missing(index):
@@ -178,6 +185,7 @@ def free(obj):
     from .. import bake
     settings = obj.desire_path
     playback.detach(obj)
+    plants.show(obj)
     cover.remove(obj)
     if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
         shared = sharing(obj)

@@ -4,7 +4,7 @@ from bpy.props import StringProperty
 
 from .. import rigs
 from ..errors import DesirePathError
-from . import axes, playback, props, sample
+from . import axes, plants, props, sample
 
 
 class Refusal:
@@ -194,6 +194,9 @@ class OBJECT_OT_desire_path_remove(Refusal, bpy.types.Operator):
         settings = obj.desire_path
         if settings.is_ground:
             free(obj)
+            for each in settings.plants:
+                plants.forget(each)
+            settings.plants.clear()
             settings.is_ground = False
         settings.is_walker = False
         settings.ground = None

@@ -3,7 +3,8 @@ import json
 
 import bpy
 
-from . import op_bake, op_forces
+from ..errors import DesirePathError
+from . import op_bake, op_forces, plants
 from .op_walkers import walkers
 
 
@@ -106,6 +107,38 @@ def draw_painted(layout, obj):
     side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
 
 
+def draw_plants(layout, context, obj):
+    settings = obj.desire_path
+    row = layout.row()
+    row.template_list("OBJECT_UL_desire_path_plants", "", settings, "plants", settings, "plants_index",
+                      rows=2)
+    side = row.column(align=True)
+    side.operator("object.desire_path_plants_add", text="", icon="ADD")
+    side.operator("object.desire_path_plants_remove", text="", icon="REMOVE")
+    if not settings.plants:
+        return
+    each = settings.plants[min(settings.plants_index, len(settings.plants) - 1)]
+    column = _column(layout)
+    column.prop(each, "kind")
+    column.prop(each, "density")
+    column.prop_search(each, "density_group", obj, "vertex_groups")
+    column.prop(each, "seed")
+    if plants.shown(each) is not None:
+        column.prop(each, "grass", text="Shown By")
+    else:
+        column.operator("object.desire_path_grass_add", icon="OUTLINER_OB_CURVES")
+    column.operator("object.desire_path_plants_update", icon="FILE_REFRESH")
+    told = f"{each.count:,} plants"
+    try:
+        its = plants.kind(each.kind)
+        told += f", {100 * its.height:.3g} cm high, full cover from {its.full_density:g} /m2 on"
+    except DesirePathError as problem:
+        told = str(problem)
+    _lines(layout, told, "INFO", _letters(context))
+    column = _column(layout)
+    column.prop(settings, "plant_mesh")
+
+
 def draw_output(layout, obj):
     settings = obj.desire_path
     column = _column(layout)
@@ -169,6 +202,18 @@ class OBJECT_UL_desire_path_paint(bpy.types.UIList):
         row.prop(item, "soil", text="")
 
 
+class OBJECT_UL_desire_path_plants(bpy.types.UIList):
+    """Kinds of plants that grow on a ground"""
+
+    def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
+        row = layout.row(align=True)
+        row.label(text=plants.grass.label(item.kind))
+        row.label(text=f"{item.count:,}")
+        if plants.shown(item) is not None:
+            row.prop(item.grass, "hide_viewport", text="", emboss=False)
+            row.prop(item.grass, "hide_render", text="", emboss=False)
+
+
 class _Physics:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -208,6 +253,13 @@ class _Painted(_Ground):
         draw_painted(self.layout, context.object)
 
 
+class _Plants(_Ground):
+    bl_label = "Plants"
+
+    def draw(self, context):
+        draw_plants(self.layout, context, context.object)
+
+
 class _Output(_Ground):
     bl_label = "Output and Method"
 
@@ -223,6 +275,10 @@ class PHYSICS_PT_desire_path_painted(_Physics, _Painted, bpy.types.Panel):
     bl_parent_id = "PHYSICS_PT_desire_path"
 
 
+class PHYSICS_PT_desire_path_plants(_Physics, _Plants, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
 class PHYSICS_PT_desire_path_output(_Physics, _Output, bpy.types.Panel):
     bl_parent_id = "PHYSICS_PT_desire_path"
 
@@ -235,10 +291,15 @@ class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
 
+class VIEW3D_PT_desire_path_plants(_Sidebar, _Plants, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
+
+
 class VIEW3D_PT_desire_path_output(_Sidebar, _Output, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
 
-CLASSES = (OBJECT_UL_desire_path_paint, PHYSICS_PT_desire_path, PHYSICS_PT_desire_path_painted,
-           PHYSICS_PT_desire_path_output, VIEW3D_PT_desire_path, VIEW3D_PT_desire_path_painted,
+CLASSES = (OBJECT_UL_desire_path_paint, OBJECT_UL_desire_path_plants, PHYSICS_PT_desire_path,
+           PHYSICS_PT_desire_path_painted, PHYSICS_PT_desire_path_plants, PHYSICS_PT_desire_path_output,
+           VIEW3D_PT_desire_path, VIEW3D_PT_desire_path_painted, VIEW3D_PT_desire_path_plants,
            VIEW3D_PT_desire_path_output)

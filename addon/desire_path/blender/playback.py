@@ -1,11 +1,13 @@
 """playback.py - a bake plays in any Blender, with or without this add-on.
 
     frames/trail_0000.exr ..  --image texture-->  attribute `desire_path`  --> position, groups
+    frames/lean_0000.exr ..   --image texture-->  attributes `desire_path_lean`, `plant_strength`
 
 One geometry-nodes modifier samples the frame's image once per point, by world position, into one
-colour attribute (height change, plant strength, compression, pressure) and moves the points by it.
-All numbers are constants inside the tree, so the same tree works from 3.4 to 5.2. File 0 is the
-untouched ground, file n the frame `frame_start + n - 1`.
+colour attribute (height change, plant strength, compression, pressure) and moves the points by it;
+where plants grew, a second image says how they lie. All numbers are constants inside the tree, so the
+same tree works from 3.4 to 5.2. File 0 is the untouched ground, file n the frame
+`frame_start + n - 1`.
 """
 import os
 
@@ -19,6 +21,8 @@ MODIFIER = "Desire Path"
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
 GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
+LEAN = "desire_path_lean"  # vector attribute where plants grew: lean x, lean y, crushed
+STRENGTH = "plant_strength"  # float attribute where plants grew
 
 
 def modifier(obj):
@@ -30,14 +34,23 @@ def modifier(obj):
 
 
 def image_of(tree):
-    """The image sequence a tree of ours plays, or None."""
+    """The image sequence of the ground a tree of ours plays, or None."""
+    return images(tree).get("trail")
+
+
+def images(tree):
+    """The image sequences a tree plays: {"trail": image, "lean": image}, what there is."""
+    found = {}
     for node in tree.nodes:
         if node.bl_idname == "GeometryNodeImageTexture":
-            return node.inputs["Image"].default_value
-    return None
+            image = node.inputs["Image"].default_value
+            if image is not None:
+                found[image.get(TAG, "trail")] = image
+    return found
 
 
-def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0):
+def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0,
+           standing=()):
     """Play the frames of a bake on the object; replaces what it played before.
 
     frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
@@ -47,12 +60,13 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     smooth: interpolate between cells, for meshes whose points are not cell centres
     corners: the local box of the mesh's points (8, 3)
     layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
+    standing: plants off the images, (vertex group or "", their strength where the group is 1) each
     """
     old = modifier(obj)
     place = list(obj.modifiers).index(old) if old is not None else -1
     detach(obj)
-    tree = _tree(obj, _image(frames), index, count, world, scale, smooth,
-                 corners, layer_depth)
+    shown = {name: _image(frames, name) for name in ("trail", "lean")[:1 + has_lean(index)]}
+    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing)
     tree[TAG] = mark(frames, index, count)
     ours = obj.modifiers.new(MODIFIER, "NODES")
     made = ours.node_group
@@ -75,34 +89,45 @@ def detach(obj):
             return
         tree = ours.node_group
         obj.modifiers.remove(ours)
-        if tree.users > 0:
-            continue
-        image = image_of(tree)
-        bpy.data.node_groups.remove(tree)
-        if image is not None and TAG in image and image.users == 0:
+        discard(tree)
+
+
+def discard(tree):
+    """Remove a tree of ours that nobody uses, and its images if nobody else does."""
+    if tree.users > 0:
+        return
+    played = images(tree).values()
+    bpy.data.node_groups.remove(tree)
+    for image in played:
+        if TAG in image and image.users == 0:
             bpy.data.images.remove(image)
+
+
+def has_lean(index):
+    """Whether a bake says how plants lie."""
+    return bool(getattr(index, "lean", False))
 
 
 def mark(frames, index, count):
     """What a tree plays, in a word, to tell whether the files are still the same."""
     return (f"{os.path.basename(frames)} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
-            f"{index.ny} {index.frame_start} {count}")
+            f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean")
 
 
 def _active(obj):
     return bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj])
 
 
-def _image(frames):
+def _image(frames, name):
     """A fresh datablock for the sequence: an old one would show frames out of its cache."""
-    path = join(frames, "trail_0001.exr")
-    image = bpy.data.images.new("desire_path frames", 1, 1, float_buffer=True)
+    path = join(frames, f"{name}_0001.exr")
+    image = bpy.data.images.new(f"desire_path {name}", 1, 1, float_buffer=True)
     image.source = "FILE"
     image.filepath = path
     image.source = "SEQUENCE"
     image.colorspace_settings.name = "Non-Color"
     image.alpha_mode = "CHANNEL_PACKED"
-    image[TAG] = 1
+    image[TAG] = name
     return image
 
 
@@ -142,22 +167,49 @@ class Wiring:
                         **{f"_{i}": v for i, v in enumerate(values)})
         return node.outputs[0]
 
-    def vector(self, operation, *values):
+    def vector(self, operation, *values, scale=None):
         node = self.add("ShaderNodeVectorMath", {"operation": operation},
-                        **{f"_{i}": v for i, v in enumerate(values)})
+                        **{f"_{i}": v for i, v in enumerate(values)},
+                        **({} if scale is None else {"Scale": scale}))
         return compat.socket(node.outputs, "Vector") or compat.socket(node.outputs, "Value")
 
+    def image(self, image, at, number, smooth):
+        """Sample file `number` of an image sequence; outputs Color and Alpha."""
+        return self.add("GeometryNodeImageTexture",
+                        {"interpolation": "Linear" if smooth else "Closest", "extension": "CLIP"},
+                        Image=image, Vector=at, Frame=number)
 
-def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
+    def named(self, name, kind="FLOAT"):
+        """The field of a named attribute."""
+        node = self.add("GeometryNodeInputNamedAttribute", {"data_type": kind}, Name=name)
+        return compat.socket(node.outputs, "Attribute")
+
+    def store(self, geometry, name, value, kind="FLOAT", domain="POINT"):
+        """Store a field as a named attribute; returns the geometry."""
+        return self.add("GeometryNodeStoreNamedAttribute", {"data_type": kind, "domain": domain},
+                        Geometry=geometry, Name=name, Value=value).outputs[0]
+
+    def xyz(self, x=0.0, y=0.0, z=0.0):
+        return self.add("ShaderNodeCombineXYZ", X=x, Y=y, Z=z).outputs[0]
+
+    def split(self, vector):
+        """The x, y and z of a vector."""
+        return self.add("ShaderNodeSeparateXYZ", Vector=vector).outputs
+
+
+def file_number(wire, index, count):
+    """Which file shows the frame: n = frame - frame_start + 1, file 0 before, the last one after."""
+    now = wire.add("GeometryNodeInputSceneTime").outputs["Frame"]
+    now = wire.math("FLOOR", wire.math("ADD", now, 1.0 - index.frame_start))
+    return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
+
+
+def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
     wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
     leave = tree.nodes.new("NodeGroupOutput")
-
-    # which file: n = frame - frame_start + 1, file 0 before, the last one after
-    now = wire.add("GeometryNodeInputSceneTime").outputs["Frame"]
-    now = wire.math("FLOOR", wire.math("ADD", now, 1.0 - index.frame_start))
-    number = wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
+    number = file_number(wire, index, count)
 
     # where in the image
     turn, shift = axes.image_axes(world, scale, index)
@@ -168,21 +220,17 @@ def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
         u, v = (wire.math("ADD", wire.vector("DOT_PRODUCT", here, tuple(turn[k])), shift[k])
                 for k in (0, 1))
         at = wire.add("ShaderNodeCombineXYZ", X=u, Y=v).outputs[0]
-    inside = None if _covers(corners, turn, shift) else _inside(wire, at)
+    inside = None if _covers(corners, turn, shift) else within(wire, at)
 
     # sample once, read everything from it
-    texture = wire.add("GeometryNodeImageTexture",
-                       {"interpolation": "Linear" if smooth else "Closest", "extension": "CLIP"},
-                       Image=image, Vector=at, Frame=number)
+    texture = wire.image(shown["trail"], at, number, smooth)
     some = {} if inside is None else {"Selection": inside}
     stored = wire.add("GeometryNodeStoreNamedAttribute",
                       {"data_type": "FLOAT_COLOR", "domain": "POINT"},
                       Geometry=entry.outputs[0], Name=ATTRIBUTE, Value=texture.outputs["Color"],
                       **some)
-    pixel = wire.add("GeometryNodeInputNamedAttribute", {"data_type": "FLOAT_COLOR"},
-                     Name=ATTRIBUTE)
     split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"},
-                     Color=compat.socket(pixel.outputs, "Attribute"))
+                     Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
     up = axes.lift(world, scale)
     if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
         offset = wire.add("ShaderNodeCombineXYZ", Z=split.outputs[0]).outputs[0]
@@ -190,16 +238,18 @@ def _tree(obj, image, index, count, world, scale, smooth, corners, layer_depth):
         offset = wire.vector("MULTIPLY", tuple(up), split.outputs[0])
     if compat.socket(stored.inputs, "Selection") is not None:
         some = {}  # what is not stored reads zero
-    moved = wire.add("GeometryNodeSetPosition", Geometry=stored.outputs[0], Offset=offset, **some)
-    geometry = moved.outputs[0]
+    geometry = stored.outputs[0]
+    if "lean" in shown:
+        geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside,
+                         standing)
+    geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset,
+                        **some).outputs[0]
 
     # a group of that name on the object is filled instead of an attribute
     if layer_depth > 0.0:
         weights = (split.outputs[1], wire.math("MULTIPLY", split.outputs[2], 1.0 / layer_depth))
         for name, weight in zip(GROUPS, weights):
-            geometry = wire.add("GeometryNodeStoreNamedAttribute",
-                                {"data_type": "FLOAT", "domain": "POINT"}, Geometry=geometry,
-                                Name=group_name(name), Value=weight).outputs[0]
+            geometry = wire.store(geometry, group_name(name), weight)
     tree.links.new(geometry, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
     return tree
@@ -215,7 +265,27 @@ def _covers(corners, turn, shift):
     return bool((corners >= 0.0).all() and (corners <= 1.0).all())
 
 
-def _inside(wire, at):
+def _lean(wire, geometry, texture, inside, standing):
+    """Store how plants lie and how strong they are; off the image they stand as they grew."""
+    strength = texture.outputs["Alpha"]
+    if inside is not None:
+        grown = 0.0
+        for group, full in standing:
+            share = full
+            if group:
+                share = wire.math("MULTIPLY", wire.named(group), full)
+            grown = wire.math("ADD", grown, share)
+        grown = wire.math("MINIMUM", grown, 1.0)
+        strength = wire.math("ADD", wire.math("MULTIPLY", strength, inside),
+                             wire.math("MULTIPLY", grown, wire.math("SUBTRACT", 1.0, inside)))
+        lean = wire.vector("SCALE", texture.outputs["Color"], scale=inside)
+    else:
+        lean = texture.outputs["Color"]
+    geometry = wire.store(geometry, LEAN, lean, "FLOAT_VECTOR")
+    return wire.store(geometry, STRENGTH, strength)
+
+
+def within(wire, at):
     """A field that is true for points inside the image."""
     from_middle = wire.vector("ABSOLUTE", wire.vector("SUBTRACT", at, (0.5, 0.5, 0.0)))
     split = wire.add("ShaderNodeSeparateXYZ", Vector=from_middle)

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
 
+from ..plants import KINDS
 from ..soil import SOILS
 from . import compat
 
@@ -53,6 +54,35 @@ class DesirePathPaint(bpy.types.PropertyGroup):
     soil: _soil("The soil that lies where the group is painted")
 
 
+def kinds(_self, _context, _text):
+    return list(KINDS)
+
+
+def _replant(self, context):
+    from . import op_plants
+    op_plants.changed(self.id_data)
+
+
+class DesirePathPlants(bpy.types.PropertyGroup):
+    """Plants of one kind that grow on a ground."""
+
+    kind: StringProperty(
+        name="Kind", default="carex", search=kinds, search_options={"SUGGESTION"}, update=_replant,
+        description="A kind of plant, or a .json file in which a kind was saved")
+    density: FloatProperty(
+        name="Density [1/m2]", default=80.0, min=0.001, soft_max=1000.0, max=1e6, precision=1, step=100,
+        update=_replant, description="How many plants grow on a square metre where the group is 1")
+    density_group: StringProperty(
+        name="Density Group", update=_replant, description="A vertex group or float attribute that thins "
+        "the plants out: 1 = all of them, 0 = none. Empty = they grow everywhere")
+    seed: IntProperty(name="Seed", min=0, update=_replant,
+                      description="Another number puts every plant somewhere else")
+    count: IntProperty(options={"HIDDEN"}, description="How many plants there are")
+    mark: StringProperty(options={"HIDDEN"}, description="What the roots were placed for")
+    grass: PointerProperty(name="Grass", type=bpy.types.Object, description="The object that shows "
+                           "these plants; empty = they are not shown")
+
+
 class DesirePathFoot(bpy.types.PropertyGroup):
     """The bones of one foot."""
 
@@ -87,6 +117,14 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     painted: CollectionProperty(type=DesirePathPaint, name="Painted Soils",
                                 description="Soils that lie where a vertex group is painted")
     painted_index: IntProperty(options={"HIDDEN"})
+    plants: CollectionProperty(type=DesirePathPlants, name="Plants",
+                               description="What grows on this ground, bends under feet and wears")
+    plants_index: IntProperty(options={"HIDDEN"})
+    plant_mesh: BoolProperty(
+        name="Plant Mesh", description="Also write the simulated plants and show them as a mesh, for "
+        "close-ups; large files where much is walked on")
+    plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
+                                  description="The mesh of the simulated plants")
     vertex_group: BoolProperty(
         name="Vertex Groups", description="Also fill vertex groups with plant strength and "
         "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play")
@@ -155,7 +193,7 @@ def set_auto(settings, **values):
         setattr(settings, flag, True)
 
 
-CLASSES = (DesirePathPaint, DesirePathFoot, DesirePathSettings)
+CLASSES = (DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings)
 
 
 def register():

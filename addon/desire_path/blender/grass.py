@@ -1,0 +1,462 @@
+"""grass.py - plants that can be seen: native geometry nodes on the roots, bent by a bake's images.
+
+    roots (a mesh of points) --instances of tufts--> the meadow
+                             \\-where trodden: real tufts, stem by stem bent--/
+The points are placed once, by the core, on the ground as it lies before any bake, so that no root
+ever jumps. Everything is in metres and in the world's axes. Only tufts that the frame's images show
+as touched are made real and bent; all others are instances: cost follows the feet.
+"""
+import bpy
+import numpy as np
+
+from .. import tuft
+from . import compat, playback
+
+TAG = playback.TAG
+MODIFIER = "Desire Path Grass"
+# of a root: turn about +Z [rad], size, tone 0..1, rise of the ground along x and y, which tuft
+TURN, SIZE, TONE, SLOPE, PICK = "tuft_turn", "tuft_size", "tuft_tone", "tuft_slope", "tuft_pick"
+PLACE = "tuft_place"  # of a trodden tuft: where its root stands at rest [m]
+ROOT, AT, TILT, ARCH, LOOK = "tuft_root", "tuft_at", "tuft_tilt", "tuft_arch", "tuft_look"  # see Tuft
+STRENGTH = playback.STRENGTH
+TOUCHED = 0.004  # lean and crush from which a tuft is bent stem by stem
+STEM_LIFT = 0.0015, 0.005  # how far trodden stems lie over the ground, the lowest and the highest [m]
+
+
+# ---- the plants' meshes ------------------------------------------------------------------------------
+
+
+def tufts(name, kind):
+    """The collection of a kind's tufts, in no scene: what the nodes scatter. Made when needed."""
+    mark = f"{name} {kind!r}"
+    for each in bpy.data.collections:
+        if each.get(TAG) == mark and each.library is None:
+            return each
+    look = tuft.look_of(name, kind)
+    found = bpy.data.collections.new(f"{label(name)} Tufts")
+    found[TAG] = mark
+    made = material(name, look)
+    for number in range(look.tufts):
+        shape = tuft.tuft(kind, look, number)
+        mesh = bpy.data.meshes.new(f"{label(name)} {number + 1}")
+        mesh.from_pydata(shape.vertices.tolist(), [], [list(face) for face in shape.faces])
+        mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+        for key, value in ((ROOT, shape.root), (AT, shape.at), (TILT, shape.tilt), (ARCH, shape.arch),
+                           (LOOK, shape.look)):
+            layer = mesh.attributes.new(key, "FLOAT_VECTOR", "POINT")
+            layer.data.foreach_set("vector", np.ascontiguousarray(value).ravel())
+        mesh.materials.append(made)
+        mesh.update()
+        found.objects.link(bpy.data.objects.new(mesh.name, mesh))
+    return found
+
+
+def reach(collection):
+    """How far from a plant's middle its stems are rooted, at most [m]."""
+    out = 0.0
+    for obj in collection.objects:
+        layer = obj.data.attributes.get(ROOT)
+        if layer is not None and len(layer.data):
+            root = np.empty((len(layer.data), 3), np.float32)
+            layer.data.foreach_get("vector", root.ravel())
+            out = max(out, float(np.hypot(root[:, 0], root[:, 1]).max()))
+    return out
+
+
+def label(name):
+    """A kind's name for people: a file's is its own name."""
+    return tuft.Path(str(name)).stem.replace("_", " ").replace("-", " ").title()
+
+
+def discard_tufts(collection):
+    """Remove tufts that nothing scatters any more, with their meshes and material."""
+    if collection is None or TAG not in collection or collection.users > 0:
+        return
+    objects = list(collection.objects)
+    bpy.data.collections.remove(collection)
+    for obj in objects:
+        if obj.users > 0:
+            continue
+        mesh = obj.data
+        bpy.data.objects.remove(obj)
+        _discard_mesh(mesh)
+
+
+def _discard_mesh(mesh):
+    if mesh is None or mesh.users > 0:
+        return
+    used = [each for each in mesh.materials if each is not None]
+    bpy.data.meshes.remove(mesh)
+    for each in used:
+        if TAG in each and each.users == 0:
+            bpy.data.materials.remove(each)
+
+
+# ---- the object ------------------------------------------------------------------------------------
+
+
+def make(ground, name):
+    """An object for a ground's grass, a child of the ground; `fill` gives it roots."""
+    mesh = bpy.data.meshes.new(f"{ground.name} {label(name)}")
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    for collection in ground.users_collection:
+        collection.objects.link(obj)
+    obj.parent = ground
+    obj[TAG] = 1
+    obj.modifiers.new(MODIFIER, "NODES")
+    return obj
+
+
+def fill(obj, ground, place, slope, sizes, count, scale):
+    """Let an object's points be these roots.
+
+    place: world position (n, 3) [m]; slope: rise of the ground along x and y (n, 2)
+    sizes: smallest and largest plant; count: how many tufts there are to choose of
+    scale: metres in a unit [m]
+    """
+    obj.matrix_parent_inverse = ground.matrix_world.inverted()
+    obj.matrix_basis = ((1 / scale, 0, 0, 0), (0, 1 / scale, 0, 0), (0, 0, 1 / scale, 0), (0, 0, 0, 1))
+    mesh = obj.data
+    mesh.clear_geometry()
+    mesh.vertices.add(len(place))
+    mesh.vertices.foreach_set("co", np.ascontiguousarray(place, np.float32).ravel())
+    chance = _chances(place, 4)
+    _store(mesh, TURN, "FLOAT", 2 * np.pi * chance[0])
+    _store(mesh, SIZE, "FLOAT", sizes[0] + (sizes[1] - sizes[0]) * chance[1])
+    _store(mesh, TONE, "FLOAT", chance[2])
+    _store(mesh, PICK, "INT", np.minimum(chance[3] * count, count - 1))
+    _store(mesh, SLOPE, "FLOAT_VECTOR", np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
+    mesh.update()
+
+
+def _store(mesh, name, kind, value):
+    layer = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "POINT")
+    key = "vector" if kind == "FLOAT_VECTOR" else "value"
+    layer.data.foreach_set(key, np.ascontiguousarray(
+        value, np.int32 if kind == "INT" else np.float32).ravel())
+
+
+def _chances(place, count):
+    """Even random numbers 0..1 (count, n) that belong to a place: a root keeps its own for good."""
+    bits = np.ascontiguousarray(place[:, :2], np.float32).view(np.uint32).astype(np.uint64)
+    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15) ^ bits[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F)
+    out = []
+    for k in range(count):
+        value = mixed + np.uint64((k + 1) * 0xD6E8FEB86659FD93 & (1 << 64) - 1)
+        for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+            value = (value ^ value >> np.uint64(shift)) * np.uint64(factor)
+        out.append(((value ^ value >> np.uint64(31)) >> np.uint64(40)).astype(np.float64) / (1 << 24))
+    return np.stack(out)
+
+
+def remove(obj):
+    """Take an object of grass away, with all that was made for it."""
+    if obj is None:
+        return
+    old = _tree_of(obj)
+    mesh = obj.data
+    bpy.data.objects.remove(obj)
+    _discard_mesh(mesh)
+    _discard_tree(old)
+
+
+def stale(obj, name, kind):
+    """Whether an object does not show this kind yet."""
+    tree = _tree_of(obj)
+    return tree is None or tree[TAG] != f"{name} {kind!r}"
+
+
+def _tree_of(obj):
+    """The grass tree of an object, or None."""
+    for each in obj.modifiers:
+        if each.type == "NODES" and each.node_group is not None and TAG in each.node_group:
+            return each.node_group
+    return None
+
+
+def _discard_tree(tree):
+    if tree is None or tree.users > 0:
+        return
+    collection = scattered(tree)
+    playback.discard(tree)
+    discard_tufts(collection)
+
+
+def scattered(tree):
+    """The collection a tree scatters: ours, or one the user chose instead; or None."""
+    for node in tree.nodes:
+        if node.bl_idname == "GeometryNodeCollectionInfo":
+            return node.inputs["Collection"].default_value
+    return None
+
+
+def show(obj, name, kind, index=None, images=None, count=0):
+    """Let an object's roots grow: standing, or as a bake's images say.
+
+    index, images, count: of the bake, see playback; images: {"trail": .., "lean": ..}
+    """
+    old = _tree_of(obj)
+    mark = f"{name} {kind!r}"
+    chosen = scattered(old) if old is not None else None
+    if chosen is None or TAG in chosen and chosen[TAG] != mark:  # the user's own stay
+        chosen = tufts(name, kind)
+    tree = _tree(obj.name, chosen, index, images, count)
+    tree[TAG] = mark
+    for each in obj.modifiers:
+        if each.type == "NODES" and (each.node_group is None or each.node_group == old):
+            made = each.node_group
+            each.node_group = tree
+            if made is not None and made != old and made.users == 0:
+                bpy.data.node_groups.remove(made)
+            break
+    _discard_tree(old)
+
+
+# ---- the nodes -------------------------------------------------------------------------------------
+
+
+def _tree(name, collection, index, images, count):
+    tree = compat.geometry_tree(f"{MODIFIER} {name}", bpy.data.node_groups.new)
+    wire = playback.Wiring(tree)
+    points = wire.add("NodeGroupInput").outputs[0]
+    points = wire.store(points, STRENGTH, 1.0)
+    leave = tree.nodes.new("NodeGroupOutput")
+    info = wire.add("GeometryNodeCollectionInfo", {"transform_space": "ORIGINAL"}, Collection=collection,
+                    **{"Separate Children": True, "Reset Children": True}).outputs[0]
+    if images is None or "lean" not in images:
+        grown = _instances(wire, points, info)
+    else:
+        field = _Field(wire, index, images, count)
+        here = wire.add("GeometryNodeInputPosition").outputs[0]
+        beside = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=points,
+                          Selection=playback.within(wire, field.where(here)))
+        parted = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=beside.outputs[0],
+                          Selection=_touched(wire, field, here, reach(collection)))
+        risen = wire.add("GeometryNodeSetPosition", Geometry=parted.outputs[1],
+                         Offset=wire.xyz(z=field.rise(here))).outputs[0]
+        standing = _instances(wire, _join(wire, risen, beside.outputs[1]), info)
+        grown = _join(wire, standing, _trodden(wire, parted.outputs[0], info, field))
+    tree.links.new(grown, leave.inputs[0])
+    leave.location = (180 * wire.column, 0)
+    return tree
+
+
+def _join(wire, one, other):
+    node = wire.add("GeometryNodeJoinGeometry", Geometry=one)
+    wire.tree.links.new(other, node.inputs[0])
+    return node.outputs[0]
+
+
+def _instances(wire, points, info):
+    size = wire.named(SIZE)
+    return wire.add("GeometryNodeInstanceOnPoints", Points=points, Instance=info,
+                    Rotation=wire.xyz(z=wire.named(TURN)), Scale=wire.xyz(size, size, size),
+                    **{"Pick Instance": True, "Instance Index": wire.named(PICK, "INT")}).outputs[0]
+
+
+class _Field:
+    """What a bake's images say at places of the world."""
+
+    def __init__(self, wire, index, images, count):
+        self.wire, self.images = wire, images
+        self.number = playback.file_number(wire, index, count)
+        self.size = (index.nx * index.cell, index.ny * index.cell)
+        self.corner = (index.x0, index.y0)
+
+    def where(self, place):
+        """Image coordinates of a place."""
+        return self.wire.vector("MULTIPLY_ADD", place, (1 / self.size[0], 1 / self.size[1], 0.0),
+                                (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0))
+
+    def rise(self, place):
+        """How much higher the ground is than at rest [m]."""
+        found = self.wire.image(self.images["trail"], self.where(place), self.number, True)
+        return self.wire.split(found.outputs["Color"])[0]
+
+    def lean(self, place, *, at_rest=False):
+        """(lean x, lean y, crushed), strength."""
+        found = self.wire.image(self.images["lean"], self.where(place), 0 if at_rest else self.number, True)
+        return found.outputs["Color"], found.outputs["Alpha"]
+
+    def broken(self, place):
+        """Share of the stems that stood at first and are broken, 0..1."""
+        wire = self.wire
+        now, first = self.lean(place)[1], self.lean(place, at_rest=True)[1]
+        whole = wire.math("DIVIDE", wire.math("ADD", now, 0.01), wire.math("ADD", first, 0.01))
+        return wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, whole), 0.0)
+
+
+def _touched(wire, field, here, far):
+    """Whether any stem of a tuft is out of its shape: asked in its middle and around it."""
+    most = field.broken(here)
+    for x, y in ((0, 0), (far, 0), (-far, 0), (0, far), (0, -far)):
+        lean, _ = field.lean(wire.vector("ADD", here, (x, y, 0.0)) if x or y else here)
+        most = wire.math("MAXIMUM", most, wire.vector("DOT_PRODUCT", wire.vector("ABSOLUTE", lean), (1, 1, 1)))
+    return wire.math("GREATER_THAN", most, TOUCHED)
+
+
+def _trodden(wire, points, info, field):
+    """Real tufts, every stem bent as the images say at its root."""
+    points = wire.store(points, PLACE, wire.add("GeometryNodeInputPosition").outputs[0], "FLOAT_VECTOR")
+    real = wire.add("GeometryNodeRealizeInstances", Geometry=_instances(wire, points, info)).outputs[0]
+
+    # the straight stem of this vertex, turned and sized as its plant is
+    turn, size = wire.named(TURN), wire.named(SIZE)
+
+    def turned(name):
+        return wire.add("ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=wire.named(name, "FLOAT_VECTOR"),
+                        Angle=turn).outputs[0]
+
+    root = wire.vector("SCALE", turned(ROOT), scale=size)
+    across = wire.vector("SCALE", turned(AT), scale=size)
+    tilt, arch = turned(TILT), turned(ARCH)
+    length, along = wire.split(root)[2], wire.split(across)[2]
+    root, across = (wire.vector("MULTIPLY", each, (1, 1, 0)) for each in (root, across))
+    place = wire.named(PLACE, "FLOAT_VECTOR")
+    foot = wire.vector("ADD", place, root)
+    tone = wire.split(wire.named(LOOK, "FLOAT_VECTOR"))[1]
+    chance = [wire.math("FRACT", wire.math("MULTIPLY_ADD", tone, factor, wire.named(TONE)))
+              for factor in (61.7, 173.3, 331.9)]
+
+    # what happened at its root: b = share broken here; this stem is broken, or one of the others
+    lean, _ = field.lean(foot)
+    broken = field.broken(foot)
+    is_broken = wire.math("LESS_THAN", chance[0], broken)
+    crushed = wire.split(lean)[2]
+    lean = wire.vector("MULTIPLY", lean, (1, 1, 0))
+    of_broken = wire.math("DIVIDE", crushed, wire.math("MAXIMUM", broken, 0.02))
+    of_others = wire.math("DIVIDE", wire.math("SUBTRACT", crushed, broken),
+                          wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, broken), 0.05))
+    own = _mix(wire, is_broken, of_others, of_broken)
+    own = wire.math("MINIMUM", wire.math("MAXIMUM", own, 0.0), 1.0)
+    share = wire.math("DIVIDE", wire.math("ADD", own, 0.05), wire.math("ADD", crushed, 0.05))
+    aside = wire.math("MINIMUM", wire.math("MULTIPLY", wire.vector("LENGTH", lean), share), 1.0)
+
+    # the way it leans: as all do, and a little its own
+    spread = wire.math("MULTIPLY_ADD", chance[1], 0.9, -0.45)
+    way = wire.add("ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=lean, Angle=spread).outputs[0]
+    outward = wire.vector("SCALE", wire.vector("ADD", arch, tilt), scale=wire.math("MULTIPLY", own, 0.12))
+    way = wire.vector("NORMALIZE", wire.vector("ADD", way, outward))
+    # how far its tip is off the root: as far as it is said, or as the height it lost lets it be
+    height = wire.math("SUBTRACT", 1.0, own)
+    fallen = wire.math("SQRT", wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, wire.math(
+        "MULTIPLY", height, height)), 0.0))
+    angle = wire.math("ARCTAN2", wire.math("MAXIMUM", aside, fallen), height)
+    angle = wire.math("MULTIPLY", angle, wire.math("MULTIPLY_ADD", chance[2], 0.16, 0.92))
+    # a leaning stem is an arc, more bent towards its tip; a crushed one lies straight from its root on
+    stiff = wire.math("POWER", own, 1.5)
+    first = wire.math("MULTIPLY", angle, stiff)
+    last = wire.math("MINIMUM", wire.math("SUBTRACT", wire.math("MULTIPLY", angle, 2.0), first), 1.72)
+    keep = wire.math("MULTIPLY_ADD", own, -0.85, 1.0)
+    tilt = wire.vector("ADD", wire.vector("SCALE", tilt, scale=keep), wire.vector("SCALE", way, scale=first))
+    arch = wire.vector("ADD", wire.vector("SCALE", arch, scale=keep),
+                       wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)))
+
+    # of what is broken, more and more is worn away
+    gone = wire.math("SUBTRACT", broken, wire.math("MULTIPLY_ADD", chance[2], 0.45, 0.40))
+    gone = wire.math("MINIMUM", wire.math("MAXIMUM", wire.math("MULTIPLY", gone, 7.0), 0.0), 0.97)
+    left = wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", gone, is_broken))
+    along, across = wire.math("MULTIPLY", along, left), wire.vector("SCALE", across, scale=left)
+    length = wire.math("MULTIPLY", length, left)
+
+    where = _bent(wire, length, along, across, tilt, arch)
+    where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))),
+                        wire.xyz(z=_surface(wire, field, place, foot)))
+    # nothing lies under the ground, but the buried end
+    low, high = STEM_LIFT
+    lift = wire.math("MULTIPLY", wire.math("MULTIPLY_ADD", chance[1], high - low, low), wire.math(
+        "MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0))
+    least = wire.math("ADD", _surface(wire, field, place, where), lift)
+    least = _mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
+    x, y, z = wire.split(where)
+    real = wire.add("GeometryNodeSetPosition", Geometry=real,
+                    Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))).outputs[0]
+    pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", broken, 0.65, 0.30))
+    return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
+
+
+def _mix(wire, share, a, b):
+    """a where share is 0, b where it is 1."""
+    return wire.math("ADD", wire.math("MULTIPLY", wire.math("SUBTRACT", 1.0, share), a),
+                     wire.math("MULTIPLY", share, b))
+
+
+def _surface(wire, field, place, at):
+    """Height of the pressed ground at a place near a root: its slope, and what was pressed there."""
+    away = wire.vector("SUBTRACT", at, place)
+    slope = wire.vector("DOT_PRODUCT", away, wire.named(SLOPE, "FLOAT_VECTOR"))
+    return wire.math("ADD", wire.math("ADD", wire.split(place)[2], slope), field.rise(at))
+
+
+def _bent(wire, length, along, across, tilt, arch):
+    """tuft.bent() in nodes: where a point of a straight stem comes to lie, from the stem's root."""
+    share = wire.math("DIVIDE", along, wire.math("MAXIMUM", length, 1e-6))
+
+    def towards(part):
+        """Sine and cosine of the tilt there, the sine along its direction."""
+        vector = wire.vector("MULTIPLY_ADD", arch, wire.xyz(part, part, part), tilt)
+        angle = wire.math("MAXIMUM", wire.vector("LENGTH", vector), 1e-6)
+        sine = wire.math("SINE", angle)
+        return vector, angle, sine, wire.math("COSINE", angle)
+
+    out = None
+    for part, weight in tuft.GAUSS:
+        vector, angle, sine, cosine = towards(wire.math("MULTIPLY", share, part))
+        piece = wire.vector("ADD", wire.vector("SCALE", vector, scale=wire.math("DIVIDE", sine, angle)),
+                            wire.xyz(z=cosine))
+        piece = wire.vector("SCALE", piece, scale=wire.math("MULTIPLY", along, weight))
+        out = piece if out is None else wire.vector("ADD", out, piece)
+    # what lies across the stem is turned with it
+    vector, angle, sine, cosine = towards(share)
+    way = wire.vector("SCALE", vector, scale=wire.math("DIVIDE", 1.0, angle))
+    ahead = wire.vector("DOT_PRODUCT", across, way)
+    back = wire.math("MULTIPLY", ahead, wire.math("SUBTRACT", cosine, 1.0))
+    turned = wire.vector("ADD", across, wire.vector("SCALE", way, scale=back))
+    turned = wire.vector("SUBTRACT", turned, wire.xyz(z=wire.math("MULTIPLY", ahead, sine)))
+    return wire.vector("ADD", out, turned)
+
+
+# ---- the material ----------------------------------------------------------------------------------
+
+
+def material(name, look):
+    """Leaves that let light through, dark at the root, each plant and stem of its own tone; straw
+    where `plant_strength` is low. Native nodes, to be changed at will."""
+    made = bpy.data.materials.new(label(name))
+    made[TAG] = 1
+    made.diffuse_color = (*(2.2 * each ** 0.8 for each in look.high), 1.0)
+    made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    wire = playback.Wiring(tree)
+
+    def attribute(key, kind):
+        return wire.add("ShaderNodeAttribute", {"attribute_name": key, "attribute_type": kind}).outputs
+
+    def either(key):
+        """An attribute of the mesh, or of the instance."""
+        return wire.math("ADD", attribute(key, "GEOMETRY")[2], attribute(key, "INSTANCER")[2])
+
+    def mix(share, a, b):
+        if isinstance(a, tuple) and isinstance(b, tuple):
+            more = tuple(y - x for x, y in zip(a, b))
+        else:
+            more = wire.vector("SUBTRACT", b, a)
+        return wire.vector("MULTIPLY_ADD", more, wire.xyz(share, share, share), a)
+
+    along, tone, head = wire.split(attribute(LOOK, "GEOMETRY")[1])
+    plant, strength = either(TONE), either(STRENGTH)
+    colour = mix(head, mix(along, look.low, look.high), look.head)
+    colour = mix(wire.math("SUBTRACT", 1.0, strength), colour, look.dead)
+    # brightness differs from stem to stem and plant to plant, and so, a little, does the hue
+    light = wire.math("ADD", wire.math("MULTIPLY_ADD", tone, 0.5, 0.62), wire.math("MULTIPLY", plant, 0.32))
+    hue = wire.math("MULTIPLY_ADD", wire.math("SUBTRACT", plant, tone), 0.016, 0.5)
+    colour = wire.add("ShaderNodeHueSaturation", Hue=hue, Value=light, Color=colour).outputs[0]
+    leaf = wire.add("ShaderNodeBsdfPrincipled", Roughness=0.5, **{"Base Color": colour})
+    for key in ("Specular", "Specular IOR Level"):
+        if key in leaf.inputs:
+            leaf.inputs[key].default_value = 0.25
+    through = wire.add("ShaderNodeBsdfTranslucent", Color=mix(0.35, colour, (0.55, 0.60, 0.05)))
+    both = wire.add("ShaderNodeMixShader", _0=0.3, _1=leaf.outputs[0], _2=through.outputs[0])
+    wire.add("ShaderNodeOutputMaterial", Surface=both.outputs[0])
+    return made

@@ -1,0 +1,176 @@
+"""op_plants.py - plants are put on a ground and taken off it."""
+import functools
+from contextlib import contextmanager
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+
+from ..errors import DesirePathError
+from . import plants, props
+from .op_walkers import Refusal, active
+
+DELAY = 0.25  # of the grass behind a number that is dragged [s]
+
+
+_waiting = {}  # ground's name -> what the timer calls
+_quiet = False
+
+
+@contextmanager
+def quietly():
+    """Set numbers of plants without putting them anew at each."""
+    global _quiet
+    _quiet = True
+    try:
+        yield
+    finally:
+        _quiet = False
+
+
+def changed(obj):
+    """A number of a ground's plants was changed: put them anew, in a window once it rests."""
+    if _quiet:
+        return
+    if bpy.app.background:
+        _replant(obj.name)
+        return
+    before = _waiting.pop(obj.name, None)
+    if before is not None and bpy.app.timers.is_registered(before):
+        bpy.app.timers.unregister(before)
+    _waiting[obj.name] = functools.partial(_replant, obj.name)
+    bpy.app.timers.register(_waiting[obj.name], first_interval=DELAY)
+
+
+def _replant(name):
+    obj = bpy.data.objects.get(name)
+    if obj is None or not obj.desire_path.is_ground or obj.mode == "EDIT":
+        return
+    try:
+        refresh(bpy.context.scene, obj)
+    except DesirePathError:
+        pass  # half typed; the next bake or Update says what is wrong
+
+
+def refresh(scene, obj):
+    """Put those plants anew whose numbers have changed; returns sentences."""
+    late = plants.stale(obj)
+    if not late:
+        return []
+    told = plants.plant(scene, obj, late)
+    from . import op_bake
+    op_bake.show_plants(obj)
+    return told
+
+
+class _OfGround(Refusal):
+    @classmethod
+    def poll(cls, context):
+        from .op_bake import idle_ground
+        if not idle_ground(cls, context):
+            return False
+        if not context.object.desire_path.is_ground:
+            cls.poll_message_set("Press Add Ground first")
+            return False
+        return True
+
+
+class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
+    """Let plants grow on the active ground: they bend under the walkers, wear, and hold the soil"""
+
+    bl_idname = "object.desire_path_plants_add"
+    bl_label = "Add Plants"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: StringProperty(
+        name="Kind", default="carex", search=props.kinds, search_options={"SUGGESTION"},
+        description="A kind of plant, or a .json file in which a kind was saved")
+    grass: BoolProperty(name="Grass", default=True, description="Make an object that shows the plants")
+
+    def work(self, context):
+        obj, scene = context.object, context.scene
+        context.view_layer.update()
+        its = plants.kind(self.kind)
+        settings = obj.desire_path
+        each = settings.plants.add()
+        try:
+            with quietly():
+                each.kind, each.density, each.seed = self.kind, its.density, len(settings.plants) - 1
+            if self.grass:
+                each.grass = plants.grass.make(obj, self.kind)
+            told = plants.plant(scene, obj, [each])
+        except DesirePathError:
+            plants.forget(each)
+            settings.plants.remove(len(settings.plants) - 1)
+            raise
+        settings.plants_index = len(settings.plants) - 1
+        for sentence in told:
+            self.report({"WARNING"}, sentence)
+        self.report({"INFO"}, f"{each.count} plants of {self.kind} grow on '{obj.name}'.")
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
+    """Make an object that shows the chosen plants as grass"""
+
+    bl_idname = "object.desire_path_grass_add"
+    bl_label = "Show Grass"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and bool(context.object.desire_path.plants)
+
+    def work(self, context):
+        obj = context.object
+        context.view_layer.update()
+        settings = obj.desire_path
+        each = settings.plants[min(settings.plants_index, len(settings.plants) - 1)]
+        if plants.shown(each) is not None:
+            raise DesirePathError(f"The {each.kind} on '{obj.name}' is shown already, by '{each.grass.name}'.")
+        plants.forget(each)
+        each.grass = plants.grass.make(obj, each.kind)
+        plants.plant(context.scene, obj, [each])
+        from . import op_bake
+        op_bake.show_plants(obj)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
+    """Put the plants of the active ground anew, after its mesh or a density group was changed"""
+
+    bl_idname = "object.desire_path_plants_update"
+    bl_label = "Update Plants"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def work(self, context):
+        from . import op_bake
+        obj = context.object
+        context.view_layer.update()
+        for sentence in plants.plant(context.scene, obj):
+            self.report({"WARNING"}, sentence)
+        op_bake.show_plants(obj)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_plants_remove(_OfGround, bpy.types.Operator):
+    """Take the chosen plants off the ground, with the grass that shows them; the vertex group stays"""
+
+    bl_idname = "object.desire_path_plants_remove"
+    bl_label = "Remove Plants"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and bool(context.object.desire_path.plants)
+
+    def work(self, context):
+        settings = context.object.desire_path
+        number = min(settings.plants_index, len(settings.plants) - 1)
+        plants.forget(settings.plants[number])
+        settings.plants.remove(number)
+        settings.plants_index = max(0, min(number, len(settings.plants) - 1))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_desire_path_plants_add, OBJECT_OT_desire_path_grass_add, OBJECT_OT_desire_path_plants_update,
+           OBJECT_OT_desire_path_plants_remove)

@@ -1,0 +1,181 @@
+"""plants.py - the plants of a ground: kinds, roots where they are painted, grass one can see.
+
+    Object.desire_path.plants --kind, density, group, seed--> roots --> grass (grass.py)
+                                                                  \\--> Planting, for the bake
+"""
+import os
+
+import bpy
+import numpy as np
+
+from .. import tuft
+from ..errors import DesirePathError
+from ..plants import KINDS, Kind
+from . import axes, compat, grass, ground, playback, sample
+
+MOST = 1_000_000  # plants of one planting
+FINEST = 0.02  # the density is looked up at places this far apart, or farther on wide ground [m]
+MOST_PLACES = 1024  # along one side
+SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
+
+
+def kind(name):
+    """A kind by its name, or from the JSON file a user saved one in."""
+    if name in KINDS:
+        return KINDS[name]
+    if not name:
+        raise DesirePathError(f"A kind of plant is missing: choose one of {', '.join(KINDS)}, or a file.")
+    path = bpy.path.abspath(name)
+    if not name.lower().endswith(".json") and not os.path.exists(path):
+        raise DesirePathError(f"There is no plant kind '{name}': choose one of {', '.join(KINDS)}, or a "
+                              "file that Kind.save() wrote.")
+    return Kind.load(path)
+
+
+def mark(each):
+    """What a planting asks for, in a word, to tell whether its roots are still the right ones."""
+    return f"{each.kind} {each.density!r} {each.density_group} {each.seed}"
+
+
+class Bed:
+    """A ground as it lies before any bake, read once to put plants on it."""
+
+    def __init__(self, scene, obj, groups, frame):
+        from ..sim import Ground, Simulation  # the core is loaded when it is first needed
+        self.scale = axes.unit_scale(scene)
+        copy = obj.copy()
+        groups = [name for name in dict.fromkeys(groups) if name]
+        tree = None
+        try:
+            copy.hide_viewport = False
+            ours = playback.modifier(copy)
+            if ours is not None:
+                copy.modifiers.remove(ours)
+            if groups:
+                tree = ground.weights(copy, groups)
+            with sample.private_scene(scene, copy) as own:
+                found = sample.evaluated(own, copy, frame)
+                world = axes.matrix(found.matrix_world, obj.name)
+                vertices = axes.points(world, compat.positions(found.data), self.scale)
+                triangles = compat.triangles(found.data)
+                painted = {}
+                for k, name in enumerate(groups):
+                    value = compat.float_attribute(found.data, ground.WEIGHT.format(k))
+                    if value is None or name not in obj.vertex_groups and name not in found.data.attributes:
+                        raise DesirePathError(f"'{obj.name}' has no vertex group or attribute '{name}' for "
+                                              "the density of its plants: choose another one.")
+                    painted[name] = value
+        finally:
+            bpy.data.objects.remove(copy)
+            if tree is not None:
+                bpy.data.node_groups.remove(tree)
+        if not len(triangles):
+            raise DesirePathError(f"'{obj.name}' has no faces: give it some for plants to grow on.")
+
+        def heights(z):
+            """The height of a mesh of the same plan at places: also tells what is painted there."""
+            points = np.concatenate([vertices[:, :2], np.asarray(z, np.float64)[:, None]], axis=1)
+            return Simulation(Ground.mesh(points, triangles), cell_size=max(FINEST, 0.01)).rest_height
+
+        self.height = heights(vertices[:, 2])
+        self.weight = {name: heights(value) for name, value in painted.items()}
+        self.low, self.high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
+
+    def roots(self, density, group, seed):
+        """Where plants stand, float32 (n, 3) [m], and how many were asked for."""
+        from .. import _native
+        size = self.high - self.low
+        step = max(FINEST, float(size.max()) / MOST_PLACES)
+        nx, ny = (max(1, int(np.ceil(each / step))) for each in size)
+        x = self.low[0] + (np.arange(nx) + 0.5) * size[0] / nx
+        y = self.low[1] + (np.arange(ny) + 0.5) * size[1] / ny
+        at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        weight = (self.weight[group] if group else self.height)(at)
+        weight = np.clip(weight, 0.0, 1.0) if group else np.ones(len(at))
+        weight = np.where(np.isfinite(self.height(at)) & np.isfinite(weight), weight, 0.0)
+        weight = weight.reshape(ny, nx).astype(np.float32)
+        wanted = density * float(weight.mean()) * size[0] * size[1]
+        root = np.empty((int(min(MOST, wanted + 64)), 2), np.float32)
+        count = _native.plants_place(float(self.low[0]), float(self.low[1]), float(self.high[0]),
+                                     float(self.high[1]), density, weight, seed, root)
+        root = root[:count].astype(np.float64)
+        height = self.height(root)
+        there = np.isfinite(height)
+        return np.column_stack([root[there], height[there]]).astype(np.float32), wanted
+
+    def slope(self, root):
+        """How the ground rises along x and y at roots, (n, 2)."""
+        at = root[:, :2].astype(np.float64)
+        out = np.zeros((len(root), 2))
+        for axis in (0, 1):
+            step = np.zeros(2)
+            step[axis] = 0.5 * SLOPE_OVER
+            rise = (self.height(at + step) - self.height(at - step)) / SLOPE_OVER
+            out[:, axis] = np.where(np.isfinite(rise), np.clip(rise, -3.0, 3.0), 0.0)
+        return out
+
+
+def plant(scene, obj, chosen=None):
+    """Put plants on a ground anew: those chosen, or all. Returns sentences about what is odd."""
+    settings = obj.desire_path
+    chosen = list(settings.plants) if chosen is None else chosen
+    if not chosen:
+        return []
+    kinds = [kind(each.kind) for each in chosen]
+    bed = Bed(scene, obj, [each.density_group for each in chosen], settings.frame_start)
+    told = []
+    for each, its in zip(chosen, kinds):
+        density = axes.typed(each.density)
+        root, wanted = bed.roots(density, each.density_group, each.seed)
+        each.count = len(root)
+        each.mark = mark(each)
+        if wanted > MOST:
+            told.append(f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and has "
+                        f"{MOST / 1e6:.0f} million: paint a density group where they are seen.")
+        elif not len(root):
+            told.append(f"No {each.kind} grows on '{obj.name}': check its density and its density group.")
+        if shown(each) is not None:
+            look = tuft.look_of(each.kind, its)
+            grass.fill(each.grass, obj, root, bed.slope(root), look.sizes, look.tufts, bed.scale)
+            if grass.stale(each.grass, each.kind, its):
+                grass.show(each.grass, each.kind, its)
+    return told
+
+
+def stale(obj):
+    """Plantings whose roots are not what is asked for any more."""
+    return [each for each in obj.desire_path.plants if each.mark != mark(each)]
+
+
+def show(obj, index=None):
+    """Let the grass of a ground follow what its playback modifier plays, or stand."""
+    ours = playback.modifier(obj)
+    images = playback.images(ours.node_group) if ours is not None and index is not None else None
+    for each in obj.desire_path.plants:
+        if shown(each) is not None:
+            grass.show(each.grass, each.kind, kind(each.kind), index, images,
+                       index.frames if index is not None else 0)
+
+
+def standing(obj):
+    """(density group, strength where it is 1) of each planting: cover before anybody walks."""
+    return tuple((each.density_group, min(1.0, each.density / kind(each.kind).full_density))
+                 for each in obj.desire_path.plants)
+
+
+def roots(each, scene, obj):
+    """The roots of a planting as they were placed, float32 (n, 3) [m]."""
+    if shown(each) is not None and each.mark == mark(each):
+        return compat.positions(each.grass.data)
+    bed = Bed(scene, obj, [each.density_group], obj.desire_path.frame_start)
+    return bed.roots(axes.typed(each.density), each.density_group, each.seed)[0]
+
+
+def shown(each):
+    """The object that shows a planting, or None: one the user deleted is only held by us."""
+    return each.grass if each.grass is not None and each.grass.users_collection else None
+
+
+def forget(each):
+    """Take away what was made for a planting."""
+    grass.remove(each.grass)
