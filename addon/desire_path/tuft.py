@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 GAUSS = tuple((0.5 + 0.5 * x, 0.5 * w) for x, w in ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9)))
+SHORTEST = 0.001  # stem [m]
 BURIED = 0.012  # how far a stem begins under the ground, so that none floats on a slope [m]
 
 
@@ -107,7 +108,7 @@ def tuft(kind, look, seed):
     blocks, faces, count = [], [], 0
     for sort in look.stems:
         for number in range(sort.count):
-            length = kind.height * random.uniform(*sort.length)
+            length = max(SHORTEST, kind.height * random.uniform(*sort.length))
             out = 2 * math.pi * (number + random.uniform(-0.35, 0.35)) * 0.381966  # evenly round
             away = math.sqrt(random.uniform(0.0, 1.0))
             place = 0.5 * kind.width * sort.spread * away

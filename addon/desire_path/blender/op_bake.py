@@ -14,7 +14,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import axes, cover, ground, playback, plants, props, sample
+from . import axes, cover, ground, op_plants, playback, plants, props, sample
 from .op_walkers import Refusal, active, grounds, sentence, walkers
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -87,10 +87,13 @@ class Job:
         gait = ground.walked(scene, there, gait, self.surface, cell, settings.frame_start, settings.frame_end)
         self.recorded = time.perf_counter() - self.begun
         yield
+        self.warnings += op_plants.refresh(scene, obj)
+        grown = plants.plantings(scene, obj)
+        yield
         self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path,
                          cell_size=cell, frame_start=settings.frame_start,
                          frame_end=settings.frame_end, load_model=self.model, law=settings.law,
-                         heap=settings.heap, threads=settings.threads, origin=self.surface.origin)
+                         heap=settings.heap, threads=settings.threads, origin=self.surface.origin, plants=grown)
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
             for progress in frames:

@@ -135,8 +135,6 @@ def draw_plants(layout, context, obj):
     except DesirePathError as problem:
         told = str(problem)
     _lines(layout, told, "INFO", _letters(context))
-    column = _column(layout)
-    column.prop(settings, "plant_mesh")
 
 
 def draw_output(layout, obj):

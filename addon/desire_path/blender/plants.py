@@ -10,10 +10,9 @@ import numpy as np
 
 from .. import tuft
 from ..errors import DesirePathError
-from ..plants import KINDS, Kind
 from . import axes, compat, grass, ground, playback, sample
 
-MOST = 1_000_000  # plants of one planting
+MOST = 1_000_000  # plants of one planting that are shown
 FINEST = 0.02  # the density is looked up at places this far apart, or farther on wide ground [m]
 MOST_PLACES = 1024  # along one side
 SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
@@ -21,6 +20,7 @@ SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
 
 def kind(name):
     """A kind by its name, or from the JSON file a user saved one in."""
+    from ..plants import KINDS, Kind  # the core is loaded when it is first needed
     if name in KINDS:
         return KINDS[name]
     if not name:
@@ -41,7 +41,7 @@ class Bed:
     """A ground as it lies before any bake, read once to put plants on it."""
 
     def __init__(self, scene, obj, groups, frame):
-        from ..sim import Ground, Simulation  # the core is loaded when it is first needed
+        from ..sim import Ground, Simulation
         self.scale = axes.unit_scale(scene)
         copy = obj.copy()
         groups = [name for name in dict.fromkeys(groups) if name]
@@ -81,27 +81,37 @@ class Bed:
         self.weight = {name: heights(value) for name, value in painted.items()}
         self.low, self.high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
 
-    def roots(self, density, group, seed):
-        """Where plants stand, float32 (n, 3) [m], and how many were asked for."""
-        from .. import _native
+    def planting(self, each, its, most=np.inf):
+        """The core's Planting of these plants, and how many it means on the whole ground.
+
+        Plants are placed as dense as a power of two times the kind's own density and thinned from
+        there, so that another density takes plants away or adds some and leaves the others alone.
+        """
+        from ..plants import Planting
         size = self.high - self.low
         step = max(FINEST, float(size.max()) / MOST_PLACES)
-        nx, ny = (max(1, int(np.ceil(each / step))) for each in size)
+        nx, ny = (max(1, int(np.ceil(side / step))) for side in size)
         x = self.low[0] + (np.arange(nx) + 0.5) * size[0] / nx
         y = self.low[1] + (np.arange(ny) + 0.5) * size[1] / ny
         at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        weight = (self.weight[group] if group else self.height)(at)
-        weight = np.clip(weight, 0.0, 1.0) if group else np.ones(len(at))
+        group = each.density_group
+        weight = np.clip(self.weight[group](at), 0.0, 1.0) if group else np.ones(len(at))
         weight = np.where(np.isfinite(self.height(at)) & np.isfinite(weight), weight, 0.0)
-        weight = weight.reshape(ny, nx).astype(np.float32)
+        density = axes.typed(each.density)
         wanted = density * float(weight.mean()) * size[0] * size[1]
-        root = np.empty((int(min(MOST, wanted + 64)), 2), np.float32)
-        count = _native.plants_place(float(self.low[0]), float(self.low[1]), float(self.high[0]),
-                                     float(self.high[1]), density, weight, seed, root)
-        root = root[:count].astype(np.float64)
+        density *= min(1.0, most / max(wanted, 1.0))
+        base = its.density * 2.0 ** np.ceil(np.log2(density / its.density) - 1e-9)
+        if not group and abs(base - density) < 1e-6 * base:
+            return Planting(its, base, each.seed), wanted
+        return Planting(its, base, each.seed, (weight * (density / base)).reshape(ny, nx),
+                        (*self.low, *self.high)), wanted
+
+    def roots(self, planting):
+        """Where its plants stand on the ground, float32 (n, 3) [m]."""
+        root = planting.within(*self.low, *self.high)
         height = self.height(root)
         there = np.isfinite(height)
-        return np.column_stack([root[there], height[there]]).astype(np.float32), wanted
+        return np.column_stack([root[there], height[there]]).astype(np.float32)
 
     def slope(self, root):
         """How the ground rises along x and y at roots, (n, 2)."""
@@ -125,12 +135,12 @@ def plant(scene, obj, chosen=None):
     bed = Bed(scene, obj, [each.density_group for each in chosen], settings.frame_start)
     told = []
     for each, its in zip(chosen, kinds):
-        density = axes.typed(each.density)
-        root, wanted = bed.roots(density, each.density_group, each.seed)
+        planting, wanted = bed.planting(each, its, MOST)
+        root = bed.roots(planting)
         each.count = len(root)
         each.mark = mark(each)
         if wanted > MOST:
-            told.append(f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and has "
+            told.append(f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
                         f"{MOST / 1e6:.0f} million: paint a density group where they are seen.")
         elif not len(root):
             told.append(f"No {each.kind} grows on '{obj.name}': check its density and its density group.")
@@ -163,12 +173,13 @@ def standing(obj):
                  for each in obj.desire_path.plants)
 
 
-def roots(each, scene, obj):
-    """The roots of a planting as they were placed, float32 (n, 3) [m]."""
-    if shown(each) is not None and each.mark == mark(each):
-        return compat.positions(each.grass.data)
-    bed = Bed(scene, obj, [each.density_group], obj.desire_path.frame_start)
-    return bed.roots(axes.typed(each.density), each.density_group, each.seed)[0]
+def plantings(scene, obj):
+    """What grows on a ground, for the core: the very plants that are shown."""
+    chosen = list(obj.desire_path.plants)
+    if not chosen:
+        return []
+    bed = Bed(scene, obj, [each.density_group for each in chosen], obj.desire_path.frame_start)
+    return [bed.planting(each, kind(each.kind))[0] for each in chosen]
 
 
 def shown(each):

@@ -6,7 +6,6 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
 
-from ..plants import KINDS
 from ..soil import SOILS
 from . import compat
 
@@ -55,6 +54,7 @@ class DesirePathPaint(bpy.types.PropertyGroup):
 
 
 def kinds(_self, _context, _text):
+    from ..plants import KINDS  # the core is loaded when it is first needed
     return list(KINDS)
 
 
@@ -120,11 +120,6 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     plants: CollectionProperty(type=DesirePathPlants, name="Plants",
                                description="What grows on this ground, bends under feet and wears")
     plants_index: IntProperty(options={"HIDDEN"})
-    plant_mesh: BoolProperty(
-        name="Plant Mesh", description="Also write the simulated plants and show them as a mesh, for "
-        "close-ups; large files where much is walked on")
-    plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
-                                  description="The mesh of the simulated plants")
     vertex_group: BoolProperty(
         name="Vertex Groups", description="Also fill vertex groups with plant strength and "
         "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play")
