@@ -55,7 +55,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         if ours is not None:
             copy.modifiers.remove(ours)
         if groups:
-            tree = weights(copy, groups)
+            tree = write_weights(copy, groups)
         with sample.private_scene(scene, copy) as own:
             if frame_end is not None:
                 last = np.array(sample.evaluated(own, copy, frame_end).matrix_world)
@@ -200,7 +200,7 @@ def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
 # ---- painted soils ---------------------------------------------------------------------------------
 
 
-def weights(copy, groups):
+def write_weights(copy, groups):
     """Have the copy's vertex groups written as attributes behind all its modifiers."""
     tree = compat.geometry_tree("desire_path weights", bpy.data.node_groups.new)
     wire = playback.Wiring(tree)

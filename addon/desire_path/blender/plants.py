@@ -52,7 +52,7 @@ class Bed:
             if ours is not None:
                 copy.modifiers.remove(ours)
             if groups:
-                tree = ground.weights(copy, groups)
+                tree = ground.write_weights(copy, groups)
             with sample.private_scene(scene, copy) as own:
                 found = sample.evaluated(own, copy, frame)
                 world = axes.matrix(found.matrix_world, obj.name)
