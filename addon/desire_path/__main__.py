@@ -11,6 +11,7 @@ from .bake import Bake
 from .errors import DesirePathError
 from .gait import Gait
 from .place import place_feet
+from .report import sentences, summary, write_contacts
 from .sim import HEAPS, LAWS, LOAD_MODELS, Ground
 from .soil import SOILS
 from .version import VERSION
@@ -68,6 +69,10 @@ def _loads(args):
     gait = Gait.load(args.walk)
     loads = walker.loads(gait, args.model)
     walker.write_loads(args.out, gait, loads)
+    if args.contacts:
+        write_contacts(args.contacts, gait, loads)
+    for each in summary(gait, loads):
+        print(f"{each['walker']:13} {'; '.join(sentences(each))}")
     for warning in loads.warnings:
         print(f"warning       {warning}")
     print(f"written to    {os.path.abspath(args.out)}")
@@ -110,6 +115,7 @@ def _parser():
     loads.add_argument("walk", help="a recording (.npz)")
     loads.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     loads.add_argument("--out", required=True, help="the table (.csv)")
+    loads.add_argument("--contacts", help="another table: when, where and how hard each foot stood (.csv)")
     loads.set_defaults(task=_loads)
 
     graph = tasks.add_parser("plot", help="draw the vertical force of every foot (needs Matplotlib)")
