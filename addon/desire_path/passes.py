@@ -6,6 +6,7 @@ the curve as it was in the clip and does not slide, in bends too; in the air it 
 
 import math
 from dataclasses import replace
+from statistics import NormalDist
 
 import numpy as np
 
@@ -21,6 +22,7 @@ SWING = (6.0, 14.0)  # walkers weave from side to side over such lengths [m]
 WEAVE = 0.6  # of the lateral scatter is weaving, the rest stays for a pass
 SMOOTH = 0.4  # the body follows the ground smoothed over about this length [m]
 FOOT = 0.12  # the slope under a foot is taken over this much to either side [m]
+EVEN = np.array([0.7548776662466927, 0.5698402909980532])  # steps that fill a square evenly, x^3 = x + 1
 GRAVITY = 9.81
 
 
@@ -44,22 +46,21 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
         if not (np.isfinite(value) and 0.0 <= value <= most):
             raise DesirePathError(f"A {name} of {value:g} cannot be used: choose one from 0 to {most:g}.")
     rate = gait.frame_rate * math.ceil(RATE / gait.frame_rate - 1e-6)
-    walkers = []
-    for w in range(len(gait.mass)):
-        cycle = find(gait.only([w]))
-        samples = passes * (line.length / cycle.speed * rate + 1) * len(cycle.pose)
-        if samples > MOST_SAMPLES:
-            raise DesirePathError(
-                f"{passes} passes over {line.length:.0f} m are too long for one recording: walk them in several "
-                "bakes, or choose fewer passes or a lower frame rate.")
-        pieces = []
-        for number in range(int(passes)):
+    cycles = [find(gait.only([w])) for w in range(len(gait.mass))]
+    samples = sum(passes * (line.length / cycle.speed * rate + 2) for cycle in cycles) * len(gait.pose)
+    if samples > MOST_SAMPLES:
+        raise DesirePathError(
+            f"{passes} passes over {line.length:.0f} m are too long for one recording: walk them in several bakes, "
+            "or choose fewer passes or a lower frame rate.")
+    turns = []
+    for number in range(int(passes)):
+        way = line.backwards() if back_and_forth and number % 2 else line
+        for w, cycle in enumerate(cycles):
+            even = np.random.default_rng([int(seed), w]).random(2) + number * EVEN
             random = np.random.default_rng([int(seed), w, number])
-            back = back_and_forth and number % 2 == 1
-            way = line.backwards() if back else line
-            pieces.append(_one(cycle, way, rate, random, number == 0, lateral, timing, stride, ground))
-        walkers.append(_chained(cycle.gait, pieces, rate, pause))
-    return in_turn(walkers)
+            scatter = _Scatter(random, even % 1.0, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
+            turns.append((w, *_one(cycle, way, rate, scatter, ground)))
+    return _chained([cycle.gait for cycle in cycles], turns, rate, [pause if n else 0.0 for n in range(len(turns))])
 
 
 # ---- one pass ----------------------------------------------------------------------------------------
@@ -69,39 +70,43 @@ def _normal(random):
     return float(np.clip(random.normal(), -3.0, 3.0))
 
 
-class _Weave:
-    """How far beside the path a walker goes, and how steeply it nears it, at lengths along it."""
+class _Scatter:
+    """What one pass does in its own way: pace, strides, where in the cycle it begins, and how it weaves.
 
-    def __init__(self, random, lateral):
-        self.shift = math.sqrt(1.0 - WEAVE ** 2) * lateral * _normal(random)
+    even: two numbers 0..1 that fill their square evenly from pass to pass: few passes are spread as well as many.
+    """
+
+    def __init__(self, random, even, lateral, timing, stride):
+        self.pace = math.exp(timing * _normal(random))
+        self.scale = math.exp(stride * _normal(random))
+        self.start = even[0] if lateral or timing or stride else 0.0
+        side = NormalDist().inv_cdf(min(max(even[1], 1e-3), 1.0 - 1e-3))
+        self.shift = math.sqrt(1.0 - WEAVE ** 2) * lateral * side
         self.size = math.sqrt(2.0) * WEAVE * lateral * _normal(random)
         self.turn = 2.0 * math.pi / random.uniform(*SWING)
         self.phase = random.uniform(0.0, 2.0 * math.pi)
 
-    def at(self, s):
+    def beside(self, s):
+        """How far to the left of the path a walker goes [m] at lengths along it."""
         return self.shift + self.size * np.sin(self.turn * s + self.phase)
 
     def slope(self, s):
         return self.size * self.turn * np.cos(self.turn * s + self.phase)
 
 
-def _one(cycle, line, rate, random, first, lateral, timing, stride, ground):
+def _one(cycle, line, rate, scatter, ground):
     """(com (T, 3), pose (P, T, 7)) of one pass."""
-    share = 0.0 if first else 1.0
-    weave = _Weave(random, share * lateral)
-    pace = math.exp(share * timing * _normal(random))
-    scale = math.exp(share * stride * _normal(random))
-    start = random.uniform() * share
+    pace, scale = scatter.pace, scatter.scale
     cycles = line.length / (cycle.way * scale)
     count = max(int(math.ceil(cycles * cycle.seconds / pace * rate)), 2) + 1
-    phase = np.arange(count) * pace / rate / cycle.seconds + start
+    phase = np.arange(count) * pace / rate / cycle.seconds + scatter.start
     com, pose, stand = cycle.at(phase)
 
     # strides get longer by moving the places where limbs stand; the path begins where the body is at first
     begin = com[0, 0]
     grown = lambda s: scale * (s - begin)
     feet = np.stack([grown(stand[..., 0]), stand[..., 1]], axis=-1)
-    place, heading = _laid(line, weave, feet)
+    place, heading = _laid(line, scatter, feet)
     limb = cycle.gait.part_limb
     over = pose[..., :3].copy()
     over[..., :2] -= stand[limb]
@@ -109,7 +114,7 @@ def _one(cycle, line, rate, random, first, lateral, timing, stride, ground):
     turn = rotation.about_z(heading)
     height = cycle.floor
     if ground is not None or line.has_height:
-        below = _Below(line, weave, ground)
+        below = _Below(line, scatter, ground)
         height, tilt = below.feet(place, heading, feet[..., 0])
         turn = rotation.product(tilt, turn)
     pose[..., 3:] = rotation.product(turn[limb], pose[..., 3:])
@@ -121,26 +126,26 @@ def _one(cycle, line, rate, random, first, lateral, timing, stride, ground):
     s = grown(com[:, 0])
     speed = cycle.speed * scale * pace
     lean = speed ** 2 * line.bend_at(s) * (com[:, 2] - cycle.floor) / GRAVITY
-    body, _ = _laid(line, weave, np.stack([s, com[:, 1] + lean], axis=-1))
+    body, _ = _laid(line, scatter, np.stack([s, com[:, 1] + lean], axis=-1))
     if ground is not None or line.has_height:
         com[:, 2] += below.body(s) - cycle.floor
     com[:, :2] = body
     return com, pose
 
 
-def _laid(line, weave, at):
+def _laid(line, scatter, at):
     """World places (.., 2) and headings of places (s, l) along the path."""
     s = at[..., 0]
     place, heading = line.at(s)
-    side = (at[..., 1] + weave.at(s))[..., None]
+    side = (at[..., 1] + scatter.beside(s))[..., None]
     place = place + side * np.stack([-np.sin(heading), np.cos(heading)], axis=-1)
-    return place, heading + np.arctan(weave.slope(s))
+    return place, heading + np.arctan(scatter.slope(s))
 
 
 class _Below:
     """The ground a pass goes over: a function of places, or the path's own height."""
 
-    def __init__(self, line, weave, ground):
+    def __init__(self, line, scatter, ground):
         self.line, self.ground = line, ground
         beyond = 3.0
         count = int((line.length + 2 * beyond) / 0.05) + 2
@@ -148,7 +153,7 @@ class _Below:
         if ground is None:
             rise = line.height(self.s)
         else:
-            rise = self._heights(_laid(line, weave, np.stack([self.s, 0 * self.s], axis=-1))[0], self.s, None)
+            rise = self._heights(_laid(line, scatter, np.stack([self.s, 0 * self.s], axis=-1))[0], self.s, None)
         reach = np.arange(-40, 41) * 0.05
         weight = np.exp(-0.5 * (reach / (0.5 * SMOOTH)) ** 2)
         padded = np.pad(rise, 40, mode="edge")
@@ -193,52 +198,66 @@ class _Below:
 # ---- many passes, many walkers -----------------------------------------------------------------------
 
 
-def _chained(gait, pieces, rate, pause):
-    """One recording of pieces (com, pose) one after the other."""
-    lengths = np.array([len(com) for com, _ in pieces])
-    begin = np.r_[0, np.cumsum(lengths)]
-    time = np.arange(begin[-1]) / rate + np.repeat(np.arange(len(pieces)), lengths) * pause
-    return replace(gait, time=time, com=np.concatenate([com for com, _ in pieces])[None],
-                   pose=np.concatenate([pose for _, pose in pieces], axis=1), cut=begin[1:-1])
+def _chained(gaits, turns, rate, pauses):
+    """One recording of walkers who go one at a time: turns (walker, com (T, 3), pose (P, T, 7)), each after
+    its pause [s]. In a pause nobody is there, and who is not walking is away: see Gait.there().
+    """
+    lengths, starts, time, at = [], [], [], gaits[0].time[0]
+    for (_, com, _), pause in zip(turns, pauses):
+        if pause > 0.0:  # a piece of one sample, just before the next walker comes
+            at += pause
+            lengths.append(1)
+            time.append([at - 1.0 / rate])
+        starts.append(sum(lengths))
+        lengths.append(len(com))
+        time.append(at + np.arange(len(com)) / rate)
+        at = time[-1][-1] + 1.0 / rate
+    time = np.concatenate(time)
+    walking = []
+    for w, gait in enumerate(gaits):
+        com = np.zeros((1, len(time), 3))
+        pose = np.zeros((len(gait.pose), len(time), 7))
+        com[..., 2] = pose[..., 2] = 2.0 * AWAY
+        pose[..., 3] = 1.0
+        for (who, body, parts), start in zip(turns, starts):
+            if who == w:
+                com[0, start:start + len(body)] = body
+                pose[:, start:start + len(body)] = parts
+        walking.append(replace(gait, time=time, com=com, pose=pose, cut=np.cumsum(lengths)[:-1],
+                               frame_rate=gaits[0].frame_rate, frame_start=gaits[0].frame_start))
+    return Gait.join(walking)
 
 
 def in_turn(gaits):
-    """Walkers with passes of their own as one recording: pass n of each, one after the other, then n + 1.
-
-    Who does not walk at the moment is away: see Gait.there().
-    """
+    """Walkers with passes of their own as one recording: pass n of each, one after the other, then n + 1."""
     gaits = list(gaits)
     if len(gaits) < 2:
         return Gait.join(gaits)
     rates = [gait.rate() for gait in gaits]
     if None in rates or max(rates) - min(rates) > 1e-6 * max(rates):
         raise DesirePathError("The walkers were recorded at different rates: resample them to one.")
-    spans = [gait.pieces() for gait in gaits]
-    turns = [(w, n) for n in range(max(map(len, spans))) for w in range(len(gaits)) if n < len(spans[w])]
-    lengths = np.array([spans[w][n][1] - spans[w][n][0] for w, n in turns])
-    gaps = np.cumsum([_gap(gaits[w], n, rates[0]) for w, n in turns])
-    begin = np.r_[0, np.cumsum(lengths)]
-    time = gaits[0].time[0] + np.arange(begin[-1]) / rates[0] + np.repeat(gaps, lengths)
-    alike = dict(time=time, cut=begin[1:-1], frame_rate=gaits[0].frame_rate, frame_start=gaits[0].frame_start)
-    walking = []
-    for w, gait in enumerate(gaits):
-        take, high = np.zeros(begin[-1], int), np.full(begin[-1], 2.0 * AWAY)
-        for (other, n), a, b in zip(turns, begin[:-1], begin[1:]):
-            if other == w:
-                take[a:b] = np.arange(*spans[w][n])
-                high[a:b] = 0.0
-            else:
-                take[a:b] = take[a - 1] if a else 0
-        com, pose = gait.com[:, take].copy(), gait.pose[:, take].copy()
-        com[..., 2] += high
-        pose[..., 2] += high
-        walking.append(replace(gait, com=com, pose=pose, **alike))
-    return Gait.join(walking)
+    spans = [turns_of(gait) for gait in gaits]
+    alone = [gait.only([w]) for gait in gaits for w in range(len(gait.mass))]
+    turns, pauses, first = [], [], np.cumsum([0] + [len(gait.mass) for gait in gaits])
+    for n in range(max(map(len, spans))):
+        for gait, span, base in zip(gaits, spans, first):
+            if n < len(span):
+                a, b, w, pause = span[n]
+                mine = gait.limb_walker[gait.part_limb] == w
+                turns.append((base + w, gait.com[w, a:b], gait.pose[mine, a:b]))
+                pauses.append(pause if turns[1:] else 0.0)
+    return _chained(alone, turns, rates[0], pauses)
 
 
-def _gap(gait, number, rate):
-    """Time without samples before a piece of a recording [s]."""
-    if number == 0:
-        return 0.0
-    cut = gait.cut[number - 1]
-    return max(float(gait.time[cut] - gait.time[cut - 1]) - 1.0 / rate, 0.0)
+def turns_of(gait):
+    """(first sample, sample after the last, walker, pause before [s]) of each pass of a recording, in time."""
+    rate = gait.rate() or gait.frame_rate
+    turns, before = [], gait.time[0]
+    for a, b in gait.pieces():
+        there = gait.there(a, b)
+        for w in there:
+            pause = float(gait.time[a] - before)
+            turns.append((a, b, int(w), pause if pause > 0.5 / rate else 0.0))
+        if len(there):
+            before = gait.time[b - 1] + 1.0 / rate
+    return turns

@@ -117,7 +117,7 @@ def test_feet_do_not_slide_more_than_in_the_clip(walk):
     bend = slides(walk.along([(0, 0), (3, 0), (3, 3), (0, 3)], 3, stride=0.1, timing=0.1))
     for found in (straight, bend):
         assert len(found) > 20
-        assert np.median(found) < 1.1 * np.median(recorded) + 0.001
+        assert np.quantile(found, 0.75) < 1.1 * np.quantile(recorded, 0.75) + 0.001
         assert found.max() < 1.3 * recorded.max() + 0.001
 
 
@@ -157,11 +157,18 @@ def test_scatter_is_what_was_asked_for(walk):
     assert np.std(lasted) == pytest.approx(np.hypot(0.1, 0.1), rel=0.2)
 
 
-def test_a_pause_is_a_gap_in_time(walk):
-    gait = walk.along([(0, 0), (3, 0)], 3, pause=5.0)
+def test_in_a_pause_nobody_is_there(walk):
+    gait = walk.along([(0, 0), (3, 0)], 3, pause=5.0).check()
     steps = np.diff(gait.time)
-    assert np.flatnonzero(steps > 1).tolist() == (gait.cut - 1).tolist()
-    assert steps.max() == pytest.approx(5.0 + 1 / 60) and gait.rate() == pytest.approx(60.0)
+    assert steps.max() == pytest.approx(5.0) and gait.rate() == pytest.approx(60.0)
+    pieces = gait.pieces()
+    assert [b - a for a, b in pieces[1::2]] == [1, 1] and len(pieces) == 5
+    assert [len(gait.there(a, b)) for a, b in pieces] == [1, 0, 1, 0, 1]
+    turns = passes.turns_of(gait)
+    assert [turn[:2] for turn in turns] == pieces[::2]
+    assert [turn[3] for turn in turns] == pytest.approx([0, 5, 5])
+    loads, without = walker.loads(gait), walker.loads(walk.along([(0, 0), (3, 0)], 3))
+    assert loads.force.sum() == pytest.approx(without.force.sum()) and not loads.warnings
 
 
 def test_who_goes_round_a_bend_leans_into_it(walk):
@@ -214,7 +221,7 @@ def test_walkers_go_in_turn(walk):
                     pose=walk.pose + np.eye(7)[0] * 3)
     both = Gait.join([walk, heavy]).along([(0, 0), (4, 0)], 3, seed=2).check()
     alone = walk.along([(0, 0), (4, 0)], 3, seed=2)
-    assert len(both.pieces()) == 6
+    assert len(both.pieces()) == 6 and len(passes.turns_of(both)) == 6
     loads = walker.loads(both)
     assert loads.mean == pytest.approx([1.0, 1.0], abs=0.03) and not loads.warnings
     limbs = both.limb_walker[both.part_limb]
@@ -223,8 +230,11 @@ def test_walkers_go_in_turn(walk):
         assert on[limbs == n % 2].all() and not on[limbs != n % 2].any()
     first, after = both.pieces()[2]
     assert np.array_equal(both.pose[:4, first:after], alone.pose[:, slice(*alone.pieces()[1])])
-    uneven = passes.in_turn([walk.along([(0, 0), (4, 0)], 3), heavy.along([(0, 0), (0, 4)], 1)]).check()
-    assert len(uneven.pieces()) == 4
+    uneven = passes.in_turn([walk.along([(0, 0), (4, 0)], 3, pause=2.0), heavy.along([(0, 0), (0, 4)], 1)]).check()
+    assert [turn[2] for turn in passes.turns_of(uneven)] == [0, 1, 0, 0]
+    assert [turn[3] for turn in passes.turns_of(uneven)] == pytest.approx([0, 0, 2, 2])
+    again = passes.in_turn([both, walk.along([(0, 0), (4, 0)], 2)]).check()
+    assert [turn[2] for turn in passes.turns_of(again)] == [0, 2, 1, 2, 0, 1, 0, 1]
     with pytest.raises(DesirePathError, match="different rates"):
         passes.in_turn([alone, replace(heavy, frame_rate=48.0).along([(0, 0), (4, 0)])])
 
