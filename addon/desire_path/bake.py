@@ -45,7 +45,7 @@ BESIDE = "The walk passes beside the ground: move the walker or the ground so th
 class Progress:
     """How far a bake has come."""
 
-    frame: int  # scene frame just simulated; the one before is on the disk
+    frame: int  # scene frame just simulated; it is written while the next ones are
     fraction: float  # 0..1
 
 
@@ -198,6 +198,7 @@ class Bake:
         sim = self._simulation()
         tiles = self._rectangle(sim)
         sim.open_frames(*tiles)
+        sim.open_maps([entry.name for entry in self._fields()], self._notes(tiles))
         start = self._start_maps(sim, tiles)
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
@@ -214,10 +215,9 @@ class Bake:
                 begun = time.perf_counter()
                 sim.run(self._sample(frame))
                 stepped = time.perf_counter()
-                self._write(sim, fresh if number > done else None, number,
-                            (frame - self.gait.frame_start) / self.frame_rate)
+                self._write(sim, fresh if number > done else None, number, self._time(frame))
                 if self.map_seconds:
-                    self._second(sim, tiles, frame)
+                    self._second(sim, frame)
                 spent_step += stepped - begun
                 spent_write += time.perf_counter() - stepped
                 yield Progress(frame, number / count)
@@ -229,8 +229,9 @@ class Bake:
             raise
 
         seconds["step"], seconds["write"] = spent_step, spent_write
-        self._maps(sim, tiles, os.path.join(self.folder, "maps_final.exr"), frame)
-        maps.write(os.path.join(self.folder, "maps_start.exr"), start, self._notes(tiles, self.gait.frame_start))
+        sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
+        maps.write(os.path.join(self.folder, "maps_start.exr"), start, [("time", 0.0)] + self._notes(tiles))
+        sim.flush()
         write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
         seconds["total"] = time.perf_counter() - seconds["total"]
         self.report = self._report(sim, seconds)
@@ -299,35 +300,30 @@ class Bake:
 
     # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
 
-    def _notes(self, tiles, frame):
+    def _time(self, frame):
+        """Of a scene frame since the recording began [s]."""
+        return (frame - self.gait.frame_start) / self.frame_rate
+
+    def _notes(self, tiles):
         tx, ty, _, _ = tiles
         ox, oy = self.options["origin"]
         side = TILE * self.cell_size
         notes = [
             ("software", f"Desire Path {VERSION}"), ("cell", self.cell_size), ("originX", ox + tx * side),
-            ("originY", oy + ty * side), ("time", (frame - self.gait.frame_start) / self.frame_rate),
-            ("parameters", json.dumps(self._parameters())),
+            ("originY", oy + ty * side), ("parameters", json.dumps(self._parameters())),
         ]
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 
     def _fields(self):
         return maps.MAPS + (maps.LEAN if self.plants else ())
 
-    def _maps(self, sim, tiles, path, frame):
-        tx, ty, nx, ny = tiles
-        planes = {
-            entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-            for entry in self._fields()
-        }
-        maps.write(path, planes, self._notes(tiles, frame))
-
-    def _second(self, sim, tiles, frame):
+    def _second(self, sim, frame):
         """After every whole simulated second, TRAIL (17)."""
         elapsed = frame - self.frame_start
         before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
         if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
             name = f"second_{math.floor(now + 1e-9):04d}.exr"
-            self._maps(sim, tiles, os.path.join(self.folder, "maps.new", name), frame)
+            sim.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
 
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles

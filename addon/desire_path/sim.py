@@ -31,8 +31,10 @@ _FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
     "young_modulus": 4,
     "soil": 5,
     "plant_strength": 6,
+    "height_change": 7,
 }
 _LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
+_FIRST_LEAN = 64  # the number of the first of them among a map's fields
 
 
 @dataclass(frozen=True)
@@ -326,13 +328,18 @@ class Simulation:
         return out
 
     def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
-        """Frames written from now on cover these tiles (TILE cells a side)."""
+        """Frames and maps written from now on cover these tiles (TILE cells a side)."""
         self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}")
+
+    def open_maps(self, names, notes):
+        """Maps written from now on have these fields, as in read(), and notes (name, text or number)."""
+        fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
+        self._core.open_maps(tuple((name, fields[name]) for name in names), tuple(notes))
 
     def write_frame(self, path, time):
         """Write the ground as it is to one EXR, whole or not at all; path None: only take it in.
 
-        The file is written while the next steps run: OSError tells of the frame before, see flush().
+        Files are written while the next steps run: OSError tells of one before, see flush().
         """
         self._core.write_frame(None if path is None else str(path), float(time))
 
@@ -340,6 +347,10 @@ class Simulation:
         """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
         self._core.write_frame(None if path is None else str(path), float(time), True)
 
+    def write_maps(self, path, time):
+        """Write the maps as they are, in the background like frames."""
+        self._core.write_maps(str(path), float(time))
+
     def flush(self):
-        """Wait until the last frame is written; OSError when it could not be."""
+        """Wait until all frames and maps are written; OSError when one could not be."""
         self._core.flush()

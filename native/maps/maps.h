@@ -1,7 +1,8 @@
 // maps/maps.h - what leaves the simulation: OpenEXR files, whole or not at all. TRAIL 4.3, (17)
 //
-//   tiles changed ---DpFrames---> frames/0001.exr ..   one RGBA file per frame, for playback
-//   grids         ---dp_maps_write---> maps_final.exr  named channels, for everybody
+//   tiles changed ---DpFrames---> frames/trail_0001.exr ..  a picture as it changes, file by file
+//                 ---DpWriter---> the same, in the background
+//   grids         ---dp_maps_write---> maps_start.exr       whole planes
 //
 // The one file format is OpenEXR, through OpenEXRCore. Files are 32-bit float, ZIP. A file is
 // written as <path>.<process>-<number>.part beside its target and renamed when whole; what a killed
@@ -18,23 +19,48 @@ typedef struct DpNote
     double      number;
 } DpNote;
 
-// ---- playback: tiled RGBA, only changed tiles are encoded again ---------------------------------
+// ---- one picture as it changes: tiled, only changed tiles are encoded again ----------------------
 
 typedef struct DpFrames DpFrames;
 
-// A writer for frames of tiles_x x tiles_y tiles (DP_TILE cells a side), all zero at first.
-// Notes are copied and stand in every file's header.
-DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const DpNote* notes,
-                          int note_count);
+// A writer for files of tiles_x x tiles_y tiles (DP_TILE cells a side), all zero at first, with
+// 1..16 channels. Notes are copied and stand in every file's header.
+DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const char* const* channel,
+                          int channel_count, const DpNote* notes, int note_count);
 void     dp_frames_destroy(DpFrames* frames);
+int      dp_frames_channels(const DpFrames* frames);
 
-// Encode one tile anew: tile (tx, ty), ty = 0 at the lowest y; rgba (DP_TILE, DP_TILE, 4), row 0 =
-// lowest y (the file stores the highest row first, as images do). Different tiles may be set from
-// different threads at once; worker (0..63) picks the scratch memory.
-DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* rgba, int worker);
+// Encode one tile anew: tile (tx, ty), ty = 0 at the lowest y; value (DP_TILE, DP_TILE, channels),
+// row 0 = lowest y (the file stores the highest row first, as images do). Different tiles may be
+// set from different threads at once; worker (0..63) picks the scratch memory.
+DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* value, int worker);
 
-// Write the whole frame from the packed tiles. `time` [s] goes into the header.
+// Write the whole picture from the packed tiles. `time` [s] goes into the header.
 DpStatus dp_frames_write(DpFrames* frames, const char* path, double time);
+
+// ---- in the background -------------------------------------------------------------------------
+
+// One thread packs tiles and writes files, in the order they are given, while others go on. After a
+// failure it leaves out all that is given until somebody asks how things went; the pictures lack it.
+typedef struct DpWriter DpWriter;
+DpStatus                dp_writer_create(DpWriter** writer, int workers);
+void                    dp_writer_destroy(DpWriter* writer);  // when all that was given is written
+
+// What is to be packed into `frames` next: fill in tiles, then give it to the writer, from the one
+// thread that has the writer. NULL: no memory. Waits while many are on their way.
+typedef struct DpTiles DpTiles;
+DpTiles*               dp_writer_tiles(DpWriter* writer, DpFrames* frames);
+// Room for tile (tx, ty) as dp_frames_set_tile wants it, until the next call; NULL: no memory.
+float* dp_tiles_add(DpTiles* tiles, int tx, int ty);
+// Give the tiles, to be packed and, unless path is NULL, written as a file of that `time` [s]. The
+// tiles are the writer's from now on, whatever comes back.
+DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, double time);
+// Let tiles go that cannot be filled.
+void dp_writer_drop(DpWriter* writer, DpTiles* tiles);
+
+// How things went since the last call; path: where it failed ("" = encoding), valid until the next
+// call to the writer. wait: first wait until all that was given is written.
+DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path);
 
 // ---- maps ------------------------------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-// maps/maps_frames.c - frames for playback: tiled RGBA files whose unchanged tiles stay packed.
+// maps/maps_frames.c - tiled files of one picture as it changes, whose unchanged tiles stay packed.
 //
 // A frame of 1024^2 would take 44 ms to encode whole. A walker changes a tile or two of it, so
 // every tile's packed bytes are kept, and a frame is its header and those bytes in a row. Tiles
@@ -11,7 +11,8 @@
 
 #define WORKERS 64
 #define MOST_TILES (DP_MAPS_PIXELS / (DP_TILE * DP_TILE))
-#define TILE_BYTES (DP_TILE * DP_TILE * 4 * 4)
+#define MOST_CHANNELS 16
+#define TILE_CELLS (DP_TILE * DP_TILE)
 
 typedef struct Tile
 {
@@ -23,14 +24,17 @@ typedef struct Tile
 typedef struct Bench
 {
     struct libdeflate_compressor* zip;
-    unsigned char*                byte;  // planes, their differences, the packed tile: 3 TILE_BYTES
+    unsigned char* byte;  // planes, their differences, the packed tile: 3 of its size
 } Bench;
 
 struct DpFrames
 {
-    int     tiles_x, tiles_y;
-    DpNote* notes;
-    int     note_count;
+    int         tiles_x, tiles_y;
+    int         channel_count;
+    const char* channel[MOST_CHANNELS];  // names, own copies
+    int         order[MOST_CHANNELS];    // channels as the file keeps them, sorted by name
+    DpNote*     notes;
+    int         note_count;
 
     Tile    zero;
     Tile*   tile;  // (tiles_y, tiles_x), ty = 0 lowest
@@ -38,24 +42,28 @@ struct DpFrames
     DpBytes file;  // the frame being written
 };
 
-static const char* const rgba_names[4] = {"R", "G", "B", "A"};
-
 // ---- packing one tile, OpenEXR's ZIP ------------------------------------------------------------
 // Departures
 //   OpenEXR's own encode pipeline makes a new compressor for every tile, which costs as much as the
 //   compressing. The format is short enough to be written here; test_maps_frames.c reads it with
 //   OpenEXR, tests/core/test_maps.py with other programs.
 
-// little-endian floats line by line, highest row first, and in a line A, then B, G, R
-static void lay_out(const float* rgba, unsigned char* byte)
+static size_t tile_bytes(const DpFrames* frames)
 {
-    static const int order[4] = {3, 2, 1, 0};
+    return (size_t)TILE_CELLS * sizeof(float) * (size_t)frames->channel_count;
+}
+
+// little-endian floats line by line, highest row first, and in a line channel by channel
+static void lay_out(const DpFrames* frames, const float* value, unsigned char* byte)
+{
+    const int count = frames->channel_count;
     for (int j = DP_TILE - 1; j >= 0; --j) {
-        const float* row = rgba + j * DP_TILE * 4;
-        for (int c = 0; c < 4; ++c) {
+        const float* row = value + j * DP_TILE * count;
+        for (int c = 0; c < count; ++c) {
+            const float* from = row + frames->order[c];
             for (int i = 0; i < DP_TILE; ++i) {
                 uint32_t bits;
-                memcpy(&bits, &row[i * 4 + order[c]], 4);
+                memcpy(&bits, &from[i * count], 4);
                 byte[4 * i] = (unsigned char)bits;
                 byte[4 * i + 1] = (unsigned char)(bits >> 8);
                 byte[4 * i + 2] = (unsigned char)(bits >> 16);
@@ -67,20 +75,20 @@ static void lay_out(const float* rgba, unsigned char* byte)
 }
 
 // even bytes first, then the odd ones, each as its step from the one before
-static void difference(const unsigned char* byte, unsigned char* step)
+static void difference(const unsigned char* byte, size_t size, unsigned char* step)
 {
-    const int half = TILE_BYTES / 2;
+    const size_t half = size / 2;
     step[0] = byte[0];
-    step[half] = (unsigned char)(byte[1] - byte[TILE_BYTES - 2] + 128);
-    for (int k = 1; k < half; ++k) {
+    step[half] = (unsigned char)(byte[1] - byte[size - 2] + 128);
+    for (size_t k = 1; k < half; ++k) {
         step[k] = (unsigned char)(byte[2 * k] - byte[2 * k - 2] + 128);
         step[half + k] = (unsigned char)(byte[2 * k + 1] - byte[2 * k - 1] + 128);
     }
 }
 
-static bool is_set_up(Bench* bench)
+static bool is_set_up(const DpFrames* frames, Bench* bench)
 {
-    if (!bench->byte) bench->byte = dp_alloc(TILE_BYTES, 3);
+    if (!bench->byte) bench->byte = dp_alloc(tile_bytes(frames), 3);
     if (!bench->zip) {
         const exr_context_initializer_t setup = dp_exr_setup(NULL);
         libdeflate_set_memory_allocator(setup.alloc_fn, setup.free_fn);
@@ -89,18 +97,19 @@ static bool is_set_up(Bench* bench)
     return bench->byte && bench->zip;
 }
 
-static DpStatus pack(Bench* bench, const float* rgba, Tile* into)
+static DpStatus pack(const DpFrames* frames, Bench* bench, const float* value, Tile* into)
 {
-    if (!is_set_up(bench)) return DP_NO_MEMORY;
+    if (!is_set_up(frames, bench)) return DP_NO_MEMORY;
+    const size_t   bytes = tile_bytes(frames);
     unsigned char* byte = bench->byte;
-    unsigned char* step = byte + TILE_BYTES;
-    unsigned char* packed = step + TILE_BYTES;
-    lay_out(rgba, byte);
-    difference(byte, step);
-    size_t size = libdeflate_zlib_compress(bench->zip, step, TILE_BYTES, packed, TILE_BYTES - 1);
+    unsigned char* step = byte + bytes;
+    unsigned char* packed = step + bytes;
+    lay_out(frames, value, byte);
+    difference(byte, bytes, step);
+    size_t size = libdeflate_zlib_compress(bench->zip, step, bytes, packed, bytes - 1);
     if (size == 0) {  // it would not get smaller: readers know by the size
         packed = byte;
-        size = TILE_BYTES;
+        size = bytes;
     }
     into->packed = dp_alloc(size, 1);
     if (!into->packed) return DP_NO_MEMORY;
@@ -109,13 +118,13 @@ static DpStatus pack(Bench* bench, const float* rgba, Tile* into)
     return DP_OK;
 }
 
-DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* rgba, int worker)
+DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* value, int worker)
 {
-    if (!frames || !rgba || tx < 0 || ty < 0 || tx >= frames->tiles_x || ty >= frames->tiles_y ||
+    if (!frames || !value || tx < 0 || ty < 0 || tx >= frames->tiles_x || ty >= frames->tiles_y ||
         worker < 0 || worker >= WORKERS)
         return DP_BAD_ARGUMENT;
     Tile           fresh = {NULL, 0};
-    const DpStatus status = pack(&frames->bench[worker], rgba, &fresh);
+    const DpStatus status = pack(frames, &frames->bench[worker], value, &fresh);
     if (status != DP_OK) return status;
     Tile* tile = &frames->tile[ty * frames->tiles_x + tx];
     dp_free(tile->packed);
@@ -129,9 +138,9 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
 {
     if (!frames || !path || !*path) return DP_BAD_ARGUMENT;
     exr_context_t context;
-    DpStatus      status =
-        dp_exr_begin(&context, &frames->file, frames->tiles_x * DP_TILE, frames->tiles_y * DP_TILE,
-                     true, rgba_names, 4, frames->notes, frames->note_count, &time);
+    DpStatus      status = dp_exr_begin(&context, &frames->file, frames->tiles_x * DP_TILE,
+                                        frames->tiles_y * DP_TILE, true, frames->channel,
+                                        frames->channel_count, frames->notes, frames->note_count, &time);
     if (status != DP_OK) return status;
     exr_result_t done = EXR_ERR_SUCCESS;
     for (int row = 0; !done && row < frames->tiles_y; ++row) {
@@ -170,29 +179,48 @@ static DpStatus copy_notes(DpFrames* frames, const DpNote* notes, int note_count
     return DP_OK;
 }
 
-// notes and names are tried out on a header before anything is written
-static DpStatus fill(DpFrames* frames, const DpNote* notes, int note_count)
+static DpStatus copy_channels(DpFrames* frames, const char* const* channel, int channel_count)
 {
-    DpStatus status = copy_notes(frames, notes, note_count);
+    for (int c = 0; c < channel_count; ++c) {
+        if (!channel[c]) return DP_BAD_ARGUMENT;
+        frames->channel[c] = copy_text(channel[c]);
+        if (!frames->channel[c]) return DP_NO_MEMORY;
+        frames->channel_count = c + 1;
+        int at = c;
+        for (; at > 0 && strcmp(channel[frames->order[at - 1]], channel[c]) > 0; --at)
+            frames->order[at] = frames->order[at - 1];
+        frames->order[at] = c;
+    }
+    return DP_OK;
+}
+
+// notes and names are tried out on a header before anything is written
+static DpStatus fill(DpFrames* frames, const char* const* channel, int channel_count,
+                     const DpNote* notes, int note_count)
+{
+    DpStatus status = copy_channels(frames, channel, channel_count);
+    if (status == DP_OK) status = copy_notes(frames, notes, note_count);
     if (status != DP_OK) return status;
     const double  no_time = 0.0;
     exr_context_t trial;
-    status =
-        dp_exr_begin(&trial, &frames->file, frames->tiles_x * DP_TILE, frames->tiles_y * DP_TILE,
-                     true, rgba_names, 4, frames->notes, frames->note_count, &no_time);
+    status = dp_exr_begin(&trial, &frames->file, frames->tiles_x * DP_TILE,
+                          frames->tiles_y * DP_TILE, true, frames->channel, frames->channel_count,
+                          frames->notes, frames->note_count, &no_time);
     if (status != DP_OK) return status;
     exr_finish(&trial);
 
-    float* zeros = dp_alloc(DP_TILE * DP_TILE * 4, sizeof *zeros);
+    float* zeros = dp_alloc(tile_bytes(frames), 1);
     frames->tile = dp_alloc((size_t)(frames->tiles_x * frames->tiles_y), sizeof *frames->tile);
-    status = zeros && frames->tile ? pack(&frames->bench[0], zeros, &frames->zero) : DP_NO_MEMORY;
+    status = zeros && frames->tile ? pack(frames, &frames->bench[0], zeros, &frames->zero)
+                                   : DP_NO_MEMORY;
     dp_free(zeros);
     return status;
 }
 
-DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const DpNote* notes,
-                          int note_count)
+DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const char* const* channel,
+                          int channel_count, const DpNote* notes, int note_count)
 {
+    if (!channel || channel_count < 1 || channel_count > MOST_CHANNELS) return DP_BAD_ARGUMENT;
     if (!frames || tiles_x < 1 || tiles_y < 1 || (int64_t)tiles_x * tiles_y > MOST_TILES ||
         note_count < 0 || (note_count > 0 && !notes))
         return DP_BAD_ARGUMENT;
@@ -200,12 +228,17 @@ DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const DpN
     if (!fresh) return DP_NO_MEMORY;
     fresh->tiles_x = tiles_x;
     fresh->tiles_y = tiles_y;
-    const DpStatus status = fill(fresh, notes, note_count);
+    const DpStatus status = fill(fresh, channel, channel_count, notes, note_count);
     if (status == DP_OK)
         *frames = fresh;
     else
         dp_frames_destroy(fresh);
     return status;
+}
+
+int dp_frames_channels(const DpFrames* frames)
+{
+    return frames->channel_count;
 }
 
 void dp_frames_destroy(DpFrames* frames)
@@ -217,6 +250,7 @@ void dp_frames_destroy(DpFrames* frames)
     }
     for (int k = 0; frames->tile && k < frames->tiles_x * frames->tiles_y; ++k)
         dp_free(frames->tile[k].packed);
+    for (int c = 0; c < frames->channel_count; ++c) dp_free((void*)frames->channel[c]);
     for (int k = 0; k < frames->note_count; ++k) {
         dp_free((void*)frames->notes[k].name);
         dp_free((void*)frames->notes[k].text);

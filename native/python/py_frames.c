@@ -1,147 +1,167 @@
-// python/py_frames.c - frames of a simulation: one is packed and written while the next is simulated.
+// python/py_frames.c - pictures of a simulation: frames for playback and maps, written in the
+// background while the ground goes on.
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "python/py_sim.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
-#define TILE_FLOATS ((size_t)DP_TILE * DP_TILE * 4)
-#define MANY_TILES 16  // changed at once: worth every core
+#define TILE_CELLS (DP_TILE * DP_TILE)
 
-// Room for one more tile; false when there is no memory.
-static bool make_room(Frame* frame)
+// ---- a film ------------------------------------------------------------------------------------
+
+static void close_film(Film* film)
 {
-    if (frame->count < frame->room) return true;
-    const int room = frame->room ? 2 * frame->room : 16;
-    long*     tile = dp_realloc(frame->tile, 2 * (size_t)room, sizeof *tile);
-    if (tile) frame->tile = tile;
-    float* rgba = tile ? dp_realloc(frame->rgba, (size_t)room * TILE_FLOATS, sizeof *rgba) : NULL;
-    if (!rgba) return false;
-    frame->rgba = rgba;
-    frame->room = room;
-    return true;
+    dp_frames_destroy(film->frames);
+    dp_free(film->changed);
+    memset(film, 0, sizeof *film);
 }
 
-// What a film shows of a tile: the ground, or how its grass lies (R lean_x, G lean_y, B crushed,
-// A plant strength).
-static void tile_rgba(const Simulation* self, bool lean, long tx, long ty, float* rgba)
+// What a film shows of a tile, by its place in the frames; value (DP_TILE, DP_TILE, fields).
+static void fill_tile(const Simulation* self, const Film* film, int index, float* value)
 {
-    dp_terrain_tile_rgba(self->terrain, tx, ty, rgba);
-    if (!lean) return;
-    float lies[3][DP_TILE * DP_TILE];
-    dp_lean_read(dp_sim_lean(self->sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, lies[0],
-                 lies[1], lies[2]);
-    for (int n = 0; n < DP_TILE * DP_TILE; ++n) {
-        rgba[4 * n + 3] = rgba[4 * n + 1];
-        for (int c = 0; c < 3; ++c) rgba[4 * n + c] = lies[c][n];
+    const long tx = self->tile_x + index % self->tiles_x;
+    const long ty = self->tile_y + index / self->tiles_x;
+    for (int f = 0; f < film->fields; ++f) {
+        const int axis = film->field[f] - DP_FIELD_LEAN;
+        if (axis < 0) {
+            dp_terrain_tile(self->terrain, tx, ty, (DpField)film->field[f], value + f,
+                            film->fields);
+            continue;
+        }
+        float lies[TILE_CELLS];
+        dp_lean_read(dp_sim_lean(self->sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
+                     axis == 0 ? lies : NULL, axis == 1 ? lies : NULL, axis == 2 ? lies : NULL);
+        for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = lies[n];
     }
 }
 
-typedef struct Taking
+// Planted ground shows before anybody walks on it, and so does trodden ground: pictures of either
+// begin with every tile.
+typedef struct Rest
 {
-    Simulation* self;
-    Film*       film;
-} Taking;
+    const Simulation* self;
+    const Film*       film;
+    atomic_int        failed;
+} Rest;
 
-// Copy a tile that changed since the last frame, so that the ground may go on changing.
-static void take_tile(void* context, long tx, long ty)
+static void pack_rest(void* context, int index, int worker)
 {
-    const Taking* taking = context;
-    Simulation*   self = taking->self;
-    Film*         film = taking->film;
-    Frame*        frame = &film->frame[film->fresh];
-    const bool    inside = tx >= self->tile_x && tx < self->tile_x + self->tiles_x &&
-                        ty >= self->tile_y && ty < self->tile_y + self->tiles_y;
-    if (!inside || frame->status != DP_OK) return;
-    if (!make_room(frame)) {
-        frame->status = DP_NO_MEMORY;
-        return;
+    Rest*             rest = context;
+    const Simulation* self = rest->self;
+    const size_t      size = (size_t)TILE_CELLS * (size_t)rest->film->fields;
+    float*            value = dp_alloc(size, sizeof *value);
+    bool              any = false;
+    DpStatus          status = value ? DP_OK : DP_NO_MEMORY;
+    if (value) fill_tile(self, rest->film, index, value);
+    for (size_t k = 0; value && !any && k < size; ++k) any = value[k] > 0.0f || value[k] < 0.0f;
+    if (any)
+        status = dp_frames_set_tile(rest->film->frames, index % self->tiles_x,
+                                    index / self->tiles_x, value, worker);
+    if (status != DP_OK) atomic_store(&rest->failed, (int)status);
+    dp_free(value);
+}
+
+// Begin a film of the frames' tiles with the ground as it is now.
+static DpStatus open_film(Simulation* self, Film* film, const char* const* channel,
+                          const int* field, int fields, const DpNote* notes, int note_count)
+{
+    const int tiles = self->tiles_x * self->tiles_y;
+    Film      fresh = {.fields = fields};
+    memcpy(fresh.field, field, (size_t)fields * sizeof *field);
+    DpStatus status = dp_frames_create(&fresh.frames, self->tiles_x, self->tiles_y, channel, fields,
+                                       notes, note_count);
+    if (status != DP_OK) return status;
+    fresh.changed = dp_alloc((size_t)tiles, 1);
+    if (!fresh.changed) status = DP_NO_MEMORY;
+    if (status == DP_OK && (self->plants || dp_terrain_tile_count(self->terrain) > 0)) {
+        Rest rest = {self, &fresh, DP_OK};
+        dp_parallel_for(tiles, self->workers, pack_rest, &rest);
+        status = (DpStatus)atomic_load(&rest.failed);
     }
-    tile_rgba(self, film == &self->film[DP_FILM_LEAN], tx, ty,
-              frame->rgba + (size_t)frame->count * TILE_FLOATS);
-    frame->tile[2 * frame->count] = tx - self->tile_x;
-    frame->tile[2 * frame->count + 1] = ty - self->tile_y;
-    ++frame->count;
+    if (status == DP_OK && !self->writer) status = dp_writer_create(&self->writer, self->workers);
+    if (status != DP_OK) {
+        close_film(&fresh);
+        return status;
+    }
+    close_film(film);
+    *film = fresh;
+    return DP_OK;
 }
 
-static void pack_tile(void* context, int index, int worker)
+static void mark_tile(const Simulation* self, const Film* film, long tx, long ty)
 {
-    Frame*         frame = context;
-    const DpStatus status = dp_frames_set_tile(frame->frames, (int)frame->tile[2 * index],
-                                               (int)frame->tile[2 * index + 1],
-                                               frame->rgba + (size_t)index * TILE_FLOATS, worker);
-    if (status != DP_OK) atomic_store(&frame->failed, (int)status);
+    const long i = tx - self->tile_x, j = ty - self->tile_y;
+    const bool inside = i >= 0 && j >= 0 && i < self->tiles_x && j < self->tiles_y;
+    if (film->changed && inside) film->changed[j * self->tiles_x + i] = 1;
 }
 
-static void* write_out(void* context)
+static void mark_ground(void* context, long tx, long ty)
 {
-    Frame* frame = context;
-    // the other cores simulate; only a flood of tiles is worth taking them
-    dp_parallel_for(frame->count, frame->count < MANY_TILES ? 1 : frame->workers, pack_tile, frame);
-    frame->status = (DpStatus)atomic_load(&frame->failed);
-    if (frame->status == DP_OK && frame->path)
-        frame->status = dp_frames_write(frame->frames, frame->path, frame->time);
-    return NULL;
+    const Simulation* self = context;
+    mark_tile(self, &self->film[DP_FILM_TRAIL], tx, ty);
+    mark_tile(self, &self->film[DP_FILM_MAPS], tx, ty);
 }
 
-// Wait for the frame that is being written; how that went.
-DpStatus dp_py_finish_frame(Film* film)
+static void mark_grass(void* context, long tx, long ty)
 {
-    Frame* frame = &film->frame[!film->fresh];
-    if (!frame->running) return DP_OK;
-    if (frame->threaded) pthread_join(frame->thread, NULL);
-    frame->running = false;
-    return frame->status;
+    const Simulation* self = context;
+    mark_tile(self, &self->film[DP_FILM_LEAN], tx, ty);
+    mark_tile(self, &self->film[DP_FILM_MAPS], tx, ty);
+}
+
+// Copy the tiles that changed since the film's last file and have them packed and written.
+static DpStatus write_film(Simulation* self, Film* film, const char* path, double time,
+                           const char** failed)
+{
+    const DpStatus status = dp_writer_told(self->writer, false, failed);
+    if (status != DP_OK) return status;
+    dp_terrain_changed(self->terrain, mark_ground, self);
+    if (self->plants) dp_lean_changed(dp_sim_lean(self->sim), mark_grass, self);
+    DpTiles* tiles = dp_writer_tiles(self->writer, film->frames);
+    if (!tiles) return DP_NO_MEMORY;
+    const int count = self->tiles_x * self->tiles_y;
+    for (int k = 0; k < count; ++k) {
+        if (!film->changed[k]) continue;
+        float* value = dp_tiles_add(tiles, k % self->tiles_x, k / self->tiles_x);
+        if (!value) {
+            dp_writer_drop(self->writer, tiles);
+            return DP_NO_MEMORY;
+        }
+        fill_tile(self, film, k, value);
+    }
+    memset(film->changed, 0, (size_t)count);
+    return dp_writer_give(self->writer, tiles, path, time);
 }
 
 void dp_py_drop_frames(Simulation* self)
 {
-    for (int k = 0; k < DP_FILMS; ++k) {
-        Film* film = &self->film[k];
-        (void)dp_py_finish_frame(film);
-        for (int f = 0; f < 2; ++f) {
-            dp_free(film->frame[f].tile);
-            dp_free(film->frame[f].rgba);
-            dp_free(film->frame[f].path);
-        }
-        dp_frames_destroy(film->frames);
-    }
+    dp_writer_destroy(self->writer);
+    for (int k = 0; k < DP_FILMS; ++k) close_film(&self->film[k]);
 }
 
-// Take in what changed, wait for the frame before, and start on this one.
-static DpStatus start_frame(Simulation* self, Film* film, char* path, double time)
+// ---- the door ----------------------------------------------------------------------------------
+
+static PyObject* told(DpStatus status, const char* path)
 {
-    Taking taking = {self, film};
-    Frame* frame = &film->frame[film->fresh];
-    frame->count = 0;
-    frame->status = DP_OK;
-    if (film == &self->film[DP_FILM_LEAN])
-        dp_lean_changed(dp_sim_lean(self->sim), take_tile, &taking);
-    else
-        dp_terrain_changed(self->terrain, take_tile, &taking);
-    const DpStatus before = dp_py_finish_frame(film);
-    if (before != DP_OK || frame->status != DP_OK) {
-        dp_free(path);
-        return before != DP_OK ? before : frame->status;
-    }
-    dp_free(frame->path);
-    frame->path = path;
-    frame->time = time;
-    frame->frames = film->frames;
-    frame->workers = self->workers;
-    atomic_store(&frame->failed, DP_OK);
-    frame->running = true;
-    frame->threaded = pthread_create(&frame->thread, NULL, write_out, frame) == 0;
-    if (!frame->threaded) write_out(frame);
-    film->fresh = !film->fresh;
-    return DP_OK;
+    return dp_door_result(status, *path ? path : "encoding a frame");
 }
 
-// The exception or None for a frame; the one that was waited for lies opposite the fresh one.
-static PyObject* frame_result(const Film* film, DpStatus status)
+static PyObject* write_file(Simulation* self, Film* film, const char* path, double time)
 {
-    const char* path = film->frame[!film->fresh].path;
-    return dp_door_result(status, path ? path : "encoding a frame");
+    const char* failed = "";
+    if (!film->frames) {
+        PyErr_SetString(PyExc_ValueError, "writing before the frames or maps are open");
+        return NULL;
+    }
+    if (!dp_py_enter(self)) return NULL;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = write_film(self, film, path, time, &failed);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    return told(status, failed);
 }
 
 PyObject* dp_py_write_frame(PyObject* object, PyObject* args)
@@ -151,83 +171,45 @@ PyObject* dp_py_write_frame(PyObject* object, PyObject* args)
     double      time;
     int         lean = 0;
     if (!PyArg_ParseTuple(args, "zd|p:write_frame", &path, &time, &lean)) return NULL;
-    Film* film = &self->film[lean ? DP_FILM_LEAN : DP_FILM_TRAIL];
-    if (!film->frames) {
-        PyErr_SetString(PyExc_ValueError, "write_frame: call open_frames first");
-        return NULL;
-    }
-    char* own = path ? dp_alloc(strlen(path) + 1, 1) : NULL;
-    if (path && !own) return PyErr_NoMemory();
-    if (own) memcpy(own, path, strlen(path) + 1);
-    if (!dp_py_enter(self)) {
-        dp_free(own);
-        return NULL;
-    }
-    DpStatus status;
-    Py_BEGIN_ALLOW_THREADS
-    status = start_frame(self, film, own, time);
-    Py_END_ALLOW_THREADS
-    self->busy = false;
-    return frame_result(film, status);
+    return write_file(self, &self->film[lean ? DP_FILM_LEAN : DP_FILM_TRAIL], path, time);
+}
+
+PyObject* dp_py_write_maps(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    const char* path;
+    double      time;
+    if (!PyArg_ParseTuple(args, "sd:write_maps", &path, &time)) return NULL;
+    return write_file(self, &self->film[DP_FILM_MAPS], path, time);
 }
 
 PyObject* dp_py_flush(PyObject* object, PyObject* unused)
 {
     Simulation* self = (Simulation*)object;
+    const char* failed = "";
+    DpStatus    status = DP_OK;
     (void)unused;
     if (!dp_py_enter(self)) return NULL;
-    DpStatus status = DP_OK;
-    int      film = 0;
     Py_BEGIN_ALLOW_THREADS
-    for (int k = 0; k < DP_FILMS; ++k) {
-        const DpStatus done = dp_py_finish_frame(&self->film[k]);
-        if (done != DP_OK) status = done, film = k;
-    }
+    if (self->writer) status = dp_writer_told(self->writer, true, &failed);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return frame_result(&self->film[film], status);
+    return told(status, failed);
 }
 
-// Planted ground shows before anybody walks on it: frames begin with every tile.
-typedef struct Rest
+// A film for playback, with what its channels hold.
+static DpStatus open_playback(Simulation* self, bool lean, const char* software)
 {
-    const Simulation* self;
-    bool              lean;
-    atomic_int        failed;
-} Rest;
-
-static void pack_rest(void* context, int index, int worker)
-{
-    Rest*             rest = context;
-    const Simulation* self = rest->self;
-    DpFrames*         frames = self->film[rest->lean ? DP_FILM_LEAN : DP_FILM_TRAIL].frames;
-    const int         tx = index % self->tiles_x, ty = index / self->tiles_x;
-    float*            rgba = dp_alloc(TILE_FLOATS, sizeof *rgba);
-    bool              any = false;
-    DpStatus          status = rgba ? DP_OK : DP_NO_MEMORY;
-    if (rgba) tile_rgba(self, rest->lean, self->tile_x + tx, self->tile_y + ty, rgba);
-    for (size_t k = 0; rgba && !any && k < TILE_FLOATS; ++k) any = rgba[k] > 0.0f || rgba[k] < 0.0f;
-    if (any) status = dp_frames_set_tile(frames, tx, ty, rgba, worker);
-    if (status != DP_OK) atomic_store(&rest->failed, (int)status);
-    dp_free(rgba);
-}
-
-static DpStatus pack_all(const Simulation* self, bool lean)
-{
-    Rest rest = {self, lean, DP_OK};
-    dp_parallel_for(self->tiles_x * self->tiles_y, self->workers, pack_rest, &rest);
-    return (DpStatus)atomic_load(&rest.failed);
-}
-
-// A writer for one film, with what its channels hold.
-static DpStatus open_film(Simulation* self, bool lean, const char* software)
-{
+    static const char* const channel[4] = {"R", "G", "B", "A"};
+    static const int         trail_field[4] = {DP_FIELD_HEIGHT_CHANGE, DP_FIELD_PLANT_STRENGTH,
+                                               DP_FIELD_COMPRESSION, DP_FIELD_PRESSURE_TIME};
+    static const int         lean_field[4] = {DP_FIELD_LEAN, DP_FIELD_LEAN + 1, DP_FIELD_LEAN + 2,
+                                              DP_FIELD_PLANT_STRENGTH};
     static const char* const trail_names[4] = {"height change [m]", "plant strength [-]",
                                                "compression [m]", "pressure_time [Pa s]"};
     static const char* const lean_names[4] = {"lean_x [-]", "lean_y [-]", "crushed [-]",
                                               "plant strength [-]"};
     const char* const*       names = lean ? lean_names : trail_names;
-    Film*                    film = &self->film[lean ? DP_FILM_LEAN : DP_FILM_TRAIL];
     double                   origin[2];
     dp_terrain_origin(self->terrain, origin);
     const double cell = dp_terrain_cell(self->terrain);
@@ -241,14 +223,9 @@ static DpStatus open_film(Simulation* self, bool lean, const char* software)
         {"channelB", names[2], 0.0},
         {"channelA", names[3], 0.0},
     };
-    DpFrames* frames = NULL;
-    (void)dp_py_finish_frame(film);
-    const DpStatus status = dp_frames_create(&frames, self->tiles_x, self->tiles_y, notes,
-                                             (int)(sizeof notes / sizeof *notes));
-    if (status != DP_OK) return status;
-    dp_frames_destroy(film->frames);
-    film->frames = frames;
-    return self->plants ? pack_all(self, lean) : DP_OK;
+    return open_film(self, &self->film[lean ? DP_FILM_LEAN : DP_FILM_TRAIL], channel,
+                     lean ? lean_field : trail_field, 4, notes,
+                     (int)(sizeof notes / sizeof *notes));
 }
 
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
@@ -256,17 +233,73 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     Simulation* self = (Simulation*)object;
     long        tx, ty;
     int         nx, ny;
-    const char* software;
-    if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &software) ||
-        !dp_py_enter(self))
+    const char *software, *failed;
+    if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &software)) return NULL;
+    if (nx < 1 || ny < 1 || nx > INT32_MAX / ny) {
+        PyErr_SetString(PyExc_ValueError, "open_frames: expected at least one tile");
         return NULL;
+    }
+    if (!dp_py_enter(self)) return NULL;
     DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    if (self->writer) (void)dp_writer_told(self->writer, true, &failed);
+    for (int k = 0; k < DP_FILMS; ++k) close_film(&self->film[k]);
     self->tile_x = tx, self->tile_y = ty;
     self->tiles_x = nx, self->tiles_y = ny;
-    Py_BEGIN_ALLOW_THREADS
-    status = open_film(self, false, software);
-    if (status == DP_OK && self->plants) status = open_film(self, true, software);
+    status = open_playback(self, false, software);
+    if (status == DP_OK && self->plants) status = open_playback(self, true, software);
     Py_END_ALLOW_THREADS
     self->busy = false;
     return dp_door_result(status, "opening the frames");
+}
+
+// Channel names and fields from a tuple of (name, number of the field); their count, or -1.
+static int read_fields(const Simulation* self, PyObject* items, const char** channel, int* field)
+{
+    const Py_ssize_t count = PyTuple_Size(items);
+    const int        last = self->plants ? DP_FIELD_LEAN + 2 : DP_FIELD_HEIGHT_CHANGE;
+    if (count < 1 || count > MOST_FIELDS) {
+        PyErr_Format(PyExc_ValueError, "open_maps: expected 1 to %d fields", MOST_FIELDS);
+        return -1;
+    }
+    for (Py_ssize_t k = 0; k < count; ++k) {
+        if (!PyArg_ParseTuple(PyTuple_GetItem(items, k), "si:open_maps", &channel[k], &field[k]))
+            return -1;
+        if (field[k] < 0 || field[k] > last ||
+            (field[k] > DP_FIELD_HEIGHT_CHANGE && field[k] < DP_FIELD_LEAN)) {
+            PyErr_Format(PyExc_ValueError, "open_maps: there is no field %d", field[k]);
+            return -1;
+        }
+    }
+    return (int)count;
+}
+
+PyObject* dp_py_open_maps(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    PyObject *  fields, *items;
+    const char* channel[MOST_FIELDS];
+    int         field[MOST_FIELDS];
+    if (!PyArg_ParseTuple(args, "O!O!:open_maps", &PyTuple_Type, &fields, &PyTuple_Type, &items))
+        return NULL;
+    if (!self->film[DP_FILM_TRAIL].frames) {
+        PyErr_SetString(PyExc_ValueError, "open_maps: open_frames comes first");
+        return NULL;
+    }
+    const int count = read_fields(self, fields, channel, field);
+    DpNote*   notes = count > 0 ? dp_py_notes(items) : NULL;
+    if (!notes || !dp_py_enter(self)) {
+        dp_free(notes);
+        return NULL;
+    }
+    const int   note_count = (int)PyTuple_Size(items);
+    const char* failed;
+    DpStatus    status;
+    Py_BEGIN_ALLOW_THREADS(void)
+    dp_writer_told(self->writer, true, &failed);
+    status = open_film(self, &self->film[DP_FILM_MAPS], channel, field, count, notes, note_count);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    dp_free(notes);
+    return dp_door_result(status, "opening the maps");
 }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "maps/maps.h"
 #include "python/door.h"
+#include "python/py_sim.h"
 
 // A sequence's items as a tuple that holds them; NULL with a TypeError naming it.
 static PyObject* items_of(PyObject* object, const char* name)
@@ -31,7 +32,6 @@ static const char* text_of(PyObject* object, const char* name)
 
 // ---- writing ------------------------------------------------------------------------------------
 
-// notes[k] = (name, str or number); what they point to lives as long as `items`
 static int fill_notes(PyObject* items, DpNote* notes)
 {
     const Py_ssize_t count = PyTuple_Size(items);
@@ -53,6 +53,18 @@ static int fill_notes(PyObject* items, DpNote* notes)
         }
     }
     return 0;
+}
+
+DpNote* dp_py_notes(PyObject* items)
+{
+    DpNote* notes = dp_alloc((size_t)PyTuple_Size(items) + 1, sizeof *notes);
+    if (!notes) {
+        PyErr_NoMemory();
+    } else if (fill_notes(items, notes) < 0) {
+        dp_free(notes);
+        notes = NULL;
+    }
+    return notes;
 }
 
 static int fill_channels(PyObject* names, PyObject* planes, DpDoor* door, DpMapChannel* channels,
@@ -89,12 +101,8 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
         PyErr_Format(PyExc_ValueError, "expected 1 to %d names and as many planes", DP_DOOR_MOST);
         goto leave;
     }
-    note = dp_alloc((size_t)note_count + 1, sizeof *note);
-    if (!note) {
-        PyErr_NoMemory();
-        goto leave;
-    }
-    if (fill_notes(notes, note) || fill_channels(names, planes, &door, channel, &shape)) goto leave;
+    note = dp_py_notes(notes);
+    if (!note || fill_channels(names, planes, &door, channel, &shape)) goto leave;
     if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX || note_count > INT32_MAX) {
         dp_door_result(DP_BAD_ARGUMENT, "writing maps");
         goto leave;

@@ -257,7 +257,7 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     long      i0, j0;
     PyObject* out_object;
     if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
-    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_PLANT_STRENGTH) {
+    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) {
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
@@ -315,13 +315,16 @@ static PyMethodDef methods[] = {
      "read_lean(axis, i0, j0, out (ny, nx) f4): how grass lies; axis 0 lean_x, 1 lean_y, 2 "
      "crushed."},
     {"open_frames", dp_py_open_frames, METH_VARARGS,
-     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames cover these tiles."},
+     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames and maps cover these tiles."},
+    {"open_maps", dp_py_open_maps, METH_VARARGS,
+     "open_maps(((name, field), ..), ((name, str or float), ..)): channels and notes of the maps."},
     {"write_frame", dp_py_write_frame, METH_VARARGS,
      "write_frame(path or None, time, lean=False): take in the tiles that changed and write the "
-     "frame, in the"
-     " background; tells how the frame before went."},
+     "frame, in the background; tells how those before went."},
+    {"write_maps", dp_py_write_maps, METH_VARARGS,
+     "write_maps(path, time): write the maps as they are now, in the background, as write_frame."},
     {"flush", dp_py_flush, METH_NOARGS,
-     "flush(): wait for the frame that is being written; tells how it went."},
+     "flush(): wait until all frames and maps are written; tells how it went."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot type_slots[] = {

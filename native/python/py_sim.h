@@ -1,42 +1,28 @@
 // python/py_sim.h - the simulation as Python holds it; for py_sim.c, py_ground.c, py_frames.c
 // and py_meadow.c only.
 #pragma once
-#include <pthread.h>
-#include <stdatomic.h>
-
 #include "maps/maps.h"
 #include "python/door.h"
 #include "sim/sim.h"
 
-// A frame on its way to the disk: the tiles that changed, copied, and the thread that packs them.
-typedef struct Frame
-{
-    DpFrames*  frames;  // of its film
-    long*      tile;    // place in the frame (room, 2)
-    float*     rgba;    // (room, DP_TILE, DP_TILE, 4)
-    int        count, room, workers;
-    char*      path;  // NULL: packed only
-    double     time;
-    DpStatus   status;
-    atomic_int failed;  // DpStatus of a tile that could not be packed
-    bool       running, threaded;
-    pthread_t  thread;
-} Frame;
-
-// Frames of one kind.
+// One picture of the ground that is written again and again, file by file.
+#define MOST_FIELDS 16
+#define DP_FIELD_LEAN 64  // lean_x, lean_y, crushed: beyond the terrain's own fields
 typedef struct Film
 {
-    DpFrames* frames;
-    Frame     frame[2];  // one is filled while the other is written
-    int       fresh;     // which one is filled next
+    DpFrames* frames;  // NULL: not opened
+    int       field[MOST_FIELDS];
+    int       fields;
+    uint8_t*  changed;  // tiles that are not what was written last (tiles_y, tiles_x)
 } Film;
 
 enum
 {
     DP_FILM_TRAIL = 0,
-    DP_FILM_LEAN = 1,
-    DP_FILMS = 2
-};  // lean: on planted ground only
+    DP_FILM_LEAN = 1,  // on planted ground only
+    DP_FILM_MAPS = 2,
+    DP_FILMS = 3
+};
 
 typedef struct Simulation
 {
@@ -44,6 +30,7 @@ typedef struct Simulation
     DpTerrain* terrain;
     DpSim*     sim;
     DpPlants*  plants;  // NULL: bare ground
+    DpWriter*  writer;
     Film       film[DP_FILMS];
     long       tile_x, tile_y;    // lowest tile of the frames
     int        tiles_x, tiles_y;  // 0 = no frames opened
@@ -79,11 +66,16 @@ PyObject* dp_py_read_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
 // py_frames.c
-DpStatus  dp_py_finish_frame(Film* film);  // waits for the frame that is being written
 void      dp_py_drop_frames(Simulation* self);
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
+PyObject* dp_py_open_maps(PyObject* object, PyObject* args);
 PyObject* dp_py_write_frame(PyObject* object, PyObject* args);
+PyObject* dp_py_write_maps(PyObject* object, PyObject* args);
 PyObject* dp_py_flush(PyObject* object, PyObject* unused);
+
+// py_maps.c: notes[k] from a tuple of (name, str or number), or NULL with an exception. The caller
+// frees the array; what it points to lives as long as `items`.
+DpNote* dp_py_notes(PyObject* items);
 
 // py_place.c
 PyObject* dp_py_place(PyObject* object, PyObject* args);

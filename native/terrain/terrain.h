@@ -103,13 +103,14 @@ void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
 
 typedef enum DpField
 {
-    DP_FIELD_COMPRESSION = 0,    // [m]
-    DP_FIELD_HEAP = 1,           // [m]
-    DP_FIELD_PRESSURE_TIME = 2,  // [Pa s]
-    DP_FIELD_REST = 3,           // [m], NaN = no ground
-    DP_FIELD_MODULUS = 4,        // E = E_g + E_v, TRAIL (9) [Pa]
-    DP_FIELD_KIND = 5,           // soil index
-    DP_FIELD_PLANT_STRENGTH = 6  // alpha_veg, TRAIL (7) [-]; 0 without plants
+    DP_FIELD_COMPRESSION = 0,     // [m]
+    DP_FIELD_HEAP = 1,            // [m]
+    DP_FIELD_PRESSURE_TIME = 2,   // [Pa s]
+    DP_FIELD_REST = 3,            // [m], NaN = no ground
+    DP_FIELD_MODULUS = 4,         // E = E_g + E_v, TRAIL (9) [Pa]
+    DP_FIELD_KIND = 5,            // soil index
+    DP_FIELD_PLANT_STRENGTH = 6,  // alpha_veg, TRAIL (7) [-]; 0 without plants
+    DP_FIELD_HEIGHT_CHANGE = 7    // heap - compression [m]
 } DpField;
 
 // Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
@@ -122,10 +123,9 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
 typedef void (*DpTileVisit)(void* context, long tx, long ty);
 void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 
-// Playback pixels of one tile: R height change (heap - compression), G plant strength,
-// B compression, A pressure_time; rgba (DP_TILE, DP_TILE, 4), row 0 = lowest y. Zero if untouched,
-// but for the plants.
-void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba);
+// A field of one whole tile, row 0 = lowest y: cell (i, j) at out[(j * DP_TILE + i) * stride].
+void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
+                     int stride);
 
 // Heights of the current surface, h0 - compression + heap [m], NaN = no ground, of a rectangle of
 // cells whose tiles were touched; out (ny, nx).

@@ -226,6 +226,7 @@ static const float* grid_of(const Tile* tile, const float* rest, DpField field)
         case DP_FIELD_MODULUS:
         case DP_FIELD_KIND:
         case DP_FIELD_PLANT_STRENGTH:
+        case DP_FIELD_HEIGHT_CHANGE:
             break;
     }
     return NULL;
@@ -239,24 +240,18 @@ static float from_soil(const DpTerrain* terrain, DpField field, uint8_t soil)
                                      : 0.0f;
 }
 
-// plant: NULL on bare ground
-static void read_row(const Reading* reading, const Tile* tile, const float* rest,
-                     const uint8_t* kind, const float* plant, size_t at, int count, float* out)
+// a tile as its fields are read; what an untouched one is asked for is made for the moment
+typedef struct View
 {
-    const bool   there = tile || reading->field == DP_FIELD_REST;
-    const float* grid = there ? grid_of(tile, rest, reading->field) : NULL;
-    if (grid) {
-        memcpy(out, grid + at, (size_t)count * sizeof *out);
-        return;
-    }
-    const bool roots = plant && reading->field == DP_FIELD_MODULUS;
-    for (int i = 0; i < count; ++i) {
-        const size_t p = at + (size_t)i;
-        out[i] = from_soil(reading->terrain, reading->field, kind[p]);
-        if (roots) out[i] += plant[TILE_CELLS + p];  // TRAIL (9), E_v
-        if (plant && reading->field == DP_FIELD_PLANT_STRENGTH) out[i] = plant[p];
-    }
-}
+    const DpTerrain* terrain;
+    const Tile*      tile;  // NULL: untouched
+    const float*     rest;
+    const uint8_t*   kind;
+    const float*     plant;  // NULL on bare ground
+    float            made_rest[TILE_CELLS];
+    uint8_t          made_kind[TILE_CELLS];
+    float            made_plant[2 * TILE_CELLS];
+} View;
 
 // whether an untouched tile has to be made for it; ground that is not painted is soil 0 all over
 static bool comes_from_ground(const DpTerrain* terrain, DpField field)
@@ -270,32 +265,61 @@ static bool is_of_plants(DpField field)
     return field == DP_FIELD_MODULUS || field == DP_FIELD_PLANT_STRENGTH;
 }
 
-// one tile of the rectangle; an untouched one is made for the moment
+static void open_view(View* view, const DpTerrain* terrain, long tx, long ty, DpField field)
+{
+    const Tile* tile = tile_find(terrain, tx, ty);
+    const bool  grows = terrain->cover && is_of_plants(field);
+    view->terrain = terrain;
+    view->tile = tile;
+    view->rest = tile ? tile->rest : view->made_rest;
+    view->kind = tile ? tile->kind : view->made_kind;
+    view->plant = !grows ? NULL : tile ? tile->plant : view->made_plant;
+    if (tile) return;
+    if (grows) tile_plant(terrain, tx, ty, view->made_plant);
+    if (comes_from_ground(terrain, field)) {
+        const TileGrid grid = tile_grid(terrain, tx, ty);
+        rest_tile(&terrain->rest, &grid, view->made_rest, view->made_kind);
+    } else {
+        memset(view->made_kind, 0, sizeof view->made_kind);
+    }
+}
+
+static void read_row(const View* view, DpField field, size_t at, int count, float* out)
+{
+    const Tile*  tile = view->tile;
+    const bool   there = tile || field == DP_FIELD_REST;
+    const float* grid = there ? grid_of(tile, view->rest, field) : NULL;
+    if (grid) {
+        memcpy(out, grid + at, (size_t)count * sizeof *out);
+        return;
+    }
+    const float* plant = view->plant;
+    const bool   roots = plant && field == DP_FIELD_MODULUS;
+    const bool   strength = plant && field == DP_FIELD_PLANT_STRENGTH;
+    const bool   height = tile && field == DP_FIELD_HEIGHT_CHANGE;
+    for (int i = 0; i < count; ++i) {
+        const size_t p = at + (size_t)i;
+        out[i] = height     ? tile->heap[p] - tile->compression[p]
+                 : strength ? plant[p]
+                            : from_soil(view->terrain, field, view->kind[p]);
+        if (roots) out[i] += plant[TILE_CELLS + p];  // TRAIL (9), E_v
+    }
+}
+
+// one tile of the rectangle
 static void read_tile(void* context, int index, int worker)
 {
     const Reading* reading = context;
     const long     tx = reading->tx0 + index % reading->tiles_x;
     const long     ty = reading->ty0 + index / reading->tiles_x;
-    const Tile*    tile = tile_find(reading->terrain, tx, ty);
-    float          made_rest[TILE_CELLS];
-    uint8_t        made_kind[TILE_CELLS] = {0};
-    float          made_plant[2 * TILE_CELLS];
-    const float*   rest = tile ? tile->rest : made_rest;
-    const uint8_t* kind = tile ? tile->kind : made_kind;
-    const bool     grows = reading->terrain->cover && is_of_plants(reading->field);
-    const float*   plant = !grows ? NULL : tile ? tile->plant : made_plant;
+    View           view;
     (void)worker;
-    if (plant == made_plant) tile_plant(reading->terrain, tx, ty, made_plant);
-    if (!tile && comes_from_ground(reading->terrain, reading->field)) {
-        const TileGrid grid = tile_grid(reading->terrain, tx, ty);
-        rest_tile(&reading->terrain->rest, &grid, made_rest, made_kind);
-    }
+    open_view(&view, reading->terrain, tx, ty, reading->field);
     const TilePart part = tile_part(tx, ty, reading->i0, reading->i1, reading->j0, reading->j1);
     const size_t   nx = (size_t)(reading->i1 - reading->i0);
     for (int j = 0; j < part.ny; ++j) {
-        float*       out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
-        const size_t at = part.in_tile + (size_t)j * DP_TILE;
-        read_row(reading, tile, rest, kind, plant, at, part.nx, out);
+        float* out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
+        read_row(&view, reading->field, part.in_tile + (size_t)j * DP_TILE, part.nx, out);
     }
 }
 
@@ -303,7 +327,7 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
                          float* out)
 {
     if (nx < 1 || ny < 1 || !is_rectangle(i0, i0 + nx, j0, j0 + ny)) return DP_BAD_ARGUMENT;
-    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_PLANT_STRENGTH) return DP_BAD_ARGUMENT;
+    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) return DP_BAD_ARGUMENT;
     Reading reading = {terrain, field, i0, i0 + nx, j0, j0 + ny, tile_of(i0), tile_of(j0), 0, out};
     reading.tiles_x = (int)(tile_of(reading.i1 - 1) - reading.tx0 + 1);
     const long tiles_y = tile_of(reading.j1 - 1) - reading.ty0 + 1;
@@ -312,16 +336,14 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
     return DP_OK;
 }
 
-void dp_terrain_tile_rgba(const DpTerrain* terrain, long tx, long ty, float* rgba)
+void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
+                     int stride)
 {
-    const Tile* tile = tile_find(terrain, tx, ty);
-    float       made[2 * TILE_CELLS];
-    if (terrain->cover && !tile) tile_plant(terrain, tx, ty, made);
-    const float* strength = !terrain->cover ? NULL : tile ? tile->plant : made;
-    for (size_t n = 0; n < TILE_CELLS; ++n) {
-        rgba[4 * n] = tile ? tile->heap[n] - tile->compression[n] : 0.0f;
-        rgba[4 * n + 1] = strength ? strength[n] : 0.0f;
-        rgba[4 * n + 2] = tile ? tile->compression[n] : 0.0f;
-        rgba[4 * n + 3] = tile ? tile->pressure_time[n] : 0.0f;
+    View view;
+    open_view(&view, terrain, tx, ty, field);
+    for (size_t j = 0; j < DP_TILE; ++j, out += DP_TILE * stride) {
+        float row[DP_TILE];
+        read_row(&view, field, j * DP_TILE, DP_TILE, row);
+        for (int i = 0; i < DP_TILE; ++i) out[i * stride] = row[i];
     }
 }

@@ -47,6 +47,8 @@ static void print_tile(float* rgba, double shift)
     }
 }
 
+#define RGBA ((const char* const[]){"R", "G", "B", "A"})
+
 // frames in which two tiles change, after a trail of `trail` tiles, each a new file as in a bake;
 // [s] a frame, bytes of the last
 static double walk(int tiles, int trail, const char* stem, double* whole, long* size)
@@ -60,7 +62,7 @@ static double walk(int tiles, int trail, const char* stem, double* whole, long* 
     double       took[COUNT];
     DpFrames*    frames;
     const double start = seconds();
-    if (dp_frames_create(&frames, tiles, tiles, NULL, 0) != DP_OK) exit(1);
+    if (dp_frames_create(&frames, tiles, tiles, RGBA, 4, NULL, 0) != DP_OK) exit(1);
     for (int k = 0; k < trail; ++k) {
         print_tile(rgba, 0.01 * k);
         dp_frames_set_tile(frames, k % tiles, k / tiles, rgba, 0);
@@ -97,7 +99,7 @@ int main(int count, char** word)
     static float rgba[DP_TILE * DP_TILE * 4];
     double       took[100];
     DpFrames*    frames;
-    if (dp_frames_create(&frames, 1, 1, NULL, 0) != DP_OK) return 1;
+    if (dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 0) != DP_OK) return 1;
     for (int k = 0; k < 100; ++k) {
         print_tile(rgba, 0.1 * k);
         const double from = seconds();

@@ -99,7 +99,7 @@ TEST(a_full_disk_leaves_the_old_frame)
     const char*  path = world_path("frame.exr");
     DpFrames*    frames;
     for (int k = 0; k < DP_TILE * DP_TILE * 4; ++k) rgba[k] = 0.5f;
-    CHECK(dp_frames_create(&frames, 2, 2, NULL, 0) == DP_OK);
+    CHECK(dp_frames_create(&frames, 2, 2, RGBA, 4, NULL, 0) == DP_OK);
     CHECK(dp_frames_write(frames, path, 0.0) == DP_OK);
     CHECK(dp_frames_set_tile(frames, 0, 0, rgba, 0) == DP_OK);
     disk_room = 100;

@@ -49,7 +49,7 @@ TEST(what_is_set_is_what_is_read)
     const char*  path = world_path("frame.exr");
     DpFrames*    frames;
     const DpNote notes[] = {{"cell", NULL, 0.01}, {"soil", "dry-sand \xc3\xa9", 0}};
-    CHECK(dp_frames_create(&frames, 3, 2, notes, 2) == DP_OK);
+    CHECK(dp_frames_create(&frames, 3, 2, RGBA, 4, notes, 2) == DP_OK);
     const struct
     {
         int      tx, ty;
@@ -80,7 +80,7 @@ TEST(untouched_ground_costs_next_to_nothing)
     unsigned     seeds[256] = {0};
     DpFrames*    frames;
     const size_t before = dp_bytes_live();
-    CHECK(dp_frames_create(&frames, 16, 16, NULL, 0) == DP_OK);
+    CHECK(dp_frames_create(&frames, 16, 16, RGBA, 4, NULL, 0) == DP_OK);
     CHECK(dp_bytes_live() - before < 2000000);  // pixels would take 16.8 MB
     CHECK(dp_frames_write(frames, path, 0.0) == DP_OK);
     static unsigned char bytes[100000];
@@ -116,7 +116,7 @@ TEST(the_same_bytes_for_any_number_of_workers)
     for (int workers = 1; workers <= 4; workers += 3) {
         Job         job = {NULL, rgba};
         const char* path = world_path("threads.exr");
-        CHECK(dp_frames_create(&job.frames, 8, 8, NULL, 0) == DP_OK);
+        CHECK(dp_frames_create(&job.frames, 8, 8, RGBA, 4, NULL, 0) == DP_OK);
         dp_parallel_for(64, workers, set_one, &job);
         CHECK(dp_frames_write(job.frames, path, 1.0) == DP_OK);
         if (workers == 1) {
@@ -131,23 +131,53 @@ TEST(the_same_bytes_for_any_number_of_workers)
     free(rgba);
 }
 
+TEST(channels_are_found_by_name)
+{
+    static float      value[SIDE * SIDE * 3];
+    const char* const channel[] = {"pressure_time", "compression", "heap"};
+    const char*       path = world_path("maps.exr");
+    DpFrames*         frames;
+    CHECK(dp_frames_create(&frames, 1, 1, channel, 3, NULL, 0) == DP_OK);
+    CHECK(dp_frames_channels(frames) == 3);
+    for (int k = 0; k < SIDE * SIDE * 3; ++k) value[k] = (float)(k % 3 * 10000 + k / 3);
+    CHECK(dp_frames_set_tile(frames, 0, 0, value, 0) == DP_OK);
+    CHECK(dp_frames_write(frames, path, 1.0) == DP_OK);
+    DpMapFile* map = NULL;
+    CHECK(dp_maps_read(path, &map) == DP_OK);
+    CHECK(map && map->channel_count == 3);
+    for (int c = 0; map && c < 3; ++c)
+        for (int k = 0; k < 3; ++k) {
+            if (strcmp(map->channel[c], channel[k]) != 0) continue;
+            for (int n = 0; n < SIDE * SIDE; ++n)
+                CHECK(map->value[c * SIDE * SIDE + n] == (float)(k * 10000 + n));
+        }
+    dp_map_file_destroy(map);
+    unlink(path);
+    dp_frames_destroy(frames);
+}
+
 TEST(bad_arguments_are_refused)
 {
     DpFrames*    frames = NULL;
     const DpNote nameless = {NULL, "x", 0}, taken = {"compression", "x", 0},
                  twice = {"time", "x", 0};
     const DpNote empty = {"", "x", 0}, endless = {"a-name-of-more-than-thirty-one-letters", "x", 0};
-    CHECK(dp_frames_create(&frames, 0, 4, NULL, 0) == DP_BAD_ARGUMENT);
-    CHECK(dp_frames_create(&frames, 4, -1, NULL, 0) == DP_BAD_ARGUMENT);
-    CHECK(dp_frames_create(&frames, 65536, 65536, NULL, 0) == DP_BAD_ARGUMENT);
-    CHECK(dp_frames_create(&frames, 1, 1, NULL, 1) == DP_BAD_ARGUMENT);
-    CHECK(dp_frames_create(NULL, 1, 1, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 0, 4, RGBA, 4, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 4, -1, RGBA, 4, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 65536, 65536, RGBA, 4, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 1) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(NULL, 1, 1, RGBA, 4, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 1, 1, RGBA, 0, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 1, 1, NULL, 4, NULL, 0) == DP_BAD_ARGUMENT);
+    const char *const twice_named[] = {"heap", "heap"}, *const unnamed[] = {"heap", NULL};
+    CHECK(dp_frames_create(&frames, 1, 1, twice_named, 2, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_frames_create(&frames, 1, 1, unnamed, 2, NULL, 0) == DP_BAD_ARGUMENT);
     const DpNote* bad[] = {&nameless, &taken, &twice, &empty, &endless};
     for (int k = 0; k < 5; ++k)
-        CHECK(dp_frames_create(&frames, 1, 1, bad[k], 1) == DP_BAD_ARGUMENT);
+        CHECK(dp_frames_create(&frames, 1, 1, RGBA, 4, bad[k], 1) == DP_BAD_ARGUMENT);
     CHECK(frames == NULL);
     static float rgba[SIDE * SIDE * 4];
-    CHECK(dp_frames_create(&frames, 2, 1, NULL, 0) == DP_OK);
+    CHECK(dp_frames_create(&frames, 2, 1, RGBA, 4, NULL, 0) == DP_OK);
     CHECK(dp_frames_set_tile(frames, 2, 0, rgba, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_frames_set_tile(frames, 0, 1, rgba, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_frames_set_tile(frames, -1, 0, rgba, 0) == DP_BAD_ARGUMENT);
@@ -171,7 +201,7 @@ TEST(no_memory_is_survived)
     DpStatus     status;
     do {
         dp_alloc_fail_after(tries++);
-        status = dp_frames_create(&frames, 2, 2, &note, 1);
+        status = dp_frames_create(&frames, 2, 2, RGBA, 4, &note, 1);
         CHECK(status == DP_OK || status == DP_NO_MEMORY);
     } while (status != DP_OK && tries < 1000);
     CHECK(status == DP_OK && tries > 5);
@@ -207,6 +237,7 @@ int main(void)
     RUN(what_is_set_is_what_is_read);
     RUN(untouched_ground_costs_next_to_nothing);
     RUN(the_same_bytes_for_any_number_of_workers);
+    RUN(channels_are_found_by_name);
     RUN(bad_arguments_are_refused);
     RUN(no_memory_is_survived);
     world_end();

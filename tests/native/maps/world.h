@@ -9,6 +9,8 @@
 #include "check.h"
 #include "maps/maps.h"
 
+#define RGBA ((const char* const[]){"R", "G", "B", "A"})  // as frames have them
+
 static char world_folder[64];
 
 static inline const char* world_path(const char* name)

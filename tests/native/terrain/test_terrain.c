@@ -2,6 +2,9 @@
 
 #include "terrain/ground.h"
 
+static const DpField playback[] = {DP_FIELD_HEIGHT_CHANGE, DP_FIELD_PLANT_STRENGTH,
+                                   DP_FIELD_COMPRESSION, DP_FIELD_PRESSURE_TIME};
+
 typedef struct Visits
 {
     int  count;
@@ -49,7 +52,7 @@ TEST(untouched_ground_costs_nothing)
     CHECK(normal.x == 0.0 && normal.y == 0.0 && normal.z == 1.0);
     float rgba[DP_TILE * DP_TILE * 4];
     rgba[17] = 3.0f;
-    dp_terrain_tile_rgba(terrain, 3, -9, rgba);
+    for (int c = 0; c < 4; ++c) dp_terrain_tile(terrain, 3, -9, playback[c], rgba + c, 4);
     for (int n = 0; n < DP_TILE * DP_TILE * 4; ++n) CHECK(rgba[n] == 0.0f);
     float field[9] = {9.0f};
     CHECK(dp_terrain_read(terrain, DP_FIELD_HEAP, 999000, -5, 3, 3, field) == DP_OK);
@@ -155,7 +158,7 @@ TEST(pixels_of_a_tile)
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
     CHECK(write_cells(terrain, -64, -62, -1, 0, 0.03f, 0.01f, 5.0f) == DP_OK);
     static float rgba[DP_TILE * DP_TILE * 4];
-    dp_terrain_tile_rgba(terrain, -1, -1, rgba);
+    for (int c = 0; c < 4; ++c) dp_terrain_tile(terrain, -1, -1, playback[c], rgba + c, 4);
     const float* pixel = rgba + (size_t)63 * DP_TILE * 4;  // the highest row
     for (int i = 0; i < 3; ++i, pixel += 4) {
         CHECK(pixel[0] == (i < 2 ? 0.01f - 0.03f : 0.0f));
@@ -260,7 +263,7 @@ TEST(bad_arguments_are_refused)
     CHECK(dp_terrain_touch(terrain, 0, 0, 0, 1) == DP_BAD_ARGUMENT);
     float cell;
     CHECK(dp_terrain_read(terrain, DP_FIELD_HEAP, 0, 0, 0, 1, &cell) == DP_BAD_ARGUMENT);
-    CHECK(dp_terrain_read(terrain, (DpField)7, 0, 0, 1, 1, &cell) == DP_BAD_ARGUMENT);
+    CHECK(dp_terrain_read(terrain, (DpField)8, 0, 0, 1, 1, &cell) == DP_BAD_ARGUMENT);
     CHECK(patch == NULL && dp_terrain_tile_count(terrain) == 0);
     dp_loan_destroy(loan);
     dp_terrain_destroy(terrain);

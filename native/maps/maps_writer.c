@@ -1,0 +1,263 @@
+// maps/maps_writer.c - files written in the background: what changed is copied, one thread packs it
+// and writes it, in order, while the ground goes on changing.
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "maps/maps.h"
+
+#define MOST_WAITING 4  // given and not yet written: more would only take memory
+#define MANY_TILES 16   // changed at once: worth every core
+
+struct DpTiles
+{
+    DpTiles*   next;
+    DpFrames*  frames;
+    size_t     size;   // floats of a tile
+    int*       tile;   // place in the picture (room, 2)
+    float*     value;  // (room, size)
+    int        count, room;
+    char*      path;  // "" = only packed
+    size_t     path_room;
+    double     time;
+    atomic_int failed;  // DpStatus of a tile that could not be packed
+};
+
+struct DpWriter
+{
+    pthread_t       thread;
+    pthread_mutex_t lock;
+    pthread_cond_t  given, written;
+    DpTiles *       first, *last;  // waiting
+    DpTiles*        idle;          // their memory is used again
+    int             on_the_way;    // waiting or being written
+    int             workers;
+    bool            threaded, leave;
+    DpStatus        status;  // of the first failure nobody was told of
+    char*           path;    // and its file
+    char*           told;
+};
+
+// ---- what is given -----------------------------------------------------------------------------
+
+static void free_tiles(DpTiles* tiles)
+{
+    while (tiles) {
+        DpTiles* next = tiles->next;
+        dp_free(tiles->tile);
+        dp_free(tiles->value);
+        dp_free(tiles->path);
+        dp_free(tiles);
+        tiles = next;
+    }
+}
+
+// Room for one more tile; false when there is no memory.
+static bool make_room(DpTiles* tiles)
+{
+    if (tiles->count < tiles->room) return true;
+    const size_t room = tiles->room ? 2 * (size_t)tiles->room : 16;
+    int*         tile = dp_realloc(tiles->tile, 2 * room, sizeof *tile);
+    if (tile) tiles->tile = tile;
+    float* value = tile ? dp_realloc(tiles->value, room * tiles->size, sizeof *value) : NULL;
+    if (!value) return false;
+    tiles->value = value;
+    tiles->room = (int)room;
+    return true;
+}
+
+float* dp_tiles_add(DpTiles* tiles, int tx, int ty)
+{
+    if (!make_room(tiles)) return NULL;
+    tiles->tile[2 * tiles->count] = tx;
+    tiles->tile[2 * tiles->count + 1] = ty;
+    return tiles->value + tiles->size * (size_t)tiles->count++;
+}
+
+static bool set_path(DpTiles* tiles, const char* path)
+{
+    const size_t size = path ? strlen(path) + 1 : 1;
+    if (size > tiles->path_room) {
+        char* longer = dp_realloc(tiles->path, size + 64, 1);
+        if (!longer) return false;
+        tiles->path = longer;
+        tiles->path_room = size + 64;
+    }
+    memcpy(tiles->path, path ? path : "", size);
+    return true;
+}
+
+// ---- the thread --------------------------------------------------------------------------------
+
+static void pack_tile(void* context, int index, int worker)
+{
+    DpTiles*       tiles = context;
+    const int*     at = tiles->tile + 2 * index;
+    const DpStatus status = dp_frames_set_tile(tiles->frames, at[0], at[1],
+                                               tiles->value + tiles->size * (size_t)index, worker);
+    if (status != DP_OK) atomic_store(&tiles->failed, (int)status);
+}
+
+static DpStatus write_out(DpTiles* tiles, int workers)
+{
+    // the other cores simulate; only a flood of tiles is worth taking them
+    atomic_store(&tiles->failed, DP_OK);
+    dp_parallel_for(tiles->count, tiles->count < MANY_TILES ? 1 : workers, pack_tile, tiles);
+    const DpStatus status = (DpStatus)atomic_load(&tiles->failed);
+    if (status != DP_OK || !*tiles->path) return status;
+    return dp_frames_write(tiles->frames, tiles->path, tiles->time);
+}
+
+static void put_away(DpWriter* writer, DpTiles* tiles)
+{
+    tiles->next = writer->idle;
+    writer->idle = tiles;
+}
+
+static DpTiles* take_first(DpWriter* writer)
+{
+    DpTiles* tiles = writer->first;
+    writer->first = tiles->next;
+    if (!writer->first) writer->last = NULL;
+    return tiles;
+}
+
+// Keep what failed, with its file's name; what waits is left out.
+static void fail(DpWriter* writer, DpTiles* tiles, DpStatus status)
+{
+    writer->status = status;
+    dp_free(writer->path);
+    writer->path = tiles->path;
+    tiles->path = NULL;
+    tiles->path_room = 0;
+    while (writer->first) {
+        put_away(writer, take_first(writer));
+        --writer->on_the_way;
+    }
+}
+
+// Write what waits longest, with the lock held before and after.
+static void write_next(DpWriter* writer)
+{
+    DpTiles* tiles = take_first(writer);
+    pthread_mutex_unlock(&writer->lock);
+    const DpStatus status = write_out(tiles, writer->workers);
+    pthread_mutex_lock(&writer->lock);
+    if (status != DP_OK) fail(writer, tiles, status);
+    put_away(writer, tiles);
+    --writer->on_the_way;
+    pthread_cond_broadcast(&writer->written);
+}
+
+static void* run(void* context)
+{
+    DpWriter* writer = context;
+    pthread_mutex_lock(&writer->lock);
+    for (;;) {
+        while (!writer->first && !writer->leave) pthread_cond_wait(&writer->given, &writer->lock);
+        if (!writer->first) break;
+        write_next(writer);
+    }
+    pthread_mutex_unlock(&writer->lock);
+    return NULL;
+}
+
+// ---- a life ------------------------------------------------------------------------------------
+
+DpStatus dp_writer_create(DpWriter** writer, int workers)
+{
+    DpWriter* made = dp_alloc(1, sizeof *made);
+    if (!made) return DP_NO_MEMORY;
+    made->workers = workers < 1 ? 1 : workers;
+    pthread_mutex_init(&made->lock, NULL);
+    pthread_cond_init(&made->given, NULL);
+    pthread_cond_init(&made->written, NULL);
+    made->threaded = pthread_create(&made->thread, NULL, run, made) == 0;
+    *writer = made;
+    return DP_OK;
+}
+
+void dp_writer_destroy(DpWriter* writer)
+{
+    if (!writer) return;
+    pthread_mutex_lock(&writer->lock);
+    writer->leave = true;
+    pthread_cond_broadcast(&writer->given);
+    pthread_mutex_unlock(&writer->lock);
+    if (writer->threaded) pthread_join(writer->thread, NULL);
+    pthread_cond_destroy(&writer->written);
+    pthread_cond_destroy(&writer->given);
+    pthread_mutex_destroy(&writer->lock);
+    free_tiles(writer->first);
+    free_tiles(writer->idle);
+    dp_free(writer->path);
+    dp_free(writer->told);
+    dp_free(writer);
+}
+
+DpTiles* dp_writer_tiles(DpWriter* writer, DpFrames* frames)
+{
+    const size_t size = (size_t)DP_TILE * DP_TILE * (size_t)dp_frames_channels(frames);
+    pthread_mutex_lock(&writer->lock);
+    while (writer->on_the_way >= MOST_WAITING) pthread_cond_wait(&writer->written, &writer->lock);
+    DpTiles* tiles = writer->idle;
+    if (tiles) writer->idle = tiles->next;
+    pthread_mutex_unlock(&writer->lock);
+    if (!tiles) tiles = dp_alloc(1, sizeof *tiles);
+    if (!tiles) return NULL;
+    if (tiles->size != size) tiles->room = 0;  // the memory is asked for anew
+    tiles->next = NULL;
+    tiles->frames = frames;
+    tiles->size = size;
+    tiles->count = 0;
+    return tiles;
+}
+
+DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, double time)
+{
+    if (!set_path(tiles, path)) {
+        dp_writer_drop(writer, tiles);
+        return DP_NO_MEMORY;
+    }
+    tiles->time = time;
+    pthread_mutex_lock(&writer->lock);
+    if (writer->status != DP_OK) {
+        put_away(writer, tiles);
+    } else {
+        if (writer->last)
+            writer->last->next = tiles;
+        else
+            writer->first = tiles;
+        writer->last = tiles;
+        ++writer->on_the_way;
+        if (!writer->threaded) write_next(writer);
+        pthread_cond_signal(&writer->given);
+    }
+    pthread_mutex_unlock(&writer->lock);
+    return DP_OK;
+}
+
+void dp_writer_drop(DpWriter* writer, DpTiles* tiles)
+{
+    pthread_mutex_lock(&writer->lock);
+    put_away(writer, tiles);
+    pthread_mutex_unlock(&writer->lock);
+}
+
+DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path)
+{
+    pthread_mutex_lock(&writer->lock);
+    while (wait && writer->on_the_way > 0) pthread_cond_wait(&writer->written, &writer->lock);
+    const DpStatus status = writer->status;
+    writer->status = DP_OK;
+    if (status != DP_OK) {
+        dp_free(writer->told);
+        writer->told = writer->path;
+        writer->path = NULL;
+    }
+    pthread_mutex_unlock(&writer->lock);
+    *path = status != DP_OK && writer->told ? writer->told : "";
+    return status;
+}

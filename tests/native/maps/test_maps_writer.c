@@ -1,0 +1,125 @@
+// Written in the background is written as if nobody had waited, and nothing after a failure.
+#include "maps/world.h"
+
+#define SIDE DP_TILE
+
+static void paint(float* rgba, int k)
+{
+    for (int n = 0; n < SIDE * SIDE * 4; ++n) rgba[n] = (float)(n % 97 * (k + 1));
+}
+
+// a picture in which tile k % 4 changes in file k, with the writer or without; its files as bytes
+static size_t film(bool background, unsigned char* bytes, size_t most)
+{
+    static float rgba[SIDE * SIDE * 4];
+    DpFrames*    frames;
+    DpWriter*    writer = NULL;
+    const char*  failed;
+    char         name[32];
+    size_t       size = 0;
+    CHECK(dp_frames_create(&frames, 2, 2, RGBA, 4, NULL, 0) == DP_OK);
+    if (background) CHECK(dp_writer_create(&writer, 2) == DP_OK);
+    for (int k = 0; k < 30; ++k) {  // more than may wait
+        snprintf(name, sizeof name, "film_%02d.exr", k);
+        const char* path = k % 3 == 2 ? NULL : world_path(name);  // some are only packed
+        if (writer) {
+            DpTiles* tiles = dp_writer_tiles(writer, frames);
+            paint(dp_tiles_add(tiles, k % 2, k / 2 % 2), k);
+            CHECK(dp_writer_give(writer, tiles, path, k) == DP_OK);
+        } else {
+            paint(rgba, k);
+            CHECK(dp_frames_set_tile(frames, k % 2, k / 2 % 2, rgba, 0) == DP_OK);
+            if (path) CHECK(dp_frames_write(frames, path, k) == DP_OK);
+        }
+    }
+    if (writer) CHECK(dp_writer_told(writer, true, &failed) == DP_OK && !*failed);
+    for (int k = 0; k < 30; ++k) {
+        if (k % 3 == 2) continue;
+        snprintf(name, sizeof name, "film_%02d.exr", k);
+        size += world_bytes(world_path(name), bytes + size, most - size);
+        unlink(world_path(name));
+    }
+    dp_writer_destroy(writer);
+    dp_frames_destroy(frames);
+    return size;
+}
+
+TEST(the_same_files_in_the_background)
+{
+    enum
+    {
+        MOST = 4000000
+    };
+    unsigned char* plain = malloc(MOST);
+    unsigned char* other = malloc(MOST);
+    const size_t   size = film(false, plain, MOST);
+    CHECK(size > 20000 && size < MOST);
+    CHECK(film(true, other, MOST) == size && memcmp(plain, other, size) == 0);
+    free(plain);
+    free(other);
+}
+
+TEST(a_flood_of_tiles_is_one_file)
+{
+    DpFrames*   frames;
+    DpWriter*   writer;
+    const char *failed, *path = world_path("flood.exr");
+    CHECK(dp_frames_create(&frames, 6, 6, RGBA, 4, NULL, 0) == DP_OK);
+    CHECK(dp_writer_create(&writer, 4) == DP_OK);
+    DpTiles* tiles = dp_writer_tiles(writer, frames);
+    for (int k = 0; k < 36; ++k) paint(dp_tiles_add(tiles, k % 6, k / 6), k);
+    CHECK(dp_writer_give(writer, tiles, path, 0.0) == DP_OK);
+    CHECK(dp_writer_told(writer, true, &failed) == DP_OK);
+    DpMapFile* map = NULL;
+    CHECK(dp_maps_read(path, &map) == DP_OK);
+    for (int k = 0; map && k < 36; ++k)  // of channel A, the first in the file; its first cell is 3
+        CHECK(map->value[(size_t)(k / 6 * SIDE) * 6 * SIDE + (size_t)(k % 6 * SIDE)] ==
+              (float)(3 * (k + 1)));
+    dp_map_file_destroy(map);
+    unlink(path);
+    dp_writer_destroy(writer);
+    dp_frames_destroy(frames);
+}
+
+TEST(nothing_is_written_after_a_failure_until_it_was_told)
+{
+    DpFrames*   frames;
+    DpWriter*   writer;
+    const char* failed;
+    char        bad[200], name[32];
+    snprintf(bad, sizeof bad, "%s", world_path("nowhere/film.exr"));
+    CHECK(dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 0) == DP_OK);
+    CHECK(dp_writer_create(&writer, 1) == DP_OK);
+    CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), bad, 0.0) == DP_OK);
+    for (int k = 0; k < 5; ++k) {
+        snprintf(name, sizeof name, "after_%d.exr", k);
+        CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), world_path(name), k) ==
+              DP_OK);
+    }
+    CHECK(dp_writer_told(writer, true, &failed) == DP_CANNOT_OPEN);
+    CHECK(strcmp(failed, bad) == 0);
+    for (int k = 0; k < 5; ++k) {
+        snprintf(name, sizeof name, "after_%d.exr", k);
+        CHECK(access(world_path(name), F_OK) != 0);
+    }
+    CHECK(dp_writer_told(writer, true, &failed) == DP_OK && !*failed);  // told once
+    const char* path = world_path("again.exr");
+    CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), path, 0.0) == DP_OK);
+    CHECK(dp_writer_told(writer, true, &failed) == DP_OK);
+    CHECK(access(path, F_OK) == 0);
+    unlink(path);
+    DpTiles* tiles = dp_writer_tiles(writer, frames);
+    dp_writer_drop(writer, tiles);
+    dp_writer_destroy(writer);
+    dp_writer_destroy(NULL);
+    dp_frames_destroy(frames);
+}
+
+int main(void)
+{
+    RUN(the_same_files_in_the_background);
+    RUN(a_flood_of_tiles_is_one_file);
+    RUN(nothing_is_written_after_a_failure_until_it_was_told);
+    world_end();
+    return check_done();
+}
