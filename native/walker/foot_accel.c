@@ -13,7 +13,8 @@
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define STEP_SHORTEST 0.15  // touch-downs closer than this are one step [s]
+#define STEP_SHORTEST 0.15  // touch-downs closer than this are one step             [s]
+#define FALLS 0.5           // who flies falls with this share of g at least          [-]
 
 static int by_value(const void* a, const void* b)
 {
@@ -57,15 +58,54 @@ static double step_time(const uint8_t* limb_on, int limbs, int times, double rat
     return scratch[count / 2];
 }
 
-// does the walker ever leave the ground?
-static bool flies(const uint8_t* limb_on, int limbs, int times)
+// where no limb touches; is that anywhere?
+static bool in_air(const uint8_t* limb_on, int limbs, int times, uint8_t* air)
 {
+    bool any = false;
     for (int t = 0; t < times; ++t) {
-        bool on = false;
-        for (int i = 0; i < limbs; ++i) on = on || limb_on[(size_t)i * (size_t)times + (size_t)t];
-        if (!on) return true;
+        air[t] = 1;
+        for (int i = 0; i < limbs; ++i)
+            if (limb_on[(size_t)i * (size_t)times + (size_t)t]) air[t] = 0;
+        any = any || air[t];
     }
-    return false;
+    return any;
+}
+
+// twice the curvature of the parabola through equally spaced values: their acceleration
+static double parabola(const double* value, int count, double rate)
+{
+    double sum = 0.0, square = 0.0;
+    for (int k = 0; k < count; ++k) {
+        // the second discrete Legendre polynomial, square to every line
+        const double x = (double)k - (double)(count - 1) / 2.0;
+        const double p = x * x - ((double)count * (double)count - 1.0) / 12.0;
+        sum += p * value[k], square += p * p;
+    }
+    return square > 0.0 ? 2.0 * sum / square * rate * rate : 0.0;
+}
+
+// keep of these times the flights: those in which the body falls; is there one?
+static bool falls(uint8_t* air, const double* height, int times, double rate)
+{
+    bool any = false;
+    for (int t = 0; t < times;) {
+        int end = t;
+        while (end < times && air[end]) ++end;
+        if (parabola(height + t, end - t, rate) < -FALLS * DP_GRAVITY)
+            any = true;
+        else
+            for (int k = t; k < end; ++k) air[k] = 0;
+        t = end > t ? end : t + 1;
+    }
+    return any;
+}
+
+static void read_line(const DpGait* gait, int walker, int c, double* line)
+{
+    for (int t = 0; t < gait->times; ++t) {
+        const DpVec3 com = walker_com(gait, walker, t);
+        line[t] = c == 0 ? com.x : c == 1 ? com.y : com.z;
+    }
 }
 
 DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
@@ -73,27 +113,31 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
 {
     const int times = gait->times;
     double*   line = dp_alloc((size_t)times, sizeof(double));
-    double*   scratch = dp_alloc(3 * (size_t)times + 8, sizeof(double));
-    if (!line || !scratch) {
-        dp_free(line), dp_free(scratch);
+    double*   scratch = dp_alloc(walker_fly_scratch(times) + 8, sizeof(double));
+    uint8_t*  air = dp_alloc((size_t)times, 1);
+    if (!line || !scratch || !air) {
+        dp_free(line), dp_free(scratch), dp_free(air);
         return DP_NO_MEMORY;
     }
     const double step = step_time(limb_on, limbs, times, rate, line);
+    bool         flies = in_air(limb_on, limbs, times, air);
     const double up = step > 0.0 ? dp_clamp(options->cutoff_share / step, options->cutoff_low,
                                             options->cutoff_high)
-                      : flies(limb_on, limbs, times) ? options->cutoff_high
-                                                     : options->cutoff_low;
-    for (int c = 0; c < 3; ++c) {
-        for (int t = 0; t < times; ++t) {
-            const DpVec3 com = walker_com(gait, walker, t);
-            line[t] = c == 0 ? com.x : c == 1 ? com.y : com.z;
-        }
-        walker_low_pass(line, times, rate, c < 2 ? up * options->cutoff_level : up, scratch);
+                      : flies    ? options->cutoff_high
+                                 : options->cutoff_low;
+    for (int c = 2; c >= 0; --c) {
+        const double cutoff = c < 2 ? up * options->cutoff_level : up;
+        read_line(gait, walker, c, line);
+        if (c == 2 && flies) flies = falls(air, line, times, rate);
+        if (flies)
+            walker_fly(line, air, times, rate, cutoff, c == 2 ? -DP_GRAVITY : 0.0, scratch);
+        else
+            walker_low_pass(line, times, rate, cutoff, scratch);
         for (int t = 0; t < times; ++t) {
             accel[c * times + t] = walker_acceleration(line, times, t, rate);
             if (c < 2) way[c * times + t] = walker_velocity(line, times, t, rate);
         }
     }
-    dp_free(line), dp_free(scratch);
+    dp_free(line), dp_free(scratch), dp_free(air);
     return DP_OK;
 }

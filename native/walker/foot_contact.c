@@ -8,6 +8,8 @@
 //   test_foot_contact.c, hovering_clip_touches.
 //   TRAIL (4): what comes down steeper than 45 degrees touches at any speed; falls and landings
 //   would begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
+//   TRAIL (4): limits tell that a foot stands, not since when; foot_edge.c moves the edges.
+//   test_foot_contact.c, the_ground_marks_the_edges.
 //   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.
 #include <math.h>
 #include <stdlib.h>
@@ -17,11 +19,9 @@
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define SUPPORT_CUTOFF 8.0    // low-pass of a_com for the question whether it falls        [Hz]
-#define SUPPORT_SHORTEST 0.1  // shorter gaps without a foot may well be a flight's edge    [s]
-#define RISE_TO_SPEED 5.0     // a foot this much faster carries as little as one 1 m higher [1/s]
-#define CLEARANCE_MOST 0.08   // a foot at rest this far above the lowest one hangs in the air [m]
-#define IN_PLACE 0.4          // feet of a walker that stays slide at least this fast     [m/s]
+#define SUPPORT_CUTOFF 8.0   // low-pass of a_com for the question whether it falls        [Hz]
+#define CLEARANCE_MOST 0.08  // a foot at rest this far above the lowest one hangs in the air [m]
+#define IN_PLACE 0.4         // feet of a walker that stays slide at least this fast     [m/s]
 
 DpContactLimits dp_contact_limits_default(void)
 {
@@ -48,6 +48,7 @@ typedef struct Watch
     double*                height;   // over the ground; NaN = no ground [m]   (K, T)
     double*                speed;    // [m/s]                                  (K, T)
     double*                drop;     // downward speed over sideways speed [m/s]  (K, T)
+    double*                rise;     // upward speed [m/s]                     (K, T)
     DpVec3*                belt;     // the surface under a walker that stays in place [m/s] (W)
     double*                gate;     // speed below which a point may touch [m/s] (W, T)
     double*                fall;     // a_com upward [m/s^2]                   (W, T)
@@ -58,7 +59,8 @@ typedef struct Watch
 
 static void close_watch(Watch* w)
 {
-    dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->gate), dp_free(w->fall);
+    dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->rise), dp_free(w->gate),
+        dp_free(w->fall);
     dp_free(w->belt);
     dp_free(w->on), dp_free(w->scratch), dp_free(w->line);
 }
@@ -70,13 +72,14 @@ static bool open_watch(Watch* w)
     w->height = dp_alloc(points * times, sizeof(double));
     w->speed = dp_alloc(points * times, sizeof(double));
     w->drop = dp_alloc(points * times, sizeof(double));
+    w->rise = dp_alloc(points * times, sizeof(double));
     w->belt = dp_alloc(walkers, sizeof(DpVec3));
     w->gate = dp_alloc(walkers * times, sizeof(double));
     w->fall = dp_alloc(walkers * times, sizeof(double));
     w->on = dp_alloc(points * times, 1);
     w->scratch = dp_alloc(3 * times + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
-    return w->height && w->speed && w->drop && w->belt && w->gate && w->fall && w->on &&
+    return w->height && w->speed && w->drop && w->rise && w->belt && w->gate && w->fall && w->on &&
            w->scratch && w->line;
 }
 
@@ -127,6 +130,7 @@ static void watch_point(Watch* w, int k, const double* ground)
     for (int t = 0; t < w->gait->times; ++t) {
         const DpVec3 v = dp_sub(line_velocity(w, t), w->belt[walker_of(w->gait, k)]);
         w->speed[row + (size_t)t] = dp_length(v);
+        w->rise[row + (size_t)t] = v.z;
         w->drop[row + (size_t)t] = -v.z - dp_length(dp_vec3(v.x, v.y, 0.0));
     }
 }
@@ -303,53 +307,6 @@ static void tidy(uint8_t* on, int times, double most)
     close_runs(on, times, 1, most);
 }
 
-// ---- somebody carries what does not fall
-// ----------------------------------------------------------
-
-static bool limb_on(const Watch* w, int walker, int t)
-{
-    for (int k = 0; k < w->gait->points; ++k)
-        if (walker_of(w->gait, k) == walker &&
-            w->on[(size_t)k * (size_t)w->gait->times + (size_t)t])
-            return true;
-    return false;
-}
-
-// the slowest lowest foot touches, at its own height
-static void support(Watch* w, int walker, int t, const double* clearance)
-{
-    const DpGait* gait = w->gait;
-    double        least = INFINITY, lowest = 0.0;
-    int           limb = -1;
-    for (int k = 0; k < gait->points; ++k) {
-        const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
-        if (walker_of(gait, k) != walker || isnan(w->height[at])) continue;
-        const double d = w->height[at] - clearance[k];
-        const double cost = w->speed[at] + RISE_TO_SPEED * d;
-        if (cost < least) least = cost, lowest = d, limb = limb_of(gait, k);
-    }
-    for (int k = 0; k < gait->points && limb >= 0; ++k) {
-        const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
-        if (limb_of(gait, k) != limb || isnan(w->height[at])) continue;
-        const double d = w->height[at] - clearance[k];
-        if (d <= lowest + w->limits->touch_height) w->on[at] = 1;
-    }
-}
-
-static void support_walker(Watch* w, int walker, const double* clearance)
-{
-    const int     times = w->gait->times;
-    const double* fall = w->fall + (size_t)walker * (size_t)times;
-    const double  floats = -w->limits->support_fall * DP_GRAVITY;
-    for (int t = 0; t < times;) {
-        int end = t;
-        while (end < times && fall[end] > floats && !limb_on(w, walker, end)) ++end;
-        if ((double)(end - t) >= SUPPORT_SHORTEST * w->rate)
-            for (int s = t; s < end; ++s) support(w, walker, s, clearance);
-        t = end > t ? end : t + 1;
-    }
-}
-
 DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpContactLimits* limits,
                          uint8_t* touching, double* clearance)
 {
@@ -381,7 +338,11 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
         touch_point(&w, k, clearance[k]);
         tidy(w.on + (size_t)k * (size_t)times, times, shortest);
     }
-    for (int walker = 0; walker < gait->walkers; ++walker) support_walker(&w, walker, clearance);
+    walker_edges(gait, w.height, clearance, w.rise, limits->release_speed, w.on, w.rate);
+    for (int k = 0; k < gait->points; ++k) tidy(w.on + (size_t)k * (size_t)times, times, shortest);
+    for (int walker = 0; walker < gait->walkers; ++walker)
+        walker_support(gait, walker, w.height, w.speed, clearance,
+                       w.fall + (size_t)walker * (size_t)times, limits, w.rate, w.on);
     memset(touching, 0, (size_t)gait->parts * (size_t)times);
     for (int k = 0; k < gait->points; ++k) {
         uint8_t*       part = touching + (size_t)gait->point_part[k] * (size_t)times;

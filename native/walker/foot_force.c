@@ -7,8 +7,7 @@
 //   TRAIL (3): `inertia` replaces weight and landing impulse by Newton's law for the whole body, so
 //   that runs, jumps and push-offs carry what they really carry. test_foot_force.c,
 //   jump_weighs_right. SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share. TRAIL (3):
-//   v(t0 - dt) is measured over a fixed 1/30 s before touch-down, so that the landing does not
-//   depend on the frame rate. test_foot_force.c, impulse_of_fall.
+//   v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,13 +17,12 @@
 #include "walker/walker_inside.h"
 
 #define PI 3.14159265358979323846
-#define LATCH_TIME (1.0 / 30.0)  // v0 is measured over this before touch-down      [s]
-#define LEAST_PULL 0.2           // a_z + g counts as no less than this share of g   [-]
-#define STILL 0.1                // accelerations below this share of g are near rest [-]
-#define SOLE_LIFT 0.04           // a point this far above its limb's lowest carries nothing [m]
-#define TIP_CAPACITY 0.25        // toes carry a quarter of what heel or ball does      [-]
-#define TRAVEL 0.5               // who moves this fast is under way                  [m/s]
-#define GRIP 0.6                 // feet oppose each other by no more of their load   [-]
+#define LEAST_PULL 0.2     // a_z + g counts as no less than this share of g   [-]
+#define STILL 0.1          // accelerations below this share of g are near rest [-]
+#define SOLE_LIFT 0.04     // a point this far above its limb's lowest carries nothing [m]
+#define TIP_CAPACITY 0.25  // toes carry a quarter of what heel or ball does      [-]
+#define TRAVEL 0.5         // who moves this fast is under way                  [m/s]
+#define GRIP 0.6           // feet oppose each other by no more of their load   [-]
 
 DpLoadOptions dp_load_options_default(void)
 {
@@ -155,33 +153,6 @@ static void gather(Load* l, int walker, const uint8_t* touching)
 static bool begins(const uint8_t* on, int t)
 {
     return t > 0 && on[t] && !on[t - 1];
-}
-
-// the velocity of the mass centre at a sample, from the parabola through the last 1/30 s
-static DpVec3 latched_velocity(const Load* l, int t)
-{
-    const double half = LATCH_TIME / 2.0 * l->rate;  // in samples
-    if ((double)t < 2.0 * half) {
-        const int    from = 0, to = t > 0 ? t : 1;
-        const DpVec3 d =
-            dp_sub(walker_com(l->gait, l->walker, to), walker_com(l->gait, l->walker, from));
-        return dp_scale(d, l->rate / (double)(to - from));
-    }
-    DpVec3 x[3];
-    for (int k = 0; k < 3; ++k) {
-        // the parabola through the three samples around the time asked for
-        const double when = (double)t - half * (double)k;
-        int          mid = (int)floor(when + 0.5);
-        mid = mid < 1 ? 1 : mid > t - 1 && t >= 2 ? t - 1 : mid;
-        const double u = when - (double)mid;
-        const DpVec3 a = walker_com(l->gait, l->walker, mid - 1);
-        const DpVec3 b = walker_com(l->gait, l->walker, mid);
-        const DpVec3 c = walker_com(l->gait, l->walker, mid + 1);
-        x[k] = dp_add(dp_add(dp_scale(a, u * (u - 1.0) / 2.0), dp_scale(b, 1.0 - u * u)),
-                      dp_scale(c, u * (u + 1.0) / 2.0));
-    }
-    const DpVec3 d = dp_add(dp_sub(dp_scale(x[0], 3.0), dp_scale(x[1], 4.0)), x[2]);
-    return dp_scale(d, l->rate / (2.0 * half));
 }
 
 // J / tau of the limb at a sample, for a mass of 1. TRAIL (3), SOFT22 (6)-(8)
@@ -318,7 +289,8 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
         const size_t at = (size_t)i * times + (size_t)t;
         if (begins(l->limb_on + (size_t)i * times, t)) {
             l->landed[i] = t;
-            l->landing[i] = latched_velocity(l, t - 1);
+            l->landing[i] =
+                walker_landing_velocity(l->gait, l->walker, l->limb_on, l->limbs, l->rate, t - 1);
         }
         if (!l->limb_on[at]) continue;
         limb_points(l, &points, i, t);

@@ -1,5 +1,9 @@
 // walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5),
 // design 4.3.
+//
+// Departures
+//   Design 4.3 eases ramps in and out. With contacts timed by where the ground stops a foot and
+//   lets it go (foot_edge.c) weight goes over evenly: a heel is stiff and takes its load at once.
 #include <math.h>
 
 #include "base/assert.h"
@@ -115,11 +119,6 @@ static double ramp_time(const uint8_t* touching, int count, int times, int self,
                                                  : options->ramp_standing;
 }
 
-static double ease(double x, bool rolls)
-{
-    return rolls ? dp_clamp(x, 0.0, 1.0) : dp_smoothstep(x);
-}
-
 void walker_ramps(const uint8_t* touching, int count, int times, double rate,
                   const DpLoadOptions* options, bool rolls, double* weight)
 {
@@ -141,8 +140,8 @@ void walker_ramps(const uint8_t* touching, int count, int times, double rate,
             for (int s = t; s < end; ++s) {
                 const double since = ((double)(s - t) + 0.5) / rate;
                 const double left = ((double)(end - s) - 0.5) / rate;
-                w[s] = fmin(up > 0.0 ? ease(since / up, rolls) : 1.0,
-                            down > 0.0 ? ease(left / down, rolls) : 1.0);
+                w[s] = fmin(up > 0.0 ? dp_clamp(since / up, 0.0, 1.0) : 1.0,
+                            down > 0.0 ? dp_clamp(left / down, 0.0, 1.0) : 1.0);
             }
             t = end;
         }

@@ -9,6 +9,14 @@
 void   walker_low_pass(double* value, int count, double rate, double cutoff, double* scratch);
 size_t walker_low_pass_scratch(int count, double rate, double cutoff);
 
+// The same for a body that flies: free fall wherever it is in the air, smooth as below the cut-off
+// where it is carried.
+// @param air   where nothing carries it (count);  fall: its acceleration there [m/s^2]
+// @param scratch  (walker_fly_scratch(count)) doubles
+void   walker_fly(double* value, const uint8_t* air, int count, double rate, double cutoff,
+                  double fall, double* scratch);
+size_t walker_fly_scratch(int count);
+
 // First and second change in time at a sample, from its neighbours; one-sided at the ends.
 double walker_velocity(const double* value, int count, int at, double rate);
 double walker_acceleration(const double* value, int count, int at, double rate);
@@ -40,6 +48,22 @@ static inline DpVec3 walker_point(const DpGait* gait, int point)
     return at;
 }
 
+// Move the beginnings and ends of contacts to where the ground stops a foot and lets it go.
+// @param height, rise  of the points over the ground [m], and their upward speed [m/s] (K, T)
+// @param clearance     resting height of each point [m] (K)
+// @param fast          what comes down faster than this is timed by its height [m/s]
+// @param on            the points' contacts, changed (K, T)
+void walker_edges(const DpGait* gait, const double* height, const double* clearance,
+                  const double* rise, double fast, uint8_t* on, double rate);
+
+// A walker that does not fall is carried: where nobody touches, its lowest slowest foot does.
+// @param height, speed  of the points over the ground [m] [m/s] (K, T)
+// @param fall           acceleration of the mass centre upward [m/s^2] (T)
+// @param on             the points' contacts, changed (K, T)
+void walker_support(const DpGait* gait, int walker, const double* height, const double* speed,
+                    const double* clearance, const double* fall, const DpContactLimits* limits,
+                    double rate, uint8_t* on);
+
 // Take a slight slope of the recorded floor out of the heights of a walker's points.
 // @param height  over the given ground, changed; NaN = no ground [m]   (K, T)
 // @param speed   [m/s] (K, T);  slow: a point below this rests   [m/s]
@@ -52,6 +76,11 @@ DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, cons
 // Needs memory: DP_NO_MEMORY.
 DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
                            double rate, const DpLoadOptions* options, double* accel, double* way);
+
+// v0 of TRAIL (3): the velocity with which a limb touches after sample t, the last in the air.
+// @param limb_on  where the walker's limbs touch (limbs, T)
+DpVec3 walker_landing_velocity(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
+                               double rate, int t);
 
 // How much of the weight each of `count` supports carries: ramps first, corrected by the
 // zero-moment point where the supports are far apart. Design 4.3.

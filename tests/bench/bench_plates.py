@@ -3,7 +3,8 @@
 
     DESIRE_PATH_DATA=../shared/data PYTHONPATH=addon python tests/bench/bench_plates.py
 
-First each walk as it is, then seen otherwise (fewer frames, noise, another floor, fewer bones), then every
+First walkers whose forces are known because they were there first, walks to landings; these need no data.
+Then each measured walk as it is, then seen otherwise (fewer frames, noise, another floor, fewer bones), then every
 constant of contact and loads moved by 30 % either way: what the errors of a foot gain at most.
 """
 
@@ -15,7 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from desire_path import walker  # noqa: E402
-from scenes import plates  # noqa: E402
+from scenes import plates, trials  # noqa: E402
 
 SEEN = (
     ("as it is", {}, lambda g: g),
@@ -41,7 +42,18 @@ def row(name, found):
           f"{100 * found.apart[0]:.1f} {100 * found.apart[1]:.1f}")
 
 
+def known():
+    print(f"{'known forces':20s} {'RMSE of left and right foot [body weights] at frames a second':s}")
+    rates = (240.0, 120.0, 60.0, 30.0, 24.0)
+    print(f"{'':20s} " + "".join(f"{rate:<14.0f}" for rate in rates) + "120, trunk wobbles")
+    for name in trials.TRIALS:
+        rows = [trials.errors(name, rate).rmse for rate in rates] + [trials.errors(name, 120.0, shake=0.0025).rmse]
+        print(f"{name:20s} " + "".join(f"{r[0]:.3f} {r[1]:.3f}   " for r in rows))
+    print()
+
+
 def main():
+    known()
     if not plates.here():
         sys.exit("The measured walks were not found: set DESIRE_PATH_DATA.")
     print(f"{'left and right foot each':28s} {'RMSE':11s}  {'r':11s}  {'forward':11s}  mean   contacts  pressure")

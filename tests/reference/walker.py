@@ -53,6 +53,22 @@ def acceleration(values, rate, cutoff):
     return np.concatenate([inside[:1], inside, inside[-1:]])
 
 
+def fly(values, air, rate, cutoff, fall):
+    """The x nearest to values that is smooth in its third difference and falls freely in the air."""
+    count = len(values)
+    second, third = np.diff(np.eye(count), 2, axis=0), np.diff(np.eye(count), 3, axis=0)
+    second = second[np.asarray(air, bool)[1:-1]]
+    a, b = (rate / (2 * math.pi * cutoff)) ** 6, (rate / (2 * math.pi * 0.3)) ** 4
+    matrix = np.eye(count) + a * third.T @ third + b * second.T @ second
+    return np.linalg.solve(matrix, values + b * second.T @ np.full(len(second), fall / rate ** 2))
+
+
+def flown_acceleration(values, air, rate, cutoff, fall):
+    smooth = fly(values, air, rate, cutoff, fall)
+    inside = (smooth[2:] - 2 * smooth[1:-1] + smooth[:-2]) * rate * rate
+    return np.concatenate([inside[:1], inside, inside[-1:]])
+
+
 def speed(places, rate, cutoff):
     smooth = np.stack([low_pass(places[:, c], rate, cutoff) for c in range(3)], axis=1)
     return np.linalg.norm(np.gradient(smooth, 1 / rate, axis=0), axis=1)
@@ -88,6 +104,43 @@ def touches(height, speeds, com_speed, clearance, heel, dropping):
         if state and (d > (0.03 if heel else 0.05) or (rested and v > 1.2)):
             state = False
         on.append(state)
+    return np.array(on)
+
+
+def arrives(on, height, clearance, rise, rate):
+    """A point that touches while it comes down does so when its fall is fastest; above 1.2 m/s, at 1 cm."""
+    on, t = list(on), 1
+    while t < len(on):
+        if on[t] and not on[t - 1]:
+            run = [t]
+            while run[-1] < len(on) and on[run[-1]] and rise[run[-1]] < 0 and run[-1] - t < 0.1 * rate:
+                run.append(run[-1] + 1)
+            moment = min(run[:-1] or [t], key=lambda k: rise[k])
+            while (moment + 1 < len(on) and on[moment + 1] and rise[moment] < -1.2
+                   and height[moment] > clearance + 0.01):
+                moment += 1
+            on[t:moment] = [False] * (moment - t)
+            t = moment
+        t += 1
+    return np.array(on)
+
+
+def leaves(on, lift, rate):
+    """A point that lets go did so when it was lifted hardest, up to 0.1 s before and half that after."""
+    on, t, reach = list(on), 1, int(0.1 * rate)
+    while t < len(on):
+        if on[t - 1] and not on[t]:
+            first, last = t, t
+            while first > 1 and t - first < reach - 1 and on[first - 2]:
+                first -= 1
+            while last + 1 < len(on) and last + 1 - t < reach // 2 and not on[last + 1]:
+                last += 1
+            moment = max(list(range(t, first - 1, -1)) + list(range(t, last + 1)), key=lambda k: lift[k])
+            moment = moment if lift[moment] > 0 else t
+            on[moment:t] = [False] * (t - moment)
+            on[t:moment] = [True] * (moment - t)
+            t = max(t, moment)
+        t += 1
     return np.array(on)
 
 
@@ -133,8 +186,8 @@ def ramps_of_two(on, rate):
                         overlap = (b - c) / rate if c > a and d > b else math.inf
                         down = overlap if overlap < 0.3 else 0.1
             for t in range(a, b):
-                rise = smoothstep((t - a + 0.5) / rate / up) if up else 1.0
-                fall = smoothstep((b - t - 0.5) / rate / down) if down else 1.0
+                rise = min((t - a + 0.5) / rate / up, 1.0) if up else 1.0
+                fall = min((b - t - 0.5) / rate / down, 1.0) if down else 1.0
                 weight[i, t] = min(rise, fall)
     return weight
 

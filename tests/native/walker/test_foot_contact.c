@@ -190,6 +190,38 @@ TEST(somebody_carries_what_does_not_fall)
     scene_free(&s);
 }
 
+TEST(the_ground_marks_the_edges)
+{
+    // a heel that skims the ground and falls the last centimetre, ever faster until it is stopped;
+    // it stands, and is pulled up ever faster
+    enum
+    {
+        N = 240
+    };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE;
+        const double down = now < 0.8 ? 0.8 - now : 0.0, up = now > 1.4 ? now - 1.4 : 0.0;
+        const double near = fmin(down, 0.06);
+        const double high = down < 0.053 ? 0.36 * down - 3.4 * down * down
+                                         : 0.0095 + 0.5 * (down - 0.053) * (down - 0.053);
+        scene_com(&s, t, now, 0.0, 1.0);
+        scene_put(&s, N, 0, t, up - 15.0 * near * near - 1.8 * (down - near), 0.1,
+                  high + 4.0 * up * up);
+        scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);  // the other stands
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    int first = 0, last = N - 1;
+    while (!on[first]) ++first;
+    while (!on[last]) --last;
+    CHECK_NEAR((double)first / RATE, 0.8, 0.021);
+    CHECK_NEAR((double)last / RATE, 1.4, 0.035);
+    scene_free(&s);
+}
+
 TEST(short_ticks_and_gaps_close)
 {
     // a foot at rest that is lifted for 2 samples, and one in the air that dips for 2
@@ -246,6 +278,7 @@ int main(void)
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
     RUN(somebody_carries_what_does_not_fall);
+    RUN(the_ground_marks_the_edges);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
     return check_done();

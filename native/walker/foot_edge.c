@@ -1,0 +1,91 @@
+// walker/foot_edge.c - the moment a contact begins, and the moment it ends. TRAIL (4).
+//
+// Limits on height and speed tell that a foot stands and that it swings; between the two lie some
+// hundredths of a second. The ground itself marks the moments: it stops a foot that comes down, so
+// that its fall is fastest as it arrives, and it lets a foot go that is being pulled up, so that
+// the ball is lifted hardest as it leaves (Hreljac and Marshall 2000 time both by the peaks of the
+// foot's acceleration; O'Connor et al. 2007 by its vertical velocity).
+#include <math.h>
+
+#include "base/vec.h"
+#include "walker/walker_inside.h"
+
+#define EDGE 0.1    // the limits are no farther than this from the moment meant [s]
+#define HOVER 0.01  // what rests does so within this of its clearance              [m]
+
+// A point that touches while it still comes down does so when its fall is fastest.
+// @param height, rise  over the ground [m] and upward speed [m/s] (times)
+static void arrive(uint8_t* on, const double* height, double clearance, const double* rise,
+                   int times, double rate, double fast)
+{
+    for (int t = 1; t < times; ++t) {
+        if (!on[t] || on[t - 1]) continue;
+        int fastest = t;
+        for (int k = t; k < times && on[k] && rise[k] < 0.0 && (double)(k - t) < EDGE * rate; ++k)
+            if (rise[k] < rise[fastest]) fastest = k;
+        // what comes down faster than its stop can be timed is timed by its height
+        while (fastest + 1 < times && on[fastest + 1] && -rise[fastest] > fast &&
+               height[fastest] > clearance + HOVER)
+            ++fastest;
+        for (; t < fastest; ++t) on[t] = 0;
+    }
+}
+
+// mean upward acceleration of a limb's balls; of all its points if it has none
+static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate)
+{
+    double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
+    for (int k = 0; k < gait->points; ++k) {
+        if (gait->part_limb[gait->point_part[k]] != limb) continue;
+        const int ball = gait->point_role[k] == DP_POINT_BALL;
+        sum[ball] += walker_velocity(rise + (size_t)k * (size_t)gait->times, gait->times, t, rate);
+        count[ball] += 1.0;
+    }
+    const int ball = count[1] > 0.0;
+    return sum[ball] / fmax(count[ball], 1.0);
+}
+
+static bool limb_on(const DpGait* gait, int limb, const uint8_t* on, int t)
+{
+    for (int k = 0; k < gait->points; ++k)
+        if (gait->part_limb[gait->point_part[k]] == limb &&
+            on[(size_t)k * (size_t)gait->times + (size_t)t])
+            return true;
+    return false;
+}
+
+// A limb that has let go did so when its ball was lifted hardest.
+static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on, double rate)
+{
+    const int times = gait->times, reach = (int)(EDGE * rate);
+    for (int t = 1; t < times; ++t) {
+        if (limb_on(gait, limb, on, t) || !limb_on(gait, limb, on, t - 1)) continue;
+        int    hardest = t;
+        double most = 0.0;
+        for (int k = t; k > 0 && t - k < reach && limb_on(gait, limb, on, k - 1); --k) {
+            const double now = lift(gait, limb, rise, k, rate);
+            if (now > most) most = now, hardest = k;
+        }
+        for (int k = t; k < times && k - t < reach / 2 && !limb_on(gait, limb, on, k); ++k) {
+            const double now = lift(gait, limb, rise, k, rate);
+            if (now > most) most = now, hardest = k;
+        }
+        for (int k = 0; k < gait->points; ++k) {
+            if (gait->part_limb[gait->point_part[k]] != limb) continue;
+            uint8_t* row = on + (size_t)k * (size_t)times;
+            for (int s = hardest; s < t; ++s) row[s] = 0;
+            for (int s = t; s < hardest && row[t - 1]; ++s) row[s] = 1;
+        }
+        t = hardest > t ? hardest : t;
+    }
+}
+
+void walker_edges(const DpGait* gait, const double* height, const double* clearance,
+                  const double* rise, double fast, uint8_t* on, double rate)
+{
+    for (int k = 0; k < gait->points; ++k) {
+        const size_t row = (size_t)k * (size_t)gait->times;
+        arrive(on + row, height + row, clearance[k], rise + row, gait->times, rate, fast);
+    }
+    for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, on, rate);
+}

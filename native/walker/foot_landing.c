@@ -1,0 +1,63 @@
+// walker/foot_landing.c - how fast a body comes down: the v(t0 - dt) of TRAIL (3).
+//
+// Departures
+//   TRAIL (3): v(t0 - dt) is measured over a fixed 1/30 s, and in a flight long enough 0.1 s before
+//   touch-down with what gravity adds since, so that the landing does not depend on the frame rate.
+//   test_foot_force.c, impulse_of_fall.
+#include <math.h>
+
+#include "base/vec.h"
+#include "walker/walker_inside.h"
+
+#define LATCH_TIME (1.0 / 30.0)  // v0 is measured over this                                   [s]
+#define FRAMES_BACK 0.1          // and in a fall before this, two frames at 24 a second       [s]
+
+// samples for which no limb has touched, up to this one
+static int time_in_air(const uint8_t* limb_on, int limbs, int times, int t)
+{
+    int count = 0;
+    for (; t >= 0; --t, ++count)
+        for (int i = 0; i < limbs; ++i)
+            if (limb_on[(size_t)i * (size_t)times + (size_t)t]) return count;
+    return count;
+}
+
+// the velocity of the mass centre at a sample, from the parabola through the last 1/30 s
+static DpVec3 velocity(const DpGait* gait, int walker, double rate, int t)
+{
+    const double half = LATCH_TIME / 2.0 * rate;  // in samples
+    if ((double)t < 2.0 * half) {
+        const int    from = 0, to = t > 0 ? t : 1;
+        const DpVec3 d = dp_sub(walker_com(gait, walker, to), walker_com(gait, walker, from));
+        return dp_scale(d, rate / (double)(to - from));
+    }
+    DpVec3 x[3];
+    for (int k = 0; k < 3; ++k) {
+        // the parabola through the three samples around the time asked for
+        const double when = (double)t - half * (double)k;
+        int          mid = (int)floor(when + 0.5);
+        mid = mid < 1 ? 1 : mid > t - 1 && t >= 2 ? t - 1 : mid;
+        const double u = when - (double)mid;
+        const DpVec3 a = walker_com(gait, walker, mid - 1);
+        const DpVec3 b = walker_com(gait, walker, mid);
+        const DpVec3 c = walker_com(gait, walker, mid + 1);
+        x[k] = dp_add(dp_add(dp_scale(a, u * (u - 1.0) / 2.0), dp_scale(b, 1.0 - u * u)),
+                      dp_scale(c, u * (u + 1.0) / 2.0));
+    }
+    const DpVec3 d = dp_add(dp_sub(dp_scale(x[0], 3.0), dp_scale(x[1], 4.0)), x[2]);
+    return dp_scale(d, rate / (2.0 * half));
+}
+
+DpVec3 walker_landing_velocity(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
+                               double rate, int t)
+{
+    // who has been falling freely still does: his speed is taken from before the frame in which he
+    // lands, as that one shows already how he is stopped
+    const int    back = (int)ceil(FRAMES_BACK * rate);
+    const double needs = (FRAMES_BACK + LATCH_TIME) * rate + 2.0;
+    if ((double)time_in_air(limb_on, limbs, gait->times, t) < needs)
+        return velocity(gait, walker, rate, t);
+    DpVec3 v = velocity(gait, walker, rate, t - back);
+    v.z -= DP_GRAVITY * (double)back / rate;
+    return v;
+}
