@@ -16,6 +16,7 @@
 #define PARTED 0.5       // of its height: so far from a sole's edge grass leans away
 #define PARTED_MOST 0.4  // [m]
 #define SLOW 0.1         // a foot this slow has no direction of its own [m/s]
+#define FAR 8000         // cells
 #define AT_REST 0.002f   // nearer to where it stays than this, grass is there
 #define MOST_CELLS 4e6   // around one sole
 
@@ -45,9 +46,11 @@ struct DpLean
     int32_t         step;
     LeanTile**      tile;  // ascending (ty, tx)
     int             tiles, room;
-    Offset*         offset;  // scratch
-    float*          bottom;
-    size_t          offsets, bottoms;
+    // scratch around one sole: a print's cells with a border of one
+    Offset*  offset;
+    float*   bottom;  // +inf where there is no sole
+    uint8_t* sole;
+    size_t   room_of_print;
 };
 
 DpStatus dp_lean_create(DpLean** lean, const DpPlants* plants, double cell, double origin_x,
@@ -68,7 +71,8 @@ void dp_lean_destroy(DpLean* lean)
 {
     if (!lean) return;
     for (int t = 0; t < lean->tiles; ++t) dp_free(lean->tile[t]);
-    dp_free(lean->tile), dp_free(lean->offset), dp_free(lean->bottom), dp_free(lean);
+    dp_free(lean->tile), dp_free(lean->offset), dp_free(lean->bottom);
+    dp_free(lean->sole), dp_free(lean);
 }
 
 // ---- tiles -----------------------------------------------------------------------------------
@@ -166,10 +170,9 @@ typedef struct Print
     double                 motion[2];  // where the foot goes, shorter when slow
 } Print;
 
-static bool is_sole(const DpLean* lean, const Print* print, int i, int j)
+static size_t at_print(const Print* print, int i, int j)
 {
-    return i >= 0 && j >= 0 && i < print->nx && j < print->ny &&
-           isfinite(lean->bottom[(size_t)j * (size_t)print->nx + (size_t)i]);
+    return (size_t)(j + 1) * (size_t)(print->nx + 2) + (size_t)(i + 1);
 }
 
 static int length2(Offset o)
@@ -177,38 +180,36 @@ static int length2(Offset o)
     return o.i * o.i + o.j * o.j;
 }
 
-// look at one neighbour: is the other kind nearer by its way?
-static void look(DpLean* lean, const Print* print, int i, int j, int di, int dj)
+// look at a neighbour: is the other kind nearer by its way?
+static inline void look(DpLean* lean, size_t own, ptrdiff_t step, int di, int dj)
 {
-    const int  a = i + di, b = j + dj;
-    Offset*    own = &lean->offset[(size_t)j * (size_t)print->nx + (size_t)i];
-    Offset     way = {(int16_t)di, (int16_t)dj};
-    const bool other = is_sole(lean, print, a, b) != is_sole(lean, print, i, j);
-    const bool inside = a >= 0 && b >= 0 && a < print->nx && b < print->ny;
-    if (!other) {
-        if (!inside) return;
-        const Offset next = lean->offset[(size_t)b * (size_t)print->nx + (size_t)a];
-        way.i = (int16_t)(way.i + next.i), way.j = (int16_t)(way.j + next.j);
+    const size_t there = own + (size_t)step;
+    Offset       way = {(int16_t)di, (int16_t)dj};
+    if (lean->sole[there] == lean->sole[own]) {
+        way.i = (int16_t)(way.i + lean->offset[there].i);
+        way.j = (int16_t)(way.j + lean->offset[there].j);
     }
-    if (length2(way) < length2(*own)) *own = way;
+    if (length2(way) < length2(lean->offset[own])) lean->offset[own] = way;
 }
 
 // offsets to the nearest cell of the other kind, in two passes
 static void find_edges(DpLean* lean, const Print* print)
 {
-    const Offset far = {8000, 8000};
-    const int    nx = print->nx, ny = print->ny;
-    for (size_t k = 0; k < (size_t)nx * (size_t)ny; ++k) lean->offset[k] = far;
+    const Offset    far = {FAR, FAR};
+    const int       nx = print->nx, ny = print->ny;
+    const ptrdiff_t row = nx + 2;
+    for (size_t k = 0; k < (size_t)row * (size_t)(ny + 2); ++k) lean->offset[k] = far;
     for (int pass = 0; pass < 2; ++pass) {
         const int step = pass ? 1 : -1;
         for (int jj = 0; jj < ny; ++jj) {
             const int j = pass ? ny - 1 - jj : jj;
             for (int ii = 0; ii < nx; ++ii) {
-                const int i = pass ? nx - 1 - ii : ii;
-                for (int d = -1; d <= 1; ++d) look(lean, print, i, j, d, step);
-                look(lean, print, i, j, step, 0);
+                const size_t own = at_print(print, pass ? nx - 1 - ii : ii, j);
+                for (int d = -1; d <= 1; ++d) look(lean, own, step * row + d, d, step);
+                look(lean, own, step, step, 0);
             }
-            for (int ii = 0; ii < nx; ++ii) look(lean, print, pass ? ii : nx - 1 - ii, j, -step, 0);
+            for (int ii = 0; ii < nx; ++ii)
+                look(lean, at_print(print, pass ? ii : nx - 1 - ii, j), -step, -step, 0);
         }
     }
 }
@@ -240,16 +241,15 @@ static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, 
 {
     const long   i = print->i0 + pi, j = print->j0 + pj;
     const int    ti = (int)(i - tile->tx * DP_TILE), tj = (int)(j - tile->ty * DP_TILE);
-    const size_t t = (size_t)tj * DP_TILE + (size_t)ti,
-                 p = (size_t)pj * (size_t)print->nx + (size_t)pi;
+    const size_t t = (size_t)tj * DP_TILE + (size_t)ti, p = at_print(print, pi, pj);
     const double high = (double)tile->height[t];
     const Offset edge = lean->offset[p];
     const bool   under = isfinite(lean->bottom[p]);
-    if (!(high > 0.0) || edge.i > 4000) return;
+    if (!(high > 0.0) || edge.i >= FAR) return;
     const double length = sqrt((double)length2(edge)), parted = fmin(PARTED * high, PARTED_MOST);
     const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
     if (!under && !(near > 0.0)) return;
-    const size_t by = under ? p : (size_t)((pj + edge.j) * print->nx + pi + edge.i);
+    const size_t by = under ? p : at_print(print, pi + edge.i, pj + edge.j);
     const double gap =
         (double)lean->bottom[by] - plant_ground_at(ground, centre(lean, 0, i), centre(lean, 1, j));
     const double pressed = dp_clamp(1.0 - gap / high, 0.0, 1.0);
@@ -272,33 +272,49 @@ static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, 
 
 static bool make_room(DpLean* lean, size_t cells)
 {
-    if (cells <= lean->offsets) return true;
-    dp_free(lean->offset), dp_free(lean->bottom);
-    lean->offsets = cells + cells / 4;
-    lean->offset = dp_alloc(lean->offsets, sizeof(Offset));
-    lean->bottom = dp_alloc(lean->offsets, sizeof(float));
-    if (lean->offset && lean->bottom) return true;
-    lean->offsets = 0;
+    if (cells <= lean->room_of_print) return true;
+    dp_free(lean->offset), dp_free(lean->bottom), dp_free(lean->sole);
+    lean->room_of_print = cells + cells / 4;
+    lean->offset = dp_alloc(lean->room_of_print, sizeof(Offset));
+    lean->bottom = dp_alloc(lean->room_of_print, sizeof(float));
+    lean->sole = dp_alloc(lean->room_of_print, 1);
+    if (lean->offset && lean->bottom && lean->sole) return true;
+    lean->room_of_print = 0;
     return false;
 }
 
-// the sole on the lean's own cells
-static void lay_out(DpLean* lean, const Print* print)
+// The sole on the lean's own cells; false if it is nowhere less than `tallest` over the ground.
+static bool lay_out(DpLean* lean, const Print* print, const DpPlantGround* ground, double tallest)
 {
     const DpPlantCollider* c = print->sole;
-    for (int j = 0; j < print->ny; ++j)
-        for (int i = 0; i < print->nx; ++i) {
-            const double u = (centre(lean, 0, print->i0 + i) - c->x0) / c->cell + 0.5;
-            const double v = (centre(lean, 1, print->j0 + j) - c->y0) / c->cell + 0.5;
+    bool                   low = false;
+    for (int j = -1; j <= print->ny; ++j)
+        for (int i = -1; i <= print->nx; ++i) {
+            const double x = centre(lean, 0, print->i0 + i), y = centre(lean, 1, print->j0 + j);
+            const double u = (x - c->x0) / c->cell + 0.5, v = (y - c->y0) / c->cell + 0.5;
             const bool   inside = u >= 0.0 && v >= 0.0 && u < c->nx && v < c->ny;
-            lean->bottom[(size_t)j * (size_t)print->nx + (size_t)i] =
+            const float  bottom =
                 inside ? c->bottom[(size_t)v * (size_t)c->row + (size_t)u] : INFINITY;
+            const size_t at = at_print(print, i, j);
+            lean->bottom[at] = bottom;
+            lean->sole[at] = isfinite(bottom);
+            if (isfinite(bottom) && !low)
+                low = (double)bottom - plant_ground_at(ground, x, y) < tallest;
         }
+    return low;
+}
+
+static double plants_tallest(const DpPlants* plants)
+{
+    double most = 0.0;
+    for (int s = 0; s < plants->stands; ++s)
+        most = fmax(most, (double)plants->stand[s].kind.height);
+    return most;
 }
 
 static DpStatus press_sole(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* c)
 {
-    const double tallest = dp_plants_extent(lean->plants);
+    const double tallest = plants_tallest(lean->plants);
     const double margin = fmin(PARTED * tallest, PARTED_MOST) + 2.0 * lean->cell;
     Print        print = {.sole = c};
     print.i0 = cell_of(lean, 0, c->x0 - 0.5 * c->cell - margin);
@@ -310,8 +326,8 @@ static DpStatus press_sole(DpLean* lean, const DpPlantGround* ground, const DpPl
     const double speed = sqrt(c->velocity.x * c->velocity.x + c->velocity.y * c->velocity.y);
     print.motion[0] = c->velocity.x / (speed + SLOW),
     print.motion[1] = c->velocity.y / (speed + SLOW);
-    if (!make_room(lean, (size_t)print.nx * (size_t)print.ny)) return DP_NO_MEMORY;
-    lay_out(lean, &print);
+    if (!make_room(lean, (size_t)(print.nx + 2) * (size_t)(print.ny + 2))) return DP_NO_MEMORY;
+    if (!lay_out(lean, &print, ground, tallest)) return DP_OK;
     find_edges(lean, &print);
     for (long ty = tile_of(print.j0); ty <= tile_of(j1 - 1); ++ty)
         for (long tx = tile_of(print.i0); tx <= tile_of(i1 - 1); ++tx) {
@@ -328,12 +344,12 @@ static DpStatus press_sole(DpLean* lean, const DpPlantGround* ground, const DpPl
 
 // ---- standing up -----------------------------------------------------------------------------
 
-// one stem rises for dt; is it still on its way?
-static bool rise(LeanTile* tile, size_t p, double dt)
+// one stem rises by a share `keep` of what is left; is it still on its way?
+static bool rise(LeanTile* tile, size_t p, float keep)
 {
     const float was = tile->crushed[p], goal = tile->stays[p] * tile->most[p];
     if (!(was > goal)) return false;
-    float now = goal + (was - goal) * (float)exp(-(double)tile->rate[p] * dt);
+    float now = goal + (was - goal) * keep;
     if (now < goal + AT_REST) now = goal;
     tile->crushed[p] = now;
     for (int d = 0; d < 2; ++d) tile->lean[d][p] *= now / was;
@@ -345,11 +361,17 @@ static bool rise(LeanTile* tile, size_t p, double dt)
 static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
 {
     const int i0 = tile->i0, i1 = tile->i1, j0 = tile->j0, j1 = tile->j1;
+    float     rate = 0.0f, keep = 1.0f;  // neighbours mostly are of one kind
     tile->i0 = tile->i1 = tile->j0 = tile->j1 = 0;
     for (int j = j0; j < j1; ++j)
         for (int i = i0; i < i1; ++i) {
             const size_t p = (size_t)j * DP_TILE + (size_t)i;
-            if (tile->held[p] == lean->step || rise(tile, p, dt)) may_move(tile, i, j);
+            if (!(tile->crushed[p] > 0.0f)) continue;
+            if (tile->rate[p] < rate || tile->rate[p] > rate) {
+                rate = tile->rate[p];
+                keep = (float)exp(-(double)rate * dt);
+            }
+            if (tile->held[p] == lean->step || rise(tile, p, keep)) may_move(tile, i, j);
         }
 }
 

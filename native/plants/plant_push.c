@@ -16,11 +16,10 @@ static double piece_at(const DpPlantGround* ground, double x, double y)
 {
     const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
     if (!(u >= -0.5 && v >= -0.5 && u <= ground->nx - 0.5 && v <= ground->ny - 0.5)) return NAN;
-    const double fu = floor(dp_clamp(u, 0.0, ground->nx - 1.0));
-    const double fv = floor(dp_clamp(v, 0.0, ground->ny - 1.0));
-    const int    i = (int)fu, j = (int)fv;
+    const int    i = (int)dp_clamp(u, 0.0, ground->nx - 1.0);
+    const int    j = (int)dp_clamp(v, 0.0, ground->ny - 1.0);
     const int    i1 = i + 1 < ground->nx ? i + 1 : i, j1 = j + 1 < ground->ny ? j + 1 : j;
-    const double a = dp_clamp(u - fu, 0.0, 1.0), b = dp_clamp(v - fv, 0.0, 1.0);
+    const double a = dp_clamp(u - i, 0.0, 1.0), b = dp_clamp(v - j, 0.0, 1.0);
     const float* low = ground->height + (size_t)j * (size_t)ground->row;
     const float* high = ground->height + (size_t)j1 * (size_t)ground->row;
     return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +

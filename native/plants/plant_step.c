@@ -184,15 +184,19 @@ static double reach_of(const PlantStand* stand)
 static void touch(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count)
 {
     const double reach = reach_of(stand);
+    const double half = 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth);
+    const double high = (double)(DP_STRETCH_MOST * stand->kind.height + stand->kind.radius) + 0.01;
     block->touched = false;
     for (int l = 0; l < DP_LANES; ++l) {
         const double x = (double)block->root[0][l], y = (double)block->root[1][l];
         const double z = (double)block->root[2][l];
+        const double lift = (double)(fabsf(block->slope[0][l]) + fabsf(block->slope[1][l])) * half;
+        const double tall = high + lift;  // outer stems stand higher on a slope
         bool         meets = false;
         for (int k = 0; k < count && l < block->count; ++k)
             meets = meets ||
                     (x + reach > push[k].x0 && x - reach < push[k].x1 && y + reach > push[k].y0 &&
-                     y - reach < push[k].y1 && z + reach > push[k].z0 && z - reach < push[k].z1);
+                     y - reach < push[k].y1 && z + tall > push[k].z0 && z - reach < push[k].z1);
         block->touched_lane[l] = meets;
         block->touched = block->touched || meets;
     }
