@@ -195,12 +195,9 @@ class Simulation:
 
     def _plant(self, number, roots):
         """Plant roots (n, 2) of a planting where there is ground."""
-        height = self.rest_height(roots)
-        there = np.isfinite(height)
-        if there.any():
-            root = np.column_stack([roots, height])[there].astype(np.float32)
-            stand = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(root), None)
-            self.stands.append((stand, number, len(root)))
+        stand, count = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(roots))
+        if count:
+            self.stands.append((stand, number, count))
 
     def _plant_reach(self):
         """Plant what the loaded recording can reach and is not planted yet."""

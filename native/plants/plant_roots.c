@@ -53,6 +53,21 @@ double dp_plants_reach(const DpPlants* plants)
     return most;
 }
 
+DpStatus dp_plants_slope(DpPlants* plants, int name, const float* slope)
+{
+    if (!plants || name < 0 || name >= plants->stands || !slope) return DP_BAD_ARGUMENT;
+    PlantStand* stand = &plants->stand[name];
+    for (int k = 0; k < 2 * stand->count; ++k)
+        if (!isfinite(slope[k])) return DP_BAD_ARGUMENT;
+    for (int slot = 0; slot < stand->blocks * DP_LANES; ++slot) {
+        PlantBlock* block = &stand->block[slot / DP_LANES];
+        const int   lane = slot % DP_LANES, plant = block->plant[lane];
+        for (int d = 0; d < 2; ++d)
+            block->slope[d][lane] = fminf(fmaxf(slope[2 * plant + d], -1.0f), 1.0f);
+    }
+    return DP_OK;
+}
+
 static PlantBlock* find(const DpPlants* plants, int stand, int plant, int* lane)
 {
     if (!plants || stand < 0 || stand >= plants->stands) return NULL;

@@ -76,6 +76,8 @@ void                    dp_plants_destroy(DpPlants* plants);
 // *stand names them from now on, 0, 1, 2..
 DpStatus     dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
                            const float* heading, int count, int* stand);
+// How the ground slopes under each plant of a stand, dz/dx and dz/dy (count, 2) [-].
+DpStatus dp_plants_slope(DpPlants* plants, int stand, const float* slope);
 int          dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
 DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand that is there
 // How far a plant can reach from its root, with its leaves and with its roots; of all stands [m].

@@ -32,36 +32,25 @@ static bool enter(Simulation* self)
 PyObject* dp_py_plant(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
-    PyObject *  o_kind, *o_root, *o_heading;
-    if (!PyArg_ParseTuple(args, "OOO:plant", &o_kind, &o_root, &o_heading)) return NULL;
+    PyObject *  o_kind, *o_root;
+    if (!PyArg_ParseTuple(args, "OO:plant", &o_kind, &o_root)) return NULL;
     DpDoor       door = {.count = 0};
-    DpShape      list = {2, {-1, 3}};
+    DpShape      list = {2, {-1, 2}};
     DpPlantKind  kind;
-    const float *root = NULL, *heading = NULL;
+    const float* root = NULL;
     PyObject*    result = NULL;
-    bool         ready = dp_py_kind(&door, o_kind, &kind) == 0;
-    ready = ready && (root = dp_door_open(&door, o_root, "root", 'f', &list, false));
-    ready =
-        ready && (o_heading == Py_None || (heading = dp_door_open(&door, o_heading, "heading", 'f',
-                                                                  DP_SHAPE1(list.n[0]), false)));
-    if (ready && enter(self)) {
-        int      stand = 0;
-        DpStatus status = list.n[0] < 1 << 26 ? DP_OK : DP_BAD_ARGUMENT;
+    if (dp_py_kind(&door, o_kind, &kind) == 0)
+        root = dp_door_open(&door, o_root, "root", 'f', &list, false);
+    if (root && enter(self)) {
+        int      stand = -1, grown = 0;
+        DpStatus status = DP_BAD_ARGUMENT;
         Py_BEGIN_ALLOW_THREADS
-        const int count = (int)list.n[0];
-        if (status == DP_OK)
-            status = dp_plants_add(self->plants, &kind, root, heading, count, &stand);
-        double box[4] = {1e9, 1e9, -1e9, -1e9};
-        for (int k = 0; k < count && status == DP_OK; ++k)
-            for (int d = 0; d < 2; ++d) {
-                const double at = (double)root[3 * k + d];
-                box[d] = at < box[d] ? at : box[d];
-                box[2 + d] = at > box[2 + d] ? at : box[2 + d];
-            }
-        if (status == DP_OK) dp_sim_planted(self->sim, box[0], box[1], box[2], box[3]);
+        if (list.n[0] < 1 << 26)
+            status = dp_sim_grow(self->sim, &kind, root, (int)list.n[0], &stand, &grown);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = status == DP_OK ? PyLong_FromLong(stand) : dp_door_result(status, "planting");
+        result = status == DP_OK ? Py_BuildValue("(ii)", stand, grown)
+                                 : dp_door_result(status, "planting");
     }
     dp_door_close(&door);
     return result;

@@ -304,8 +304,9 @@ static PyMethodDef methods[] = {
     {"open_plants", dp_py_open_plants, METH_VARARGS,
      "open_plants(seed): something may grow here; before anything is loaded or read."},
     {"plant", dp_py_plant, METH_VARARGS,
-     "plant(kind (21,) f8, root (n, 3) f4, heading (n,) f4 or None) -> stand: its name from now "
-     "on."},
+     "plant(kind (21,) f8, root (n, 2) f4) -> (stand, plants): its name from now on, and how many "
+     "came"
+     " up: those on the ground; (-1, 0) if none."},
     {"rest_plants", dp_py_rest_plants, METH_VARARGS,
      "rest_plants(seconds): time passes without walkers; plants recover and grow again."},
     {"read_plants", dp_py_read_plants, METH_VARARGS,

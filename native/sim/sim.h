@@ -46,12 +46,13 @@ typedef struct DpSimReport
 DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
 void     dp_sim_destroy(DpSim* sim);
 
-// Plants on this ground; borrowed like the terrain, on which nobody has walked yet. Stands may be
-// added to them at any time: tell by dp_sim_planted().
+// Plants on this ground; borrowed like the terrain, on which nobody has walked yet.
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
 
-// Plants have come, gone or rested within x0..x1, y0..y1 [m]: the ground asks for its cover again.
-void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1);
+// Plant roots at xy (count, 2) [m] as one more stand, at any time; those without ground are left out.
+// *grown of them came up; none: *stand is -1.
+DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int count, int* stand,
+                     int* grown);
 
 // How the grass lies on the terrain's cells; NULL on bare ground. It belongs to the simulation.
 DpLean* dp_sim_lean(const DpSim* sim);

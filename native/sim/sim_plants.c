@@ -67,13 +67,66 @@ static void cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
     dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
 }
 
-void dp_sim_planted(DpSim* sim, double x0, double y0, double x1, double y1)
+// plants have come or grown within a box [m] around their roots
+static void planted(DpSim* sim, const double box[4])
 {
-    if (!sim->meadow.plants) return;
     measure(&sim->meadow);
     const double r = sim->meadow.reach;
-    cover_anew(sim, x0 - r, y0 - r, x1 + r, y1 + r);
-    dp_lean_grown(sim->meadow.lean, x0 - r, y0 - r, x1 + r, y1 + r);
+    cover_anew(sim, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
+    dp_lean_grown(sim->meadow.lean, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
+}
+
+// The root on the rest ground and the slope there; false where there is none.
+static bool stand_on(const DpSim* sim, const DpPlantKind* kind, const float xy[2], float root[3],
+                     float slope[2])
+{
+    const double d = fmax(sim->cell, 0.5 * (double)fmaxf(kind->width, kind->depth));
+    const double x = (double)xy[0], y = (double)xy[1];
+    const double at[10] = {x, y, x - d, y, x + d, y, x, y - d, x, y + d};
+    double       z[5];
+    dp_terrain_rest(sim->terrain, 5, at, z);
+    if (!isfinite(z[0])) return false;
+    root[0] = xy[0], root[1] = xy[1], root[2] = (float)z[0];
+    for (int k = 0; k < 2; ++k) {  // one-sided at an edge
+        const double low = z[1 + 2 * k], high = z[2 + 2 * k];
+        const double across = (high - low) / (2.0 * d);
+        const double aside = isfinite(high) ? (high - z[0]) / d : (z[0] - low) / d;
+        slope[k] = (float)(isfinite(across) ? across : isfinite(aside) ? aside : 0.0);
+    }
+    return true;
+}
+
+DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int count, int* stand,
+                     int* grown)
+{
+    if (!sim || !sim->meadow.plants || !xy || count < 0 || !stand || !grown ||
+        dp_plant_kind_check(kind) != DP_OK)
+        return DP_BAD_ARGUMENT;
+    *stand = -1, *grown = 0;
+    float*   root = dp_alloc((size_t)count + 1, 3 * sizeof *root);
+    float*   slope = dp_alloc((size_t)count + 1, 2 * sizeof *slope);
+    DpStatus status = root && slope ? DP_OK : DP_NO_MEMORY;
+    double   box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    int      n = 0;
+    for (int k = 0; k < count && status == DP_OK; ++k) {
+        if (!(fabsf(xy[2 * k]) < 1e7f && fabsf(xy[2 * k + 1]) < 1e7f)) status = DP_BAD_ARGUMENT;
+        if (status != DP_OK || !stand_on(sim, kind, xy + 2 * k, root + 3 * n, slope + 2 * n))
+            continue;
+        for (int d = 0; d < 2; ++d) {
+            box[d] = fmin(box[d], (double)xy[2 * k + d]);
+            box[2 + d] = fmax(box[2 + d], (double)xy[2 * k + d]);
+        }
+        ++n;
+    }
+    if (status == DP_OK && n > 0)
+        status = dp_plants_add(sim->meadow.plants, kind, root, NULL, n, stand);
+    if (status == DP_OK && n > 0) {
+        status = dp_plants_slope(sim->meadow.plants, *stand, slope);
+        *grown = n;
+        planted(sim, box);
+    }
+    dp_free(root), dp_free(slope);
+    return status;
 }
 
 DpStatus dp_sim_rest(DpSim* sim, double seconds)
@@ -81,7 +134,7 @@ DpStatus dp_sim_rest(DpSim* sim, double seconds)
     if (!sim->meadow.plants) return DP_OK;
     const DpStatus status = dp_plants_rest(sim->meadow.plants, seconds);
     if (status != DP_OK) return status;
-    dp_sim_planted(sim, -1e9, -1e9, 1e9, 1e9);
+    planted(sim, (const double[4]){-1e9, -1e9, 1e9, 1e9});
     return seconds > 0.0 ? dp_lean_step(sim->meadow.lean, NULL, NULL, 0, seconds) : DP_OK;
 }
 
