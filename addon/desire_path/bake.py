@@ -7,6 +7,7 @@
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps_start.exr          plant_strength_in, young_modulus_in
     folder/maps_final.exr          compression, heap, pressure_time, plant_strength; lean_x, lean_y, crushed
+    folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
     folder/report.json             what happened, in numbers
 
 A bake grows in folder/frames.new and folder/maps.new and takes the place of an earlier one, which plays
@@ -26,7 +27,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import maps, walker
+from . import maps, plant_mesh, walker
 from .errors import DesirePathError
 from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, frames_there, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
@@ -55,13 +56,14 @@ class Bake:
     gait: Gait; ground: Ground; soils as for Simulation; folder: where the files go.
     cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
     load_model: "inertia" or "impulse"; law, heap, rim_width, threads, plants: as for Simulation.
+    plant_mesh: write the plants themselves as a mesh and its point cache, for close-ups.
     resume: go on where the same bake was stopped. map_seconds: write maps after every second.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=()):
+                 plants=(), plant_mesh=False):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -71,6 +73,9 @@ class Bake:
         self.ground = ground
         self.soils = as_soils(soils)
         self.plants = as_plantings(plants)
+        self.plant_mesh = bool(plant_mesh)
+        if self.plant_mesh and not self.plants:
+            raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
         self.folder = os.path.abspath(os.fspath(folder))
         self.frame_rate = float(gait.frame_rate)
         last = gait.frame_start + math.floor(
@@ -207,6 +212,7 @@ class Bake:
         done = self._prepare(fresh, index)
         spent_step = spent_write = 0.0
         count = self.frame_end - self.frame_start + 1
+        mesh = plant_mesh.Writer(sim, self.folder, self.frame_start, count) if self.plant_mesh else None
         try:
             if done < 0:
                 self._write(sim, fresh, 0, 0.0)
@@ -216,15 +222,21 @@ class Bake:
                 sim.run(self._sample(frame))
                 stepped = time.perf_counter()
                 self._write(sim, fresh if number > done else None, number, self._time(frame))
+                if mesh:
+                    mesh.add(sim)
                 if self.map_seconds:
                     self._second(sim, frame)
                 spent_step += stepped - begun
                 spent_write += time.perf_counter() - stepped
                 yield Progress(frame, number / count)
             sim.flush()
+            if mesh:
+                mesh.finish(sim)
         except (GeneratorExit, OSError, DesirePathError):
             with contextlib.suppress(OSError):
                 sim.flush()
+            if mesh:
+                mesh.drop()
             publish(self.folder, only_if_free=True)
             raise
 

@@ -20,7 +20,8 @@ FORMAT = 1  # of index.json; a folder of another format is refused, not guessed 
 FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
 MAPS = ("second_*.exr", "second_*.part")
 OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
-        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part")}
+        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part",
+             "plants.pc2", "plants.pc2.part", "plants.npz")}
 
 
 @dataclass(frozen=True)

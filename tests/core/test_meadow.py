@@ -1,5 +1,6 @@
 """Plants on the ground that is walked on: Simulation and Bake with plants. TRAIL (5)-(9), design 7 and 8."""
 
+import struct
 from dataclasses import replace
 
 import numpy as np
@@ -192,3 +193,35 @@ def test_a_stopped_bake_with_plants_goes_on_and_other_plants_are_another_bake(tm
                   for plants in ((), ["carex"], ["lawn"], [Planting("carex", seed=1)], [Planting("carex", density=9)],
                                  [Planting("carex", roots=[[0, 0]])], [Planting("carex", roots=[[0, 1]])])}
     assert len(signatures) == 7
+
+
+def test_the_plants_themselves_play_as_a_mesh_cache(tmp_path):
+    made = bake(tmp_path, [Planting("carex", rectangle=(-0.3, -0.3, 0.4, 0.6)), Planting("fern", seed=3)],
+                plant_mesh=True)
+    mesh = np.load(tmp_path / "plants.npz")
+    raw = (tmp_path / "plants.pc2").read_bytes()
+    magic, version, count, start, rate, samples = struct.unpack("<12siiffi", raw[:32])
+    assert (magic, version, start, rate) == (b"POINTCACHE2\0", 1, made.frame_start, 1.0)
+    frames = np.frombuffer(raw[32:], "<f4").reshape(samples, count, 3)
+    assert samples == read_index(tmp_path).frames and len(mesh["vertices"]) == count
+    assert np.isfinite(frames).all() and list(mesh["kinds"]) == ["carex", "fern"]
+    np.testing.assert_allclose(mesh["vertices"][mesh["along"] == 0, 2], 0.0, atol=1e-6)  # feet on flat ground
+    for name, corners in (("edges", 2), ("faces", 4)):
+        assert mesh[name].shape[1] == corners and mesh[name].min() >= 0 and mesh[name].max() < count
+        assert (mesh["plant"][mesh[name]] == mesh["plant"][mesh[name][:, :1]]).all()
+    a, b = mesh["edges"].T
+    rest = np.linalg.norm(mesh["vertices"][a] - mesh["vertices"][b], axis=1)
+    for frame in frames[::20]:  # stems keep their length, under the boxes too
+        assert (np.linalg.norm(frame[a] - frame[b], axis=1) <= 1.05 * rest + 1e-6).all()
+    moved = np.abs(frames - mesh["vertices"]).max(axis=(0, 2))
+    assert moved.max() > 0.05 and (moved < 1e-6).mean() > 0.2  # some are trodden, others never touched
+    assert not mesh["unbroken"].all() and mesh["unbroken"][moved < 1e-6].all()
+    free(tmp_path)
+    assert not tmp_path.exists()
+
+
+def test_a_mesh_of_no_plants_is_refused(tmp_path):
+    with pytest.raises(DesirePathError):
+        bake(tmp_path, [], plant_mesh=True)
+    with pytest.raises(DesirePathError):
+        bake(tmp_path, [Planting("carex", rectangle=(50, 50, 51, 51))], plant_mesh=True)
