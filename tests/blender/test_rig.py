@@ -108,6 +108,40 @@ def test_a_heel_set_by_hand_brings_its_faces():
     assert np.ptp(record(obj).soles[0].vertices[:, 0]) - without > 0.05
 
 
+def test_feet_are_added_and_removed_by_hand():
+    obj = people.walk(people.biped())
+    for name in ("foot.L", "foot.R", "toe.L", "toe.R", "shin.L", "shin.R", "thigh.L", "thigh.R", "neck", "hips"):
+        obj.data.bones[name].name = "b" + str(len(name) * 7 + ord(name[0])) + name[-1].lower() + "x"  # nothing to go by
+    names = {bone.name: bone for bone in obj.data.bones}
+    low = sorted(names, key=lambda name: names[name].head_local.z)
+    feet = [name for name in low if names[name].children and names[name].head_local.z < 0.09
+            and names[name].head_local.y > 0.0]
+    assert len(feet) == 2
+    settings = obj.desire_path
+    settings.feet.clear()
+    for name in feet:
+        obj.data.bones.active = obj.data.bones[name]
+        assert operator.desire_path_foot_add() == {"FINISHED"}
+    assert [each.foot for each in settings.feet] == feet and settings.feet[1].limb == "foot 2"
+    assert operator.desire_path_foot_add() == {"FINISHED"}  # the active bone is a foot already
+    assert settings.feet[2].foot == ""
+    refused(lambda: record(obj), "foot 3", "choose one")
+    assert operator.desire_path_foot_remove(index=2) == {"FINISHED"}
+    refused(operator.desire_path_foot_remove, "no foot 5", index=5)
+    assert record(obj).limb_name == tuple(feet)
+    # chosen feet are what Add Walker takes, and a leg set by hand is heeded
+    meshes.grid(20, 20, 0.1, -1, -1)
+    operator.desire_path_ground_add()
+    meshes.activate(obj)
+    assert operator.desire_path_walker_add() == {"FINISHED"}
+    assert [each.foot for each in settings.feet] == feet
+    before = record(obj).com
+    settings.feet[0].thigh = settings.feet[0].shank = names[feet[0]].parent.name
+    assert not np.allclose(record(obj).com, before, atol=1e-3)
+    operator.desire_path_foot_remove(index=0)
+    assert record(obj).limb_name == (feet[1],)
+
+
 def test_slots_that_name_no_bone():
     obj = people.walk(people.biped())
     operator.desire_path_rig_detect()

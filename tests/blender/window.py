@@ -61,6 +61,15 @@ def pixels(name):
     return int(((red > 0.8) & (green > 0.45) & (green < 0.9) & (blue < 0.3)).sum())
 
 
+def dark(name):
+    """How many pixels of a screenshot that was taken are as dark as the graph's paper."""
+    image = bpy.data.images.load(str(FOLDER / f"{name}.png"))
+    found = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(found)
+    bpy.data.images.remove(image)
+    return int((found.reshape(-1, 4)[:, :3].max(axis=1) < 0.14).sum())
+
+
 def story():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
@@ -122,16 +131,32 @@ def story():
     without = pixels("plain")
     assert bpy.ops.object.desire_path_forces_show() == {"FINISHED"}
     walker = bpy.data.objects["Walker"]
-    assert op_forces.shows(walker) and op_forces._handle is not None
+    assert op_forces.shows(walker) and op_forces._handles
     yield 0.5
     assert pixels("forces") > without + 100, "no arrow is seen"
+    assert "contacts" in walker.desire_path.forces
+
+    # the graph lies in the corner: paper, letters and curves, and goes again
+    before = dark("forces")
+    assert bpy.ops.object.desire_path_forces_graph() == {"FINISHED"} and op_forces.shows_graph(walker)
+    yield 0.5
+    shot("graph")
+    assert dark("graph") > before + 20000, "no graph is seen"
+    bpy.context.scene.frame_set(36)
+    yield 0.5
+    shot("later")
+    assert bpy.ops.object.desire_path_forces_graph() == {"FINISHED"} and not op_forces.shows_graph(walker)
+    bpy.context.scene.frame_set(30)
+    yield 0.5
+    shot("nograph")
+    assert dark("nograph") < before + 1000
     assert bpy.ops.object.desire_path_forces_show() == {"FINISHED"}
-    assert op_forces._handle is None
+    assert not op_forces._handles
     yield 0.5
     assert pixels("hidden") == without
     bpy.ops.object.desire_path_forces_show()
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    assert op_forces._handle is None and not op_forces._shown
+    assert not op_forces._handles and not op_forces._shown
     yield 0.5
     print("all seen", flush=True)
 

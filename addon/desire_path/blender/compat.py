@@ -124,3 +124,12 @@ def use_action(animation, action, slot=None):
     animation.action = action
     if slot is not None and hasattr(animation, "action_slot"):
         animation.action_slot = slot
+
+
+def flat_shader():
+    """The shader that fills with one colour, and how many numbers its positions have."""
+    import gpu
+    try:
+        return gpu.shader.from_builtin("UNIFORM_COLOR"), 3
+    except ValueError:
+        return gpu.shader.from_builtin("2D_UNIFORM_COLOR"), 2

@@ -1,6 +1,6 @@
 """op_walkers.py - grounds and walkers are chosen, and a walk is recorded to a file."""
 import bpy
-from bpy.props import StringProperty
+from bpy.props import IntProperty, StringProperty
 
 from .. import rigs
 from ..errors import DesirePathError
@@ -120,6 +120,51 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
             for foot in found.feet)
         self.report({"INFO"}, f"'{obj.name}' has {len(found.feet)} feet ({feet}) and "
                     + (f"hangs on {found.hips}." if found.hips else "no hips bone."))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_foot_add(bpy.types.Operator):
+    """Add a foot that was not found; the active bone is taken for it, another can be chosen"""
+
+    bl_idname = "object.desire_path_foot_add"
+    bl_label = "Add Foot"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks")
+
+    def execute(self, context):
+        obj = context.object
+        feet = obj.desire_path.feet
+        bone = obj.data.bones.active
+        taken = {each.foot for each in feet}
+        each = feet.add()
+        each.limb = f"foot {len(feet)}"
+        if bone is not None and bone.name not in taken:
+            each.foot = bone.name
+        return {"FINISHED"}
+
+
+class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
+    """Let this foot leave no prints; Find Feet brings it back"""
+
+    bl_idname = "object.desire_path_foot_remove"
+    bl_label = "Remove Foot"
+    bl_options = {"REGISTER", "UNDO"}
+
+    index: IntProperty(name="Foot", min=0, description="Which of the feet, counted from 0")
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, "ARMATURE", "the armature that walks") and bool(context.object.desire_path.feet)
+
+    def execute(self, context):
+        feet = context.object.desire_path.feet
+        if self.index >= len(feet):
+            self.report({"ERROR"}, f"There is no foot {self.index}: '{context.object.name}' has {len(feet)}.")
+            return {"CANCELLED"}
+        feet.remove(self.index)
         return {"FINISHED"}
 
 
@@ -279,5 +324,5 @@ class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
 
 
 CLASSES = (OBJECT_OT_desire_path_ground_add, OBJECT_OT_desire_path_walker_add,
-           OBJECT_OT_desire_path_rig_detect, OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
+           OBJECT_OT_desire_path_rig_detect, OBJECT_OT_desire_path_foot_add, OBJECT_OT_desire_path_foot_remove, OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
            OBJECT_OT_desire_path_paint_add, OBJECT_OT_desire_path_paint_remove)

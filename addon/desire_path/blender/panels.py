@@ -4,7 +4,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, op_forces, plants
+from . import op_bake, plants
 from .op_walkers import walkers
 
 
@@ -172,22 +172,12 @@ def draw_walker(layout, obj):
     column.prop(settings, "sole")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
-    for foot in settings.feet:
-        feet = column.column(align=True)
-        feet.prop_search(foot, "foot", obj.data, "bones", text=f"{foot.limb.title()} Foot")
-        feet.prop_search(foot, "toe", obj.data, "bones")
-        feet.prop_search(foot, "heel", obj.data, "bones")
-    column.prop_search(settings, "hips", obj.data, "bones")
-    column.prop_search(settings, "mass_center", obj.data, "bones")
     row = layout.row(align=True)
     row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
     row = layout.row(align=True)
     row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
     row.prop(settings, "place_feet", text="In Prints", toggle=True)
-    shown = op_forces.shows(obj)
-    layout.operator("object.desire_path_forces_show", text="Hide Forces" if shown else "Show Forces",
-                    icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 

@@ -92,8 +92,9 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     toe: StringProperty(name="Toe", description="The bone that begins at the ball of the foot; "
                                                 "empty where the rig has none")
     heel: StringProperty(name="Heel", description="A bone that lies at the heel, if there is one")
-    thigh: StringProperty(name="Thigh", options={"HIDDEN"})
-    shank: StringProperty(name="Shank", options={"HIDDEN"})
+    thigh: StringProperty(name="Thigh", description="The bone that begins at the hip of this leg; with neither "
+                          "thigh nor shank both are found above the foot")
+    shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
 
 
 class DesirePathSettings(bpy.types.PropertyGroup):
@@ -169,6 +170,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="How often the armature is looked at in a frame; between, it is interpolated")
     feet: CollectionProperty(type=DesirePathFoot, name="Feet",
                              description="The bones of the walker's feet, found by Add Walker or Find Feet")
+    forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
 
 

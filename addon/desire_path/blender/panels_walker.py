@@ -1,0 +1,93 @@
+"""panels_walker.py - what an armature is taken for, bone by bone, and what its forces are."""
+import json
+
+import bpy
+
+from . import op_forces
+from .panels import _column, _letters, _lines, _Physics, _Sidebar
+
+
+def draw_rig(layout, obj):
+    """Every slot a walker has, each to be set by hand."""
+    settings, bones = obj.desire_path, obj.data
+    for index, foot in enumerate(settings.feet):
+        box = layout.box()
+        row = box.row(align=True)
+        row.prop(foot, "limb", text="")
+        row.operator("object.desire_path_foot_remove", text="", icon="X").index = index
+        column = _column(box)
+        for slot in ("foot", "toe", "heel"):
+            column.prop_search(foot, slot, bones, "bones")
+        legs = column.column(align=True)
+        legs.prop_search(foot, "thigh", bones, "bones")
+        legs.prop_search(foot, "shank", bones, "bones")
+    layout.operator("object.desire_path_foot_add", icon="ADD")
+    column = _column(layout)
+    column.prop_search(settings, "hips", bones, "bones")
+    column.prop_search(settings, "mass_center", bones, "bones")
+    if not settings.mass_center:
+        column.label(text="From the segments of the body", icon="INFO")
+
+
+def draw_forces(layout, context, obj):
+    settings = obj.desire_path
+    shown, graph = op_forces.shows(obj), op_forces.shows_graph(obj)
+    row = layout.row(align=True)
+    row.operator("object.desire_path_forces_show", text="Hide Forces" if shown else "Show Forces",
+                 icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
+    row.operator("object.desire_path_forces_graph", text="Graph", icon="FCURVE", depress=graph)
+    row = layout.row(align=True)
+    row.operator("object.desire_path_forces_report", text="Report", icon="TEXT")
+    row.operator("object.desire_path_forces_write", text="Tables", icon="EXPORT")
+    if not settings.forces:
+        return
+    from ..report import sentences
+    told, width = json.loads(settings.forces), _letters(context)
+    column = layout.column(align=True)
+    for each in sentences(told):
+        _lines(column, each, "DOT", width)
+    for each in told["warnings"]:
+        _lines(column, each, "ERROR", width)
+
+
+class _Rig:
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_label = "Rig"
+
+    @classmethod
+    def poll(cls, context):  # feet can be chosen before an armature is a walker, where none are found
+        return context.object is not None and context.object.type == "ARMATURE"
+
+    def draw(self, context):
+        draw_rig(self.layout, context.object)
+
+
+class _Forces(_Rig):
+    bl_label = "Forces"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.object.desire_path.is_walker
+
+    def draw(self, context):
+        draw_forces(self.layout, context, context.object)
+
+
+class PHYSICS_PT_desire_path_rig(_Physics, _Rig, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
+class PHYSICS_PT_desire_path_forces(_Physics, _Forces, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
+class VIEW3D_PT_desire_path_rig(_Sidebar, _Rig, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
+
+
+class VIEW3D_PT_desire_path_forces(_Sidebar, _Forces, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
+
+
+CLASSES = (PHYSICS_PT_desire_path_rig, PHYSICS_PT_desire_path_forces, VIEW3D_PT_desire_path_rig,
+           VIEW3D_PT_desire_path_forces)
