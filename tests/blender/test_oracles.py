@@ -7,7 +7,7 @@ import numpy as np
 
 from desire_path.blender import op_forces
 from desire_path.soil import SOILS
-from scenes import gaits, stands
+from scenes import gaits, meshes, stands
 
 LENGTH, WIDTH = 0.25, 0.11  # of the sole that is stood on: 0.0275 m^2
 LAWS = ("sole", "uniform")
@@ -80,6 +80,27 @@ def test_depth_is_proportional_to_mass_and_layer_and_softness(folder):
                         {"young_modulus": own.young_modulus / factor}):
             with stands.soil(**numbers):
                 within(stands.bake(ground, 0.6).drop.max(), factor * base, 0.01)
+
+
+def test_a_rigid_sole_sinks_evenly_and_even_pressure_by_each_soil(folder):
+    """The foot stands with one half of its width on another soil. So light that even pressure leaves both
+    halves within the centimetre in which cells touch."""
+    mass = 25.0
+    ground, obj = one_legged(folder, mass, width=0.12)
+    soft, firm = SOILS["dry-soil"], SOILS["soil"]
+    group = ground.vertex_groups.new(name="firm")
+    group.add([v.index for v in ground.data.vertices if v.co.x > stands.ASIDE], 1.0, "REPLACE")
+    meshes.activate(ground)
+    assert bpy.ops.object.desire_path_paint_add() == {"FINISHED"}
+    ground.desire_path.painted[0].soil = "soil"
+    half = 0.5 * 0.12 * LENGTH
+    together = mass * stands.GRAVITY / sum(each.young_modulus / each.layer_depth * half for each in (soft, firm))
+    for law, wanted in (("sole", (together, together)), ("uniform", (depth(mass, soft, 2.0 * half),
+                                                                     depth(mass, firm, 2.0 * half)))):
+        trail = stands.bake(ground, 0.6, law=law)
+        for side, deep in zip((-1.0, 1.0), wanted):
+            at = np.abs(trail.rest[..., 0] - stands.ASIDE - 0.03 * side) < 0.02
+            within(trail.drop[at].max(), deep, 0.01)
 
 
 # ---- 7: half the area ----------------------------------------------------------------------------------------
