@@ -29,10 +29,10 @@ import numpy as np
 
 from . import maps, plant_mesh, walker
 from .errors import DesirePathError
-from .folder import FORMAT, FRAMES, MAPS, delete, frame_path, frames_there, publish, write_json
+from .folder import FORMAT, FRAMES, MAPS, OURS, delete, frame_path, frames_there, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .plants import as_plantings
-from .sim import LOAD_MODELS, TILE, Simulation, as_soils
+from .sim import LOAD_MODELS, TILE, Simulation, as_soils, check_cell
 from .version import VERSION
 
 SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
@@ -199,6 +199,7 @@ class Bake:
 
     def _run(self):
         seconds = {"total": time.perf_counter()}
+        check_cell(self.cell_size)
         self._check_soles()
         sim = self._simulation()
         tiles = self._rectangle(sim)
@@ -280,6 +281,10 @@ class Bake:
             raise DesirePathError(
                 f"The folder {self.folder} cannot be made ({problem.strerror}): choose another one."
             ) from None
+        for name in OURS:
+            way = os.path.join(self.folder, name)
+            if os.path.lexists(way) and not os.path.isdir(way):
+                raise DesirePathError(f"{way} stands where the bake keeps a folder: move it or choose another folder.")
         done = -1
         for place in (fresh, os.path.join(self.folder, "frames")):
             try:
@@ -287,7 +292,8 @@ class Bake:
                     old = json.load(file)
             except (OSError, ValueError):
                 continue
-            same = self.resume and old.get("signature") == index["signature"] and not old.get("complete")
+            same = (self.resume and isinstance(old, dict) and old.get("signature") == index["signature"]
+                    and not old.get("complete"))
             there = frames_there(place, bool(self.plants)) if same else -1
             if there >= 0:
                 done = there

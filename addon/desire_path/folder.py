@@ -11,11 +11,13 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import struct
 from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import DesirePathError
 
+_MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
 MAPS = ("second_*.exr", "second_*.part")
@@ -64,9 +66,36 @@ def frames_there(frames_folder, lean):
     """How many frames are whole, counted from number 1 on; -1 without the ground at rest."""
     films = ("trail", "lean") if lean else ("trail",)
     number = -1
-    while all(os.path.exists(frame_path(frames_folder, number + 1, film)) for film in films):
+    while all(_is_whole_frame(frame_path(frames_folder, number + 1, film)) for film in films):
         number += 1
     return number
+
+
+def _is_whole_frame(path):
+    """Whether a tiled OpenEXR file is there to its end: its last tile ends where the file does. Files appear
+    whole, but a disk that fails and a copy that stops leave less; what the tiles hold is not looked at."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(1 << 16)
+            found, at = {}, 8
+            if head[:4] != _MAGIC:
+                return False
+            while head[at] != 0:  # attributes: name, type, size, value
+                end = head.index(b"\0", at)
+                value = head.index(b"\0", end + 1) + 5
+                size, = struct.unpack_from("<i", head, value - 4)
+                found[head[at:end]] = head[value:value + size]
+                at = value + size
+            x0, y0, x1, y1 = struct.unpack("<4i", found[b"dataWindow"])
+            wide, high = struct.unpack_from("<2I", found[b"tiles"])
+            tiles = -((x0 - x1 - 1) // wide) * -((y0 - y1 - 1) // high)
+            file.seek(at + 1)
+            starts = struct.unpack(f"<{tiles}Q", file.read(8 * tiles))
+            file.seek(max(starts) + 16)  # behind the tile's place
+            size, = struct.unpack("<i", file.read(4))
+            return min(starts) > at and max(starts) + 20 + size == os.fstat(file.fileno()).st_size
+    except (OSError, ValueError, IndexError, KeyError, ZeroDivisionError, OverflowError, struct.error):
+        return False
 
 
 def read_index(folder):

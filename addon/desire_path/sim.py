@@ -143,6 +143,14 @@ def _soil_rows(soils):
     return np.array(rows, np.float32)
 
 
+def check_cell(cell_size):
+    """Refuse sides of a cell that cannot be worked with [m]."""
+    if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
+        raise DesirePathError(
+            f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
+        )
+
+
 class Simulation:
     """Ground that walkers press.
 
@@ -156,10 +164,7 @@ class Simulation:
 
     def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
                  heap="rest", rim_width=0.04, threads=0, plants=()):
-        if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
-            raise DesirePathError(
-                f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
-            )
+        check_cell(cell_size)
         if law not in LAWS:
             raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
         if heap not in HEAPS:

@@ -451,9 +451,9 @@ def test_bad_input(folder):
         settings.frame_start, settings.frame_end = first, last
         refused(operator.desire_path_bake, f"{first} to {last}")
     settings.frame_start, settings.frame_end = 1, 10
-    for cell in (0.0, -1.0, 1e-7, 50.0):
+    for cell in (0.0, -1.0, 1e-7, 50.0, float("nan")):
         settings.cell_size = cell
-        refused(operator.desire_path_bake, "cell size")
+        refused(operator.desire_path_bake, "A cell size of", "choose")
     settings.cell_size = 0.02
     walker.desire_path.mass = -70.0
     refused(operator.desire_path_bake, "mass")
@@ -580,10 +580,19 @@ def test_lost_and_foreign_files_are_said(folder):
     bpy.ops.wm.open_mainfile(filepath=file)
     assert "damaged" in bpy.data.objects["Ground"].desire_path.missing
     (place / "index.json").write_text(text)
+    data = (place / "trail_0004.exr").read_bytes()
+    for wrong in (None, data[:-1], bytes(len(data))):  # gone, cut short, nothing but zeros
+        (place / "trail_0004.exr").unlink()
+        if wrong is not None:
+            (place / "trail_0004.exr").write_bytes(wrong)
+        bpy.ops.wm.open_mainfile(filepath=file)
+        ground = bpy.data.objects["Ground"]
+        assert "1 to 3 play, 4 to 6 are missing" in ground.desire_path.missing, ground.desire_path.missing
+        assert shown(ground, 4)[0].tobytes() == shown(ground, 3)[0].tobytes()
+        (place / "trail_0004.exr").write_bytes(data)
     (place / "trail_0004.exr").unlink()
     bpy.ops.wm.open_mainfile(filepath=file)
     ground = bpy.data.objects["Ground"]
-    assert "4 to 6 are missing" in ground.desire_path.missing, ground.desire_path.missing
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert not ground.desire_path.missing

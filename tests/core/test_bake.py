@@ -117,6 +117,50 @@ def test_a_killed_bake_plays_what_is_whole(tmp_path):
     assert read_index(killed).complete
 
 
+def test_damaged_frames_count_as_missing_and_are_written_again(tmp_path):
+    """A copy that stopped, a disk that failed: what is left of a frame is no frame."""
+    whole = tmp_path / "whole"
+    baked(whole)
+    good = content(whole)
+    frame = whole / "frames" / "trail_0005.exr"
+    data = frame.read_bytes()
+    for wrong in (b"", data[:8], data[:len(data) // 2], data[:-1], bytes(len(data)), b"text" + data[4:], data + b"x"):
+        frame.write_bytes(wrong)
+        index = read_index(whole)
+        assert index.frames == 4 and not index.complete
+    baked(whole)
+    assert content(whole) == good and read_index(whole).complete
+    # the same in a bake that goes on
+    stopped = tmp_path / "stopped"
+    run = Bake(standing(), Ground.flat(), "mud", stopped, threads=1).run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    (stopped / "frames" / "trail_0003.exr").write_bytes(data[:100])
+    assert read_index(stopped).frames == 2
+    baked(stopped)
+    assert content(stopped) == good
+
+
+def test_an_index_of_nonsense_is_baked_over(tmp_path):
+    (tmp_path / "frames.new").mkdir()
+    for text in ("[]", "null", "3", "{"):
+        (tmp_path / "frames.new" / "index.json").write_text(text)
+        baked(tmp_path)
+        assert read_index(tmp_path).complete
+        os.makedirs(tmp_path / "frames.new", exist_ok=True)
+
+
+@pytest.mark.parametrize("name", ["frames", "frames.new", "maps"])
+def test_a_file_where_a_folder_belongs_is_a_sentence(tmp_path, name):
+    (tmp_path / name).write_text("somebody's")
+    with pytest.raises(DesirePathError) as error:
+        baked(tmp_path)
+    sentence(error)
+    assert str(tmp_path / name) in str(error.value)
+    assert (tmp_path / name).read_text() == "somebody's"
+
+
 def test_walkers_out_of_proportion_are_refused(tmp_path):
     gait = standing()
     giant = replace(gait, soles=tuple(Sole(200 * sole.vertices, sole.triangles) for sole in gait.soles))

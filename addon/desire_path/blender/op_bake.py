@@ -177,10 +177,10 @@ def missing(index):
     if index.complete:
         return ""
     if not index.frames:
-        return "The last bake was stopped before its first frame: bake again."
+        return "The last bake was stopped before its first frame, or has lost it since: bake again."
     last = index.frame_start + index.frames - 1
-    return (f"The last bake was stopped: frames {index.frame_start} to {last} play, "
-            f"{last + 1} to {index.frame_end} are missing; bake again to go on.")
+    return (f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
+            f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on.")
 
 
 def free(obj):
