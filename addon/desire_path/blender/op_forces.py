@@ -68,18 +68,20 @@ def read(scene, armature):
     """A Reading of what an armature does now."""
     from .. import walker
     from ..sim import Simulation
+    from ..soil import SOILS
     settings = armature.desire_path
     land = settings.ground
     first, last = ((land.desire_path.frame_start, land.desire_path.frame_end) if land is not None
                    else sample.frame_range(scene, armature))
     gait = sample.record(scene, armature, first, last)
-    below = None
+    below, yields = None, {}
     if land is not None:
+        yields = {"settle_time": SOILS[land.desire_path.soil].settle_time}  # as when it is baked
         cell = axes.typed(land.desire_path.cell_size)
         surface = ground.read(scene, land, cell, first, box=ground.under(gait))
         gait = ground.walked(scene, [armature], gait, surface, cell, first, last)
         below = Simulation(surface.ground, cell_size=cell).rest_height
-    loads = walker.loads(gait, settings.load_model, ground=below)
+    loads = walker.loads(gait, settings.load_model, ground=below, **yields)
     forces = limbs(gait, loads, axes.unit_scale(scene), below)
     return Reading(gait, loads, forces, tuple(dict.fromkeys(gait.warnings + loads.warnings)))
 
