@@ -2,13 +2,16 @@
 //
 // Departures
 //   TRAIL (4): a body that nobody carries falls; where it does not, the foot that is lowest and
-//   slowest touches, whatever its height. test_foot_contact.c, somebody_carries_what_does_not_fall.
+//   slowest touches at its own height, as on a block that the ground does not show. Feet farther up
+//   hang from something else, a chair, a rope or wings, and press nothing. test_foot_contact.c,
+//   somebody_carries_what_does_not_fall, who_hangs_presses_nothing.
 #include <math.h>
 
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
 #define SHORTEST 0.1       // shorter gaps without a foot may well be a flight's edge       [s]
+#define HIGHEST 0.4        // a foot so far above where it stands carries nothing         [m]
 #define RISE_TO_SPEED 5.0  // a foot this much faster carries as little as one 1 m higher [1/s]
 
 static int limb_of(const DpGait* gait, int point)
@@ -38,6 +41,7 @@ static void support(const DpGait* gait, int walker, int t, const double* height,
         const double cost = speed[at] + RISE_TO_SPEED * d;
         if (cost < least) least = cost, lowest = d, limb = limb_of(gait, k);
     }
+    if (lowest > HIGHEST) return;
     for (int k = 0; k < gait->points && limb >= 0; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
         if (limb_of(gait, k) != limb || isnan(height[at])) continue;

@@ -190,6 +190,33 @@ TEST(somebody_carries_what_does_not_fall)
     scene_free(&s);
 }
 
+TEST(who_hangs_presses_nothing)
+{
+    // it stands for 1 s, is drawn up by 60 cm within another, and hangs there
+    enum
+    {
+        N = 480
+    };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        const double w = fmin(fmax(((double)t - N / 4.0) / (N / 4.0), 0.0), 1.0);
+        const double up = 0.6 * w * w * (3.0 - 2.0 * w);
+        scene_com(&s, t, 0.0, 0.0, 1.0 + up);
+        scene_put(&s, N, 0, t, 0.0, 0.1, up);
+        scene_put(&s, N, 1, t, 0.0, -0.1, up);
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    CHECK_NEAR(clearance[0], 0.0, 1e-3);
+    for (int t = 0; t < N; ++t) {
+        if (t < N / 4) CHECK(on[t] == 1 && on[N + t] == 1);
+        if (t > N / 2) CHECK(on[t] == 0 && on[N + t] == 0);
+    }
+    scene_free(&s);
+}
+
 TEST(the_ground_marks_the_edges)
 {
     // a heel that skims the ground and falls the last centimetre, ever faster until it is stopped;
@@ -278,6 +305,7 @@ int main(void)
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
     RUN(somebody_carries_what_does_not_fall);
+    RUN(who_hangs_presses_nothing);
     RUN(the_ground_marks_the_edges);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
