@@ -66,17 +66,11 @@ static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on,
             const double now = lift(gait, limb, rise, k, rate);
             if (now > most) most = now, hardest = k;
         }
-        for (int k = t; k < times && k - t < reach / 2 && !limb_on(gait, limb, on, k); ++k) {
-            const double now = lift(gait, limb, rise, k, rate);
-            if (now > most) most = now, hardest = k;
-        }
         for (int k = 0; k < gait->points; ++k) {
             if (gait->part_limb[gait->point_part[k]] != limb) continue;
             uint8_t* row = on + (size_t)k * (size_t)times;
             for (int s = hardest; s < t; ++s) row[s] = 0;
-            for (int s = t; s < hardest && row[t - 1]; ++s) row[s] = 1;
         }
-        t = hardest > t ? hardest : t;
     }
 }
 
