@@ -299,7 +299,7 @@ def test_motion_capture_on_rough_ground():
 
 
 def prints(folder, steep, aside, *, character):
-    """Bake the motion capture on a slope [tangents along its way and to its left]; (mean length of a print along
+    """Bake the motion capture on a slope [tangents along its way and to its left]; (median length of a print along
     the slope, how far the heaps' centre lies ahead of the prints', how far to the left) [m]."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     obj = people.bvh(WALKS / "cmu_12_01_walk.bvh", global_scale=0.056444)
@@ -321,7 +321,7 @@ def prints(folder, steep, aside, *, character):
     rows = np.sort(-y[pressed > 0.25 * pressed.max()])
     cuts = np.flatnonzero(np.diff(rows) > 0.2) + 1
     assert 6 <= len(cuts) + 1 <= 8, len(cuts)
-    length = np.mean([np.ptp(each) for each in np.split(rows, cuts)][1:-1]) * np.hypot(1.0, steep)
+    length = np.median([np.ptp(each) for each in np.split(rows, cuts)][1:-1]) * np.hypot(1.0, steep)
     apart = [float((of * heap).sum() / heap.sum() - (of * pressed).sum() / pressed.sum()) for of in (-y, x)]
     return length, *apart
 

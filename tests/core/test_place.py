@@ -164,7 +164,7 @@ def test_what_cannot_be_is_a_sentence(words, arguments):
 def tracks(steep, turned):
     """Prints of the walk on a slope that rises by `steep` [degrees] along its way turned by `turned`.
 
-    (mean length of a whole print along the slope, how far the heaps' centre lies ahead of the prints', how
+    (median length of a whole print along the slope, how far the heaps' centre lies ahead of the prints', how
     far to the left) [m]
     """
     gait = cmu()
@@ -187,7 +187,7 @@ def tracks(steep, turned):
     assert 6 <= len(cuts) + 1 <= 8
     lengths = [np.ptp(each) for each in np.split(prints, cuts)][1:-1]
     stretch = math.hypot(1.0, rise * math.cos(turned))
-    return (float(np.mean(lengths)) * stretch, centre(along, heap) - centre(along, pressed),
+    return (float(np.median(lengths)) * stretch, centre(along, heap) - centre(along, pressed),
             centre(aside, heap) - centre(aside, pressed))
 
 
