@@ -167,11 +167,12 @@ def rest_up(bones, rig):
 
 
 def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, tread=None,
-                    frame_rate, frame_start=1, land=None):
+                    frame_rate, frame_start=1, land=None, lie=None):
     """What the walker did, from sampled bones. Refuses bad recordings with a sentence.
 
     Soles: the tread (a Tread), else the skin's underside, else built in. land: the ground it walks on, a
-    Simulation: feet that lie on its slopes have soles that do; None: level.
+    Simulation: feet that lie on its slopes have soles that do; None: level ground. lie: whether they do, where
+    it is known.
     """
     rig = rig or rigs.detect(skeleton)
     _check(skeleton, motion, rig, mass, frame_rate, frame_start)
@@ -198,9 +199,10 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     if tread is not None:
         laid = feet_of.lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest)
         warnings += laid.warnings
+    hills = slope.below(land, feet, time, up_rest, lie) if land is not None else [None] * len(feet)
     poses, soles, points, part_limb, point_part, point_role = [], [], [], [], [], []
     for limb, foot in enumerate(feet):
-        hill = slope.below(land, foot, time, up_rest) if land is not None else None
+        hill = hills[limb]
         if hill is not None:
             flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
             foot = feet_of.Foot(flat, foot.slots, leg, person)

@@ -12,7 +12,7 @@ from . import leg, rotation
 
 RADIUS = 0.25  # the ground is smoothed over this, about a foot's length [m]
 STEEP = 2e-4  # ground whose normal leaves the vertical less than this is level: 1 - cosine of 1.1 degrees
-NEARER = 1e-3  # a foot lies on the slope when its own normal is nearer to the ground's by this [-]
+NEARER = 1e-3  # feet lie on a slope when their soles' normal is nearer to the ground's by this [-]
 
 
 @dataclass(frozen=True)
@@ -49,13 +49,36 @@ def steep(land, gait):
     return any(land.normal(xy, RADIUS)[2] < 1.0 - STEEP for xy in gait.pose[:, ::step, :2].reshape(-1, 2))
 
 
-def below(land, foot, time, up_rest):
-    """The Slope a foot lies on, or None where the ground is level or the foot does not lie on it.
+def below(land, feet, time, up_rest, lie=None):
+    """The Slope each foot lies on (F), None where the ground is level or the feet do not lie on it.
 
-    land: a Simulation of the ground. That a foot lies on the slope is told by its bone: where it stands, the
-    rest pose's sole is nearer to the slope than to the level.
+    land: a Simulation of the ground; lie: whether feet lie on it; None: as the rest pose's soles tell where they
+    stand. It is asked of all feet together, since rest poses splay them.
     """
-    ankle = foot.joints()[0]
+    found = [_under(land, foot.joints()[0]) for foot in feet]
+    if lie is None:
+        lie = _lie(feet, found, time, up_rest)
+    return found if lie else [None] * len(feet)
+
+
+def _lie(feet, hills, time, up_rest):
+    ups, normals = [], []
+    for foot, hill in zip(feet, hills):
+        stands = foot.flat(time) if hill is not None else ()
+        if not np.any(stands):
+            continue
+        name = foot.slots.foot
+        rest = rotation.square(foot.bones.rest[foot.bones.row[name], :3, :3])
+        ups.append((foot.bones.turn(name)[stands] @ (rest.T @ up_rest)).mean(axis=0))
+        normals.append(hill.turn[stands, :, 2].mean(axis=0))
+    if not ups:
+        return False
+    up, normal = (rotation.unit(np.mean(each, axis=0)) for each in (ups, normals))
+    return up @ normal - up[2] > NEARER
+
+
+def _under(land, ankle):
+    """The ground under an ankle over time (T, 3), None where there is none or it is level."""
     height = land.rest_height(ankle[:, :2])
     known = np.isfinite(height)
     if not known.any():
@@ -64,13 +87,6 @@ def below(land, foot, time, up_rest):
     height = np.interp(sample, sample[known], height[known])
     normal = np.array([land.normal(xy, RADIUS) for xy in ankle[:, :2]])
     if (normal[:, 2] > 1.0 - STEEP).all():
-        return None
-    stands = foot.flat(time)
-    if not stands.any():
-        return None
-    bone = foot.bones.rest[foot.bones.row[foot.slots.foot], :3, :3]
-    up = foot.bones.turn(foot.slots.foot)[stands] @ (rotation.square(bone).T @ up_rest)
-    if np.mean(np.sum(up * normal[stands], axis=1) - up[:, 2]) < NEARER:
         return None
     turn = leg.turn_between(np.broadcast_to((0.0, 0.0, 1.0), normal.shape), normal)
     return Slope(turn, np.concatenate([ankle[:, :2], height[:, None]], axis=1))

@@ -380,6 +380,7 @@ def bake(scene, armature, land):
         plan = Plan(scene, armature, found, gait, placed, frames)
         made = action.copy() if action is not None else bpy.data.actions.new(armature.name)
         made.name = f"{action.name if action is not None else armature.name}_placed"
+        made[sample.PLACED] = True
         if action is not None:
             made[SOURCE] = action.name
             action.use_fake_user = True  # to go back to, even after saving

@@ -18,6 +18,8 @@ from ..gait import Gait
 from ..tread import Tread
 from . import axes, compat, playback
 
+PLACED = "desire_path_placed"  # on an action whose feet were placed
+
 
 @contextmanager
 def private_scene(scene, obj):
@@ -284,6 +286,12 @@ def tread(scene, armature, feet, world, scale):
     return Tread(axes.points(size, rest, scale), faces, f"'{obj.name}'")
 
 
+def placed(armature):
+    """Does an armature play an action that Place Feet made?"""
+    animation = armature.animation_data
+    return bool(animation is not None and animation.action is not None and animation.action.get(PLACED))
+
+
 # ---- all of it --------------------------------------------------------------------------------------
 
 
@@ -310,7 +318,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     worn = skin(scene, armature, found.feet, world, scale)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
                                 tread=tread(scene, armature, found.feet, world, scale),
-                                frame_rate=rate, frame_start=frame_start, land=land)
+                                frame_rate=rate, frame_start=frame_start, land=land,
+                                lie=placed(armature) or None)
     return replace(gait, warnings=gait.warnings + told)
 
 
