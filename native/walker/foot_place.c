@@ -7,7 +7,7 @@
 //   on the slope, a heel that strikes or leaves does so there too. As printed (`flat`) every foot near
 //   the ground is flat on it, on level ground too. test_foot_place.c, level_ground_changes_nothing.
 //   TRAIL (2): a roll that is kept would have the heel strike up a slope that only toes carry on; what
-//   the toes are up over the floor fades with theta_0 / theta. test_place.py, prints_of_a_hill.
+//   the toes are up over the floor fades to nothing at 2 theta_0. test_place.py, prints_of_a_hill.
 //   The parts of a foot hang together at the ball; where it was how high over the floor, it is so
 //   high over the ground.
 #include <math.h>
@@ -172,7 +172,8 @@ static DpQuat placed_turn(const DpGait* gait, const Limb* limb, int part, int t,
     const double theta = asin(dp_clamp(slope.ahead.z, -1.0, 1.0));
     if (part != limb->lead || limb->heel < 0 || !(theta > o->toe_slope)) return q;
     const double toe_up = o->flat ? 0.0 : fmax(dp_turn(kin.turn, dp_vec3(1.0, 0.0, 0.0)).z, 0.0);
-    const double strike = asin(fmin(toe_up, 1.0)) * (1.0 - o->toe_slope / theta);
+    const double steep = o->toe_slope > 0.0 ? fmin(theta / o->toe_slope - 1.0, 1.0) : 1.0;
+    const double strike = asin(fmin(toe_up, 1.0)) * steep;
     const double offset = theta - o->toe_slope + strike;
     q = dp_quat_product(dp_quat_about(slope.left, w * offset), q);  // TRAIL (2)
     return q;

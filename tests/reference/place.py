@@ -52,7 +52,7 @@ def turn(q_kin, d, normal, d_max, theta_0, heel, flat):
     theta = math.asin(slope[2, 0])
     if heel and theta > theta_0:
         toe_up = 0.0 if flat else max(math.asin(kin[2, 0]), 0.0)
-        q = about(slope[:, 1], w * (theta - theta_0 + toe_up * (1 - theta_0 / theta))) @ q  # TRAIL (2)
+        q = about(slope[:, 1], w * (theta - theta_0 + toe_up * min(theta / theta_0 - 1, 1))) @ q  # TRAIL (2)
     return q
 
 
