@@ -89,3 +89,27 @@ typedef struct DpMapFile
 // A damaged or foreign file: DP_BAD_FILE, nothing allocated; images of more than 2^28 pixels too.
 DpStatus dp_maps_read(const char* path, DpMapFile** file);
 void     dp_map_file_destroy(DpMapFile* file);
+
+// ---- planes and points -------------------------------------------------------------------------
+
+// Planes of the same cells: cell (i, j) has its centre at (x0, y0) + (i + 0.5, j + 0.5) cell.
+typedef struct DpPlanes
+{
+    int                 nx, ny, count;
+    double              x0, y0, cell;  // [m]
+    double              still;         // a point this near to a centre lies on it [cells]
+    const float* const* plane;         // (count) of (ny, nx)
+} DpPlanes;
+
+// Points of a mesh, in the world or in the object's own space.
+typedef struct DpPoints
+{
+    int           count;
+    const double* world;  // [m] (count, 3), or NULL:
+    const float*  local;  // (count, 3)
+    const double* place;  // rows of the map from own space to the world (3, 4) [m]
+} DpPoints;
+
+// Add to out (planes, points) what every plane says at the points: between the centres of cells in
+// proportion, nothing outside.
+void dp_planes_at(const DpPlanes* planes, const DpPoints* points, int workers, float* out);

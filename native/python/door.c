@@ -1,5 +1,7 @@
 #include "python/door.h"
 
+#include "base/alloc.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -90,4 +92,62 @@ PyObject* dp_door_result(DpStatus status, const char* what)
     }
     PyErr_Format(kind, "%s: %s", what, dp_status_text(status));
     return NULL;
+}
+
+// ---- memory of the core, lent to Python ---------------------------------------------------------
+
+typedef struct Block
+{
+    PyObject_HEAD
+    void*      memory;
+    Py_ssize_t size;
+} Block;
+
+static int block_lend(PyObject* object, Py_buffer* view, int flags)
+{
+    const Block* block = (const Block*)object;
+    return PyBuffer_FillInfo(view, object, block->memory, block->size, 0, flags);
+}
+
+static void block_dealloc(PyObject* object)
+{
+    PyTypeObject* type = Py_TYPE(object);
+    dp_free(((Block*)object)->memory);
+    freefunc release = (freefunc)PyType_GetSlot(type, Py_tp_free);
+    release(object);
+    Py_DECREF(type);
+}
+
+PyObject* dp_door_block(PyObject* module, void* memory, size_t size)
+{
+    PyObject* type = PyObject_GetAttrString(module, "Block");
+    allocfunc allocate = type ? (allocfunc)PyType_GetSlot((PyTypeObject*)type, Py_tp_alloc) : NULL;
+    Block*    block = allocate ? (Block*)allocate((PyTypeObject*)type, 0) : NULL;
+    Py_XDECREF(type);
+    if (!block) {
+        dp_free(memory);
+        return NULL;
+    }
+    block->memory = memory;
+    block->size = (Py_ssize_t)size;
+    return (PyObject*)block;
+}
+
+static PyType_Slot block_slots[] = {{Py_tp_dealloc, (void*)block_dealloc},
+                                    {Py_bf_getbuffer, (void*)block_lend},
+                                    {Py_tp_doc, "Memory the core filled, as a buffer of bytes."},
+                                    {0, NULL}};
+
+static PyType_Spec block_spec = {.name = "desire_path._native.Block",
+                                 .basicsize = sizeof(Block),
+                                 .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION,
+                                 .slots = block_slots};
+
+int dp_door_types(PyObject* module)
+{
+    PyObject* type = PyType_FromModuleAndSpec(module, &block_spec, NULL);
+    if (!type) return -1;
+    const int added = PyModule_AddObjectRef(module, "Block", type);
+    Py_DECREF(type);
+    return added;
 }

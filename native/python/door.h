@@ -45,6 +45,11 @@ PyObject* dp_door_result(DpStatus status, const char* what);
 // point_role); 0, or -1 with an exception. It is valid until the door is closed.
 int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait);
 
+// Memory of dp_alloc as an object of the type `_native.Block`, which frees it: a buffer of bytes, for
+// numpy.frombuffer. NULL with an exception, and the memory freed, when there is none.
+PyObject* dp_door_block(PyObject* module, void* memory, size_t size);
+int       dp_door_types(PyObject* module);  // adds the type to the module; 0 or -1
+
 // Each py_<room>.c has one of these tables; module.c adds them all.
 extern PyMethodDef dp_py_walker_methods[];
 extern PyMethodDef dp_py_imprint_methods[];

@@ -4,11 +4,10 @@
 static int fill(PyObject* module)
 {
     PyMethodDef* const tables[] = {dp_py_walker_methods, dp_py_imprint_methods, dp_py_soil_methods,
-                                   dp_py_plants_methods, dp_py_terrain_methods,
-                                   dp_py_maps_methods};
+                                   dp_py_plants_methods, dp_py_terrain_methods, dp_py_maps_methods};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t)
         if (PyModule_AddFunctions(module, tables[t]) < 0) return -1;
-    return dp_py_sim_types(module);
+    return dp_door_types(module) < 0 ? -1 : dp_py_sim_types(module);
 }
 
 static PyModuleDef_Slot slots[] = {{Py_mod_exec, (void*)fill}, {0, NULL}};

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "maps/maps.h"
 #include "python/door.h"
 #include "python/py_sim.h"
@@ -183,7 +184,69 @@ static PyObject* maps_read(PyObject* module, PyObject* path)
     return all;
 }
 
+// ---- planes at points ---------------------------------------------------------------------------
+
+static PyObject* planes_at(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *o_planes, *o_points, *o_place, *o_out;
+    DpPlanes  planes;
+    DpPoints  points = {0};
+    if (!PyArg_ParseTuple(arguments, "OddddOOO:planes_at", &o_planes, &planes.x0, &planes.y0,
+                          &planes.cell, &planes.still, &o_points, &o_place, &o_out))
+        return NULL;
+    PyObject* items = items_of(o_planes, "planes");
+    if (!items) return NULL;
+    DpDoor           door = {.count = 0};
+    DpShape          cells = {2, {-1, -1}}, shape = {2, {-1, 3}};
+    PyObject*        done = NULL;
+    const float*     plane[DP_DOOR_MOST];
+    const Py_ssize_t count = PyTuple_Size(items);
+    if (count < 1 || count > DP_DOOR_MOST - 3) {
+        PyErr_SetString(PyExc_ValueError, "planes_at: too few or too many planes");
+        goto leave;
+    }
+    for (Py_ssize_t p = 0; p < count; ++p) {
+        plane[p] = dp_door_open(&door, PyTuple_GetItem(items, p), "a plane", 'f', &cells, false);
+        if (!plane[p]) goto leave;
+    }
+    if (o_place == Py_None) {
+        points.world = dp_door_open(&door, o_points, "points", 'd', &shape, false);
+        if (!points.world) goto leave;
+    } else {
+        points.local = dp_door_open(&door, o_points, "points", 'f', &shape, false);
+        if (!points.local) goto leave;
+        points.place = dp_door_open(&door, o_place, "place", 'd', DP_SHAPE2(3, 4), false);
+        if (!points.place) goto leave;
+    }
+    float* out = dp_door_open(&door, o_out, "out", 'f', DP_SHAPE2(count, shape.n[0]), true);
+    if (!out) goto leave;
+    if (cells.n[0] > INT32_MAX || cells.n[1] > INT32_MAX || shape.n[0] > INT32_MAX - 65536 ||
+        !(planes.cell > 0.0)) {
+        dp_door_result(DP_BAD_ARGUMENT, "looking at planes");
+        goto leave;
+    }
+    planes.nx = (int)cells.n[1], planes.ny = (int)cells.n[0], planes.count = (int)count;
+    planes.plane = plane;
+    points.count = (int)shape.n[0];
+    Py_BEGIN_ALLOW_THREADS
+    dp_planes_at(&planes, &points, dp_parallel_width(), out);
+    Py_END_ALLOW_THREADS
+    done = Py_NewRef(Py_None);
+leave:
+    dp_door_close(&door);
+    Py_DECREF(items);
+    return done;
+}
+
 PyMethodDef dp_py_maps_methods[] = {
+    {"planes_at", planes_at, METH_VARARGS,
+     "planes_at(planes, x0, y0, cell, still, points, place, out)\n\nAdd to out float32 (planes, n) "
+     "what planes, float32 (ny, nx), say at points: float64 (n, 3) of the world with place None, "
+     "or "
+     "float32 (n, 3) of an object's own space with place float64 (3, 4). Points nearer than "
+     "`still` "
+     "cells to a centre lie on it."},
     {"maps_write", maps_write, METH_VARARGS,
      "maps_write(path, names, planes, notes)\n\nWrite float32 (ny, nx) planes, row 0 = lowest y, "
      "as "

@@ -1,4 +1,6 @@
-// python/py_terrain.c - rest heights of a ground mesh, for tests and for placing walkers.
+// python/py_terrain.c - ground meshes: what of them lies near a walk, and their rest heights.
+#include "base/alloc.h"
+#include "base/parallel.h"
 #include "python/door.h"
 #include "terrain/terrain.h"
 
@@ -41,7 +43,130 @@ done:
     return answer;
 }
 
+// (low (3), high (3), bad, vertices, triangles, of) with Blocks, None where a point is bad
+static PyObject* cut_result(PyObject* module, DpCut* cut)
+{
+    PyObject* parts[3] = {NULL, NULL, NULL};
+    if (cut->bad < 0) {
+        const size_t points = (size_t)cut->point_count, triangles = (size_t)cut->triangle_count;
+        parts[0] = dp_door_block(module, cut->vertex, points * 3 * sizeof *cut->vertex);
+        parts[1] = dp_door_block(module, cut->triangle, triangles * 3 * sizeof *cut->triangle);
+        parts[2] = dp_door_block(module, cut->of, points * sizeof *cut->of);
+    } else {
+        for (int k = 0; k < 3; ++k) parts[k] = Py_NewRef(Py_None);
+    }
+    PyObject* result = NULL;
+    if (parts[0] && parts[1] && parts[2])
+        result = Py_BuildValue("(fff)(fff)iOOO", (double)cut->low[0], (double)cut->low[1],
+                               (double)cut->low[2], (double)cut->high[0], (double)cut->high[1],
+                               (double)cut->high[2], cut->bad, parts[0], parts[1], parts[2]);
+    for (int k = 0; k < 3; ++k) Py_XDECREF(parts[k]);
+    return result;
+}
+
+static PyObject* mesh_cut(PyObject* module, PyObject* arguments)
+{
+    PyObject *points, *corners, *starts, *place, *box;
+    int       sides;
+    if (!PyArg_ParseTuple(arguments, "OOOiOO:mesh_cut", &points, &corners, &starts, &sides, &place,
+                          &box))
+        return NULL;
+    DpDoor         door = {0};
+    PyObject*      answer = NULL;
+    DpShape        point_shape = {2, {-1, 3}}, corner_shape = {1, {-1}}, start_shape = {1, {-1}};
+    const float*   point = dp_door_open(&door, points, "points", 'f', &point_shape, false);
+    const int32_t* corner =
+        point ? dp_door_open(&door, corners, "corners", 'i', &corner_shape, false) : NULL;
+    const double* at =
+        corner ? dp_door_open(&door, place, "place", 'd', DP_SHAPE2(3, 4), false) : NULL;
+    const int32_t* start = NULL;
+    const double*  around = NULL;
+    if (!at ||
+        (starts != Py_None &&
+         !(start = dp_door_open(&door, starts, "starts", 'i', &start_shape, false))) ||
+        (box != Py_None && !(around = dp_door_open(&door, box, "box", 'd', DP_SHAPE1(4), false))))
+        goto done;
+    const Py_ssize_t faces = start       ? start_shape.n[0] - 1
+                             : sides > 0 ? corner_shape.n[0] / sides
+                                         : 0;
+    if (point_shape.n[0] > INT32_MAX || corner_shape.n[0] > INT32_MAX || faces < 0) {
+        answer = dp_door_result(DP_BAD_ARGUMENT, "cutting a mesh");
+        goto done;
+    }
+    const DpFaces of = {
+        (int)point_shape.n[0], (int)faces, (int)corner_shape.n[0], point, corner, start, sides};
+    DpCut    cut;
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_mesh_cut(&of, at, around, dp_parallel_width(), &cut);
+    Py_END_ALLOW_THREADS
+    answer = status == DP_OK ? cut_result(module, &cut) : dp_door_result(status, "cutting a mesh");
+done:
+    dp_door_close(&door);
+    return answer;
+}
+
+static PyObject* are_quads(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *corners, *corner_edges, *edges;
+    if (!PyArg_ParseTuple(arguments, "OOO:are_quads", &corners, &corner_edges, &edges)) return NULL;
+    DpDoor         door = {0};
+    DpShape        corner_shape = {1, {-1}}, edge_shape = {2, {-1, 2}};
+    const int32_t* corner = dp_door_open(&door, corners, "corners", 'i', &corner_shape, false);
+    const int32_t* corner_edge = corner ? dp_door_open(&door, corner_edges, "corner_edges", 'i',
+                                                       DP_SHAPE1(corner_shape.n[0]), false)
+                                        : NULL;
+    const int32_t* edge =
+        corner_edge ? dp_door_open(&door, edges, "edges", 'i', &edge_shape, false) : NULL;
+    PyObject* answer = NULL;
+    if (edge && (corner_shape.n[0] > INT32_MAX || edge_shape.n[0] > INT32_MAX)) {
+        dp_door_result(DP_BAD_ARGUMENT, "looking at edges");
+    } else if (edge) {
+        bool quads;
+        Py_BEGIN_ALLOW_THREADS
+        quads = dp_are_quads((int)corner_shape.n[0], corner, corner_edge, (int)edge_shape.n[0],
+                             edge, dp_parallel_width());
+        Py_END_ALLOW_THREADS
+        answer = PyBool_FromLong(quads);
+    }
+    dp_door_close(&door);
+    return answer;
+}
+
+static PyObject* cell_offset(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject* vertices;
+    double    cell, origin[2];
+    if (!PyArg_ParseTuple(arguments, "Oddd:cell_offset", &vertices, &cell, &origin[0], &origin[1]))
+        return NULL;
+    DpDoor        door = {0};
+    DpShape       shape = {2, {-1, 3}};
+    PyObject*     answer = NULL;
+    const double* vertex = dp_door_open(&door, vertices, "vertices", 'd', &shape, false);
+    if (vertex && (shape.n[0] > INT32_MAX || !(cell > 0.0)))
+        dp_door_result(DP_BAD_ARGUMENT, "looking for cells");
+    else if (vertex)
+        answer = PyFloat_FromDouble(dp_cell_offset((int)shape.n[0], vertex, cell, origin));
+    dp_door_close(&door);
+    return answer;
+}
+
 PyMethodDef dp_py_terrain_methods[] = {
+    {"mesh_cut", mesh_cut, METH_VARARGS,
+     "mesh_cut(points, corners, starts or None, sides, place, box or None)\n\n"
+     "Faces near a walk as triangles of the world: points float32 (n, 3), corners int32 (c,), "
+     "starts\n"
+     "int32 (f + 1,) (None: `sides` corners a face), place float64 (3, 4), box float64 (4,)\n"
+     "-> (low, high, bad, vertices, triangles, of); the last three are Blocks of float64 (k, 3),\n"
+     "int32 (m, 3) and int32 (k,), None if point `bad` >= 0 is not finite."},
+    {"are_quads", are_quads, METH_VARARGS,
+     "are_quads(corners, corner_edges, edges (e, 2))\n\n"
+     "Whether the faces of these corners are quads alone."},
+    {"cell_offset", cell_offset, METH_VARARGS,
+     "cell_offset(vertices float64 (n, 3), cell, x0, y0)\n\n"
+     "Largest distance of points from the centres of cells, in cells."},
     {"terrain_rest", terrain_rest, METH_VARARGS,
      "terrain_rest(vertices, triangles, xy, height)\n\n"
      "Height of the upper envelope of a mesh at points: vertices float64 (n, 3) [m], triangles\n"

@@ -134,3 +134,41 @@ void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int 
 // Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest);
 size_t dp_terrain_tile_count(const DpTerrain* terrain);
+
+// ---- a mesh as other programs keep it ----------------------------------------------------------
+
+typedef struct DpFaces
+{
+    int            point_count, face_count, corner_count;
+    const float*   point;   // in the object's own space (point_count, 3)
+    const int32_t* corner;  // point of every corner, face by face (corner_count)
+    const int32_t* start;   // first corner of every face (face_count + 1); NULL: each has `sides`
+    int            sides;   // 3 or 4
+} DpFaces;
+
+// Triangles of the world, and the points they need.
+typedef struct DpCut
+{
+    int      bad;              // first point that is not finite, -1 = none; else there is no more
+    float    low[3], high[3];  // box of all points, in the object's own space
+    int      point_count, triangle_count;
+    int32_t* of;        // number of the point in the whole mesh (point_count)
+    double*  vertex;    // [m] (point_count, 3)
+    int32_t* triangle;  // (triangle_count, 3)
+} DpCut;
+
+// Cut the faces that reach into a rectangle of the world into triangles: quads along the diagonal
+// that lies inside, in the faces' order. Faces are 3 or 4 corners; others: DP_BAD_ARGUMENT.
+// @param place  rows of the map from own space to the world (3, 4) [m]
+// @param box    x0, y0, x1, y1 [m]: faces wholly beyond one side are left out; NULL = none is
+DpStatus dp_mesh_cut(const DpFaces* faces, const double place[12], const double* box, int workers,
+                     DpCut* cut);
+void     dp_cut_free(DpCut* cut);
+
+// Whether faces, of which only the corners, the edge from each corner to the next one of its face,
+// and the two points of each edge are known, are quads alone.
+bool dp_are_quads(int corners, const int32_t* corner, const int32_t* corner_edge, int edges,
+                  const int32_t* edge, int workers);
+
+// Largest distance of points from the centres of the cells they lie in, along x or y [cells].
+double dp_cell_offset(int count, const double* vertex, double cell, const double origin[2]);

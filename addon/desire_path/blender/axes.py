@@ -45,19 +45,6 @@ def points(world, local, scale):
     return out
 
 
-def beyond(world, local, scale, box):
-    """On which sides of a rectangle (x0, y0, x1, y1) [m] local points lie: a bit a side, 0 inside;
-    uint8 (n,). To float32."""
-    out = np.zeros(len(local), np.uint8)
-    turn = (world[:2] * scale).astype(np.float32)
-    for axis in (0, 1):
-        a, b, c, at = turn[axis]
-        along = local[:, 0] * a + local[:, 1] * b + local[:, 2] * c + at
-        out |= (along < box[axis]).view(np.uint8) << 2 * axis
-        out |= (along > box[axis + 2]).view(np.uint8) << 2 * axis + 1
-    return out
-
-
 def sizes(world):
     """The scale of an object's axes as a matrix (4, 4); a mirrored object is mirrored along X."""
     out = np.eye(4)
@@ -99,9 +86,3 @@ def image_axes(world, scale, index):
     turn = world[:2, :3] * scale / size[:, None]
     shift = (world[:2, 3] * scale - np.array((index.x0, index.y0))) / size
     return turn, shift
-
-
-def cell_offset(world_xy, cell, origin):
-    """Largest distance of points from the centres of the cells they lie in, in cells."""
-    at = (np.asarray(world_xy)[:, :2] - np.asarray(origin)) / cell - 0.5
-    return float(np.abs(at - np.round(at)).max()) if len(at) else 0.0

@@ -30,18 +30,38 @@ def triangles(mesh):
 
 
 def faces(mesh):
-    """Vertex of every corner, int32 (c,), and where each face's corners begin, int32 (f + 1,)."""
-    corners = np.empty(len(mesh.loops), np.int32)
-    starts = np.empty(len(mesh.polygons) + 1, np.int32)
+    """The faces in 3 or 4 corners each: the vertex of every corner, int32 (c,); where each face's corners
+    begin, int32 (f + 1,), or None where each has as many; how many that is."""
+    count, corners = len(mesh.polygons), np.empty(len(mesh.loops), np.int32)
+    if not _ints(mesh, ".corner_vert", corners) and count:
+        mesh.loops.foreach_get("vertex_index", corners)
+    if len(corners) == 3 * count:
+        return corners, None, 3  # no face has fewer
+    if len(corners) == 4 * count and _are_quads(mesh, corners):
+        return corners, None, 4
+    starts = np.empty(count + 1, np.int32)
     starts[-1] = len(corners)
-    if len(corners):
-        attribute = mesh.attributes.get(".corner_vert")
-        if attribute is not None:
-            attribute.data.foreach_get("value", corners)
-        else:
-            mesh.loops.foreach_get("vertex_index", corners)
-        mesh.polygons.foreach_get("loop_start", starts[:-1])
-    return corners, starts
+    mesh.polygons.foreach_get("loop_start", starts[:-1])
+    if np.diff(starts).max() > 4:
+        return triangles(mesh).ravel(), None, 3
+    return corners, starts, 0
+
+
+def _ints(mesh, name, out):
+    """Fill an array from an attribute of whole numbers, which is quick; False where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None:
+        return False
+    attribute.data.foreach_get("value", out)
+    return True
+
+
+def _are_quads(mesh, corners):
+    """Whether all faces are known to be quads; asking each face would take longer than all else."""
+    from .. import mesh as meshes  # the core is loaded when it is first needed
+    around, edges = np.empty(len(corners), np.int32), np.empty((len(mesh.edges), 2), np.int32)
+    return (_ints(mesh, ".corner_edge", around) and _ints(mesh, ".edge_verts", edges.ravel())
+            and meshes.are_quads(corners, around, edges))
 
 
 def float_attribute(mesh, name):

@@ -16,7 +16,7 @@ STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 
 NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
 LEVEL = 0.01  # ground that rises less than this is level [m]
 FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
-BLOCK = 1 << 16  # faces looked at in one go
+BLOCK = 1 << 16  # faces looked at in one go, at most
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
 
@@ -40,6 +40,8 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     """
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
+    from .. import mesh as meshes  # the core is loaded when it is first needed
+    from ..sim import Ground
     scale = axes.unit_scale(scene)
     warnings = []
     groups = [each.vertex_group for each in obj.desire_path.painted]
@@ -64,37 +66,29 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
             if frame_end is not None and np.isfinite(last).all() and not np.allclose(last, world):
                 warnings.append(f"'{obj.name}' moves between the frames: it is walked on as it lies "
                                 f"at frame {frame_start}.")
-            local = compat.positions(found.data)
-            faces = len(found.data.polygons)
-            finite = not len(local) or (local.min() > -axes.FAR and local.max() < axes.FAR)
-            triangles = _triangles(found.data, world, scale, box) if finite else None
+            if not len(found.data.polygons):
+                raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
+            near = meshes.near(compat.positions(found.data), *compat.faces(found.data),
+                               world[:3] * scale, box)
             weights = [compat.float_attribute(found.data, WEIGHT.format(k))
                        for k in range(len(groups))]
     finally:
         bpy.data.objects.remove(copy)
         if tree is not None:
             bpy.data.node_groups.remove(tree)
-    if not faces:
-        raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
-    if not finite:
-        bad = np.flatnonzero(~(np.abs(local) < axes.FAR).all(axis=1))
-        raise DesirePathError(f"Vertex {bad[0]} of '{obj.name}' is NaN or infinite: move or remove "
+    if near.bad >= 0:
+        raise DesirePathError(f"Vertex {near.bad} of '{obj.name}' is NaN or infinite: move or remove "
                               "it in Edit Mode.")
-    ends = [(local[:, k].min(), local[:, k].max()) for k in range(3)]
-    if not len(triangles):
+    if not len(near.triangles):
         raise DesirePathError(f"The walk passes beside the ground '{obj.name}': move the walker or "
                               "the ground so that one lies over the other.")
-    used = np.zeros(len(local), bool)
-    used[triangles] = True
-    triangles = (np.cumsum(used, dtype=np.int32) - 1)[triangles]
-    vertices = axes.points(world, local[used], scale)
+    vertices, triangles = near.vertices, near.triangles
     _faces_up(obj, world, vertices, triangles)
-    kinds = _kinds([w[used] if w is not None else None for w in weights],
+    kinds = _kinds([w[near.of] if w is not None else None for w in weights],
                    len(vertices)) if groups else None
-    from ..sim import Ground  # the core is loaded when it is first needed
-    return Surface(Ground.mesh(vertices, triangles, kinds), world, scale, vertices,
-                   np.array(list(product(*ends)), np.float64), _cell_corner(vertices, cell),
-                   tuple(warnings))
+    return Surface(Ground(("mesh", vertices, triangles, kinds), "mesh"), world, scale, vertices,
+                   np.array(list(product(*zip(near.low, near.high))), np.float64),
+                   _cell_corner(vertices, cell), tuple(warnings))
 
 
 def under(gait):
@@ -103,54 +97,14 @@ def under(gait):
     return (*(feet.min(axis=0) - NEAR), *(feet.max(axis=0) + NEAR))
 
 
-def _triangles(mesh, world, scale, box):
-    """The mesh's faces cut into triangles, int32 (m, 3), without those beyond the box."""
-    local = compat.positions(mesh)
-    side = axes.beyond(world, local, scale, box) if box is not None else None
-    corners, starts = compat.faces(mesh)
-    sizes = np.diff(starts)
-    if len(sizes) and sizes.max() > 4:
-        out = compat.triangles(mesh)
-        return out if box is None else out[np.bitwise_and.reduce(side[out], axis=1) == 0]
-    if len(sizes) and sizes.min() == 4:  # the usual ground: quads alone
-        return _halves(local, _reaching(corners.reshape(-1, 4), side))
-    three = _reaching(corners[starts[:-1][sizes == 3][:, None] + np.arange(3)], side)
-    four = _reaching(corners[starts[:-1][sizes == 4][:, None] + np.arange(4)], side)
-    return np.concatenate((three, _halves(local, four)))
-
-
-def _reaching(faces, side):
-    """The faces (f, k) that are not wholly beyond one side of the box."""
-    if side is None or not len(faces):
-        return faces
-    beyond = np.take(side, faces)
-    if faces.shape[1] == 4:  # four bytes in one go
-        beyond = beyond.view(np.uint32)[:, 0]
-        beyond &= beyond >> 16
-        beyond &= beyond >> 8
-        return faces[(beyond & 0xFF) == 0]
-    return faces[np.bitwise_and.reduce(beyond, axis=1) == 0]
-
-
-def _halves(local, four):
-    """Quads (f, 4) cut in two along the diagonal that lies inside."""
-    corner = np.take(local, four, axis=0)  # (f, 4, 3)
-    ab, ac, ad = (corner[:, k] - corner[:, 0] for k in (1, 2, 3))
-    left = [ab[:, i] * ac[:, j] - ab[:, j] * ac[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    right = [ac[:, i] * ad[:, j] - ac[:, j] * ad[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    dent = sum(one * other for one, other in zip(left, right)) < 0.0
-    if dent.any():
-        four = four.copy()
-        four[dent] = np.roll(four[dent], -1, axis=1)
-    return np.concatenate((four[:, (0, 1, 2)], four[:, (0, 2, 3)]))
-
-
 def _faces_up(obj, world, vertices, triangles):
     """Refuse walls and ceilings: look at faces until one can be walked on."""
     hand = np.sign(np.linalg.det(world[:3, :3]))
     has_area = looks_down = False
-    for first in range(0, len(triangles), BLOCK):
-        a, b, c = (vertices[triangles[first:first + BLOCK, k]] for k in range(3))
+    first, block = 0, 64
+    while first < len(triangles):
+        a, b, c = (vertices[triangles[first:first + block, k]] for k in range(3))
+        first, block = first + block, min(2 * block, BLOCK)
         normal = np.cross(b - a, c - a) * hand
         area = np.linalg.norm(normal, axis=1)
         rise = normal[:, 2] / np.maximum(area, 1e-300)
@@ -180,7 +134,8 @@ def _cell_corner(vertices, cell):
 
 def smooth(vertices, cell, corner):
     """Whether points lie between the centres of cells, so that playback must interpolate."""
-    return axes.cell_offset(vertices, cell, corner) >= playback.ALIGNED
+    from .. import mesh as meshes
+    return meshes.cell_offset(vertices, cell, corner) >= playback.ALIGNED
 
 
 def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):

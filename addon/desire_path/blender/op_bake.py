@@ -113,7 +113,6 @@ class Job:
         if report is None:
             settings.summary = ""
             return settings.missing or "Stopped."
-        self.warnings += cover.few_points(obj, self.surface, index)
         report = dict(report, seconds_recording=round(self.recorded, 3),
                       seconds_in_all=round(time.perf_counter() - self.begun, 3))
         self.warnings += [each for each in report["warnings"] if each not in self.warnings]
@@ -157,7 +156,10 @@ def play(obj, surface):
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
                         layer_depth=depth, standing=plants.standing(obj))
-        warnings = cover.fill(obj, surface, index, depth)
+        planes = cover.planes(index)
+        warnings = cover.fill(obj, surface, index, depth, planes)
+        if index.complete:
+            warnings += cover.few_points(obj, surface, index, planes)
     else:
         playback.detach(obj)
         warnings = []
