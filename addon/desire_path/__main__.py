@@ -1,4 +1,4 @@
-"""python -m desire_path: bake a recording, list or draw its forces, on a machine without Blender."""
+"""python -m desire_path: bake a recording, list or draw its forces, wear a lane, on a machine without Blender."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import argparse
 import os
 import sys
 
-from . import maps, plot, walker
-from .bake import Bake
+from . import fit, lane, maps, plot, walker
+from . import path as paths
+from .bake import FILMS, Bake
 from .errors import DesirePathError
 from .gait import Gait
 from .place import place_feet
 from .report import sentences, summary, write_contacts
-from .sim import HEAPS, LAWS, LOAD_MODELS, Ground
+from .plants import KINDS, Kind, Planting
+from .sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
 from .soil import SOILS
 from .version import VERSION
 
@@ -35,24 +37,61 @@ def _ground(text, spacing):
     return Ground.heights(picture.planes[name], step, x0 + step / 2, y0 + step / 2)
 
 
-def _bar(progress):
+def _kind(text):
+    """A kind's name, or a file that Kind.save or the fit wrote."""
+    return Kind.load(text) if text.endswith(".json") else text
+
+
+def _planting(text, seed):
+    """A planting from the command line: KIND or KIND:DENSITY."""
+    name, _, density = text.partition(":")
+    try:
+        return Planting(_kind(name), float(density) if density else None, seed=seed)
+    except ValueError as problem:
+        if isinstance(problem, DesirePathError):
+            raise
+        raise DesirePathError(f"'{text}' cannot be planted: write KIND or KIND:PLANTS for each m^2.") from None
+
+
+def _counts(text):
+    try:
+        return [int(word) for word in text.split(",")]
+    except ValueError:
+        raise DesirePathError(f"'{text}' are no counts of passes: write whole numbers with commas.") from None
+
+
+def _along(args, gait, ground):
+    """The walk carried along a path over this ground, if it is to be."""
+    if not args.along:
+        if args.passes != 1:
+            raise DesirePathError("--passes needs a path to walk on: add --along PATH.csv with the columns x,y.")
+        return place_feet(gait, ground) if args.place_feet else gait
+    if args.place_feet:
+        raise DesirePathError("--along lays the feet on the ground's slope itself: leave out --place-feet.")
+    below = Simulation(ground, args.soil, args.cell, origin=args.origin).rest_height
+    return gait.along(paths.read(args.along)[:, :2], args.passes, back_and_forth=not args.one_way,
+                      lateral=args.lateral, timing=args.timing, stride=args.stride, seed=args.seed, pause=args.pause,
+                      ground=below)
+
+
+def _bar(fraction, what):
     if sys.stderr.isatty():
-        full = int(40 * progress.fraction)
-        line = f"\r[{'#' * full}{'.' * (40 - full)}] frame {progress.frame}"
-        print(line, end="" if progress.fraction < 1 else "\n", file=sys.stderr, flush=True)
+        full = int(40 * fraction)
+        line = f"\r[{'#' * full}{'.' * (40 - full)}] {what}"
+        print(line, end="" if fraction < 1 else "\n", file=sys.stderr, flush=True)
 
 
 def _bake(args):
     gait, ground = Gait.load(args.walk), _ground(args.ground, args.spacing)
-    if args.place_feet:
-        gait = place_feet(gait, ground)
+    plants = [_planting(text, args.seed) for text in args.plants]
     bake = Bake(
-        gait, ground, args.soil, args.out, cell_size=args.cell,
+        _along(args, gait, ground), ground, args.soil, args.out, cell_size=args.cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, threads=args.threads, origin=args.origin,
+        heap=args.heap, threads=args.threads, origin=args.origin, plants=plants, film=args.film,
     )
+    word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
-        _bar(progress)
+        _bar(progress.fraction, f"{word} {progress.frame}")
     report = bake.report
     print(f"contacts      {report['contacts']}")
     print(f"deepest       {1000 * report['deepest_m']:.1f} mm")
@@ -87,10 +126,32 @@ def _plot(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
+def _lane(args):
+    rows = lane.measure(_kind(args.kind), length=args.length, width=args.width, passes=_counts(args.passes),
+                        mass=args.mass, seed=args.seed, rest_days=args.rest_days, soil=args.soil,
+                        cell_size=args.cell, threads=args.threads, progress=lambda done: _bar(done, "of the passes"))
+    lane.write(args.out, rows)
+    for count, cover in rows:
+        print(f"{count:5} passes  {cover:5.1f} % cover")
+    print(f"written to    {os.path.abspath(args.out)}")
+
+
+def _fit(args):
+    found = fit.fit(lane.read(args.cover), _kind(args.kind), length=args.length, width=args.width, mass=args.mass,
+                    progress=lambda done: _bar(done, "of the lanes, at most"))
+    found.kind.save(args.out)
+    for count, wanted, reached in zip(found.passes, found.wanted, found.reached):
+        print(f"{count:5} passes  {wanted:5.1f} % wanted  {reached:5.1f} % reached")
+    print(f"fit           {found.rms:.1f} points off on average (rms), {found.worst:.1f} at worst")
+    print(f"strength      {found.kind.strength:.4g}")
+    print(f"spread        {found.kind.spread:.4g}")
+    print(f"written to    {os.path.abspath(args.out)}")
+
+
 def _parser():
     parser = argparse.ArgumentParser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
-    tasks = parser.add_subparsers(required=True, metavar="bake | loads | plot")
+    tasks = parser.add_subparsers(required=True, metavar="bake | loads | plot | lane | fit")
 
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
@@ -103,6 +164,18 @@ def _parser():
     bake.add_argument("--out", required=True, help="folder for the files")
     bake.add_argument("--place-feet", action="store_true",
                       help="turn the feet to the ground's slope first; a walk of a level floor is carried there")
+    bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
+    bake.add_argument("--passes", type=int, default=1, help="how often it goes along the path (1)")
+    bake.add_argument("--one-way", action="store_true", help="every pass from the start, not there and back")
+    bake.add_argument("--lateral", type=float, default=0.1, help="how far passes scatter to the side [m] (0.1)")
+    bake.add_argument("--timing", type=float, default=0.05, help="by how much their pace differs, a share (0.05)")
+    bake.add_argument("--stride", type=float, default=0.05, help="by how much their strides differ, a share (0.05)")
+    bake.add_argument("--pause", type=float, default=0.0, help="time between passes [s] (0)")
+    bake.add_argument("--seed", type=int, default=0, help="of the scatter and the plants (0)")
+    bake.add_argument("--film", choices=FILMS, help="a playback frame for every scene frame, or for every pass; "
+                      "passes, if there are several")
+    bake.add_argument("--plants", nargs="+", default=[], metavar="KIND[:DENSITY]",
+                      help=f"what grows here: {', '.join(KINDS)}, or a kind's file (.json); plants for each m^2")
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")
     bake.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
@@ -123,6 +196,29 @@ def _parser():
     graph.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     graph.add_argument("--out", required=True, help=f"the picture ({', '.join(plot.KINDS)})")
     graph.set_defaults(task=_plot)
+
+    tread = tasks.add_parser("lane", help="measure the cover that is left of a planted lane after so many passes")
+    tread.add_argument("--kind", default="carex", help=f"{', '.join(KINDS)}, or a kind's file (.json)")
+    tread.add_argument("--length", type=float, default=5.0, help="of the lane [m] (5)")
+    tread.add_argument("--width", type=float, default=0.5, help="of the lane [m] (0.5)")
+    tread.add_argument("--passes", default=",".join(map(str, lane.PASSES)), help="counts to measure at (25,75,200,500)")
+    tread.add_argument("--mass", type=float, default=75.0, help="of who walks [kg] (75)")
+    tread.add_argument("--seed", type=int, default=0, help="of the plants and the walkers' scatter (0)")
+    tread.add_argument("--rest-days", type=float, default=0.0, help="days of growth before every count (0)")
+    tread.add_argument("--soil", default="soil", help=f"one of {', '.join(SOILS)}")
+    tread.add_argument("--cell", type=float, default=0.02, help="side of a cell [m] (0.02)")
+    tread.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
+    tread.add_argument("--out", required=True, help="the table passes,cover (.csv)")
+    tread.set_defaults(task=_lane)
+
+    kinds = tasks.add_parser("fit", help="find the kind of plant that wears as a table of cover says (needs SciPy)")
+    kinds.add_argument("cover", help="a table with the columns passes,cover [per cent] and, if it likes, days of rest")
+    kinds.add_argument("--kind", default="carex", help="a kind that looks like it: a name or a file (.json)")
+    kinds.add_argument("--length", type=float, default=5.0, help="of the lane [m] (5)")
+    kinds.add_argument("--width", type=float, default=0.5, help="of the lane [m] (0.5)")
+    kinds.add_argument("--mass", type=float, default=75.0, help="of who walked [kg] (75)")
+    kinds.add_argument("--out", required=True, help="the kind (.json)")
+    kinds.set_defaults(task=_fit)
     return parser
 
 

@@ -5,6 +5,7 @@
     folder/frames/lean_0001.exr    with plants: how the grass lies, likewise from lean_0000.exr on
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
+    folder/maps/pass_0001.exr      or after a pass, where a frame is a pass
     folder/maps_start.exr          plant_strength_in, young_modulus_in
     folder/maps_final.exr          compression, heap, pressure_time, plant_strength; lean_x, lean_y, crushed
     folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
@@ -31,6 +32,7 @@ from . import maps, plant_mesh, walker
 from .errors import DesirePathError
 from .folder import FORMAT, FRAMES, MAPS, OURS, delete, frame_path, frames_there, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
+from .passes import turns_of
 from .plants import as_plantings
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils, check_cell
 from .version import VERSION
@@ -39,6 +41,8 @@ SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 a
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
+FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
+MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
@@ -57,19 +61,24 @@ class Bake:
     cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
     load_model: "inertia" or "impulse"; law, heap, rim_width, threads, plants: as for Simulation.
     plant_mesh: write the plants themselves as a mesh and its point cache, for close-ups.
-    resume: go on where the same bake was stopped. map_seconds: write maps after every second.
+    resume: go on where the same bake was stopped. map_seconds: write maps after every second, or pass.
+    film: "frames", or "passes": frame n is the ground after pass n of Gait.along; None = "passes" if there are several.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False):
+                 plants=(), plant_mesh=False, film=None):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
             )
+        if film not in (None, *FILMS):
+            raise DesirePathError(f"There is no film '{film}': choose {' or '.join(FILMS)}.")
         gait.check()
         self.gait = gait
+        self.passes = turns_of(gait)
+        self.film = film or FILMS[len(self.passes) > 1]
         self.ground = ground
         self.soils = as_soils(soils)
         self.plants = as_plantings(plants)
@@ -78,11 +87,12 @@ class Bake:
             raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
         self.folder = os.path.abspath(os.fspath(folder))
         self.frame_rate = float(gait.frame_rate)
-        last = gait.frame_start + math.floor(
-            (gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6)
+        frames = (len(self.passes) - 1 if self.film == "passes"
+                  else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
+        last = gait.frame_start + frames
         self.frame_start = gait.frame_start if frame_start is None else int(frame_start)
         self.frame_end = last if frame_end is None else int(frame_end)
-        if self.frame_end <= self.frame_start:
+        if self.frame_end <= self.frame_start and self.film == "frames" or self.frame_end < self.frame_start:
             raise DesirePathError(
                 f"The frame range {self.frame_start} to {self.frame_end} holds no motion: let it end after it starts."
             )
@@ -115,13 +125,14 @@ class Bake:
             "mass_kg": [float(mass) for mass in self.gait.mass],
             **self.options,
             **grown,
+            **({"film": self.film} if self.film != "frames" else {}),
         }
 
     def _signature(self):
         """The same for two bakes exactly when they write the same files."""
         digest = hashlib.sha256(f"{VERSION} {FORMAT} {self._parameters()} {self.ground.native[0]}".encode())
         gait = self.gait
-        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker]
+        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
         for planting in self.plants:
@@ -133,8 +144,10 @@ class Bake:
 
     def _simulation(self):
         """The ground with the recording on it, at a whole number of samples a frame."""
-        self.samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
-        gait = self.gait.resample(self.frame_rate * self.samples)
+        samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
+        gait = self.gait.resample(self.frame_rate * samples)
+        self.times = gait.time - gait.time[0]
+        self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]
         sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads,
                          plants=self.plants, **self.options)
         walks = walker.Walker(self.load_model, settle_time=self.soils[0].settle_time)  # tau of TRAIL (3)
@@ -259,7 +272,10 @@ class Bake:
 
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
-        return max(0, (frame - self.gait.frame_start) * self.samples)
+        number = max(frame - self.gait.frame_start, 0)
+        if self.film == "passes":
+            return self.ends[min(number, len(self.ends) - 1)]
+        return int(np.searchsorted(self.times, number / self.frame_rate + 1e-6, "right")) - 1
 
     def _index(self, tiles):
         tx, ty, nx, ny = tiles
@@ -320,6 +336,8 @@ class Bake:
 
     def _time(self, frame):
         """Of a scene frame since the recording began [s]."""
+        if self.film == "passes":
+            return float(self.times[self._sample(frame)])
         return (frame - self.gait.frame_start) / self.frame_rate
 
     def _notes(self, tiles):
@@ -336,7 +354,13 @@ class Bake:
         return maps.MAPS + (maps.LEAN if self.plants else ())
 
     def _second(self, sim, frame):
-        """After every whole simulated second, TRAIL (17)."""
+        """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
+        if self.film == "passes":
+            number = frame - self.gait.frame_start + 1
+            if number % -(-len(self.passes) // MOST_PASS_MAPS) == 0:
+                name = f"pass_{number:04d}.exr"
+                sim.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
+            return
         elapsed = frame - self.frame_start
         before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
         if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
@@ -362,7 +386,7 @@ class Bake:
         if found["off_ground"] and walker.BESIDE not in warnings:
             warnings.append(walker.BESIDE)
         return {
-            "contacts": found["contacts"], "deepest_m": found["deepest_m"],
+            "passes": len(self.passes), "contacts": found["contacts"], "deepest_m": found["deepest_m"],
             "pressed_m3": found["pressed_m3"], "pressed_heap_m3": found["pressed_heap_m3"],
             "heaped_m3": found["heaped_m3"], "displaced_m3": found["displaced_m3"],
             "seconds": round(seconds["total"], 3),

@@ -2,7 +2,7 @@
 
     frames/     trail_0000.exr .., index.json      frames.new/   the bake that is being made
                 lean_0000.exr .., with plants
-    maps/       second_0001.exr ..                 maps.new/     its maps
+    maps/       second_0001.exr .., pass_0001.exr  maps.new/     its maps
 Files of others in these folders are left alone. bake.py says what each file holds.
 """
 
@@ -20,7 +20,7 @@ from .errors import DesirePathError
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
-MAPS = ("second_*.exr", "second_*.part")
+MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
 OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
         "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part",
              "plants.pc2", "plants.pc2.part", "plants.npz")}

@@ -143,6 +143,8 @@ class Planting:
     rectangle: (x0, y0, x1, y1) [m], where they may stand: None = everywhere on the ground.
     weight: (ny, nx), 0..1, over the rectangle, row 0 at the lowest y: thins the density; None = 1.
     roots: (n, 2) [m]: exactly these plants, in place of density, rectangle and weight.
+    vigour: (n,) one for each of the roots, about -3 to 3: its reserves are exp(spread vigour) times the kind's;
+    None = a normal number from the seed and the plant's place.
     """
 
     kind: Kind
@@ -151,6 +153,7 @@ class Planting:
     weight: np.ndarray | None = None
     rectangle: tuple | None = None
     roots: np.ndarray | None = None
+    vigour: np.ndarray | None = None
 
     def __post_init__(self):
         put = functools.partial(object.__setattr__, self)
@@ -178,6 +181,11 @@ class Planting:
             if roots.ndim != 2 or roots.shape[1] != 2 or not np.isfinite(roots).all():
                 raise DesirePathError(f"Roots of shape {roots.shape} cannot be planted: give finite x, y [m], (n, 2).")
             put("roots", roots)
+        if self.vigour is not None:
+            vigour = np.ascontiguousarray(self.vigour, np.float32)
+            if self.roots is None or vigour.shape != (len(self.roots),) or not (abs(vigour) <= 8).all():
+                raise DesirePathError("The vigour of a planting needs roots, and one number from -8 to 8 for each.")
+            put("vigour", vigour)
 
     def within(self, x0, y0, x1, y1):
         """Roots (n, 2) float32 [m] of the squares that a rectangle [m] meets: what may stand there."""
@@ -229,7 +237,7 @@ class Planting:
 
     def arrays(self):
         """The arrays that tell one planting from another."""
-        return [array for array in (self.weight, self.roots) if array is not None]
+        return [array for array in (self.weight, self.roots, self.vigour) if array is not None]
 
 
 def as_kind(kind):

@@ -196,13 +196,16 @@ class Simulation:
             self._core.open_plants(seed_of(self.plantings))
         for number, planting in enumerate(self.plantings):
             if planting.roots is not None:
-                self._plant(number, planting.roots)
+                self._plant(number, planting.roots, planting.vigour)
 
-    def _plant(self, number, roots):
+    def _plant(self, number, roots, vigour=None):
         """Plant roots (n, 2) of a planting where there is ground."""
         stand, count = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(roots))
         if count:
             self.stands.append((stand, number, count))
+            if vigour is not None:
+                there = np.isfinite(self.rest_height(roots))
+                self._core.vary_plants(stand, np.ascontiguousarray(vigour[there]))
 
     def _plant_reach(self):
         """Plant what the loaded recording can reach and is not planted yet."""

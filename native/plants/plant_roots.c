@@ -139,6 +139,24 @@ double dp_plants_reserve(const DpPlants* plants, int stand, int plant)
     return block ? block->reserve[lane] : 0.0;
 }
 
+DpStatus dp_plants_vary(DpPlants* plants, int stand_name, const float* z)
+{
+    const int count = stand_name >= 0 ? dp_plants_count(plants, stand_name) : 0;
+    if (count < 1 || !z) return DP_BAD_ARGUMENT;
+    const PlantStand* stand = &plants->stand[stand_name];
+    for (int k = 0; k < count; ++k)
+        if (!(fabsf(z[k]) <= 8.0f)) return DP_BAD_ARGUMENT;
+    for (int b = 0; b < stand->blocks; ++b)
+        if (stand->block[b].state) return DP_BAD_ARGUMENT;
+    for (int slot = 0; slot < stand->blocks * DP_LANES; ++slot) {
+        PlantBlock*  block = &stand->block[slot / DP_LANES];
+        const int    lane = slot % DP_LANES;
+        const double by = (double)stand->kind.spread * (double)z[block->plant[lane]];
+        block->reserve[lane] = (double)stand->kind.strength * exp(by);
+    }
+    return DP_OK;
+}
+
 double dp_plants_alpha(const DpPlants* plants, int stand, int plant)
 {
     int               lane = 0;

@@ -139,6 +139,9 @@ DpStatus dp_plants_write(DpPlants* plants, int stand, int plant, const float* po
                          const float* velocity, const double* strength);
 // exp(s z) * eps_b, the most strength a bend of this plant has.
 double dp_plants_reserve(const DpPlants* plants, int stand, int plant);
+// Give every plant of a stand its z (count), |z| <= 8, in place of that from the seed and its place.
+// Before anybody treads on them; else DP_BAD_ARGUMENT.
+DpStatus dp_plants_vary(DpPlants* plants, int stand, const float* z);
 // alpha_k, share of a plant's bends with nothing broken from the root up to them. TRAIL (7)
 double dp_plants_alpha(const DpPlants* plants, int stand, int plant);
 

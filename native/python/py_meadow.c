@@ -56,6 +56,26 @@ PyObject* dp_py_plant(PyObject* object, PyObject* args)
     return result;
 }
 
+PyObject* dp_py_vary_plants(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    int         stand;
+    PyObject*   o_vigour;
+    if (!PyArg_ParseTuple(args, "iO:vary_plants", &stand, &o_vigour)) return NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   list = {1, {-1}};
+    PyObject* result = NULL;
+    float*    vigour = dp_door_open(&door, o_vigour, "vigour", 'f', &list, false);
+    if (vigour && enter(self)) {
+        const bool fits = stand >= 0 && dp_plants_count(self->plants, stand) == list.n[0];
+        result = dp_door_result(
+            fits ? dp_plants_vary(self->plants, stand, vigour) : DP_BAD_ARGUMENT, "varying plants");
+        self->busy = false;
+    }
+    dp_door_close(&door);
+    return result;
+}
+
 PyObject* dp_py_rest_plants(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;

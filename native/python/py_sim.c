@@ -307,6 +307,8 @@ static PyMethodDef methods[] = {
      "plant(kind (21,) f8, root (n, 2) f4) -> (stand, plants): its name from now on, and how many "
      "came"
      " up: those on the ground; (-1, 0) if none."},
+    {"vary_plants", dp_py_vary_plants, METH_VARARGS,
+     "vary_plants(stand, vigour (n,) f4): reserves are exp(spread * vigour); before anybody treads."},
     {"rest_plants", dp_py_rest_plants, METH_VARARGS,
      "rest_plants(seconds): time passes without walkers; plants recover and grow again."},
     {"read_plants", dp_py_read_plants, METH_VARARGS,

@@ -61,6 +61,7 @@ int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind);
 // py_meadow.c
 PyObject* dp_py_open_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_plant(PyObject* object, PyObject* args);
+PyObject* dp_py_vary_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_rest_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_read_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args);

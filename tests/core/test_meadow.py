@@ -225,3 +225,15 @@ def test_a_mesh_of_no_plants_is_refused(tmp_path):
         bake(tmp_path, [], plant_mesh=True)
     with pytest.raises(DesirePathError):
         bake(tmp_path, [Planting("carex", rectangle=(50, 50, 51, 51))], plant_mesh=True)
+
+
+def test_vigour_is_each_plants_own():
+    roots = np.array([[0.0, 0.0], [0.1, 0.0], [9.0, 9.0], [0.2, 0.0]])
+    kind = replace(KINDS["carex"], spread=0.5)
+    ground = Ground.heights(np.zeros((5, 5)), 1.0, -2.0, -2.0)  # the third root has none
+    sim = Simulation(ground, plants=Planting(kind, roots=roots, vigour=[1.0, -2.0, 3.0, 0.0]))
+    strength = sim.plants_strength(0)[:, 0]
+    assert strength == pytest.approx(kind.strength * np.exp([0.5, -1.0, 0.0]), rel=1e-5)
+    for bad in (dict(vigour=[1.0]), dict(roots=roots, vigour=[1.0]), dict(roots=roots, vigour=[0, 0, 0, np.nan])):
+        with pytest.raises(DesirePathError, match="vigour"):
+            Planting("carex", **bad)

@@ -61,6 +61,18 @@ TEST(reserves_spread_as_told)
     CHECK_NEAR(sum / 3000, 0.0, 0.08);
     CHECK_NEAR(sqrt(squares / 3000), 1.3, 0.06);
     CHECK(same == 0);
+
+    // or as told, in the order in which they were planted, until somebody treads on them
+    float z[3000];
+    for (int k = 0; k < 3000; ++k) z[k] = (float)(k % 7 - 3);
+    CHECK(dp_plants_vary(a, 0, z) == DP_OK);
+    for (int k = 0; k < 3000; ++k)
+        CHECK_NEAR(dp_plants_reserve(a, 0, k), 0.1 * exp(1.3 * (double)z[k]), 1e-5);
+    CHECK(dp_plants_vary(a, 1, z) == DP_BAD_ARGUMENT && dp_plants_vary(a, 0, NULL) != DP_OK);
+    CHECK(dp_plants_write(a, 0, 5, NULL, NULL, NULL) == DP_OK);
+    CHECK(dp_plants_vary(a, 0, z) == DP_BAD_ARGUMENT);
+    z[9] = NAN;
+    CHECK(dp_plants_vary(b, 0, z) == DP_BAD_ARGUMENT);
     dp_plants_destroy(a), dp_plants_destroy(b);
 }
 

@@ -1,0 +1,164 @@
+"""From measured cover to a kind of plant: which reserves, and how different ones, wear as the table says. Design 7.
+
+    lane of stems that cannot break ---how long each is bent---> model of cover ---SciPy---> strength, spread
+                         ^                                                                      |
+                         +------ measured minus modelled, after a lane with that kind <---------+
+
+How long a stem is bent does not depend on its reserve but for what hangs limp, so one lane serves for any
+reserve; what the model leaves out is measured on lanes with the kind that was found, and fitted for again.
+Needs SciPy, which nothing else here does: pip install desire-path[fit].
+"""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import _native, lane
+from .errors import DesirePathError
+from .plants import YEAR, as_kind
+
+TOUGH = 1e6  # a reserve that does not end
+SEEDS = (101, 102)  # of the lanes that are fitted to; use others to judge a fit
+ROUNDS = 3  # of measuring and fitting again, at most
+NEAR = 0.25  # measured and modelled agree [points]
+RECOVER_DAYS = 14.0  # a stem that did not break has all its reserve again after so long
+WORST = 8.0  # power of the mean error that is made small: high, so that the worst count tells
+STRENGTH, SPREAD = (0.01, 1000.0), (0.05, 3.5)  # what is looked at: reserves [s of bending], spreads
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A kind and how well it does: counts, the cover that was wanted and that its lanes had [per cent]."""
+
+    kind: object
+    passes: tuple
+    wanted: tuple
+    reached: tuple
+
+    @property
+    def worst(self):
+        """Largest difference [points]."""
+        return max(abs(a - b) for a, b in zip(self.wanted, self.reached))
+
+    @property
+    def rms(self):
+        """Root mean square difference [points]."""
+        return math.sqrt(sum((a - b) ** 2 for a, b in zip(self.wanted, self.reached)) / len(self.wanted))
+
+
+def fit(rows, kind="carex", *, seeds=SEEDS, progress=None, **options):
+    """The kind that wears as a table says, from a kind that looks like it: a Fitted.
+
+    rows: (passes, cover [per cent], days of rest) of lane.read(); rows with days of rest tell how fast it grows
+    again. options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days;
+    stems break by wear alone, and what did not break recovers in two weeks.
+    """
+    try:
+        from scipy import optimize
+    except ImportError:
+        raise DesirePathError("Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
+                              "or pip install scipy.") from None
+    fresh = sorted({row[0]: row[1] for row in rows if not row[2]}.items())
+    if len(fresh) < 2:
+        raise DesirePathError("A fit needs the cover after at least two counts of passes: add rows to the table.")
+    passes, wanted = tuple(zip(*fresh))
+    wanted = np.array(wanted, float)
+    if wanted.max() <= 1.0:
+        raise DesirePathError("The table's cover seems to be in shares: give it in per cent.")
+    kind = replace(as_kind(kind), break_angle=math.pi, recover_rate=0.0, spread=0.0)
+    lanes = _Lanes(kind, passes, seeds, progress, options)
+    bent = lanes.bent()
+    missed = np.zeros(len(wanted))  # what the model leaves out [points]
+    for _ in range(ROUNDS):
+        strength, spread = _solved(optimize, bent, wanted - missed)
+        found = replace(kind, strength=strength * kind.degrade_rate, spread=spread,
+                        recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * lane.DAY))
+        reached = lanes.cover(found)
+        before, missed = missed, reached - _model(bent, strength, spread)
+        if abs(missed - before).max() < NEAR:
+            break
+    later = [(count, cover, days) for count, cover, days in rows if days]
+    if later:
+        found = replace(found, regrow_rate=_regrowth(optimize, found, dict(zip(passes, reached)), later))
+    return Fitted(found, passes, tuple(wanted.tolist()), tuple(reached.tolist()))
+
+
+class _Lanes:
+    """The lanes of all seeds, trodden side by side."""
+
+    def __init__(self, kind, passes, seeds, progress, options):
+        self.kind, self.passes, self.seeds, self.progress, self.options = kind, passes, seeds, progress, options
+        self.begun = 0
+
+    def _each(self, walk):
+        base, share = self.begun, dict.fromkeys(self.seeds, 0.0)
+        self.begun += 1
+
+        def told(seed, done):
+            share[seed] = done
+            if self.progress:
+                self.progress((base + sum(share.values()) / len(share)) / (ROUNDS + 1))
+        with ThreadPoolExecutor(len(self.seeds)) as workers:
+            return list(workers.map(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds))
+
+    def bent(self):
+        """For each count, how long each bend and those below it were bent [s], all seeds together."""
+        tough = replace(self.kind, strength=TOUGH)
+
+        def walk(seed, told):
+            sim, marks = lane.trodden(tough, self.passes[-1], **{**lane.USUAL, **self.options, "seed": seed})
+            bends = sim.plants_shape(0)[0] - 2
+            return lane.read_at(sim, [marks[n - 1] for n in self.passes], marks[-1], told,
+                                lambda: _most(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate)
+        return [np.concatenate(each) for each in zip(*self._each(walk))]
+
+    def cover(self, kind):
+        """Mean cover of the lanes after each count [per cent]."""
+        rows = self._each(lambda seed, told: lane.measure(kind, passes=self.passes, seed=seed, progress=told,
+                                                          **self.options))
+        return np.mean([[share for _, share in row] for row in rows], axis=0)
+
+
+def _most(lost, bends):
+    """The most lost by each bend or one below it, for stems of so many bends."""
+    return np.maximum.accumulate(lost.reshape(-1, bends), axis=1).ravel()
+
+
+def _model(bent, strength, spread):
+    """Cover after each count [per cent] where reserves are strength exp(spread z) seconds of bending: the chance that
+    a reserve outlasts its stem's bending, TRAIL (6) and (7), over all bends."""
+    return np.array([100.0 * _below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean()
+                     for each in bent])
+
+
+def _below(z):
+    """Share of normal numbers below z."""
+    return 0.5 * (1.0 + np.vectorize(math.erf, otypes=[float])(z / math.sqrt(2.0)))
+
+
+def _solved(optimize, bent, wanted):
+    """Strength [s] and spread whose modelled cover is nearest to what is wanted."""
+    bent = [np.quantile(each, (np.arange(2000) + 0.5) / 2000) for each in bent]  # as good, and faster
+
+    def error(x):
+        return float((abs(_model(bent, math.exp(x[0]), x[1]) - wanted) ** WORST).mean() ** (1.0 / WORST))
+    bounds = [tuple(map(math.log, STRENGTH)), SPREAD]
+    first = optimize.brute(error, bounds, Ns=24, finish=None)
+    best = optimize.minimize(error, first, method="Nelder-Mead", bounds=bounds,
+                             options={"xatol": 1e-4, "fatol": 1e-4, "maxiter": 400})
+    return float(math.exp(best.x[0])), float(best.x[1])
+
+
+def _regrowth(optimize, kind, reached, later):
+    """Rate [1/s] at which cover comes back as rows with days of rest say."""
+    known = [(reached[count] / 100.0, cover / 100.0, days) for count, cover, days in later if count in reached]
+    if not known:
+        raise DesirePathError("Rows with days of rest have counts of passes that no row without has: add those.")
+
+    def error(rate):
+        grown = replace(kind, regrow_rate=rate / YEAR).numbers()
+        return sum((_native.plants_regrow(grown, min(alpha, 1.0), days * lane.DAY) - cover) ** 2
+                   for alpha, cover, days in known)
+    return float(optimize.minimize_scalar(error, bounds=(0.0, 50.0), method="bounded").x) / YEAR
