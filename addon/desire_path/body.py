@@ -167,12 +167,12 @@ def rest_up(bones, rig):
 
 
 def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, tread=None,
-                    frame_rate, frame_start=1, land=None, lie=None):
+                    frame_rate, frame_start=1, land=None, shapes=None):
     """What the walker did, from sampled bones. Refuses bad recordings with a sentence.
 
     Soles: the tread (a Tread), else the skin's underside, else built in. land: the ground it walks on, a
-    Simulation: feet that lie on its slopes have soles that do; None: level ground. lie: whether they do, where
-    it is known.
+    Simulation: feet that lie on its slopes have soles that do; None: level ground. shapes: FootShape by foot
+    bone, of feet that were placed on the ground and tell no more how they lie flat.
     """
     rig = rig or rigs.detect(skeleton)
     _check(skeleton, motion, rig, mass, frame_rate, frame_start)
@@ -185,7 +185,8 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     leg = float(np.median(ankles @ -up_rest)) + float(
         bones.rest_point(rig.hips) @ up_rest if rig.hips else ankles.mean(axis=0) @ up_rest + 0.9)
     person = len(rig.feet) == 2 and bool(rig.hips)
-    feet = [feet_of.Foot(bones, f, leg, person) for f in rig.feet]
+    shapes = shapes or {}
+    feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot)) for f in rig.feet]
     ahead_rest = _ahead(bones, rig, feet, up_rest)
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis
@@ -199,13 +200,13 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     if tread is not None:
         laid = feet_of.lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest)
         warnings += laid.warnings
-    hills = slope.below(land, feet, time, up_rest, lie) if land is not None else [None] * len(feet)
+    hills = slope.below(land, feet, time, up_rest, bool(shapes) or None) if land is not None else [None] * len(feet)
     poses, soles, points, part_limb, point_part, point_role = [], [], [], [], [], []
     for limb, foot in enumerate(feet):
         hill = hills[limb]
         if hill is not None:
             flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
-            foot = feet_of.Foot(flat, foot.slots, leg, person)
+            foot = feet_of.Foot(flat, foot.slots, leg, person, foot.known)
         pose, sole_pair, marks = feet_of.parts(foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
                                                skeleton, laid, warnings)
         if hill is not None:

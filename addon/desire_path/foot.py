@@ -3,7 +3,7 @@
     bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,8 +42,9 @@ class FootShape:
 class Foot:
     """The bones of one foot over the clip."""
 
-    def __init__(self, bones, foot, leg, person):
+    def __init__(self, bones, foot, leg, person, known=None):
         self.bones, self.slots = bones, foot
+        self.known = known  # its FootShape, where the clip need not tell
         length = bones.length[bones.row[foot.foot]]
         self.toe = foot.toe
         if length <= 1e-6 * max(leg, 1e-9):
@@ -120,6 +121,8 @@ class Foot:
     def shape(self, time, up_rest, ahead_rest, skinned):
         """Joints in the flat foot, from the clip itself, else from the rest pose."""
         flat = self.flat(time)
+        if self.known is not None and not skinned:
+            return replace(self.known), flat
         if skinned or not flat.any():
             ankle, ball, tip = (j[None] for j in self.joints(rest=True))
             row = self.bones.row

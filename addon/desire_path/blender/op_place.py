@@ -5,6 +5,7 @@
 The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for their feet,
 feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
 """
+import json
 from dataclasses import dataclass
 
 import bpy
@@ -137,6 +138,7 @@ class Plan:
         self.stood = {bone.name: {prop: tuple(getattr(bone, prop)) for prop in (
             "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle")}
             for bone in armature.pose.bones}
+        self.shapes = {}  # foot bone -> FootShape as a dict
         self.goal = {}  # foot bone -> where its head must come to be (T, 3)
         bones = armature.data.bones
         self.roots = [b.name for b in bones if b.parent is None and holders(armature, b.name) is None]
@@ -193,6 +195,7 @@ class Plan:
         move = self._foot_move(limb, gait, placed)
         ankle = self.heads(foot.foot)
         self.goal[foot.foot] = _at(move, ankle)
+        self.shapes[foot.foot] = self.shape(foot, parts, gait)
         if target is not None:
             self._key(free(self.armature, target), move, "location", "rotation")
             if holders(self.armature, foot.foot) is None and foot.foot != target:
@@ -220,6 +223,22 @@ class Plan:
             apart = not under(self.armature, foot.toe, foot.foot)
             self._key(foot.toe, _turned(toes[:, :3, :3], head, _at(move, head)),
                       *(("location", "rotation") if apart else ("rotation",)), late=target is not None)
+
+    def shape(self, foot, parts, gait):
+        """How a foot lies under its bones, as FootShape has it, read off a recording."""
+        inside = lambda name: rotation.square(self.bones.at(name)[0, :3, :3]).T
+        turns = [rotation.matrix(gait.pose[part, :, 3:]) for part in (parts[0], parts[-1])]
+        within = lambda at: np.einsum("tji,tj->ti", turns[0], at - gait.pose[parts[0], :, :3])
+        ankle = within(self.heads(foot.foot) * self.bones.scale)[0]
+        ball = within(gait.pose[parts[-1], :, :3])
+        joint = within(self.heads(foot.toe) * self.bones.scale)[0] if foot.toe else ball[0]
+        bends = np.ptp(ball[:, 0]) > 1e-6  # a toe part that turns about its joint
+        ball = joint if bends else ball[0]
+        heel, toe = (gait.soles[part].vertices[:, 0] for part in (parts[0], parts[-1]))
+        return {"ball": ball[0], "tip": ball[0] + float(toe.max()), "heel": float(heel.min()),
+                "ankle_height": ankle[2], "ball_height": joint[2], "ball_side": joint[1],
+                "foot_turn": (inside(foot.foot) @ turns[0][0]).tolist(),
+                "toe_turn": (inside(foot.toe) @ turns[1][0]).tolist() if foot.toe else None}
 
     def _key(self, name, move, *channels, late=False):
         self.move[name] = move
@@ -380,7 +399,7 @@ def bake(scene, armature, land):
         plan = Plan(scene, armature, found, gait, placed, frames)
         made = action.copy() if action is not None else bpy.data.actions.new(armature.name)
         made.name = f"{action.name if action is not None else armature.name}_placed"
-        made[sample.PLACED] = True
+        made[sample.PLACED] = json.dumps(plan.shapes)
         if action is not None:
             made[SOURCE] = action.name
             action.use_fake_user = True  # to go back to, even after saving

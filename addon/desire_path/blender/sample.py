@@ -5,6 +5,7 @@
 The private scene holds only the armature (Blender brings along what it depends on), so that a heavy
 character costs nothing and the user's frame stays where it is.
 """
+import json
 import math
 from contextlib import contextmanager
 from dataclasses import replace
@@ -14,11 +15,12 @@ import numpy as np
 
 from .. import body, mass, rigs
 from ..errors import DesirePathError
+from ..foot import FootShape
 from ..gait import Gait
 from ..tread import Tread
 from . import axes, compat, playback
 
-PLACED = "desire_path_placed"  # on an action whose feet were placed
+PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
 
 
 @contextmanager
@@ -287,9 +289,14 @@ def tread(scene, armature, feet, world, scale):
 
 
 def placed(armature):
-    """Does an armature play an action that Place Feet made?"""
+    """How feet were shaped before Place Feet put them on a ground, by foot bone; None where it did not."""
     animation = armature.animation_data
-    return bool(animation is not None and animation.action is not None and animation.action.get(PLACED))
+    action = animation.action if animation is not None else None
+    kept = action.get(PLACED) if action is not None else None
+    if not kept:
+        return None
+    return {bone: FootShape(**{name: np.array(value) if isinstance(value, list) else value
+                               for name, value in shape.items()}) for bone, shape in json.loads(kept).items()}
 
 
 # ---- all of it --------------------------------------------------------------------------------------
@@ -319,7 +326,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
                                 tread=tread(scene, armature, found.feet, world, scale),
                                 frame_rate=rate, frame_start=frame_start, land=land,
-                                lie=placed(armature) or None)
+                                shapes=placed(armature))
     return replace(gait, warnings=gait.warnings + told)
 
 
