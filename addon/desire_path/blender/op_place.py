@@ -2,8 +2,8 @@
 
     record -> place.place_feet -> where feet and body go -> legs reach for them -> keys in a new action
 
-The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for their feet,
-feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
+The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for
+their feet, feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
 """
 import json
 from dataclasses import dataclass
