@@ -73,7 +73,7 @@ def height(x, y):
     return waves(x, y) + sand * ripples + snow * humps + mud * clods + blanket
 
 
-def _lines(low, high, step, reach, grow=1.06):
+def lines(low, high, step, reach, grow=1.06):
     """Coordinates: even between low and high, then farther and farther apart."""
     middle = np.arange(round(low / step), round(high / step) + 1) * step
     out, width = [], step
@@ -84,10 +84,8 @@ def _lines(low, high, step, reach, grow=1.06):
     return np.concatenate([middle[0] - outside[::-1], middle, middle[-1] + outside])
 
 
-def add_ground(step):
-    """One mesh, fine where the walk goes, coarse at the horizon, soils painted by vertex groups."""
-    x = _lines(-0.29, 0.29, step, 22.0)
-    y = _lines(-2.95, 1.85, step, 22.0)
+def add_mesh(x, y, height):
+    """A ground mesh with points at these coordinates; returns the object."""
     x, y = np.meshgrid(x, y)
     points = np.stack([x, y, height(x, y)], axis=-1).reshape(-1, 3).astype(np.float32)
     rows, columns = x.shape
@@ -103,20 +101,33 @@ def add_ground(step):
     mesh.polygons.foreach_set("loop_total", np.full(len(quads), 4, np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(len(quads), bool))
     mesh.update(calc_edges=True)
+    obj = bpy.data.objects.new("Ground", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
 
+
+def paint(obj, name, weight):
+    """A vertex group, its weights in 64 steps."""
+    group = obj.vertex_groups.new(name=name)
+    level = np.round(weight * 64).astype(int)
+    for value in range(1, 65):
+        group.add(np.flatnonzero(level == value).tolist(), value / 64, "REPLACE")
+
+
+def add_ground(step):
+    """One mesh, fine where the walk goes, coarse at the horizon, soils painted by vertex groups."""
+    obj = add_mesh(lines(-0.29, 0.29, step, 22.0), lines(-2.95, 1.85, step, 22.0), height)
+    mesh = obj.data
+    points = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", points.ravel())
     weight = shares(points[:, 0].astype(float), points[:, 1].astype(float))
     colour = np.ones((len(points), 4), np.float32)
     colour[:, :3] = weight.T
     mesh.attributes.new(materials.SOIL, "FLOAT_COLOR", "POINT").data.foreach_set(
         "color", colour.ravel())
     mesh.materials.append(materials.ground())
-    obj = bpy.data.objects.new("Ground", mesh)
-    bpy.context.scene.collection.objects.link(obj)
     for name, each in zip(SOILS, weight):
-        group = obj.vertex_groups.new(name=name)
-        level = np.round(each * 64).astype(int)
-        for value in range(1, 65):
-            group.add(np.flatnonzero(level == value).tolist(), value / 64, "REPLACE")
+        paint(obj, name, each)
     return obj
 
 
@@ -137,7 +148,12 @@ def import_walk():
     return walker
 
 
-def follow_ground(walker):
+def sink(x, y):
+    """About how far a foot goes in [m]."""
+    return float(np.dot(SINK, shares(x, y)))
+
+
+def follow_ground(walker, height=height, sink=sink):
     """Key the object's height so that each step stands on the uneven ground, and a little in it.
 
     The clip was recorded on a level floor. Every stance asks for one height; between the middles of
@@ -166,8 +182,7 @@ def follow_ground(walker):
             sole = ankle[start:stop, 2].mean() - mannequin.ANKLE
             dx, dy = np.meshgrid((-0.03, 0.0, 0.03), (-0.10, -0.05, 0.0, 0.05, 0.10))
             below = height(at[0] + dx, at[1] + dy).mean()
-            sink = float(np.dot(SINK, shares(at[0], at[1])))
-            keys.append((first + 0.5 * (start + stop - 1), below - sink - sole))
+            keys.append((first + 0.5 * (start + stop - 1), below - sink(at[0], at[1]) - sole))
     keys.sort()
     for frame, z in keys:
         walker.location.z = z

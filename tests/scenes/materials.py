@@ -125,6 +125,29 @@ def ground():
     return material
 
 
+def earth():
+    """Dark earth with crumbs and dead leaves, bare and trodden smooth where plants were worn away."""
+    material = bpy.data.materials.new("Earth")
+    n = _Nodes(material)
+    at = n.new("ShaderNodeNewGeometry").outputs["Position"]
+    baked = n.split(n.attribute(BAKED))
+    pressed = n.between(baked["Blue"], 0.001, 0.012)
+    clods, grain, wide = n.noise(at, 60.0, 2.0, 0.6), n.noise(at, 300.0, 1.0, 0.6), n.noise(at, 1.7, 2.0)
+    dry = n.mix(n.between(clods, 0.35, 0.68), (0.050, 0.033, 0.020, 1), (0.115, 0.080, 0.048, 1))
+    dry = n.mix(n.between(grain, 0.56, 0.66, 0.0, 0.6), dry, (0.17, 0.125, 0.070, 1))
+    dry = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.5), dry, (0.045, 0.040, 0.018, 1))
+    # a trodden path is pale: fine dust on hard ground
+    colour = n.mix(n.math("MULTIPLY", pressed, 0.75), dry, n.mix(
+        n.between(grain, 0.35, 0.7), (0.150, 0.108, 0.070, 1), (0.235, 0.175, 0.115, 1)))
+    flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.7))
+    high = n.math("MULTIPLY", n.math("ADD", n.math("MULTIPLY", clods, 0.006), n.math("MULTIPLY", grain, 0.0012)), flat)
+    bump = n.new("ShaderNodeBump", {"Height": high, "Distance": 1.0, "Strength": 0.9}).outputs[0]
+    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": 0.92, "Normal": bump})
+    _set(shader, ("Specular", "Specular IOR Level"), 0.1)
+    n.tree.links.new(shader.outputs[0], n.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
 def _set(shader, names, value):
     """The input goes by different names in different Blenders."""
     for name in names:

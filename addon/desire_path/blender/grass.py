@@ -20,6 +20,7 @@ PLACE = "tuft_place"  # of a trodden tuft: where its root stands at rest [m]
 ROOT, AT, TILT, ARCH, LOOK = "tuft_root", "tuft_at", "tuft_tilt", "tuft_arch", "tuft_look"  # see Tuft
 STRENGTH = playback.STRENGTH
 TOUCHED = 0.004  # lean and crush from which a tuft is bent stem by stem
+GRIND = 1.2e5  # pressure over time that grinds most broken stems away, some six footfalls [Pa s]
 STEM_LIFT = 0.0015, 0.005  # how far trodden stems lie over the ground, the lowest and the highest [m]
 
 
@@ -233,7 +234,7 @@ def _tree(name, collection, index, images, count):
         parted = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=beside.outputs[0],
                           Selection=_touched(wire, field, here, reach(collection)))
         risen = wire.add("GeometryNodeSetPosition", Geometry=parted.outputs[1],
-                         Offset=wire.xyz(z=field.rise(here))).outputs[0]
+                         Offset=wire.xyz(z=field.ground(here)[0])).outputs[0]
         standing = _instances(wire, _join(wire, risen, beside.outputs[1]), info)
         grown = _join(wire, standing, _trodden(wire, parted.outputs[0], info, field))
     tree.links.new(grown, leave.inputs[0])
@@ -268,10 +269,10 @@ class _Field:
         return self.wire.vector("MULTIPLY_ADD", place, (1 / self.size[0], 1 / self.size[1], 0.0),
                                 (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0))
 
-    def rise(self, place):
-        """How much higher the ground is than at rest [m]."""
+    def ground(self, place):
+        """How much higher the ground is than at rest [m], and the pressure over time it bore [Pa s]."""
         found = self.wire.image(self.images["trail"], self.where(place), self.number, True)
-        return self.wire.split(found.outputs["Color"])[0]
+        return self.wire.split(found.outputs["Color"])[0], found.outputs["Alpha"]
 
     def lean(self, place, *, at_rest=False):
         """(lean x, lean y, crushed), strength."""
@@ -352,8 +353,10 @@ def _trodden(wire, points, info, field):
     arch = wire.vector("ADD", wire.vector("SCALE", arch, scale=keep),
                        wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)))
 
-    # of what is broken, more and more is worn away
-    gone = wire.math("SUBTRACT", broken, wire.math("MULTIPLY_ADD", chance[2], 0.45, 0.40))
+    # broken stems turn to straw and are ground away foot by foot
+    level, pressure = _surface(wire, field, place, foot)
+    ground = wire.math("SUBTRACT", 1.0, wire.math("EXPONENT", wire.math("MULTIPLY", pressure, -1.0 / GRIND)))
+    gone = wire.math("SUBTRACT", ground, wire.math("MULTIPLY_ADD", chance[2], 0.55, 0.30))
     gone = wire.math("MINIMUM", wire.math("MAXIMUM", wire.math("MULTIPLY", gone, 7.0), 0.0), 0.97)
     left = wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", gone, is_broken))
     along, across = wire.math("MULTIPLY", along, left), wire.vector("SCALE", across, scale=left)
@@ -361,17 +364,17 @@ def _trodden(wire, points, info, field):
 
     where = _bent(wire, length, along, across, tilt, arch)
     where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))),
-                        wire.xyz(z=_surface(wire, field, place, foot)))
+                        wire.xyz(z=level))
     # nothing lies under the ground, but the buried end
     low, high = STEM_LIFT
     lift = wire.math("MULTIPLY", wire.math("MULTIPLY_ADD", chance[1], high - low, low), wire.math(
         "MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0))
-    least = wire.math("ADD", _surface(wire, field, place, where), lift)
+    least = wire.math("ADD", _surface(wire, field, place, where)[0], lift)
     least = _mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
     x, y, z = wire.split(where)
     real = wire.add("GeometryNodeSetPosition", Geometry=real,
                     Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))).outputs[0]
-    pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", broken, 0.65, 0.30))
+    pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", ground, 0.70, 0.25))
     return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
 
 
@@ -382,10 +385,12 @@ def _mix(wire, share, a, b):
 
 
 def _surface(wire, field, place, at):
-    """Height of the pressed ground at a place near a root: its slope, and what was pressed there."""
+    """Height of the pressed ground at a place near a root, by its slope and what was pressed there [m], and
+    the pressure over time it bore [Pa s]."""
     away = wire.vector("SUBTRACT", at, place)
     slope = wire.vector("DOT_PRODUCT", away, wire.named(SLOPE, "FLOAT_VECTOR"))
-    return wire.math("ADD", wire.math("ADD", wire.split(place)[2], slope), field.rise(at))
+    rise, pressure = field.ground(at)
+    return wire.math("ADD", wire.math("ADD", wire.split(place)[2], slope), rise), pressure
 
 
 def _bent(wire, length, along, across, tilt, arch):

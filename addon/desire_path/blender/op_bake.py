@@ -14,7 +14,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import axes, cover, ground, op_plants, playback, plants, props, sample
+from . import axes, cover, ground, op_plants, playback, plants, props, sample, way
 from .op_walkers import Refusal, active, grounds, sentence, walkers
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -78,22 +78,24 @@ class Job:
         if None in there:
             raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake "
                                   "again.")
-        gait = sample.gaits(scene, there, settings.frame_start, settings.frame_end)
-        yield
+        first, last = settings.frame_start, settings.frame_end
         cell = axes.typed(settings.cell_size)
-        self.surface = ground.read(scene, obj, cell, settings.frame_start, settings.frame_end,
-                                   box=ground.under(gait))
+        if way.goes(there):
+            gait, self.surface = way.carried(scene, obj, there, cell, first, last)
+        else:
+            gait = sample.gaits(scene, there, first, last)
+            yield
+            self.surface = ground.read(scene, obj, cell, first, last, box=ground.under(gait))
+            gait = ground.walked(scene, there, gait, self.surface, cell, first, last)
         self.warnings += self.surface.warnings
-        gait = ground.walked(scene, there, gait, self.surface, cell, settings.frame_start, settings.frame_end)
         self.recorded = time.perf_counter() - self.begun
         yield
         self.warnings += op_plants.refresh(scene, obj)
         grown = plants.plantings(scene, obj)
         yield
-        self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path,
-                         cell_size=cell, frame_start=settings.frame_start,
-                         frame_end=settings.frame_end, load_model=self.model, law=settings.law,
-                         heap=settings.heap, threads=settings.threads, origin=self.surface.origin, plants=grown)
+        self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path, cell_size=cell, frame_start=first,
+                         frame_end=last, load_model=self.model, law=settings.law, heap=settings.heap,
+                         threads=settings.threads, origin=self.surface.origin, plants=grown)
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
             for progress in frames:

@@ -3,7 +3,7 @@ import functools
 from contextlib import contextmanager
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
 from . import plants, props
@@ -84,6 +84,10 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     kind: StringProperty(
         name="Kind", default="carex", search=props.kinds, search_options={"SUGGESTION"},
         description="A kind of plant, or a .json file in which a kind was saved")
+    density: FloatProperty(name="Density [1/m2]", min=0.0, max=1e6, description="Plants on a square metre where the "
+                           "group is 1; 0 = as dense as the kind usually stands")
+    density_group: StringProperty(name="Density Group", description="A vertex group or float attribute that thins "
+                                  "the plants out; empty = they grow everywhere")
     grass: BoolProperty(name="Grass", default=True, description="Make an object that shows the plants")
 
     def work(self, context):
@@ -94,7 +98,8 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
         each = settings.plants.add()
         try:
             with quietly():
-                each.kind, each.density, each.seed = self.kind, its.density, len(settings.plants) - 1
+                each.kind, each.density_group = self.kind, self.density_group
+                each.density, each.seed = self.density or its.density, len(settings.plants) - 1
             if self.grass:
                 each.grass = plants.grass.make(obj, self.kind)
             told = plants.plant(scene, obj, [each])

@@ -170,6 +170,13 @@ def draw_walker(layout, obj):
         column.label(text=weight(settings).capitalize() if settings.estimated_mass
                      else "Estimated when recorded", icon="INFO")
     column.prop(settings, "sole")
+    column.prop(settings, "path")
+    if settings.path is not None:
+        way = column.column(align=True)
+        way.prop(settings, "passes")
+        way.prop(settings, "lateral")
+        way.prop(settings, "path_seed")
+        way.prop(settings, "back_and_forth")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
     row = layout.row(align=True)

@@ -33,6 +33,10 @@ def is_sole(_self, obj):
     return obj.type == "MESH" and not obj.desire_path.is_ground
 
 
+def is_path(_self, obj):
+    return obj.type in {"CURVE", "EMPTY"} or obj.type == "MESH" and not obj.desire_path.is_ground
+
+
 def _frames_by_hand(self, _context):
     self.frames_auto = False
 
@@ -160,6 +164,18 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     place_feet: BoolProperty(
         name="Placed Feet in Prints", description="Prints are pressed as if the feet were placed on the ground's "
         "slopes; the character stays as it is. Place Feet changes the character too")
+    path: PointerProperty(
+        name="Path", type=bpy.types.Object, poll=is_path,
+        description="A curve, a mesh of edges or an empty with empties: the walk's cycle is carried along it. Empty "
+        "= the walker goes where its keys lead it")
+    passes: IntProperty(name="Passes", default=1, min=1, soft_max=500, max=100000,
+                        description="How often the path is walked")
+    back_and_forth: BoolProperty(name="Back and Forth", default=True,
+                                 description="Every other pass goes back; else all go one way")
+    lateral: FloatProperty(
+        name="Scatter [m]", default=0.1, min=0.0, soft_max=1.0, max=100.0, precision=3, step=1,
+        description="How far passes lie beside the path, as a standard deviation in metres")
+    path_seed: IntProperty(name="Seed", min=0, description="Another number scatters the passes otherwise")
     load_model: EnumProperty(
         name="Load", description="How the weight on each foot is found",
         items=(("inertia", "Body in motion",

@@ -1,0 +1,150 @@
+"""meadow.py - the demo's walk over a meadow: grass trodden once, and a path after many passes.
+
+    blender -b --factory-startup --python-exit-code 1 -P tests/scenes/meadow.py -- --out out
+
+Makes meadow.blend (one walk, frame by frame) and path.blend (the same ground walked many times); both
+play without the add-on. Plants and trail go through the public operators.
+"""
+import argparse
+import os
+import sys
+import time
+
+import bpy
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [os.path.join(ROOT, "addon"), os.path.dirname(HERE)]
+
+from scenes import demo, mannequin, materials, noise  # noqa: E402
+
+CELL = 0.01  # [m]
+PASSES = 200
+# where the path goes: a bend to the right, past the middle of the picture [m]
+WAY = ((-0.75, 6.5), (-0.35, 4.6), (0.0, 2.6), (0.0, 0.6), (-0.3, -1.4), (-1.0, -3.4), (-2.1, -5.2))
+
+
+def height(x, y):
+    """Gentle ground, hills farther off [m]."""
+    aside = np.hypot(np.maximum(abs(x) - 1.0, 0.0), np.maximum(abs(y) - 6.0, 0.0))
+    far = 1.0 - np.exp(-(aside / 9.0) ** 2)
+    bumps = 0.030 * noise.smooth(x, y, 2.6, 3) + 0.006 * noise.smooth(x, y, 0.5, 8)
+    return bumps + 1.1 * far * noise.rough(x, y, 9.0, 12, octaves=2) + 0.45 * far
+
+
+def add_ground(step, passes):
+    """Fine where the walk or the path goes; grass thins out with the distance."""
+    if passes > 1:
+        x, y = demo.lines(-2.6, 0.6, step, 26.0), demo.lines(-5.6, 6.8, step, 26.0)
+    else:
+        x, y = demo.lines(-0.5, 0.5, step, 26.0), demo.lines(-2.95, 1.85, step, 26.0)
+    obj = demo.add_mesh(x, y, height)
+    at = np.empty((len(obj.data.vertices), 3), np.float32)
+    obj.data.vertices.foreach_get("co", at.ravel())
+    x, y = at[:, 0].astype(float), at[:, 1].astype(float)
+    away = np.hypot(np.maximum(abs(x) - 1.5, 0.0), np.maximum(abs(y) - 5.0, 0.0))
+    patches = 0.5 + 0.5 * noise.rough(x, y, 1.7, 51)
+    near = np.clip(1.25 - away / 9.0, 0.0, 1.0)
+    demo.paint(obj, "sedge", np.clip(near * (0.75 + 0.5 * patches), 0.0, 1.0))
+    aside = np.clip((abs(x + 0.25) - 0.75) / 1.2, 0.0, 1.0)  # high grass keeps off the path
+    demo.paint(obj, "high grass", np.clip(near * aside * (2.2 * patches - 0.7), 0.0, 1.0))
+    obj.data.materials.append(materials.earth())
+    return obj
+
+
+def cameras(scene, passes):
+    demo.add_sun().data.energy = 4.2
+    materials.sky(scene, 0.75)
+    if passes > 1:
+        scene.camera = demo.add_camera("Path", (1.5, 9.6, 2.3), (-0.35, 0.6, 0.15), 40.0)
+    else:
+        scene.camera = demo.add_camera("Trodden", (0.62, 1.75, 1.12), (0.02, -0.35, 0.10), 34.0)
+
+
+def build(step=CELL, passes=1):
+    """The scene without a trail: (ground, walker)."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.fps, scene.render.fps_base = demo.RATE, 1.0
+    walker = demo.import_walk()
+    scene.frame_start, scene.frame_end = 1, int(walker.animation_data.action.frame_range[1])
+    body = mannequin.add(walker)
+    for each in materials.clothes():
+        body.data.materials.append(each)
+    ground = add_ground(step, passes)
+    demo.follow_ground(walker, height, lambda x, y: 0.006)
+    cameras(scene, passes)
+    demo.cycles(scene)
+    scene.cycles.use_fast_gi = False
+    scene.cycles.max_bounces, scene.cycles.diffuse_bounces, scene.cycles.transmission_bounces = 4, 3, 2
+    return ground, walker
+
+
+def grow(ground):
+    """Two kinds of grass on one ground."""
+    for kind, group, density in ((os.environ.get("SHORT","carex"), "sedge", float(os.environ.get("DENS","110"))), ("meadow", "high grass", 45.0)):
+        demo.activate(ground)
+        bpy.ops.object.desire_path_plants_add(kind=kind, density=density, density_group=group)
+
+
+def bake(ground, walker, folder, cell=CELL, passes=1):
+    """Plants and trail, by the operators an animator presses."""
+    demo.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    settings = ground.desire_path
+    settings.soil, settings.cell_size, settings.folder = "soil", cell, folder
+    grow(ground)
+    demo.activate(walker)
+    bpy.ops.object.desire_path_walker_add()
+    walker.desire_path.mass = demo.MASS
+    if passes > 1:
+        walker.desire_path.path = add_way()
+        walker.desire_path.passes = passes
+    demo.activate(ground)
+    bpy.ops.object.desire_path_bake()
+
+
+def add_way():
+    """The curve the walker goes along."""
+    data = bpy.data.curves.new("Way", "CURVE")
+    data.dimensions = "3D"
+    line = data.splines.new("POLY")
+    line.points.add(len(WAY) - 1)
+    for point, (x, y) in zip(line.points, WAY):
+        point.co = (x, y, float(height(np.float64(x), np.float64(y))), 1.0)
+    obj = bpy.data.objects.new("Way", data)
+    bpy.context.scene.collection.objects.link(obj)
+    obj.hide_render = True
+    return obj
+
+
+def main():
+    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    parser = argparse.ArgumentParser(prog="meadow.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--out", default="out", help="folder for the .blend files and the bakes")
+    parser.add_argument("--cell", type=float, default=CELL, help="cell size and mesh spacing [m]")
+    parser.add_argument("--only", choices=("meadow", "path"), help="one of the two files")
+    parser.add_argument("--passes", type=int, default=PASSES, help="how often the path is walked")
+    chosen = parser.parse_args(words)
+    out = os.path.abspath(chosen.out)
+    os.makedirs(out, exist_ok=True)
+    import desire_path
+    desire_path.register()
+    for name, passes in (("meadow", 1), ("path", chosen.passes)):
+        if chosen.only not in (None, name):
+            continue
+        begun = time.perf_counter()
+        ground, walker = build(chosen.cell, passes)
+        bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
+        file = os.path.join(out, f"{name}.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=file, compress=True)
+        bake(ground, walker, f"//bake_{name}", chosen.cell, passes)
+        scene = bpy.context.scene
+        scene.frame_set(scene.frame_end)
+        bpy.ops.wm.save_as_mainfile(filepath=file, compress=True)
+        print(f"stage {name} {time.perf_counter() - begun:.1f}")
+
+
+if __name__ == "__main__":
+    main()
