@@ -103,7 +103,9 @@ class Kind:
         return Kind(**told)
 
 
-def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *, curl_deg=0.0, **more):
+def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *, curl_deg=0.0, hours=None, **more):
+    if hours is not None:  # until strength that was lost is back, and trodden stems stand again
+        more["recover_rate"] = strength / (3600.0 * hours)
     return Kind(height=height, width=width, depth=width, spacing=spacing, sway=sway, strength=strength,
                 degrade_angle=math.radians(degrade_deg), break_angle=math.radians(break_deg),
                 curl=math.radians(curl_deg), **more)
@@ -111,20 +113,21 @@ def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *,
 
 # Wear of the first two as in TRAIL Table 1. The others are for looks: heights and densities of common stands,
 # sway falling with height (stems of cereals swing at about 1 Hz, short turf faster than the eye), and wear set
-# between the paper's two by how well each is known to bear treading: lawn grasses best, ferns worst.
+# by how well each is known to bear treading: some eighty footfalls for lawn grasses, three for ferns. Trodden turf
+# stands again within the quarter of an hour, high grass within hours, straw and fronds hardly the next day.
 KINDS = {
     "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10),
     "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08),
     "lawn": _kind(0.05, 0.04, 0.0125, 6.0, 20, 110, 0.4, form="tuft", radius=0.003, reach=0.08, full_density=150.0,
-                  density=300.0, modulus=12e6),
+                  density=300.0, modulus=12e6, hours=0.25, degrade_rate=0.007),
     "meadow": _kind(0.30, 0.08, 0.04, 1.8, 15, 85, 0.2, form="tuft", sheets=3, curl_deg=6, radius=0.004, reach=0.18,
-                    full_density=30.0, density=60.0),
+                    full_density=30.0, density=60.0, hours=3.0, degrade_rate=0.012),
     "wheat": _kind(0.80, 0.06, 0.06, 1.1, 12, 60, 0.1, form="tuft", curl_deg=1.0, radius=0.004, across=12.0,
-                   reach=0.12, full_density=50.0, density=100.0, modulus=6e6),
+                   reach=0.12, full_density=50.0, density=100.0, modulus=6e6, hours=24.0, degrade_rate=0.03),
     "moss": _kind(0.02, 0.05, 0.01, 12.0, 25, 120, 0.15, form="tuft", sheets=3, radius=0.003, damping=20.0, reach=0.06,
-                  full_density=250.0, density=500.0, modulus=2e6),
+                  full_density=250.0, density=500.0, modulus=2e6, hours=1.0, degrade_rate=0.01),
     "fern": _kind(0.45, 0.16, 0.05, 1.4, 8, 50, 0.06, form="tuft", sheets=3, curl_deg=11, radius=0.006, across=10.0,
-                  reach=0.30, full_density=5.0, density=8.0, modulus=5e6),
+                  reach=0.30, full_density=5.0, density=8.0, modulus=5e6, hours=24.0, degrade_rate=0.03),
 }
 
 

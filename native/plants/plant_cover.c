@@ -176,30 +176,41 @@ static double rise_rate(const DpPlantKind* kind)
     return damping > 2.0 * swing ? swing * swing / damping : 0.5 * damping;
 }
 
-void plant_stature(const DpPlants* plants, const DpPlantWindow* window, float* height, float* rate,
-                   float* broken)
+// what wears a stem keeps it down until its strength is back
+static double heal_rate(const DpPlantKind* kind)
+{
+    const double swing = rise_rate(kind), back = (double)kind->recover_rate / (double)kind->strength;
+    return kind->degrade_rate > 0.0f ? fmin(swing, back) : swing;
+}
+
+void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out)
 {
     for (int j = 0; j < window->ny; ++j)
         for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {
             const int n = window->nx - i0 < CHUNK ? window->nx - i0 : CHUNK;
             double    full[CHUNK] = {0}, whole[CHUNK] = {0}, high[CHUNK] = {0}, rise[CHUNK] = {0};
+            double    heal[CHUNK] = {0}, limp[CHUNK] = {0};
             for (int s = 0; s < plants->stands; ++s) {
                 const DpPlantKind* kind = &plants->stand[s].kind;
+                const double       swings = rise_rate(kind), heals = heal_rate(kind);
+                const double       bears = 1.0 - cos(fmin((double)kind->degrade_angle, 0.5 * PI));
                 Row                row = {0};
                 add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,
                           window->y0 + j * window->cell, window->cell, n);
                 for (int i = 0; i < n; ++i) {
                     full[i] += row.full[i], whole[i] += row.whole[i];
                     high[i] += row.full[i] * (double)kind->height;
-                    rise[i] += row.full[i] * rise_rate(kind);
+                    rise[i] += row.full[i] * swings, heal[i] += row.full[i] * heals;
+                    limp[i] += row.full[i] * bears;
                 }
             }
             for (int i = 0; i < n; ++i) {
                 const size_t at = (size_t)j * (size_t)window->row + (size_t)(i0 + i);
                 const double share = full[i] > 0.0 ? 1.0 / full[i] : 0.0;
-                if (height) height[at] = (float)(share * high[i]);
-                if (rate) rate[at] = (float)(share * rise[i]);
-                broken[at] = (float)(share * (full[i] - whole[i]));
+                out->broken[at] = (float)(share * (full[i] - whole[i]));
+                if (!out->height) continue;
+                out->height[at] = (float)(share * high[i]), out->rate[at] = (float)(share * rise[i]);
+                out->heal[at] = (float)(share * heal[i]), out->limp[at] = (float)(share * limp[i]);
             }
         }
 }

@@ -110,10 +110,16 @@ double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, 
 void   plant_limits(PlantStand* stand);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);
-// one stem for each cell of a window, the mean of what grows there: height [m], rate at which it
-// rises [1/s] (NULL is left out), share of bends that is broken; 0 where nothing grows
-void plant_stature(const DpPlants* plants, const DpPlantWindow* window, float* height, float* rate,
-                   float* broken);
+// One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
+typedef struct PlantStature
+{
+    float* height;  // [m]; NULL = all but `broken` are left out
+    float* rate;    // at which it swings up [1/s]
+    float* heal;    // at which it rises when its strength has to return first [1/s], <= rate
+    float* limp;    // share of height lost from which that is so
+    float* broken;  // share of bends that is broken
+} PlantStature;
+void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out);
 void plant_count_broken(const PlantStand* stand, PlantBlock* block);
 
 // stiffness of edges over a sub-step of h

@@ -5,8 +5,9 @@
 // keeps one stem, a mean of the kinds that grow there. A sole presses it to the height it leaves:
 //   crushed = 1 - gap / height,  |lean| = sqrt(1 - (1 - crushed)^2), a straight stem's
 // towards where the foot goes; nearer to the sole's edge than half its height, out of its way. Beside
-// the sole it leans away as far as that. Let go, it rises by exp(-t rate) to the share of stems that
-// is broken; lean and crushed keep their ratio.
+// the sole it leans away as far as that. Let go, it rises to the share of stems that is broken: one
+// bent at its foot beyond phi_deg as its strength returns, by exp(-t mu_rec / eps_b), then, or if
+// nothing wears it, as it swings, by exp(-t rate); lean and crushed keep their ratio.
 #include <string.h>
 
 #include "base/alloc.h"
@@ -19,6 +20,7 @@
 #define FAR 8000         // cells
 #define AT_REST 0.002f   // nearer to where it stays than this, grass is there
 #define MOST_CELLS 4e6   // around one sole
+#define DUE 0.01         // slow stems rise once this share of what is left is due
 
 typedef struct LeanTile
 {
@@ -28,7 +30,11 @@ typedef struct LeanTile
     float   lean[2][CELLS], crushed[CELLS];
     float   most[CELLS];    // crushed when it was let go
     float   height[CELLS];  // of the stem, 0 = nothing grows [m]
-    float   rate[CELLS];    // at which it rises [1/s]
+    float   rate[CELLS];    // at which it swings up [1/s]
+    float   heal[CELLS];    // at which it rises while its crushed is above `limp` [1/s]
+    float   limp[CELLS];
+    float   healing;  // the most of heal [1/s]
+    double  waited;   // since slow stems rose [s]
     float   stays[CELLS];   // share of stems that is broken
     int32_t held[CELLS];    // the step in which something held it last
 } LeanTile;
@@ -124,8 +130,10 @@ static void grow(const DpLean* lean, LeanTile* tile, int i0, int i1, int j0, int
                                   centre(lean, 0, tile->tx * DP_TILE + i0),
                                   centre(lean, 1, tile->ty * DP_TILE + j0)};
     const int           at = j0 * DP_TILE + i0;
-    plant_stature(lean->plants, &window, first ? tile->height + at : NULL,
-                  first ? tile->rate + at : NULL, tile->stays + at);
+    const PlantStature  stature = {first ? tile->height + at : NULL, tile->rate + at, tile->heal + at,
+                                   tile->limp + at, tile->stays + at};
+    plant_stature(lean->plants, &window, &stature);
+    for (size_t p = 0; first && p < CELLS; ++p) tile->healing = fmaxf(tile->healing, tile->heal[p]);
 }
 
 // a tile, made if nobody touched it yet; NULL without memory
@@ -361,18 +369,33 @@ static bool rise(LeanTile* tile, size_t p, float keep)
 static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
 {
     const int i0 = tile->i0, i1 = tile->i1, j0 = tile->j0, j1 = tile->j1;
-    float     rate = 0.0f, keep = 1.0f;  // neighbours mostly are of one kind
+    float     rate = 0.0f, keep = 1.0f, heal = 0.0f, kept = 1.0f;  // neighbours mostly are alike
     tile->i0 = tile->i1 = tile->j0 = tile->j1 = 0;
+    tile->waited += dt;
+    const bool due = tile->waited * (double)tile->healing > DUE;
     for (int j = j0; j < j1; ++j)
         for (int i = i0; i < i1; ++i) {
             const size_t p = (size_t)j * DP_TILE + (size_t)i;
             if (!(tile->crushed[p] > 0.0f)) continue;
+            if (tile->held[p] == lean->step) {
+                may_move(tile, i, j);
+                continue;
+            }
+            if (tile->crushed[p] > tile->limp[p]) {
+                if (tile->heal[p] < heal || tile->heal[p] > heal) {
+                    heal = tile->heal[p];
+                    kept = (float)exp(-(double)heal * tile->waited);
+                }
+                if (!due || rise(tile, p, kept)) may_move(tile, i, j);
+                continue;
+            }
             if (tile->rate[p] < rate || tile->rate[p] > rate) {
                 rate = tile->rate[p];
                 keep = (float)exp(-(double)rate * dt);
             }
-            if (tile->held[p] == lean->step || rise(tile, p, keep)) may_move(tile, i, j);
+            if (rise(tile, p, keep)) may_move(tile, i, j);
         }
+    if (due) tile->waited = 0.0;
 }
 
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,

@@ -129,6 +129,22 @@ def test_grass_stands_up_with_its_kinds_time_to_the_share_that_is_whole():
     assert up[2][60:68, 51:77].mean() > 0.3
 
 
+def test_trodden_grass_stays_down_until_its_strength_is_back():
+    lawn = replace(KINDS["lawn"], break_angle=10.0)  # nothing breaks
+    sole = (slice(60, 68), slice(51, 77))
+    _, down, up = standing(lawn, 3.0)
+    slow = np.exp(-lawn.recover_rate / lawn.strength * 3.0)
+    np.testing.assert_allclose(up[2][sole], slow * down[2][sole], atol=0.015)
+    assert slow > 0.99
+    quick = replace(lawn, recover_rate=2.0 * lawn.strength)
+    _, down, up = standing(quick, 0.5)
+    np.testing.assert_allclose(up[2][sole], np.exp(-2.0 * 0.5) * down[2][sole], rtol=0.08)
+    # what is bent less than phi_deg swings back at once
+    gentle = replace(lawn, degrade_angle=np.pi / 2)
+    _, down, up = standing(gentle, 3.0)
+    assert down[2][sole].min() > 0.9 and not up[2].any()
+
+
 def test_a_slipping_foot_combs_the_grass_its_way():
     sim = Simulation(Ground.flat(), "wet-soil", 0.01, plants=["moss"])
     gait, loads = gaits.pressed([gaits.box(0.28, 0.20, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -100]], seconds=0.4)
