@@ -12,6 +12,9 @@ from .errors import DesirePathError
 from .gait import Gait
 
 
+LEAST_SPAN = 0.005  # of a walker's joints [m]
+
+
 @dataclass(frozen=True)
 class Skeleton:
     names: tuple
@@ -74,6 +77,10 @@ def _check(skeleton, motion, rig, mass, frame_rate, frame_start):
     if not len(time):
         raise DesirePathError("The recording has no frames: choose a frame range in which the "
                               "character walks.")
+    span = max(np.ptp(np.asarray(skeleton.rest, float)[:, :3, 3], axis=0).max(), np.max(skeleton.length))
+    if span < LEAST_SPAN:
+        raise DesirePathError(f"The bones span {span:.2g} m, too little for feet: check the walker's scale and "
+                              "the scene's unit scale.")
     if np.shape(motion.matrix) != (len(time), len(motion.bones), 4, 4):
         raise DesirePathError("The recorded matrices do not fit their times and bones: record "
                               "again.")

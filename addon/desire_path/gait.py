@@ -16,6 +16,7 @@ from .errors import DesirePathError
 HEEL, BALL, TIP = 0, 1, 2  # point_role
 AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]
 
+MOST_MASS = 1e7  # of a walker; the heaviest machines on feet would weigh less [kg]
 _VERSION = 1
 _NUMBERS = (  # name, type, shape by letters
     ("time", "f8", "T"),
@@ -28,6 +29,7 @@ _NUMBERS = (  # name, type, shape by letters
     ("point_part", "i4", "K"),
     ("point_role", "i4", "K"),
 )
+MOST_MASS = 1e7  # of a walker [kg]
 _NAMES = (("limb_name", "L"), ("part_name", "P"), ("walker_name", "W"))
 
 
@@ -148,9 +150,9 @@ class Gait:
             raise DesirePathError(f"A frame rate of {self.frame_rate:g} cannot be used: set the "
                                   "scene's frames a second to more than 0.")
         for w, mass in enumerate(self.mass):
-            if not (np.isfinite(mass) and mass > 0):
+            if not 0 < mass <= MOST_MASS:
                 raise DesirePathError(f"{self.walker_name[w]} has a mass of {mass:g} kg: give it "
-                                      "a mass above 0.")
+                                      f"one above 0 and up to {MOST_MASS:g}.")
             bad = ~np.isfinite(self.com[w]).all(axis=1)
             if bad.any():
                 raise DesirePathError(

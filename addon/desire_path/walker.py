@@ -284,8 +284,9 @@ def _sinks(gait, below):
     ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
     for w in range(len(gait.mass)):
         if gait.com[w, :, 2].max() < ground:
-            raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time: move the "
-                                  "ground down or the walker up.")
+            raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time, whose highest "
+                                  "faces count: move the ground down or the walker up, or take roofs "
+                                  "out of the ground.")
     return []
 
 

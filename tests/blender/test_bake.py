@@ -457,7 +457,18 @@ def test_bad_input(folder):
     settings.cell_size = 0.02
     walker.desire_path.mass = -70.0
     refused(operator.desire_path_bake, "mass")
+    walker.desire_path.mass = float("inf")
+    refused(operator.desire_path_bake, "mass")
     walker.desire_path.mass = 75.0
+    walker.scale = (1e-5,) * 3
+    refused(operator.desire_path_bake, "scale")
+    walker.scale = (1.0,) * 3
+    walker.desire_path.feet[0].foot = "foot.R"
+    refused(operator.desire_path_bake, "'foot.R'", "both")
+    walker.desire_path.feet[0].foot = "foot.L"
+    walker.location.z = -30.0
+    refused(operator.desire_path_bake, "below the ground", "roofs")
+    walker.location.z = 0.0
     walker.location.x = 500.0
     refused(operator.desire_path_bake, "beside the ground")
     walker.location.x = 0.0

@@ -275,6 +275,12 @@ def test_bad_recordings_get_a_sentence():
         body.gait_from_bones(bones, motion, mass=-1.0, frame_rate=24)
     with pytest.raises(DesirePathError, match="mass of nan kg"):
         body.gait_from_bones(bones, motion, mass=float("nan"), frame_rate=24)
+    with pytest.raises(DesirePathError, match="mass of 1e.08 kg"):
+        body.gait_from_bones(bones, motion, mass=1e8, frame_rate=24)
+    tiny = bones.rest.copy()
+    tiny[:, :3, 3] *= 1e-5
+    with pytest.raises(DesirePathError, match="span 1.*e-05 m"):
+        gait(replace(bones, rest=tiny, length=1e-5 * bones.length), motion)
     with pytest.raises(DesirePathError, match="frame rate"):
         body.gait_from_bones(bones, motion, mass=70, frame_rate=0)
     with pytest.raises(DesirePathError, match="do not increase"):

@@ -156,6 +156,10 @@ def _chosen(armature, shape):
                                   "choose one, or press Find Feet.")
         if not (names["thigh"] or names["shank"]):
             names["thigh"], names["shank"] = rigs.legs(shape, names["foot"])
+        for other in feet:
+            if other.foot == names["foot"]:
+                raise DesirePathError(f"Bone '{other.foot}' of '{armature.name}' is both the {other.limb} foot and "
+                                      f"the {each.limb} foot: choose another for one of them.")
         feet.append(rigs.Foot(each.limb, **names))
     return rigs.build(shape, feet, settings.hips or None)
 
