@@ -37,7 +37,7 @@ from .plants import as_plantings
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils, check_cell
 from .version import VERSION
 
-SAMPLE_RATE = 60.0  # at least so many steps a second; forces are found at 120 and more [1/s]
+SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are found at [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover

@@ -16,10 +16,10 @@
 // A point that touches while it still comes down does so when its fall is fastest.
 // @param height, rise  over the ground [m] and upward speed [m/s] (times)
 static void arrive(uint8_t* on, const double* height, double clearance, const double* rise,
-                   int times, double rate, double fast)
+                   int times, double rate, double moves, double fast)
 {
-    for (int t = 1; t < times; ++t) {
-        if (!on[t] || on[t - 1]) continue;
+    for (int t = 0; t < times; ++t) {
+        if (!on[t] || (t > 0 && on[t - 1]) || (t == 0 && rise[t] > -moves)) continue;
         int fastest = t;
         for (int k = t; k < times && on[k] && rise[k] < 0.0 && (double)(k - t) < EDGE * rate; ++k)
             if (rise[k] < rise[fastest]) fastest = k;
@@ -31,14 +31,16 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
     }
 }
 
-// mean upward acceleration of a limb's balls; of all its points if it has none
-static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate)
+// Mean upward speed, or acceleration, of a limb's balls; of all its points if it has none.
+static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate,
+                   bool speed)
 {
     double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
     for (int k = 0; k < gait->points; ++k) {
         if (gait->part_limb[gait->point_part[k]] != limb) continue;
-        const int ball = gait->point_role[k] == DP_POINT_BALL;
-        sum[ball] += walker_velocity(rise + (size_t)k * (size_t)gait->times, gait->times, t, rate);
+        const int     ball = gait->point_role[k] == DP_POINT_BALL;
+        const double* row = rise + (size_t)k * (size_t)gait->times;
+        sum[ball] += speed ? row[t] : walker_velocity(row, gait->times, t, rate);
         count[ball] += 1.0;
     }
     const int ball = count[1] > 0.0;
@@ -55,15 +57,21 @@ static bool limb_on(const DpGait* gait, int limb, const uint8_t* on, int t)
 }
 
 // A limb that has let go did so when its ball was lifted hardest.
-static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on, double rate)
+static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on, double rate,
+                  double moves)
 {
     const int times = gait->times, reach = (int)(EDGE * rate);
-    for (int t = 1; t < times; ++t) {
-        if (limb_on(gait, limb, on, t) || !limb_on(gait, limb, on, t - 1)) continue;
+    for (int t = 1; t <= times; ++t) {
+        if (!limb_on(gait, limb, on, t - 1)) continue;
+        // a clip that ends while the ball is pulled up ends after the contact
+        if (t == times ? lift(gait, limb, rise, t - 1, rate, true) < moves
+                       : limb_on(gait, limb, on, t))
+            continue;
         int    hardest = t;
         double most = 0.0;
-        for (int k = t; k > 0 && t - k < reach && limb_on(gait, limb, on, k - 1); --k) {
-            const double now = lift(gait, limb, rise, k, rate);
+        for (int k = t < times ? t : times - 1;
+             k > 0 && t - k < reach && limb_on(gait, limb, on, k - 1); --k) {
+            const double now = lift(gait, limb, rise, k, rate, false);
             if (now > most) most = now, hardest = k;
         }
         for (int k = 0; k < gait->points; ++k) {
@@ -75,11 +83,11 @@ static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on,
 }
 
 void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, double fast, uint8_t* on, double rate)
+                  const double* rise, double moves, double fast, uint8_t* on, double rate)
 {
     for (int k = 0; k < gait->points; ++k) {
         const size_t row = (size_t)k * (size_t)gait->times;
-        arrive(on + row, height + row, clearance[k], rise + row, gait->times, rate, fast);
+        arrive(on + row, height + row, clearance[k], rise + row, gait->times, rate, moves, fast);
     }
-    for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, on, rate);
+    for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, on, rate, moves);
 }

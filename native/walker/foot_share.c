@@ -93,6 +93,25 @@ static int run_begin(const uint8_t* on, int t)
     return t;
 }
 
+// Ramp of a support that relieves none. Two that land together, or let go, never do so at quite the
+// same sample: the nearer the other's edge, the more it is the ramp of both.
+static double alone_time(const uint8_t* touching, int count, int times, int self, int t,
+                         bool begins, double rate, const DpLoadOptions* options)
+{
+    double apart = options->ramp_standing;
+    for (int other = 0; other < count; ++other) {
+        if (other == self) continue;
+        const uint8_t* on = touching + (size_t)other * (size_t)times;
+        for (int k = 1; (double)k < apart * rate; ++k) {
+            const int at = begins ? t + k : t - k;
+            if (at < 0 || at >= times) break;
+            if (on[at]) apart = (double)k / rate;
+        }
+    }
+    return options->ramp_standing -
+           (options->ramp_standing - options->ramp_alone) * apart / options->ramp_standing;
+}
+
 // Time over which a support that begins (or ends) at sample t changes weight with the others: the
 // shortest overlap with one that it relieves (or that relieves it).
 static double ramp_time(const uint8_t* touching, int count, int times, int self, int t, bool begins,
@@ -112,7 +131,7 @@ static double ramp_time(const uint8_t* touching, int count, int times, int self,
         if (!begins && begin > own_begin && end > t + 1)
             shortest = fmin(shortest, (double)(t + 1 - begin));
     }
-    if (!company) return options->ramp_alone;
+    if (!company) return alone_time(touching, count, times, self, t, begins, rate, options);
     const double overlap = shortest / rate;
     return rolls && company && isfinite(overlap) ? overlap
            : overlap < options->overlap_most     ? overlap

@@ -1,10 +1,14 @@
-"""Loads of walkers whose forces are known: walks, runs, sprints, landings and squats."""
+"""Loads of walkers whose forces are known, and their prints, at any frame rate."""
+
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from desire_path import body, walker
-from scenes import trials
+from desire_path import bake, body, walker
+from desire_path.sim import Ground, Simulation
+from scenes import bvh, plates, trials
 
 
 def loads_of(trial):
@@ -56,3 +60,50 @@ def test_truth_is_newton():
         assert abs(smooth(accel) - smooth(force))[inside].max() < 1.0, name
         gait, _ = loads_of(trial)
         assert abs(gait.com[0] - trial.com).max() < 0.005, name
+
+
+# ---- the same prints at any frame rate ---------------------------------------------------------------------
+
+CELL = 0.01
+MOVES = ("cmu_12_01_walk", "cmu_02_03_run", "cmu_02_04_jump", "gait_bmc_walk1", "gait_opensim_walk",
+         "run 3.8 m/s", "landing")
+
+
+def moves(name):
+    if name in trials.TRIALS:
+        trial = trials.make(name, 240.0)
+        return body.gait_from_bones(trial.skeleton, trial.motion, mass=trial.mass, frame_rate=240.0)
+    if not plates.here():
+        pytest.skip("reference data not found: set DESIRE_PATH_DATA")
+    if name in plates.TRIALS:
+        return plates.trial(name)
+    skeleton, motion, rate = bvh.load(plates.DATA / "mocap" / f"{name}.bvh", scale=0.056444)
+    return body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=rate)
+
+
+def print_of(gait, rate):
+    """(pressed volume [m^3], mean of the deepest 2 % of the cells [m]) as a bake at this frame rate has them."""
+    gait = gait.resample(rate)
+    gait = gait.resample(rate * math.ceil(bake.SAMPLE_RATE / rate - 1e-6))
+    low = gait.pose[..., :2].min(axis=(0, 1)) - 1.0
+    size = ((gait.pose[..., :2].max(axis=(0, 1)) + 1.0 - low) / CELL).astype(int)
+    land = Simulation(Ground.heights(np.zeros(size[::-1]), CELL, *low), "dry-sand", CELL)
+    land.load(gait, walker.loads(gait, ground=land.rest_height))
+    land.run(len(gait.time) - 1)
+    i0, i1, j0, j1 = land.reach()
+    pressed = np.sort(land.read("compression", i0, j0, i1 - i0, j1 - j0).ravel())
+    count = (pressed > 0).sum()
+    return pressed.sum() * CELL ** 2, pressed[-max(1, count // 50):].mean()
+
+
+@pytest.mark.parametrize("name", MOVES)
+def test_prints_do_not_depend_on_the_frame_rate(name):
+    gait = moves(name).resample(240.0)
+    # as long at every rate: the last sixth of a second is whole at 24 and at 30
+    keep = gait.time <= gait.time[0] + math.floor((gait.time[-1] - gait.time[0]) * 6 + 1e-9) / 6 + 1e-6
+    gait = replace(gait, time=gait.time[keep], com=gait.com[:, keep], pose=gait.pose[:, keep])
+    volume, depth = print_of(gait, 240.0)
+    for rate in (24.0, 30.0, 60.0, 120.0):
+        found = print_of(gait, rate)
+        assert found[0] == pytest.approx(volume, rel=0.03), rate
+        assert found[1] == pytest.approx(depth, rel=0.05), rate

@@ -173,14 +173,16 @@ def ramps_of_two(on, rate):
         mine, other = stances(on[i]), stances(on[1 - i])
         for a, b in mine:
             up = down = None
+            # alone; or nearly together with the other
+            near = lambda edges, edge: min([0.1] + [abs(e - edge) / rate for e in edges])
             if a > 0:
-                up = 0.03
+                up = 0.1 - 0.07 * near([c for c, d in other if c > a], a) / 0.1
                 for c, d in other:
                     if c <= a < d:
                         overlap = (d - a) / rate if c < a and d < b else math.inf
                         up = overlap if overlap < 0.3 else 0.1
             if b < count:
-                down = 0.03
+                down = 0.1 - 0.07 * near([d for c, d in other if d < b], b) / 0.1
                 for c, d in other:
                     if c <= b - 1 < d:
                         overlap = (b - c) / rate if c > a and d > b else math.inf
