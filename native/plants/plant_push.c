@@ -29,7 +29,8 @@ static double piece_at(const DpPlantGround* ground, double x, double y)
 double plant_ground_at(const DpPlantGround* ground, double x, double y)
 {
     double height = NAN;
-    for (; ground && !isfinite(height); ground = ground->next) height = piece_at(ground, x, y);
+    for (; ground && !isfinite(height); ground = ground->next)
+        height = ground->at ? ground->at(ground->context, x, y) : piece_at(ground, x, y);
     return height;
 }
 

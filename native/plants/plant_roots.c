@@ -34,7 +34,7 @@ DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
 {
     if (!plants || !ground || !plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
     for (const DpPlantGround* piece = ground; piece; piece = piece->next)
-        follow(plants, ground, piece);
+        if (!piece->at) follow(plants, ground, piece);
     return DP_OK;
 }
 

@@ -137,7 +137,7 @@ static bool piece_ok(const DpPlantGround* g)
 bool plant_ground_ok(const DpPlantGround* ground)
 {
     bool ok = true;
-    for (; ground && ok; ground = ground->next) ok = piece_ok(ground);
+    for (; ground && ok; ground = ground->next) ok = ground->at || piece_ok(ground);
     return ok;
 }
 

@@ -74,23 +74,27 @@ void                    dp_plants_destroy(DpPlants* plants);
 // Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed. What
 // differs from plant to plant hangs on the seed and the place of its root alone.
 // *stand names them from now on, 0, 1, 2..
-DpStatus     dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
-                           const float* heading, int count, int* stand);
+DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
+                       const float* heading, int count, int* stand);
 // How the ground slopes under each plant of a stand, dz/dx and dz/dy (count, 2) [-].
-DpStatus dp_plants_slope(DpPlants* plants, int stand, const float* slope);
+DpStatus     dp_plants_slope(DpPlants* plants, int stand, const float* slope);
 int          dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
 DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand that is there
 // How far a plant can reach from its root, with its leaves and with its roots; of all stands [m].
 double dp_plants_extent(const DpPlants* plants);
 double dp_plants_reach(const DpPlants* plants);
 
-// Heights of the ground's current surface at cell centres, NaN = no ground.
+// Heights of the ground's current surface at cell centres, NaN = no ground; or a function that tells
+// them, called from several threads.
 typedef struct DpPlantGround
 {
     int                         nx, ny, row;
     double                      cell, x0, y0;  // side of a cell, centre of cell (0, 0)  [m]
     const float*                height;        // [m] (ny, nx)
     const struct DpPlantGround* next;  // ground elsewhere, or NULL; where two lie, the first counts
+
+    double (*at)(const void* context, double x, double y);  // in place of all above but next [m]
+    const void* context;
 } DpPlantGround;
 
 // What pushes plants: the underside of a part, or a capsule when bottom is NULL. Where it stands is
@@ -125,7 +129,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
                         DpPlantsTold* told);
 
-// Roots follow the ground: every plant within it is set on its surface, asleep or not.
+// Roots follow the ground: every plant within its grids is set on its surface, asleep or not.
 DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground);
 
 // Time passes without walkers [s]: strength comes back linearly, broken stems logistically.

@@ -227,7 +227,6 @@ static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
                                    .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
                                    .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell,
                                    .height = m->height[l]};
-    if (l > 0) m->ground[l - 1].next = &m->ground[l];
     ++m->grounds;
     return DP_OK;
 }
@@ -311,6 +310,12 @@ static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
     return status;
 }
 
+// where no limb is near, plants still stand and lie on the ground
+static double surface(const void* terrain, double x, double y)
+{
+    return dp_terrain_surface_at(terrain, x, y);
+}
+
 DpStatus dp_meadow_step(DpSim* sim, int sample)
 {
     Meadow*      m = &sim->meadow;
@@ -319,8 +324,12 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     m->soles = m->grounds = 0;
     for (int l = 0; l < sim->gait.limbs && status == DP_OK; ++l)
         status = take_limb(sim, &sim->limb[l], sample, dt);
-    const DpPlantGround* ground = m->grounds > 0 ? m->ground : NULL;
-    if (status == DP_OK && ground) status = dp_plants_follow(m->plants, ground);
+    if (status != DP_OK) return status;
+    const DpPlantGround elsewhere = {.at = surface, .context = sim->terrain};
+    for (int g = 0; g < m->grounds; ++g)
+        m->ground[g].next = g + 1 < m->grounds ? &m->ground[g + 1] : &elsewhere;
+    const DpPlantGround* ground = m->grounds > 0 ? m->ground : &elsewhere;
+    status = dp_plants_follow(m->plants, ground);
     if (status != DP_OK) return status;
 
     DpPlantsTold told;

@@ -131,6 +131,9 @@ void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, 
 // cells whose tiles were touched; out (ny, nx).
 void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out);
 
+// The same at a point, bilinear between cells; the rest height where no tile was touched.
+double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y);
+
 // Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest);
 size_t dp_terrain_tile_count(const DpTerrain* terrain);

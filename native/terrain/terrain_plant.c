@@ -73,3 +73,32 @@ void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int 
             }
         }
 }
+
+// height of a cell's surface
+static double surface_of(const DpTerrain* terrain, const Tile* tile, long i, long j)
+{
+    if (!tile)
+        return rest_at(&terrain->rest, cell_at(terrain->origin_x, terrain->cell, i),
+                       cell_at(terrain->origin_y, terrain->cell, j), NULL);
+    const long p = (j - tile->ty * DP_TILE) * DP_TILE + (i - tile->tx * DP_TILE);
+    return (double)(tile->rest[p] - tile->compression[p] + tile->heap[p]);
+}
+
+double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y)
+{
+    const double u = (x - terrain->origin_x) / terrain->cell - 0.5;
+    const double v = (y - terrain->origin_y) / terrain->cell - 0.5;
+    if (!(fabs(u) < (double)MOST_CELL_INDEX && fabs(v) < (double)MOST_CELL_INDEX)) return NAN;
+    const long   i = (long)floor(u), j = (long)floor(v);
+    const double a = u - (double)i, b = v - (double)j;
+    double       h[4];
+    Tile*        tile = tile_find(terrain, tile_of(i), tile_of(j));
+    for (int n = 0; n < 4; ++n) {
+        const long ci = i + n % 2, cj = j + n / 2, tx = tile_of(ci), ty = tile_of(cj);
+        if (tx != tile_of(i) || ty != tile_of(j))
+            h[n] = surface_of(terrain, tile_find(terrain, tx, ty), ci, cj);
+        else
+            h[n] = surface_of(terrain, tile, ci, cj);
+    }
+    return (1.0 - b) * ((1.0 - a) * h[0] + a * h[1]) + b * ((1.0 - a) * h[2] + a * h[3]);
+}
