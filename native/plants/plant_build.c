@@ -112,6 +112,18 @@ uint64_t plant_name(float x, float y)
     return (uint64_t)bits[0] << 32 | bits[1];
 }
 
+double plant_return_rate(const DpPlantKind* kind)
+{
+    const double swing = 2.0 * PI * (double)kind->sway, damping = (double)kind->damping;
+    return damping > 2.0 * swing ? swing * swing / damping : swing;
+}
+
+double plant_rise_rate(const DpPlantKind* kind)
+{
+    const double rate = fmin(0.5 * (double)kind->damping, plant_return_rate(kind));
+    return fmax(rate, 0.2 * (double)kind->sway);  // without damping, too
+}
+
 // ---- shape -----------------------------------------------------------------------------------
 
 // squared frequency of a stem of n free particles, of mass and bending stiffness 1: the lowest
@@ -269,7 +281,7 @@ static bool fill_blocks(const DpPlants* plants, PlantStand* stand, const float* 
         }
         block->turn[0][lane] = (float)cos(facing), block->turn[1][lane] = (float)sin(facing);
         block->reserve[lane] = (double)stand->kind.strength * exp((double)stand->kind.spread * z);
-        block->alpha[lane] = 1.0f;
+        block->alpha[lane] = 1.0f, block->ceiling[lane] = -INFINITY;
         block->plant[lane] = k;
         float* roots = stand->box + 4 * (slot / DP_LANES);
         for (int d = 0; d < 2; ++d) {

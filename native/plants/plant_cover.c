@@ -169,17 +169,10 @@ DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, Dp
     return DP_OK;
 }
 
-// envelope of a stem that swings, or the speed at which an overdamped one creeps back
-static double rise_rate(const DpPlantKind* kind)
-{
-    const double swing = 2.0 * PI * (double)kind->sway, damping = (double)kind->damping;
-    return damping > 2.0 * swing ? swing * swing / damping : 0.5 * damping;
-}
-
 // what wears a stem keeps it down until its strength is back
 static double heal_rate(const DpPlantKind* kind)
 {
-    const double swing = rise_rate(kind), back = (double)kind->recover_rate / (double)kind->strength;
+    const double swing = plant_rise_rate(kind), back = (double)kind->recover_rate / (double)kind->strength;
     return kind->degrade_rate > 0.0f ? fmin(swing, back) : swing;
 }
 
@@ -192,7 +185,7 @@ void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const Pl
             double    heal[CHUNK] = {0}, limp[CHUNK] = {0};
             for (int s = 0; s < plants->stands; ++s) {
                 const DpPlantKind* kind = &plants->stand[s].kind;
-                const double       swings = rise_rate(kind), heals = heal_rate(kind);
+                const double       swings = plant_rise_rate(kind), heals = heal_rate(kind);
                 const double       bears = 1.0 - cos(fmin((double)kind->degrade_angle, 0.5 * PI));
                 Row                row = {0};
                 add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,

@@ -46,6 +46,7 @@ typedef struct PlantBlock
     float       foot[3][DP_LANES];   // root - origin
     float       turn[2][DP_LANES];   // cos, sin of the heading
     float       slope[2][DP_LANES];  // of the ground
+    float       ceiling[DP_LANES];   // no ground around is higher; -inf: not known [m]
     float       alpha[DP_LANES];     // unbroken share
     double      reserve[DP_LANES];
     int         plant[DP_LANES];  // number at which it was added
@@ -108,6 +109,10 @@ void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
 double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, int lane,
                     double gain);
 void   plant_limits(PlantStand* stand);
+// speed over distance of a stem on its way back to rest: it swings, or creeps if overdamped [1/s]
+double plant_return_rate(const DpPlantKind* kind);
+// at which its swings die away, or it creeps [1/s]
+double plant_rise_rate(const DpPlantKind* kind);
 // alpha_veg at a point. TRAIL (7)
 float plant_cover_at(const DpPlants* plants, float x, float y);
 // One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
@@ -149,8 +154,11 @@ typedef struct PlantPush
 // push a block's plants out of the colliders, `left` seconds before the end of the step
 void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
                       const DpPlantGround* ground, const float* before, double left, double h);
-// a root on the ground, and the ground's slope there
-void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+// a root on the ground, the ground's slope there and its ceiling; false where no grid tells of it
+bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                       int lane);
+// a ceiling that is not known yet
+void plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
                        int lane);
 // roots of a block on the ground, under soles
 void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
@@ -163,3 +171,6 @@ void plant_side_field(const DpPlantCollider* collider, float* out);
 bool plant_ground_ok(const DpPlantGround* ground);
 // surface at a point; NaN off the ground
 double plant_ground_at(const DpPlantGround* ground, double x, double y);
+// the same, or off the ground the plane a plant stands on
+double plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int lane, double x,
+                      double y);

@@ -11,29 +11,6 @@
 #define ROW_PASSES 4
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
-// of one piece of ground
-static double piece_at(const DpPlantGround* ground, double x, double y)
-{
-    const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
-    if (!(u >= -0.5 && v >= -0.5 && u <= ground->nx - 0.5 && v <= ground->ny - 0.5)) return NAN;
-    const int    i = (int)dp_clamp(u, 0.0, ground->nx - 1.0);
-    const int    j = (int)dp_clamp(v, 0.0, ground->ny - 1.0);
-    const int    i1 = i + 1 < ground->nx ? i + 1 : i, j1 = j + 1 < ground->ny ? j + 1 : j;
-    const double a = dp_clamp(u - i, 0.0, 1.0), b = dp_clamp(v - j, 0.0, 1.0);
-    const float* low = ground->height + (size_t)j * (size_t)ground->row;
-    const float* high = ground->height + (size_t)j1 * (size_t)ground->row;
-    return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +
-           b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
-}
-
-double plant_ground_at(const DpPlantGround* ground, double x, double y)
-{
-    double height = NAN;
-    for (; ground && !isfinite(height); ground = ground->next)
-        height = ground->at ? ground->at(ground->context, x, y) : piece_at(ground, x, y);
-    return height;
-}
-
 // distances to the nearest cell without sole, by the two-pass chamfer metric
 void plant_side_field(const DpPlantCollider* c, float* out)
 {
@@ -68,16 +45,10 @@ typedef struct Probe
     bool                 only_down;  // no leaving by the side
 } Probe;
 
-// the ground below a point; a sole's bottom is ground too when it is lower
+// the ground below a point
 static double ground_below(const Probe* probe, double x, double y)
 {
-    const PlantBlock* block = probe->block;
-    const int         l = probe->lane;
-    const double      height = plant_ground_at(probe->ground, x, y);
-    if (isfinite(height)) return height;
-    return (double)block->root[2][l] +
-           (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
-           (double)block->slope[1][l] * (y - (double)block->root[1][l]);
+    return plant_floor_at(probe->block, probe->ground, probe->lane, x, y);
 }
 
 // cell of a sole over (x, y), -1 where there is none
@@ -160,10 +131,13 @@ static double clear(const Probe* probe, DpVec3* p, const DpPlantCollider** by)
         pushed = dp_length(dp_sub(*p, was));
         *by = c;
     }
-    double ground = ground_below(probe, p->x, p->y);
+    const double high = (double)probe->block->ceiling[probe->lane];
+    double       ground = -INFINITY;  // not asked for yet
     for (int pass = 0; pass < 3; ++pass) {
         const PlantPush* push = NULL;
         const double     bottom = sole_over(probe, p, &push);
+        if (!push && p->z > high) return pushed;  // in the open, over all ground around
+        if (!(ground > -INFINITY)) ground = ground_below(probe, p->x, p->y);
         if (!push) break;
         const double floor_here = fmin(ground, bottom);
         const double room = dp_clamp(0.5 * (bottom - floor_here), 0.0, probe->radius);
@@ -376,7 +350,9 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
 {
     const DpPlantShape shape = stand->shape;
     for (int l = 0; l < DP_LANES; ++l) {
-        plant_ground_lane(stand, block, ground, l);
+        const bool known = plant_ground_lane(stand, block, ground, l);
+        plant_ask_ceiling(stand, block, ground, l);
+        if (!known && !block->touched_lane[l]) continue;  // it stands as it stood
         const Probe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int root = stem * shape.rows;
@@ -388,44 +364,5 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
             foot.z -= (double)stand->gap;
             put(block, root * DP_LANES + l, foot);
         }
-    }
-}
-
-void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
-{
-    const int rows = stand->shape.rows;
-    for (int at = 0; at < stand->shape.particles; ++at) {
-        if (at % rows < DP_PLANT_HELD) continue;
-        for (int l = 0; l < DP_LANES; ++l) {
-            const int k = at * DP_LANES + l;
-            if (block->touched_lane[l]) continue;  // soles had the last word there
-            DpVec3       p = get(block, k);
-            const double height = plant_ground_at(ground, p.x, p.y);
-            if (!(p.z < height)) continue;
-            p.z = height;
-            put(block, k, p);
-        }
-    }
-}
-
-// where a plant's root stands, and how the ground leans there
-void plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
-                       int l)
-{
-    if (!ground) return;
-    const double x = (double)block->root[0][l], y = (double)block->root[1][l];
-    const double height = plant_ground_at(ground, x, y);
-    if (!isfinite(height)) return;
-    const double d = fmax(ground->cell, 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth));
-    block->root[2][l] = (float)height;
-    block->foot[2][l] = (float)(height - block->origin[2]);
-    for (int k = 0; k < 2; ++k) {
-        const double dx = k ? 0.0 : d, dy = k ? d : 0.0;
-        const double lower = plant_ground_at(ground, x - dx, y - dy);
-        const double upper = plant_ground_at(ground, x + dx, y + dy);
-        double       slope = (upper - lower) / (2.0 * d);
-        if (!isfinite(slope)) slope = isfinite(upper) ? (upper - height) / d : (height - lower) / d;
-        if (!isfinite(slope)) slope = 0.0;
-        block->slope[k][l] = (float)dp_clamp(slope, -1.0, 1.0);
     }
 }

@@ -8,8 +8,8 @@
 #include "base/parallel.h"
 #include "plants/plant_inside.h"
 
-#define AT_REST 0.002f     // slower is at rest [m/s]
-#define QUIET_ENOUGH 0.25  // for so long before sleep [s]
+#define AT_REST 0.003  // of its height, nearer to its rest shape than this, a plant is at rest
+#define QUIET 0.6      // for so many swings before it sleeps
 
 typedef struct PlantTask
 {
@@ -109,7 +109,8 @@ static void live(void* context, int index, int worker)
     plant_shorten(stand, block, length);
     if (step->ground) plant_ground_block(stand, block, step->ground);
     plant_wear_block(stand, block, step->dt);
-    const bool calm = !block->touched && !block->wearing && fastest < AT_REST * AT_REST;
+    const double slow = AT_REST * (double)stand->kind.height * plant_return_rate(&stand->kind);
+    const bool   calm = !block->touched && !block->wearing && (double)fastest < slow * slow;
     block->quiet = calm ? block->quiet + step->dt : 0.0;
 }
 
@@ -126,19 +127,6 @@ static bool collider_ok(const DpPlantCollider* c)
     if (!c->bottom) return finite3(c->from) && finite3(c->to) && c->radius > 0.0 && c->radius < 1e6;
     return c->nx > 0 && c->ny > 0 && c->row >= c->nx && c->cell > 0.0 && c->cell < 1e6 &&
            fabs(c->x0) < 1e9 && fabs(c->y0) < 1e9 && c->thickness > 0.0 && c->thickness < 1e6;
-}
-
-static bool piece_ok(const DpPlantGround* g)
-{
-    return g->nx > 0 && g->ny > 0 && g->row >= g->nx && g->height && g->cell > 0.0 &&
-           g->cell < 1e6 && fabs(g->x0) < 1e9 && fabs(g->y0) < 1e9;
-}
-
-bool plant_ground_ok(const DpPlantGround* ground)
-{
-    bool ok = true;
-    for (; ground && ok; ground = ground->next) ok = ground->at || piece_ok(ground);
-    return ok;
 }
 
 // the box a collider goes through; false if it is nowhere
@@ -292,7 +280,7 @@ static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
             told->y1 = told->changed ? fmax(told->y1, y1) : y1;
             told->changed = true;
         }
-        if (block->quiet < QUIET_ENOUGH) continue;
+        if (block->quiet * (double)stand->kind.sway < QUIET) continue;
         put_to_sleep(plants, stand, block);
         stand->up[b] = 0;
     }

@@ -84,8 +84,8 @@ DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand 
 double dp_plants_extent(const DpPlants* plants);
 double dp_plants_reach(const DpPlants* plants);
 
-// Heights of the ground's current surface at cell centres, NaN = no ground; or a function that tells
-// them, called from several threads.
+// Heights of the ground's current surface at cell centres, NaN = no ground: where it may have changed
+// since the last step. Or a function that tells them, called from several threads: elsewhere.
 typedef struct DpPlantGround
 {
     int                         nx, ny, row;
@@ -93,7 +93,7 @@ typedef struct DpPlantGround
     const float*                height;        // [m] (ny, nx)
     const struct DpPlantGround* next;  // ground elsewhere, or NULL; where two lie, the first counts
 
-    double (*at)(const void* context, double x, double y);  // in place of all above but next [m]
+    double (*at)(const void* context, double x, double y);  // in place of nx..height [m]
     const void* context;
 } DpPlantGround;
 

@@ -325,7 +325,7 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     for (int l = 0; l < sim->gait.limbs && status == DP_OK; ++l)
         status = take_limb(sim, &sim->limb[l], sample, dt);
     if (status != DP_OK) return status;
-    const DpPlantGround elsewhere = {.at = surface, .context = sim->terrain};
+    const DpPlantGround elsewhere = {.cell = sim->cell, .at = surface, .context = sim->terrain};
     for (int g = 0; g < m->grounds; ++g)
         m->ground[g].next = g + 1 < m->grounds ? &m->ground[g + 1] : &elsewhere;
     const DpPlantGround* ground = m->grounds > 0 ? m->ground : &elsewhere;

@@ -1,0 +1,167 @@
+// plants/plant_ground.c - the ground under plants: where roots stand, and how high it is around them.
+//
+// Grids are told where the ground may have changed since the last step; elsewhere a plant stands as
+// it stood. Of the ground around a plant the highest is kept, its ceiling: what is over that needs no
+// look at the ground.
+#include "plants/plant_inside.h"
+
+#define LOOKS_MOST 4096  // at ground that is a function, for one ceiling
+
+static bool piece_ok(const DpPlantGround* g)
+{
+    if (g->at) return true;
+    return g->nx > 0 && g->ny > 0 && g->row >= g->nx && g->height && g->cell > 0.0 &&
+           g->cell < 1e6 && fabs(g->x0) < 1e9 && fabs(g->y0) < 1e9;
+}
+
+bool plant_ground_ok(const DpPlantGround* ground)
+{
+    bool ok = true;
+    for (; ground && ok; ground = ground->next) ok = piece_ok(ground);
+    return ok;
+}
+
+// of one grid
+static double grid_at(const DpPlantGround* ground, double x, double y)
+{
+    const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
+    if (!(u >= -0.5 && v >= -0.5 && u <= ground->nx - 0.5 && v <= ground->ny - 0.5)) return NAN;
+    const int    i = (int)dp_clamp(u, 0.0, ground->nx - 1.0);
+    const int    j = (int)dp_clamp(v, 0.0, ground->ny - 1.0);
+    const int    i1 = i + 1 < ground->nx ? i + 1 : i, j1 = j + 1 < ground->ny ? j + 1 : j;
+    const double a = dp_clamp(u - i, 0.0, 1.0), b = dp_clamp(v - j, 0.0, 1.0);
+    const float* low = ground->height + (size_t)j * (size_t)ground->row;
+    const float* high = ground->height + (size_t)j1 * (size_t)ground->row;
+    return (1.0 - b) * ((1.0 - a) * (double)low[i] + a * (double)low[i1]) +
+           b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
+}
+
+double plant_ground_at(const DpPlantGround* ground, double x, double y)
+{
+    double height = NAN;
+    for (; ground && !isfinite(height); ground = ground->next)
+        height = ground->at ? ground->at(ground->context, x, y) : grid_at(ground, x, y);
+    return height;
+}
+
+double plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int l, double x,
+                      double y)
+{
+    const double height = plant_ground_at(ground, x, y);
+    if (isfinite(height)) return height;
+    return (double)block->root[2][l] +
+           (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
+           (double)block->slope[1][l] * (y - (double)block->root[1][l]);
+}
+
+// ---- ceilings --------------------------------------------------------------------------------
+
+// What grids say of the square of +-reach about a root: the highest there; do they hold all of it?
+typedef struct Square
+{
+    float highest;
+    bool  any, all;
+} Square;
+
+static Square look_around(const DpPlantGround* ground, double x, double y, double reach)
+{
+    Square square = {-INFINITY, false, false};
+    for (; ground; ground = ground->next) {
+        if (ground->at) continue;
+        const double u0 = (x - reach - ground->x0) / ground->cell;
+        const double u1 = (x + reach - ground->x0) / ground->cell;
+        const double v0 = (y - reach - ground->y0) / ground->cell;
+        const double v1 = (y + reach - ground->y0) / ground->cell;
+        if (!(u1 >= -0.5 && v1 >= -0.5 && u0 <= ground->nx - 0.5 && v0 <= ground->ny - 0.5))
+            continue;
+        const int i0 = (int)fmax(u0, 0.0), i1 = (int)fmin(u1 + 1.0, ground->nx - 1.0);
+        const int j0 = (int)fmax(v0, 0.0), j1 = (int)fmin(v1 + 1.0, ground->ny - 1.0);
+        square.any = true;
+        square.all = square.all ||
+                     (u0 >= 0.0 && v0 >= 0.0 && u1 <= ground->nx - 1.0 && v1 <= ground->ny - 1.0);
+        for (int j = j0; j <= j1; ++j) {
+            const float* height = ground->height + (size_t)j * (size_t)ground->row;
+            float        most = square.highest;
+            for (int i = i0; i <= i1; ++i) most = height[i] > most ? height[i] : most;
+            square.highest = most;
+        }
+    }
+    return square;
+}
+
+// the highest of ground that is a function, cell by cell; +inf if that takes too long
+static float highest_of(const DpPlantGround* ground, double x, double y, double reach)
+{
+    while (ground && !ground->at) ground = ground->next;
+    const double cells = ground && ground->cell > 0.0 ? ceil(reach / ground->cell) + 1.0 : INFINITY;
+    if (!((2.0 * cells + 1.0) * (2.0 * cells + 1.0) <= LOOKS_MOST)) return INFINITY;
+    float highest = -INFINITY;
+    for (double j = -cells; j <= cells; ++j)
+        for (double i = -cells; i <= cells; ++i)
+            highest = fmaxf(highest, (float)ground->at(ground->context, x + i * ground->cell,
+                                                       y + j * ground->cell));
+    return highest;
+}
+
+static double around(const PlantStand* stand)
+{
+    return (double)(stand->extent + stand->kind.radius);
+}
+
+void plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                       int l)
+{
+    const double x = (double)block->root[0][l], y = (double)block->root[1][l];
+    if (block->ceiling[l] > -INFINITY) return;
+    block->ceiling[l] = fmaxf(look_around(ground, x, y, around(stand)).highest,
+                              highest_of(ground, x, y, around(stand)));
+}
+
+// ---- plants on it ----------------------------------------------------------------------------
+
+bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                       int l)
+{
+    const double x = (double)block->root[0][l], y = (double)block->root[1][l];
+    const Square square = look_around(ground, x, y, around(stand));
+    float*       ceiling = &block->ceiling[l];
+    if (!square.any) return false;
+    if (square.all)
+        *ceiling = square.highest;
+    else if (*ceiling > -INFINITY)  // the rest is as it was
+        *ceiling = fmaxf(*ceiling, square.highest);
+    const double height = plant_ground_at(ground, x, y);
+    if (!isfinite(height)) return true;
+    const double d = fmax(ground->cell, 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth));
+    block->root[2][l] = (float)height;
+    block->foot[2][l] = (float)(height - block->origin[2]);
+    for (int k = 0; k < 2; ++k) {
+        const double dx = k ? 0.0 : d, dy = k ? d : 0.0;
+        const double lower = plant_ground_at(ground, x - dx, y - dy);
+        const double upper = plant_ground_at(ground, x + dx, y + dy);
+        double       slope = (upper - lower) / (2.0 * d);
+        if (!isfinite(slope)) slope = isfinite(upper) ? (upper - height) / d : (height - lower) / d;
+        if (!isfinite(slope)) slope = 0.0;
+        block->slope[k][l] = (float)dp_clamp(slope, -1.0, 1.0);
+    }
+    return true;
+}
+
+void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
+{
+    const int    rows = stand->shape.rows;
+    float* const z = block->state->at[2];
+    for (int at = 0; at < stand->shape.particles; ++at) {
+        if (at % rows < DP_PLANT_HELD) continue;
+        for (int l = 0; l < DP_LANES; ++l) {
+            const int k = at * DP_LANES + l;
+            if (block->touched_lane[l]) continue;  // soles had the last word there
+            const double own = block->origin[2] + (double)z[k];
+            if (own > (double)block->ceiling[l]) continue;
+            const double x = block->origin[0] + (double)block->state->at[0][k];
+            const double y = block->origin[1] + (double)block->state->at[1][k];
+            const double height = plant_ground_at(ground, x, y);
+            if (own < height) z[k] = (float)(height - block->origin[2]);
+        }
+    }
+}
