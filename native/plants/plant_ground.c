@@ -154,14 +154,18 @@ void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlan
     for (int at = 0; at < stand->shape.particles; ++at) {
         if (at % rows < DP_PLANT_HELD) continue;
         for (int l = 0; l < DP_LANES; ++l) {
-            const int k = at * DP_LANES + l;
-            if (block->touched_lane[l]) continue;  // soles had the last word there
-            const double own = block->origin[2] + (double)z[k];
-            if (own > (double)block->ceiling[l]) continue;
-            const double x = block->origin[0] + (double)block->state->at[0][k];
-            const double y = block->origin[1] + (double)block->state->at[1][k];
-            const double height = plant_ground_at(ground, x, y);
-            if (own < height) z[k] = (float)(height - block->origin[2]);
+            const int    k = at * DP_LANES + l;
+            const double own = block->origin[2] + (double)z[k], most = (double)block->ceiling[l];
+            double       height = most;  // over all ground: it falls no further in a step
+            if (own <= most) {
+                const double x = block->origin[0] + (double)block->state->at[0][k];
+                const double y = block->origin[1] + (double)block->state->at[1][k];
+                height = plant_ground_at(ground, x, y);
+            }
+            block->state->floor[k] =
+                isfinite(height) ? (float)(height - block->origin[2]) : DP_NO_FLOOR;
+            // soles had the last word where they touch
+            if (own < height && !block->touched_lane[l]) z[k] = block->state->floor[k];
         }
     }
 }

@@ -12,6 +12,7 @@
 #define DP_SUBSTEP (1.0 / 480)  // longest sub-step [s]
 #define DP_SUBSTEPS_MOST 64
 #define DP_STRETCH_MOST 1.05f  // no stem is longer
+#define DP_NO_FLOOR -1e30f     // not seen yet: the plane a plant stands on
 #define DP_SPEED_MOST 6.0f     // of a particle [m/s]
 
 // two particles that keep their distance
@@ -29,6 +30,7 @@ typedef struct PlantState
     float*  at[3];     // positions from the block's origin [m]
     float*  speed[3];  // [m/s]
     float*  limp;      // 1 above a broken bend, else 0 (particles, lanes)
+    float*  floor;     // height of the ground under a particle, as it was last seen [m]
     double* strength;  // eps_b; 0 = broken
 } PlantState;
 

@@ -82,15 +82,18 @@ INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az
     }
 }
 
-// the ground under a plant is a plane; a step's end looks at it closely. What is limp sticks to it.
+// the ground under a particle as a step's end saw it, or the plane a plant stands on. What is limp
+// sticks to it.
 INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
                        const float* restrict was_x, const float* restrict was_y,
-                       const float* restrict limp, const PlantBlock* block)
+                       const float* restrict limp, const float* restrict floor,
+                       const PlantBlock* block)
 {
     LANES
     {
-        const float ground = block->foot[2][l] + block->slope[0][l] * (x[l] - block->foot[0][l]) +
-                             block->slope[1][l] * (y[l] - block->foot[1][l]);
+        const float plane = block->foot[2][l] + block->slope[0][l] * (x[l] - block->foot[0][l]) +
+                            block->slope[1][l] * (y[l] - block->foot[1][l]);
+        const float ground = floor[l] > DP_NO_FLOOR ? floor[l] : plane;
         const float stick = z[l] > ground ? 0.0f : 0.5f * limp[l];
         x[l] += stick * (was_x[l] - x[l]);
         y[l] += stick * (was_y[l] - y[l]);
@@ -216,7 +219,7 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
         const int at = p * DP_LANES;
         if (p % rows < DP_PLANT_HELD) continue;
         stay_above(x + at, y + at, z + at, before + at, before + size + at, state->limp + at,
-                   block);
+                   state->floor + at, block);
     }
 }
 

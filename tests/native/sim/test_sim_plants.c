@@ -234,6 +234,32 @@ TEST(cost_follows_the_feet)
     stride_drop(&s);
 }
 
+// grass that was trodden into prints with rims lies still there
+TEST(trodden_grass_comes_to_rest)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    Stride      s = stride_make(1, 2, 80.0, 60.0), away = stride_make(1, 10, 80.0, 60.0);
+    World       world;
+    kind.break_angle = 0.5f;
+    for (int p = 0; p < away.gait.parts; ++p)
+        for (int t = 0; t < away.gait.times; ++t) {
+            const size_t k = (size_t)(p * away.gait.times + t);
+            away.pose[7 * k + 2] = 5.0, away.touching[k] = 0;
+            memset(away.force + 3 * k, 0, 3 * sizeof(double));
+        }
+    CHECK(world_make(&world, &kind, -0.5, -0.7, 1.8, 0.11, 0.01, 1) == DP_OK);
+    CHECK(walk(&world, &s) == DP_OK);
+    const int before = dp_sim_report(world.sim).awake;
+    CHECK(walk(&world, &away) == DP_OK);  // five seconds in the air
+    const DpSimReport r = dp_sim_report(world.sim);
+    printf("  %d plants awake, then %d; %ld bends broken, %.1f mm deep\n", before, r.awake, r.broke,
+           1e3 * r.deepest);
+    CHECK(before > 20 && r.broke > 100 && r.deepest > 0.005);
+    CHECK(r.awake == 0);
+    world_drop(&world);
+    stride_drop(&s), stride_drop(&away);
+}
+
 TEST(rest_grows_what_broke)
 {
     DpPlantKind kind = dp_plant_kind_default();
@@ -317,6 +343,7 @@ int main(void)
     RUN(feet_that_jump_touch_nothing_between);
     RUN(odd_plants_and_long_steps_stay_numbers);
     RUN(cost_follows_the_feet);
+    RUN(trodden_grass_comes_to_rest);
     RUN(rest_grows_what_broke);
     RUN(roots_need_ground);
     RUN(no_memory_is_a_status);
