@@ -172,7 +172,8 @@ DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, Dp
 // what wears a stem keeps it down until its strength is back
 static double heal_rate(const DpPlantKind* kind)
 {
-    const double swing = plant_rise_rate(kind), back = (double)kind->recover_rate / (double)kind->strength;
+    const double swing = plant_rise_rate(kind),
+                 back = (double)kind->recover_rate / (double)kind->strength;
     return kind->degrade_rate > 0.0f ? fmin(swing, back) : swing;
 }
 
@@ -202,7 +203,8 @@ void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const Pl
                 const double share = full[i] > 0.0 ? 1.0 / full[i] : 0.0;
                 out->broken[at] = (float)(share * (full[i] - whole[i]));
                 if (!out->height) continue;
-                out->height[at] = (float)(share * high[i]), out->rate[at] = (float)(share * rise[i]);
+                out->height[at] = (float)(share * high[i]),
+                out->rate[at] = (float)(share * rise[i]);
                 out->heal[at] = (float)(share * heal[i]), out->limp[at] = (float)(share * limp[i]);
             }
         }

@@ -33,10 +33,10 @@ typedef struct LeanTile
     float   rate[CELLS];    // at which it swings up [1/s]
     float   heal[CELLS];    // at which it rises while its crushed is above `limp` [1/s]
     float   limp[CELLS];
-    float   healing;  // the most of heal [1/s]
-    double  waited;   // since slow stems rose [s]
-    float   stays[CELLS];   // share of stems that is broken
-    int32_t held[CELLS];    // the step in which something held it last
+    float   healing;       // the most of heal [1/s]
+    double  waited;        // since slow stems rose [s]
+    float   stays[CELLS];  // share of stems that is broken
+    int32_t held[CELLS];   // the step in which something held it last
 } LeanTile;
 
 // an offset in cells to the nearest cell of the other kind, sole or no sole
@@ -130,8 +130,8 @@ static void grow(const DpLean* lean, LeanTile* tile, int i0, int i1, int j0, int
                                   centre(lean, 0, tile->tx * DP_TILE + i0),
                                   centre(lean, 1, tile->ty * DP_TILE + j0)};
     const int           at = j0 * DP_TILE + i0;
-    const PlantStature  stature = {first ? tile->height + at : NULL, tile->rate + at, tile->heal + at,
-                                   tile->limp + at, tile->stays + at};
+    const PlantStature  stature = {first ? tile->height + at : NULL, tile->rate + at,
+                                  tile->heal + at, tile->limp + at, tile->stays + at};
     plant_stature(lean->plants, &window, &stature);
     for (size_t p = 0; first && p < CELLS; ++p) tile->healing = fmaxf(tile->healing, tile->heal[p]);
 }
