@@ -23,6 +23,7 @@ import hashlib
 import json
 import math
 import os
+import threading
 import time
 from dataclasses import asdict, dataclass
 
@@ -214,6 +215,7 @@ class Bake:
         seconds = {"total": time.perf_counter()}
         check_cell(self.cell_size)
         self._check_soles()
+        signature = _Soon(self._signature)
         sim = self._simulation()
         tiles = self._rectangle(sim)
         sim.open_frames(*tiles)
@@ -222,7 +224,7 @@ class Bake:
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
         fresh = os.path.join(self.folder, "frames.new")
-        index = self._index(tiles)
+        index = self._index(tiles, signature.result())
         done = self._prepare(fresh, index)
         spent_step = spent_write = 0.0
         count = self.frame_end - self.frame_start + 1
@@ -277,12 +279,12 @@ class Bake:
             return self.ends[min(number, len(self.ends) - 1)]
         return int(np.searchsorted(self.times, number / self.frame_rate + 1e-6, "right")) - 1
 
-    def _index(self, tiles):
+    def _index(self, tiles, signature):
         tx, ty, nx, ny = tiles
         ox, oy = self.options["origin"]
         side = TILE * self.cell_size
         return {
-            "format": FORMAT, "version": VERSION, "signature": self._signature(),
+            "format": FORMAT, "version": VERSION, "signature": signature,
             "cell": self.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
             "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
             "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
@@ -393,6 +395,22 @@ class Bake:
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
         }
+
+
+class _Soon(threading.Thread):
+    """What a function returns, worked out while others go on."""
+
+    def __init__(self, function):
+        super().__init__(daemon=True)
+        self.function, self.value = function, None
+        self.start()
+
+    def run(self):
+        self.value = self.function()
+
+    def result(self):
+        self.join()
+        return self.value
 
 
 def _plain(problem):

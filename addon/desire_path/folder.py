@@ -98,9 +98,12 @@ def _is_whole_frame(path):
         return False
 
 
-def read_index(folder):
+def read_index(folder, just_baked=False):
     """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
-    complete False. Raises DesirePathError when there is nothing to play."""
+    complete False. Raises DesirePathError when there is nothing to play.
+
+    just_baked: every frame was written a moment ago, so that their files need no look
+    """
     for name in ("frames", "frames.new"):
         frames = os.path.join(folder, name)
         path = os.path.join(frames, "index.json")
@@ -119,7 +122,7 @@ def read_index(folder):
         try:
             count = int(data["frame_end"]) - int(data["frame_start"]) + 1
             lean = bool(data.get("lean", False))
-            there = max(0, min(count, frames_there(frames, lean)))
+            there = count if just_baked else max(0, min(count, frames_there(frames, lean)))
             return FrameIndex(
                 frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
                 int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),

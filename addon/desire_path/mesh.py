@@ -44,9 +44,9 @@ def are_quads(corners, corner_edges, edges):
     return _native.are_quads(corners, corner_edges, edges)
 
 
-def cell_offset(vertices, cell, corner):
-    """Largest distance of world points from the centres of the cells they lie in, in cells."""
-    return _native.cell_offset(np.ascontiguousarray(vertices, np.float64), cell, *corner)
+def are_centres(vertices, cell, corner, most):
+    """Whether all world points (n, 3) [m] lie within `most` cells of the centres of the cells they lie in."""
+    return _native.are_centres(np.ascontiguousarray(vertices, np.float64), cell, *corner, most)
 
 
 def at_points(planes, cell, corner, points, place=None, still=0.0):

@@ -134,21 +134,27 @@ static PyObject* are_quads(PyObject* module, PyObject* arguments)
     return answer;
 }
 
-static PyObject* cell_offset(PyObject* module, PyObject* arguments)
+static PyObject* are_centres(PyObject* module, PyObject* arguments)
 {
     (void)module;
     PyObject* vertices;
-    double    cell, origin[2];
-    if (!PyArg_ParseTuple(arguments, "Oddd:cell_offset", &vertices, &cell, &origin[0], &origin[1]))
+    double    cell, origin[2], most;
+    if (!PyArg_ParseTuple(arguments, "Odddd:are_centres", &vertices, &cell, &origin[0], &origin[1],
+                          &most))
         return NULL;
     DpDoor        door = {0};
     DpShape       shape = {2, {-1, 3}};
     PyObject*     answer = NULL;
     const double* vertex = dp_door_open(&door, vertices, "vertices", 'd', &shape, false);
-    if (vertex && (shape.n[0] > INT32_MAX || !(cell > 0.0)))
+    if (vertex && (shape.n[0] > INT32_MAX - 65536 || !(cell > 0.0))) {
         dp_door_result(DP_BAD_ARGUMENT, "looking for cells");
-    else if (vertex)
-        answer = PyFloat_FromDouble(dp_cell_offset((int)shape.n[0], vertex, cell, origin));
+    } else if (vertex) {
+        bool all;
+        Py_BEGIN_ALLOW_THREADS
+        all = dp_are_centres((int)shape.n[0], vertex, cell, origin, most, dp_parallel_width());
+        Py_END_ALLOW_THREADS
+        answer = PyBool_FromLong(all);
+    }
     dp_door_close(&door);
     return answer;
 }
@@ -164,9 +170,9 @@ PyMethodDef dp_py_terrain_methods[] = {
     {"are_quads", are_quads, METH_VARARGS,
      "are_quads(corners, corner_edges, edges (e, 2))\n\n"
      "Whether the faces of these corners are quads alone."},
-    {"cell_offset", cell_offset, METH_VARARGS,
-     "cell_offset(vertices float64 (n, 3), cell, x0, y0)\n\n"
-     "Largest distance of points from the centres of cells, in cells."},
+    {"are_centres", are_centres, METH_VARARGS,
+     "are_centres(vertices float64 (n, 3), cell, x0, y0, most)\n\n"
+     "Whether all points lie within `most` cells of the centres of their cells."},
     {"terrain_rest", terrain_rest, METH_VARARGS,
      "terrain_rest(vertices, triangles, xy, height)\n\n"
      "Height of the upper envelope of a mesh at points: vertices float64 (n, 3) [m], triangles\n"

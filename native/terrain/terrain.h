@@ -173,5 +173,6 @@ void     dp_cut_free(DpCut* cut);
 bool dp_are_quads(int corners, const int32_t* corner, const int32_t* corner_edge, int edges,
                   const int32_t* edge, int workers);
 
-// Largest distance of points from the centres of the cells they lie in, along x or y [cells].
-double dp_cell_offset(int count, const double* vertex, double cell, const double origin[2]);
+// Whether all points (count, 3) [m] lie within `most` [cells] of the centres of the cells they lie in.
+bool dp_are_centres(int count, const double* vertex, double cell, const double origin[2],
+                    double most, int workers);

@@ -325,13 +325,40 @@ bool dp_are_quads(int corners, const int32_t* corner, const int32_t* corner_edge
     return !atomic_load(&all.other);
 }
 
-double dp_cell_offset(int count, const double* vertex, double cell, const double origin[2])
+// ---- points and cells --------------------------------------------------------------------------
+
+typedef struct Offsets
 {
-    double most = 0.0;
-    for (int n = 0; n < count; ++n)
+    const double* vertex;
+    const double* origin;
+    double        cell, most;
+    int           count;
+    atomic_bool   off;
+} Offsets;
+
+static void look_for_centres(void* context, int index, int worker)
+{
+    Offsets*  offsets = context;
+    const int end = end_of(index, offsets->count);
+    (void)worker;
+    if (atomic_load(&offsets->off)) return;
+    for (int n = index * CHUNK; n < end; ++n)
         for (int k = 0; k < 2; ++k) {
-            const double at = (vertex[3 * (size_t)n + (size_t)k] - origin[k]) / cell - 0.5;
-            most = fmax(most, fabs(at - nearbyint(at)));
+            const double at =
+                (offsets->vertex[3 * (size_t)n + (size_t)k] - offsets->origin[k]) / offsets->cell;
+            const bool   near = fabs(at) < 1e15;  // farther out a cell has no middle any more
+            const double into = near ? at - (double)(int64_t)at : 0.0;  // of its cell, -1..1
+            if (!near || !(fabs(fabs(into) - 0.5) < offsets->most)) {
+                atomic_store(&offsets->off, true);
+                return;
+            }
         }
-    return most;
+}
+
+bool dp_are_centres(int count, const double* vertex, double cell, const double origin[2],
+                    double most, int workers)
+{
+    Offsets offsets = {vertex, origin, cell, most, count, false};
+    dp_parallel_for(chunks_of(count), workers, look_for_centres, &offsets);
+    return !atomic_load(&offsets.off);
 }

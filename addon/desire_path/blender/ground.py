@@ -135,7 +135,7 @@ def _cell_corner(vertices, cell):
 def smooth(vertices, cell, corner):
     """Whether points lie between the centres of cells, so that playback must interpolate."""
     from .. import mesh as meshes
-    return meshes.cell_offset(vertices, cell, corner) >= playback.ALIGNED
+    return not meshes.are_centres(vertices, cell, corner, playback.ALIGNED)
 
 
 def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):

@@ -109,7 +109,7 @@ class Job:
             return "Nothing was baked."
         obj = self.object()
         settings = obj.desire_path
-        index, warnings = play(obj, self.surface)
+        index, warnings = play(obj, self.surface, just_baked=self.bake.report is not None)
         self.warnings += warnings
         report = self.bake.report
         if report is None:
@@ -144,12 +144,12 @@ def _fits(obj):
             and not sharing(obj))
 
 
-def play(obj, surface):
+def play(obj, surface, just_baked=False):
     """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
     sentences about what could not be written."""
     from ..bake import read_index
     settings = obj.desire_path
-    index = read_index(folder(obj))
+    index = read_index(folder(obj), just_baked)
     cover.remove(obj)
     if index.frames:
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0

@@ -163,10 +163,18 @@ TEST(points_off_the_centres_of_cells)
 {
     const double vertex[] = {0.05, 0.15, 9.0, 1.05, -0.65, 0.0, 0.25, 0.36, 0.0};
     const double corner[2] = {0.0, 0.0}, shifted[2] = {0.05, 0.1};
-    CHECK_NEAR(dp_cell_offset(2, vertex, 0.1, corner), 0.0, 1e-9);
-    CHECK_NEAR(dp_cell_offset(3, vertex, 0.1, corner), 0.1, 1e-9);
-    CHECK_NEAR(dp_cell_offset(2, vertex, 0.1, shifted), 0.5, 1e-9);
-    CHECK(dp_cell_offset(0, vertex, 0.1, corner) == 0.0);
+    CHECK(dp_are_centres(2, vertex, 0.1, corner, 1e-9, 1));
+    CHECK(dp_are_centres(3, vertex, 0.1, corner, 0.11, 1));
+    CHECK(!dp_are_centres(3, vertex, 0.1, corner, 0.09, 1));
+    CHECK(!dp_are_centres(2, vertex, 0.1, shifted, 0.45, 1));
+    CHECK(dp_are_centres(2, vertex, 0.1, shifted, 0.51, 1));
+    CHECK(dp_are_centres(0, vertex, 0.1, corner, 0.0, 1));
+    double* many = malloc(3 * 100000 * sizeof *many);
+    for (int n = 0; n < 100000; ++n) many[3 * n] = many[3 * n + 1] = (n - 50000 + 0.5) * 0.1;
+    CHECK(dp_are_centres(100000, many, 0.1, corner, 1e-6, 4));
+    many[3 * 99999 + 1] += 0.003;
+    CHECK(!dp_are_centres(100000, many, 0.1, corner, 0.02, 4));
+    free(many);
 }
 
 int main(void)
