@@ -11,7 +11,6 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from statistics import NormalDist
 
 import numpy as np
 
@@ -23,8 +22,8 @@ from .sim import Ground, Simulation
 
 WALK = Path(__file__).parent / "walks" / "walk.npz"
 PASSES = (25, 75, 200, 500)  # counts of Cole's lanes
-BEYOND = 0.6  # people walk on so far past both ends [m]
-SCATTER = 0.24  # standard deviation of their tracks, in widths of the lane
+BEYOND = 0.4  # people walk on so far past both ends [m]
+SCATTER = 0.32  # standard deviation of their tracks, in widths of the lane
 EVEN = 1.2207440846057596 ** -np.arange(1.0, 4.0)  # steps that fill a cube evenly, x^4 = x + 1
 DAY = 86400.0  # [s]
 USUAL = {"length": 5.0, "width": 0.5, "mass": 75.0, "seed": 0, "soil": "soil", "cell_size": 0.02, "frame_rate": 60.0,
@@ -86,9 +85,8 @@ def planted(kind, length, width, seed, density=None):
     count = max(int(round((2.0 * kind.density if density is None else density) * length * width)), 1)
     even = (np.random.default_rng([int(seed), count]).random(3) + np.arange(count)[:, None] * EVEN) % 1.0
     roots = np.stack([even[:, 0] * length, (even[:, 1] - 0.5) * width], axis=1)
-    normal = NormalDist()
-    vigour = [normal.inv_cdf(min(max(u, 1e-6), 1.0 - 1e-6)) for u in even[:, 2]]
-    return Planting(kind, seed=seed, roots=roots, vigour=vigour)
+    tail = np.log(np.maximum(2.0 * np.minimum(even[:, 2], 1.0 - even[:, 2]), 1e-4)) / math.sqrt(2.0)
+    return Planting(kind, seed=seed, roots=roots, vigour=np.where(even[:, 2] < 0.5, tail, -tail))
 
 
 def cover(sim):

@@ -98,8 +98,8 @@ struct DpPlants
 double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
 // what a plant is called by its root, whoever planted it with whatever others
 uint64_t plant_name(float x, float y);
-// a normal number
-double plant_normal(uint64_t seed, uint64_t a, uint64_t b);
+// a double-exponential number of mean 0 and deviation 1
+double plant_vigour(uint64_t seed, uint64_t a, uint64_t b);
 
 // rest position of a particle from the block's origin, at its present root
 DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int lane);
