@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import rigs, rotation, sole, tread as treads
+from . import rig_names, rotation, sole, tread as treads
 from .errors import DesirePathError
 from .gait import BALL, HEEL, TIP, Sole
 
 HEEL_BEHIND = 0.17  # the heel lies this share of ankle-to-tip behind the ankle, on the ground
+HEEL_FAR = 0.6  # a heel bone farther behind than this share of ankle-to-tip is none
 ANKLE_HEIGHT = 0.039 / 0.152  # ankle over the sole, in foot lengths; Winter, figure 4.1
 TOE_SHARE = (0.25, 0.75)  # plausible ball-to-tip in shares of ankle-to-ball; else TOE_GUESS
 TOE_GUESS = 0.42
@@ -118,6 +119,18 @@ class Foot:
                 return flat
         return none
 
+    def _heel(self, foot_turn, frame, heel_x, tip_x):
+        """x of the heel's end: a heel bone tells it, where it lies behind the ankle."""
+        if not self.slots.heel:
+            return heel_x
+        bones, foot = self.bones, self.slots.foot
+        rest = rotation.square(bones.rest[bones.row[foot], :3, :3])
+        turn = rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame)
+        ends = [turn.T @ rest.T @ (bones.rest_point(self.slots.heel, along) - bones.rest_point(foot))
+                for along in (0.0, 1.0)]
+        behind = min(end[0] for end in ends)
+        return behind if -HEEL_FAR * tip_x < behind < 0.0 else heel_x
+
     def shape(self, time, up_rest, ahead_rest, skinned):
         """Joints in the flat foot, from the clip itself, else from the rest pose."""
         flat = self.flat(time)
@@ -157,6 +170,8 @@ class Foot:
             more = FOOT_OF_LEG * self.leg - length  # joints tell where it bends, not where it ends
             tip_x, heel_x = tip_x + 0.55 * more, heel_x - 0.45 * more
             length += more
+        if not skinned:
+            heel_x = self._heel(foot_turn, frame, heel_x, tip_x)
         # the sole lies under the lowest joint, the ankle no lower over it than in people
         ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
         return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2],
@@ -266,7 +281,7 @@ def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
         foot_family.add(foot.slots.heel)
     if foot.toe:  # small toes beside the chosen one
         for name in list(foot_family):
-            if name != foot.slots.foot and rigs.is_toe(name):
+            if name != foot.slots.foot and rig_names.is_toe(name):
                 foot_family.discard(name)
                 toe_family.add(name)
     to_frame = _to_frame(bones, foot, shape)

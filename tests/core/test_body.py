@@ -408,3 +408,28 @@ def test_a_leg_without_a_knee_bends_it_ahead():
     drop = lambda g: g.com[0, :, 1:] - g.com[0, 0, 1:]
     assert drop(whole)[-1, 1] < -0.15
     assert abs(drop(kneeless) - drop(whole)).max() < 0.02
+
+
+@pytest.mark.parametrize("behind", [0.03, 0.08])
+def test_a_heel_bone_is_where_the_sole_ends(behind):
+    bones = person()
+    motion = walk(bones)
+    plain = gait(bones, motion)
+    names, parents = list(bones.names), list(bones.parents)
+    rest, length, matrix = list(bones.rest), list(bones.length), motion.matrix
+    for side, x in (("L", 1), ("R", -1)):
+        head = joints(x)[2] * (1, 1, 0) + [-0.03 * x, behind, 0.0]
+        heel = np.eye(4)
+        heel[:3, :3] = [[0, 1, 0], [-1, 0, 0], [0, 0, 1]] if x < 0 else [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        heel[:3, 3] = head
+        parents.append(names.index(f"foot.{side}"))
+        names.append(f"heel.02.{side}")
+        rest.append(heel)
+        length.append(0.06)
+    told = Skeleton(tuple(names), np.array(parents, "i4"), np.array(rest), np.array(length))
+    assert [f.heel for f in rigs.detect(told).feet] == ["heel.02.L", "heel.02.R"]
+    found = gait(told, motion)
+    ends = [g.soles[0].vertices[:, 0].min() for g in (plain, found)]
+    assert ends[1] == pytest.approx(-behind, abs=0.012)
+    assert found.soles[1].vertices[:, 0].max() == pytest.approx(plain.soles[1].vertices[:, 0].max(), abs=1e-6)
+    assert found.point[0, 0] - ends[1] == pytest.approx(plain.point[0, 0] - ends[0], abs=0.01)
