@@ -1,4 +1,5 @@
 """Feet put on a hill in a new action: where they come to be, what stays, what is refused."""
+import json
 import pathlib
 
 import bpy
@@ -293,6 +294,40 @@ def test_motion_capture_on_rough_ground():
     assert over.min() > min(before.min(), 0.0) - 0.02
     assert abs(loads.mean[0] - 1.0) < 0.05
     assert (loads.touching != walker.loads(flat).touching).mean() < 0.06
+
+
+def test_feet_go_down_into_their_prints(folder):
+    obj = people.bvh(WALKS / "cmu_12_01_walk.bvh", global_scale=0.056444)
+    old = obj.animation_data.action
+    land = meshes.grid(41, 161, 0.05, -1.0, -5.5, lambda x, y: -0.1 * y)
+    operator.desire_path_ground_add()
+    settings = land.desire_path
+    settings.folder, settings.cell_size, settings.soil = str(folder / "bake"), 0.01, "mud"
+    meshes.activate(obj)
+    operator.desire_path_walker_add()
+    bpy.context.view_layer.update()
+    operator.desire_path_place_feet()
+    refused(lambda: operator.desire_path_place_feet(into_prints=True), "bake")
+    meshes.activate(land)
+    operator.desire_path_bake()
+    meshes.activate(obj)
+    first, last = sample.frame_range(bpy.context.scene, obj)
+    frames = list(range(first, last + 1, 3))
+    names = ["LeftFoot", "RightFoot", "Hips"]
+    before = heads(obj, names, frames)
+    assert operator.desire_path_place_feet(into_prints=True) == {"FINISHED"}
+    assert obj.animation_data.action[op_place.SOURCE] == old.name
+    assert sum("_placed" in each.name for each in bpy.data.actions) == 1
+    after = heads(obj, names, frames)
+    down = {name: before[name][:, 2] - after[name][:, 2] for name in names}
+    for name in names[:2]:
+        assert down[name].max() > 0.02 and down[name].min() > -0.003
+    assert 0.01 < down["Hips"].mean() < 0.08 and np.abs(np.diff(down["Hips"])).max() < 0.006
+    # baked once more the prints are the same
+    deep = json.loads(settings.summary)["deepest_m"]
+    meshes.activate(land)
+    operator.desire_path_bake()
+    assert abs(json.loads(settings.summary)["deepest_m"] / deep - 1.0) < 0.1
 
 
 # ---- oracle 13, TRAIL Fig. 12 ---------------------------------------------------------------------------

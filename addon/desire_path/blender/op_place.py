@@ -1,6 +1,7 @@
 """op_place.py - the feet of an armature are put on its ground, in an action of its own.
 
-    record -> place.place_feet -> where feet and body go -> legs reach for them -> keys in a new action
+    record -> place.place_feet (-> sink.into_prints) -> where feet and body go -> legs reach for them -> keys in a
+    new action
 
 The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for
 their feet, feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
@@ -10,11 +11,12 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
+from bpy.props import BoolProperty
 from mathutils import Matrix
 
 from .. import leg, place, rotation, slope
 from ..errors import DesirePathError
-from . import axes, compat, ground, sample
+from . import axes, compat, ground, op_bake, sample
 from .op_walkers import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
@@ -184,7 +186,6 @@ class Plan:
         carried[:, 2, 3] = rise - down
         for root in self.roots:
             self._key(root, carried, "location")
-        self.down = down
 
     def _foot_move(self, limb, gait, placed):
         part = int(np.flatnonzero(gait.part_limb == limb)[0])
@@ -353,8 +354,9 @@ def frames_of(scene, armature, land):
     return list(range(first, last + 1))
 
 
-def read(scene, armature, land, frames):
-    """(the walk as it is, the walk as it should be, warnings)."""
+def read(scene, armature, land, frames, prints):
+    """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
+    from .. import bake as baking, sink, walker
     from ..sim import Simulation
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
     cell = axes.typed(land.desire_path.cell_size)
@@ -362,7 +364,12 @@ def read(scene, armature, land, frames):
     below = Simulation(surface.ground, cell_size=cell)
     if slope.steep(below, gait):
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
-    return gait, place.place_feet(gait, below), surface.warnings
+    placed = place.place_feet(gait, below)
+    if prints:
+        film = sink.Film(baking.read_index(op_bake.folder(land)))
+        loads = walker.loads(placed, armature.desire_path.load_model, ground=below.rest_height)
+        placed = sink.into_prints(placed, loads, film, below.rest_height)
+    return gait, placed, surface.warnings
 
 
 def source(armature):
@@ -379,8 +386,8 @@ def source(armature):
     return first, same[0] if same else None
 
 
-def bake(scene, armature, land):
-    """Give an armature a new action with its feet on the ground; (action, rise and fall [m], warnings)."""
+def bake(scene, armature, land, prints=False):
+    """Give an armature a new action with its feet on the ground, or in their prints; (action, warnings)."""
     animation = armature.animation_data or armature.animation_data_create()
     before, before_slot = animation.action, getattr(animation, "action_slot", None)
     action, slot = source(armature)
@@ -389,7 +396,7 @@ def bake(scene, armature, land):
     made = None
     try:
         frames = frames_of(scene, armature, land)
-        gait, placed, warnings = read(scene, armature, land, frames)
+        gait, placed, warnings = read(scene, armature, land, frames, prints)
         if np.abs(placed.pose - gait.pose).max() < 1e-6 and np.abs(placed.com - gait.com).max() < 1e-6:
             raise DesirePathError(f"The feet of '{armature.name}' lie on '{land.name}' already: there is nothing "
                                   "to place.")
@@ -426,8 +433,7 @@ def bake(scene, armature, land):
         raise
     if before is not None and before != action and before.get(SOURCE) and before.users == 0:
         bpy.data.actions.remove(before)
-    rise = placed.com[0, :, 2] - gait.com[0, :, 2] - plan.down * plan.bones.scale
-    return made, rise, tuple(warnings)
+    return made, tuple(warnings)
 
 
 def hold(animation, armature, action, slot, channels, frame):
@@ -464,6 +470,9 @@ floor. Makes a new action; the one it had stays"""
     bl_label = "Place Feet"
     bl_options = {"REGISTER", "UNDO"}
 
+    into_prints: BoolProperty(name="Into Prints", description="Let the feet down into the prints that are baked, and "
+                              "the body with them")
+
     @classmethod
     def poll(cls, context):
         return active(cls, context, "ARMATURE", "the armature that walks")
@@ -476,11 +485,11 @@ floor. Makes a new action; the one it had stays"""
         if obj.override_library is not None and obj.animation_data is None:
             raise DesirePathError(f"'{obj.name}' cannot be given keys: make its override editable first.")
         context.view_layer.update()
-        action, rise, warnings = bake(context.scene, obj, land)
+        action, warnings = bake(context.scene, obj, land, self.into_prints)
         for each in warnings:
             self.report({"WARNING"}, each)
-        back = action.get(SOURCE)
-        self.report({"INFO"}, f"'{obj.name}' plays '{action.name}', its feet on '{land.name}'"
+        back, where = action.get(SOURCE), "in the prints of" if self.into_prints else "on"
+        self.report({"INFO"}, f"'{obj.name}' plays '{action.name}', its feet {where} '{land.name}'"
                     + (f"; '{back}' is as it was." if back else "."))
         return {"FINISHED"}
 

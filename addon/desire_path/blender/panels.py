@@ -184,7 +184,9 @@ def draw_walker(layout, obj):
     row.operator("object.desire_path_record", text="Record", icon="REC")
     row = layout.row(align=True)
     row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
-    row.prop(settings, "place_feet", text="In Prints", toggle=True)
+    row.operator("object.desire_path_place_feet", text="Into Prints", icon="TRIA_DOWN_BAR").into_prints = True
+    column = _column(layout)
+    column.prop(settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
