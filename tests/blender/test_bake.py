@@ -13,6 +13,7 @@ import numpy as np
 from desire_path import bake, maps
 from desire_path.blender import compat, op_bake, playback
 from desire_path.gait import Gait
+from desire_path.soil import SOILS
 from scenes import meshes, people
 from test_playback import fresh, shown
 from test_sample import ids
@@ -120,8 +121,14 @@ def test_free_gives_the_mesh_back(folder):
         if groups:
             names = [g.name for g in ground.vertex_groups]
             assert names == ["own", "desire_path_plant_strength", "desire_path_compression"]
-            weights = [m.weight for v in ground.data.vertices for m in v.groups if m.group == 2]
-            assert 0.0 < max(weights) <= 1.0
+            pressed = compat.float_attribute(ground.data, "compression")
+            weights = np.zeros(len(pressed))
+            for vertex in ground.data.vertices:
+                for member in vertex.groups:
+                    assert member.group != 1  # no plants, no strength
+                    weights[vertex.index] = member.weight if member.group == 2 else 0.0
+            assert pressed.max() > 0.003
+            np.testing.assert_allclose(weights, pressed / SOILS["dry-sand"].layer_depth, atol=0.5 / 1024 + 1e-6)
         foreign = folder / "bake" / "frames" / "mine.txt"
         foreign.write_text("keep")
         assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
@@ -143,6 +150,16 @@ def test_attributes_of_others_stay(folder):
     assert "attribute 'heap'" in ground.desire_path.summary
     assert bpy.ops.object.desire_path_free() == {"FINISHED"}
     assert ground.data.attributes["heap"].data[0].value == 3.0
+
+
+def test_groups_of_others_stay(folder):
+    ground, _ = scene(folder, frames=8)
+    mine = ground.vertex_groups.new(name="desire_path_compression")
+    mine.add([0], 0.25, "REPLACE")
+    ground.desire_path.vertex_group = True
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    assert [each.name for each in ground.vertex_groups] == ["desire_path_compression"]
 
 
 def test_undo_save_load(folder):
