@@ -268,3 +268,14 @@ def test_recording_again_is_the_same():
         gait = sample.record(bpy.context.scene, obj, 1, 60)
         found.add(gait.pose.tobytes() + gait.com.tobytes())
     assert len(found) == 1
+
+
+def test_without_a_unit_system_a_unit_is_a_metre():
+    scene = bpy.context.scene
+    obj = people.walk(people.biped(), frames=8)
+    plain = sample.record(scene, obj, 1, 8)
+    scene.unit_settings.scale_length = 2.0
+    for system, size in (("NONE", 1.0), ("METRIC", 2.0), ("IMPERIAL", 2.0)):
+        scene.unit_settings.system = system
+        found = sample.record(scene, obj, 1, 8)
+        np.testing.assert_allclose(found.com, size * plain.com, rtol=1e-6, atol=1e-9)
