@@ -194,6 +194,10 @@ def test_skin_of_shoes():
         assert set(found.weights) == {"foot.L"} and (found.weights["foot.L"] == 1.0).all()
         assert len(found.triangles) == 2 * 7 * 15
         shapes.append(found.vertices)
+        mesh.hide_render = True  # nobody sees it: it presses nothing
+        assert sample.skin(bpy.context.scene, obj, feet, world, 1.0) is None
+        mesh.hide_render, mesh.desire_path.is_ground = False, True  # nor does a ground that hangs on a rig
+        assert sample.skin(bpy.context.scene, obj, feet, world, 1.0) is None
         bpy.data.objects.remove(mesh)
     np.testing.assert_allclose(shapes[0], rest, atol=1e-5)
     assert len(shapes[1]) == len(shapes[0])
