@@ -7,9 +7,10 @@ import numpy as np
 from mathutils import Matrix
 
 from desire_path import maps, rotation, walker
-from desire_path.blender import compat, ground as ground_of, op_place, sample
+from desire_path.blender import compat, footing, ground as ground_of, op_place, sample
 from desire_path.sim import Simulation
 from scenes import meshes, people
+from run import Skip
 from test_rig import add_bones, refused
 
 WALKS = pathlib.Path(__file__).resolve().parents[1] / "scenes" / "walks"
@@ -44,7 +45,7 @@ def keys(action, obj):
 
 
 def heads(obj, names, frames):
-    bones = op_place.look(bpy.context.scene, obj, names, frames)
+    bones = footing.look(bpy.context.scene, obj, names, frames)
     return {name: bones.at(name)[:, :3, 3] for name in names}
 
 
@@ -172,7 +173,7 @@ def follow(obj, name, world, *, place=True):
 def test_quaternions_and_a_turned_object():
     obj = people.walk(people.biped())
     names = [f"{bone}.{side}" for side in "LR" for bone in ("thigh", "shin", "foot", "toe")]
-    seen = op_place.look(bpy.context.scene, obj, names, range(1, 49))
+    seen = footing.look(bpy.context.scene, obj, names, range(1, 49))
     for name in names:
         follow(obj, name, seen.at(name), place=False)
     obj.rotation_euler.z = 0.4
@@ -188,7 +189,7 @@ def test_legs_that_follow_ik_targets():
     obj = people.walk(people.biped())
     add_bones(obj, *((f"ik.{side}", None, (x, 0.02, 0.08), (x, 0.2, 0.08))
                      for side, x in (("L", 0.1), ("R", -0.1))))
-    seen = op_place.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     for side in "LR":
         target = np.tile(np.eye(4), (48, 1, 1))
         target[:, :3, 3] = seen.at("foot." + side)[:, :3, 3]
@@ -205,7 +206,7 @@ def test_legs_that_follow_ik_targets():
 
 def test_feet_that_hang_on_nothing_are_moved():
     obj = people.walk(people.biped())
-    seen = op_place.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     meshes.activate(obj)
     bpy.ops.object.mode_set(mode="EDIT")
     for side in "LR":
@@ -370,3 +371,44 @@ def test_prints_of_a_hill(folder):
         assert up < 0.75 * level and down > level and side > 0.95 * level, (up, down, side, level)
         assert up_fore < fore - 0.02 and down_fore > fore + 0.02, (up_fore, down_fore, fore)
         assert side_left < left - 0.02, (side_left, left)  # it rises to the left
+
+
+# ---- other ways to be animated --------------------------------------------------------------------------
+
+
+def test_the_slot_in_use_is_placed():
+    obj = people.walk(people.biped())
+    action = obj.animation_data.action
+    if not hasattr(action, "slots"):
+        raise Skip("actions have no slots here")
+    flat = sample.record(bpy.context.scene, obj, 1, 48)
+    other = action.slots.new(id_type="OBJECT", name="Other")
+    mine = obj.animation_data.action_slot
+    strip = action.layers[0].strips[0]
+    strip.channelbag(other, ensure=True).fcurves.new("location", index=2).keyframe_points.insert(1.0, 7.0)
+    scene_of(obj)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    made = obj.animation_data.action
+    assert made != action and obj.animation_data.action_slot.identifier == mine.identifier
+    assert {each.identifier for each in made.slots} == {mine.identifier, other.identifier}
+    check_placed(obj, flat)
+
+
+def test_strips_are_placed_over():
+    obj = people.walk(people.biped())
+    flat = sample.record(bpy.context.scene, obj, 1, 48)
+    animation = obj.animation_data
+    action = animation.action
+    track = animation.nla_tracks.new()
+    strip = track.strips.new("walk", 1, action)
+    if hasattr(strip, "action_slot") and strip.action_slot is None:
+        strip.action_slot = action.slots[0]
+    animation.action = None
+    np.testing.assert_allclose(sample.record(bpy.context.scene, obj, 1, 48).pose, flat.pose, atol=1e-6)
+    scene_of(obj)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    assert animation.action.name == "Walker_placed" and len(track.strips) == 1
+    check_placed(obj, flat)
+    animation.action = None
+    again = sample.record(bpy.context.scene, obj, 1, 48)
+    np.testing.assert_allclose(again.com, flat.com, atol=0.02)
