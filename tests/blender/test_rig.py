@@ -6,7 +6,7 @@ import numpy as np
 
 from desire_path.blender import panels, sample
 from desire_path.errors import DesirePathError
-from scenes import meshes, people
+from scenes import beasts, meshes, people
 
 operator = bpy.ops.object
 
@@ -217,3 +217,43 @@ def test_mass_is_estimated(folder):
     assert abs(record(obj).mass[0] / gait.mass[0] - 4.0) < 1e-3
     settings.mass = -0.5
     refused(lambda: record(obj), "-0.5 kg", "Walker", "estimated")
+
+
+def beast():
+    """A four-legged armature of boxes, and its mesh; the limbs' order is that of the feet found."""
+    bones = beasts.skeleton()
+    hide, volume = beasts.skin(bones)
+    armature = bpy.data.armatures.new("Dog")
+    obj = meshes.link(bpy.data.objects.new("Dog", armature))
+    meshes.activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    for k, name in enumerate(bones.names):
+        made = armature.edit_bones.new(name)
+        made.head = bones.rest[k, :3, 3]
+        made.tail = bones.rest[k, :3, 3] + bones.rest[k, :3, 1] * bones.length[k]
+        if bones.parents[k] >= 0:
+            made.parent = armature.edit_bones[bones.names[bones.parents[k]]]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    mesh = bpy.data.meshes.new("Hide")
+    mesh.from_pydata(hide.vertices.tolist(), [], hide.triangles.tolist())
+    worn = meshes.link(bpy.data.objects.new("Hide", mesh))
+    worn.modifiers.new("Armature", "ARMATURE").object = obj
+    for name, share in hide.weights.items():
+        worn.vertex_groups.new(name=name).add(np.flatnonzero(share).tolist(), 1.0, "REPLACE")
+    return obj, worn, sum(volume.values())
+
+
+def test_a_beast_weighs_what_its_mesh_holds(folder):
+    obj, worn, volume = beast()
+    obj.desire_path.mass = 0.0
+    gait = record(obj, 8)
+    assert len(gait.limb_walker) == 4
+    assert abs(gait.mass[0] - 1000.0 * volume) < 0.01 * gait.mass[0], (gait.mass, volume)
+    assert any("litres" in told and "Dog" in told for told in gait.warnings), gait.warnings
+    assert -0.3 < gait.com[0, 0, 1] < 0.0 and 0.7 < gait.com[0, 0, 2] < 0.85  # the neck pulls it ahead
+    obj.desire_path.mass = 30.0
+    told = record(obj, 8)
+    assert told.mass[0] == 30.0 and abs(told.com - gait.com).max() < 1e-6
+    obj.desire_path.mass = 0.0
+    bpy.data.objects.remove(worn)
+    refused(lambda: record(obj, 8), "Dog", "no mesh is bound", "kilograms")

@@ -164,14 +164,20 @@ def _chosen(armature, shape):
     return rigs.build(shape, feet, settings.hips or None)
 
 
-def weight(armature, shape, found):
-    """(mass [kg], what is to be told about it) of a walker; mass 0 is estimated."""
+def weight(armature, shape, found, volume=None):
+    """(mass [kg], what is to be told about it) of a walker; mass 0 is estimated.
+
+    volume: of the mesh of one that is no person [m^3], None: of none
+    """
     settings = armature.desire_path
     if not (math.isfinite(settings.mass) and settings.mass >= 0.0):
         raise DesirePathError(f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0, "
                               "or 0 to have it estimated.")
     if settings.mass > 0.0:
         return axes.typed(settings.mass), ()
+    if volume:
+        settings.estimated_mass = mass.DENSITY * volume
+        return mass.DENSITY * volume, (mass.told_by_volume(armature.name, mass.DENSITY * volume, volume),)
     kilograms, height = mass.estimate(shape, found, armature.name)
     settings.estimated_mass = kilograms
     return kilograms, (mass.sentence(armature.name, kilograms, height),)
@@ -184,9 +190,9 @@ def skin(scene, armature, feet, world, scale):
     """Meshes bound to the feet, in the skeleton's rest space; None where there are none.
 
     Skins, clothes and shoes count alike. A bone below a foot or toe (a toe's tip, single toes)
-    counts for the nearest one above it.
+    counts for the nearest one above it. feet None: all there is, every bone for itself.
     """
-    owner = _owners(armature, feet)
+    owner = _owners(armature, feet) if feet is not None else {bone.name: bone.name for bone in armature.data.bones}
     size = axes.sizes(world)
     to_armature = np.linalg.inv(np.array(armature.matrix_world, np.float64))
     vertices, triangles, weights, count = [], [], [], 0
@@ -323,8 +329,14 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     with still(armature), private_scene(scene, armature) as own:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
-        found = rig(armature, shape)
-        kilograms, told = weight(armature, shape, found)
+        found, volume = rig(armature, shape), None
+        if len(found.feet) > 2:  # no table knows this body: its mesh does
+            hide = skin(scene, armature, None, world, scale)
+            full = mass.by_volume(shape, found, hide) if hide is not None else None
+            if full:
+                found = found if settings.mass_center else replace(found, segments=full[0])
+                volume = full[1]
+        kilograms, told = weight(armature, shape, found, volume)
         moved = motion(own, armature, found.bones, frames, rate, scale)
     worn = skin(scene, armature, found.feet, world, scale)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
