@@ -258,8 +258,10 @@ class Bake:
 
         seconds["step"], seconds["write"] = spent_step, spent_write
         sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
-        maps.write(os.path.join(self.folder, "maps_start.exr"), start, [("time", 0.0)] + self._notes(tiles))
+        started = _Soon(lambda: maps.write(os.path.join(self.folder, "maps_start.exr"), start,
+                                           [("time", 0.0)] + self._notes(tiles)))
         sim.flush()
+        started.result()
         write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
         seconds["total"] = time.perf_counter() - seconds["total"]
         self.report = self._report(sim, seconds)
@@ -398,18 +400,23 @@ class Bake:
 
 
 class _Soon(threading.Thread):
-    """What a function returns, worked out while others go on."""
+    """What a function returns or raises, worked out while others go on."""
 
     def __init__(self, function):
         super().__init__(daemon=True)
-        self.function, self.value = function, None
+        self.function, self.value, self.problem = function, None, None
         self.start()
 
     def run(self):
-        self.value = self.function()
+        try:
+            self.value = self.function()
+        except Exception as problem:  # told to who asks
+            self.problem = problem
 
     def result(self):
         self.join()
+        if self.problem is not None:
+            raise self.problem
         return self.value
 
 

@@ -141,12 +141,12 @@ static uint32_t place_of(const MeshGround* mesh, const Facet* facet)
 }
 
 // a few triangles a bin
-static void choose_bins(MeshGround* mesh, const double bounds[4], size_t facing)
+static void choose_bins(MeshGround* mesh, const double bounds[4], size_t triangles)
 {
     const double wide = bounds[2] - bounds[0], high = bounds[3] - bounds[1];
     const double longer = fmax(wide, high);
-    const double bin = fmax(2.0 * sqrt(wide * high / (double)facing),
-                            longer / fmin((double)facing, (double)MOST_BINS));
+    const double bin = fmax(2.0 * sqrt(wide * high / (double)triangles),
+                            longer / fmin((double)triangles, (double)MOST_BINS));
     mesh->x0 = bounds[0], mesh->y0 = bounds[1];
     mesh->per_bin = 1.0 / bin;
     mesh->nx = (int)(wide / bin) + 1;
@@ -188,13 +188,20 @@ static int end_of(int chunk, int count)
 static void take_points(void* context, int chunk, int worker)
 {
     Binning*      binning = context;
+    struct Share* share = &binning->share[chunk];
     const double* vertex = binning->ground->vertex;
     const size_t  first = 3 * (size_t)chunk * CHUNK;
     const size_t  end = 3 * (size_t)end_of(chunk, binning->ground->vertex_count);
+    double        x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     bool          bad = false;
     (void)worker;
-    for (size_t n = first; n < end; ++n) bad |= !(fabs(vertex[n]) < 1e100);  // squares are finite
-    binning->share[chunk].bad = bad;
+    for (size_t n = first; n < end; n += 3) {
+        const double x = vertex[n], y = vertex[n + 1], z = vertex[n + 2];
+        bad |= !(fabs(x) < 1e100 && fabs(y) < 1e100 && fabs(z) < 1e100);  // squares are finite
+        x0 = x < x0 ? x : x0, x1 = x > x1 ? x : x1;
+        y0 = y < y0 ? y : y0, y1 = y > y1 ? y : y1;
+    }
+    *share = (struct Share){{x0, y0, x1, y1}, 0, bad};
     memcpy(binning->mesh->vertex + first, vertex + first, (end - first) * sizeof *vertex);
 }
 
@@ -207,6 +214,7 @@ static void take_triangles(void* context, int chunk, int worker)
     const int      end = end_of(chunk, mesh->triangle_count);
     double         x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     (void)worker;
+    *share = (struct Share){{0.0}, 0, false};
     for (int t = chunk * CHUNK; t < end; ++t) {
         for (size_t n = 3 * (size_t)t; n < 3 * (size_t)t + 3; ++n) {
             share->bad |= corner[n] < 0 || corner[n] >= mesh->vertex_count;
@@ -214,6 +222,7 @@ static void take_triangles(void* context, int chunk, int worker)
         }
         if (share->bad) return;
         const Facet facet = facet_of(mesh, t);
+        binning->place[t] = facet.sign == 0.0 ? NOWHERE : place_of(mesh, &facet);
         if (facet.sign == 0.0) continue;
         ++share->facing;
         x0 = fmin(x0, least(facet.x)), x1 = fmax(x1, most(facet.x));
@@ -222,40 +231,43 @@ static void take_triangles(void* context, int chunk, int worker)
     share->bounds[0] = x0, share->bounds[1] = y0, share->bounds[2] = x1, share->bounds[3] = y1;
 }
 
-static void find_places(void* context, int chunk, int worker)
+// the box of all chunks; false when one is bad
+static bool sum_up(const struct Share* share, int chunks, double bounds[4], size_t* facing)
 {
-    const Binning* binning = context;
-    const int      end = end_of(chunk, binning->mesh->triangle_count);
-    (void)worker;
-    for (int t = chunk * CHUNK; t < end; ++t) {
-        const Facet facet = facet_of(binning->mesh, t);
-        binning->place[t] = facet.sign == 0.0 ? NOWHERE : place_of(binning->mesh, &facet);
-    }
-}
-
-// points, then triangles, copied and looked through; how many face up or down, and where they lie
-static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_t* facing)
-{
-    const DpGround* ground = binning->ground;
-    const int       point_chunks = chunks_of((size_t)ground->vertex_count);
-    const int       chunks = chunks_of((size_t)ground->triangle_count);
-    dp_parallel_for(point_chunks, workers, take_points, binning);
-    for (int c = 0; c < point_chunks; ++c)
-        if (binning->share[c].bad) return DP_BAD_ARGUMENT;
-    dp_parallel_for(chunks, workers, take_triangles, binning);
     bounds[0] = bounds[1] = INFINITY, bounds[2] = bounds[3] = -INFINITY;
     *facing = 0;
-    for (int c = 0; c < chunks; ++c) {
-        const struct Share* share = &binning->share[c];
-        if (share->bad) return DP_BAD_ARGUMENT;
-        if (share->facing == 0) continue;
+    for (int c = 0; c < chunks; ++c, ++share) {
+        if (share->bad) return false;
         *facing += share->facing;
         for (int k = 0; k < 2; ++k) {
             bounds[k] = fmin(bounds[k], share->bounds[k]);
             bounds[k + 2] = fmax(bounds[k + 2], share->bounds[k + 2]);
         }
     }
-    return *facing == 0 ? DP_NO_GROUND : DP_OK;
+    return true;
+}
+
+// points, then triangles, copied, looked through and given their places; how many of them face up
+// or down, and where these lie
+static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_t* facing)
+{
+    const DpGround* ground = binning->ground;
+    const int       point_chunks = chunks_of((size_t)ground->vertex_count);
+    const int       chunks = chunks_of((size_t)ground->triangle_count);
+    dp_parallel_for(point_chunks, workers, take_points, binning);
+    if (!sum_up(binning->share, point_chunks, bounds, facing)) return DP_BAD_ARGUMENT;
+    for (bool again = false;; again = true) {
+        double box[4];
+        memcpy(box, bounds, sizeof box);
+        if (!(box[2] > box[0] && box[3] > box[1])) box[2] += 1.0, box[3] += 1.0;
+        choose_bins(binning->mesh, box, (size_t)ground->triangle_count);
+        dp_parallel_for(chunks, workers, take_triangles, binning);
+        if (!sum_up(binning->share, chunks, bounds, facing)) return DP_BAD_ARGUMENT;
+        if (*facing == 0) return DP_NO_GROUND;
+        // points of no triangle may lie far off: then once more, with bins where the ground is
+        const double wide = bounds[2] - bounds[0], high = bounds[3] - bounds[1];
+        if (again || 4.0 * wide * high >= (box[2] - box[0]) * (box[3] - box[1])) return DP_OK;
+    }
 }
 
 // counted, summed up, filled from the back: ascending within a bin
@@ -297,11 +309,7 @@ DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, doub
     DpStatus status = DP_NO_MEMORY;
     if (mesh->vertex && mesh->triangle && binning.place && binning.share)
         status = take_mesh(&binning, workers, bounds, &facing);
-    if (status == DP_OK) {
-        choose_bins(mesh, bounds, facing);
-        dp_parallel_for(chunks_of(triangles), workers, find_places, &binning);
-        if (!fill_bins(mesh, binning.place, facing)) status = DP_NO_MEMORY;
-    }
+    if (status == DP_OK && !fill_bins(mesh, binning.place, facing)) status = DP_NO_MEMORY;
     dp_free(binning.place);
     dp_free(binning.share);
     return status;

@@ -265,6 +265,31 @@ TEST(a_large_mesh_among_few_bins_each)
     dp_free(triangle);
 }
 
+TEST(a_point_of_no_triangle_may_lie_far_off)
+{
+    static double  vertex[3 * (GRID * GRID + 1)];
+    static int32_t triangle[6 * GRID * GRID];
+    const int      triangles = 2 * (GRID - 1) * (GRID - 1);
+    make_grid(vertex, triangle, 0.3, 5.0, 0.25);
+    for (int k = 0; k < 3; ++k) vertex[3 * GRID * GRID + k] = 1e9;
+    double heights[2][100], bounds[2][4];
+    for (int far = 0; far < 2; ++far) {
+        const DpGround ground = ground_mesh(GRID * GRID + far, vertex, triangles, triangle);
+        DpTerrain*     terrain = ground_terrain(&ground, 1.0 / 64.0, 0.0, 0.0);
+        dp_terrain_bounds(terrain, bounds[far]);
+        for (int n = 0; n < 100; ++n)
+            heights[far][n] = height_at(terrain, 4.7 + 0.013 * n, 5.0 + 0.012 * n);
+        dp_terrain_destroy(terrain);
+    }
+    CHECK(memcmp(bounds[0], bounds[1], sizeof bounds[0]) == 0);
+    int on = 0;
+    for (int n = 0; n < 100; ++n) {
+        CHECK(isnan(heights[0][n]) ? isnan(heights[1][n]) : heights[0][n] == heights[1][n]);
+        on += !isnan(heights[0][n]);
+    }
+    CHECK(on > 30);
+}
+
 TEST(bad_meshes_are_refused)
 {
     double                 vertex[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -325,6 +350,7 @@ int main(void)
     RUN(paint_follows_the_highest_triangle);
     RUN(any_number_of_workers_gives_the_same_bits);
     RUN(a_large_mesh_among_few_bins_each);
+    RUN(a_point_of_no_triangle_may_lie_far_off);
     RUN(bad_meshes_are_refused);
     return check_done();
 }
