@@ -266,6 +266,24 @@ static double level_of(const DpSoilPatch* patch, Box box)
     return isfinite(high) ? floor((double)high) : 0.0;
 }
 
+// the cells of a box between which loose soil lies: nothing else can move; empty without any
+static Box loose_in(const DpSoilPatch* patch, Box box)
+{
+    Box loose = {box.i1, box.i0, box.j1, box.j0};
+    for (int j = box.j0; j < box.j1; ++j) {
+        const float* heap = patch->heap + soil_at(patch, 0, j);
+        int          first = box.i0, last = box.i1 - 1;
+        while (first < box.i1 && !(heap[first] > 0.0f)) ++first;
+        if (first == box.i1) continue;
+        while (!(heap[last] > 0.0f)) --last;
+        loose.i0 = first < loose.i0 ? first : loose.i0;
+        loose.i1 = last >= loose.i1 ? last + 1 : loose.i1;
+        loose.j0 = j < loose.j0 ? j : loose.j0;
+        loose.j1 = j + 1;
+    }
+    return loose;
+}
+
 // ---- sweeps ----------------------------------------------------------------------------------
 
 // first stencil over `look`; returns the cells that give, and whether one of them must
@@ -347,11 +365,13 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     if (look.i0 >= look.i1 || look.j0 >= look.j1) return DP_OK;
 
     const double tan_slack = tan(tolerance), level = level_of(patch, look);
-    const float  film = (float)(0.1 * tan_slack * patch->cell);
-    int          margin = FIRST_MARGIN;
-    DpStatus     status = DP_OK;
-    Window       window;
-    Box          changed = {0, 0, 0, 0};
+    look = loose_in(patch, look);
+    if (look.i0 >= look.i1) return DP_OK;
+    const float film = (float)(0.1 * tan_slack * patch->cell);
+    int         margin = FIRST_MARGIN;
+    DpStatus    status = DP_OK;
+    Window      window;
+    Box         changed = {0, 0, 0, 0};
     if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
                      scratch))
         return DP_NO_MEMORY;

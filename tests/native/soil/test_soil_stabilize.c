@@ -316,6 +316,9 @@ TEST(bad_arguments)
     CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, -1, scratch, &settled) ==
           DP_BAD_ARGUMENT);
     CHECK(dp_soil_stabilize(NULL, NULL, NULL, TENTH, 9, scratch, &settled) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, 9, scratch, &settled) == DP_OK &&
+          settled.at_rest && settled.sweeps == 0);  // nothing lies loose
+    ground.heap[ground.patch.row + 1] = 0.1f;
     dp_alloc_fail_after(0);
     CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, 9, scratch, &settled) ==
           DP_NO_MEMORY);
