@@ -211,11 +211,28 @@ def test_toe_children_count_for_the_toe():
     tip.head, tip.tail = (0.1, -0.17, 0.02), (0.1, -0.2, 0.02)
     tip.parent = obj.data.edit_bones["toe.L"]
     bpy.ops.object.mode_set(mode="OBJECT")
-    shoe(obj, "tip.L", "ARMATURE")
+    mesh = shoe(obj, "tip.L", "ARMATURE")
+    mesh.vertex_groups["tip.L"].add(list(range(8 * 16)), 0.25, "REPLACE")
+    mesh.vertex_groups.new(name="toe.L").add(list(range(8 * 16)), 0.75, "REPLACE")
     world = axes.matrix(obj.matrix_world, obj.name)
     feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
     found = sample.skin(bpy.context.scene, obj, feet, world, 1.0)
     assert (found.weights["toe.L"] == 1.0).all() and "tip.L" not in found.weights
+
+
+def test_frames_are_those_of_all_that_moves_the_walker():
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 3, 7
+    obj = people.biped()
+    assert sample.frame_range(scene, obj) == (3, 7)  # nothing moves: the scene's own
+    carrier = meshes.link(bpy.data.objects.new("Carrier", None))
+    obj.parent = carrier
+    for frame in (5, 20):
+        carrier.keyframe_insert("location", frame=frame)
+    assert sample.frame_range(scene, obj) == (5, 20)
+    for frame in (-2, 9):
+        obj.keyframe_insert("location", frame=frame)
+    assert sample.frame_range(scene, obj) == (-2, 20)
 
 
 def test_recording_leaves_nothing_behind():
