@@ -65,6 +65,8 @@ def source(armature):
 def bake(scene, armature, land, prints=False):
     """Give an armature a new action with its feet on the ground, or in their prints; (action, warnings)."""
     animation = armature.animation_data or armature.animation_data_create()
+    if animation is None:  # a library override that is locked
+        raise DesirePathError(f"'{armature.name}' cannot be given keys: make its library override editable first.")
     before, before_slot = animation.action, getattr(animation, "action_slot", None)
     action, slot = source(armature)
     if action is not None:
@@ -158,8 +160,6 @@ floor. Makes a new action; the one it had stays"""
         land = obj.desire_path.ground
         if land is None:
             raise DesirePathError(f"'{obj.name}' walks on no ground yet: press Add Walker, or choose its ground.")
-        if obj.override_library is not None and obj.animation_data is None:
-            raise DesirePathError(f"'{obj.name}' cannot be given keys: make its override editable first.")
         context.view_layer.update()
         action, warnings = bake(context.scene, obj, land, self.into_prints)
         for each in warnings:

@@ -1,0 +1,92 @@
+"""Feet that lie on a slope have soles that do: a walk on a tilted floor is the walk, tilted."""
+
+import numpy as np
+import pytest
+
+from desire_path import body, rotation, slope
+from desire_path.body import Motion
+from desire_path.foot import FootShape
+from desire_path.sim import Ground, Simulation
+from tests.core.test_body import person, walk
+from tests.core.test_place import plane
+
+TILT = 0.25  # [rad]
+
+
+def turn_about(axis, angle):
+    axis = np.asarray(axis, float) / np.linalg.norm(axis)
+    k = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+
+
+def on_hill(motion, turn):
+    matrix = motion.matrix.copy()
+    matrix[..., :3, :] = turn @ matrix[..., :3, :]
+    return Motion(motion.time, motion.bones, matrix)
+
+
+@pytest.mark.parametrize("toes", [True, False])
+@pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (1, 2, 0)])
+def test_a_tilted_walk_is_the_walk_tilted(toes, axis):
+    skeleton = person(toes=toes)
+    motion = walk(skeleton)
+    turn = turn_about(axis, TILT)
+    normal = turn[:, 2]
+    land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
+    flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
+    tilted = body.gait_from_bones(skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0, land=land)
+    np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=2e-3)
+    np.testing.assert_allclose(rotation.matrix(tilted.pose[..., 3:]), turn @ rotation.matrix(flat.pose[..., 3:]),
+                               atol=0.02)
+    for one, other in zip(flat.soles, tilted.soles):
+        np.testing.assert_allclose(one.vertices, other.vertices, atol=1e-3)
+    # who takes it for level has other soles
+    wrong = body.gait_from_bones(skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0)
+    apart = rotation.matrix(wrong.pose[..., 3:]) - turn @ rotation.matrix(flat.pose[..., 3:])
+    assert np.abs(apart).max() > 0.1
+
+
+def test_level_feet_over_a_slope_stay_level():
+    skeleton = person()
+    motion = walk(skeleton)
+    flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
+    for land in (Simulation(Ground.flat(1.0)), Simulation(plane(0.1, 0.25)),
+                 Simulation(Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0))):
+        same = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, land=land)
+        np.testing.assert_array_equal(same.pose, flat.pose)
+
+
+def test_known_shapes_are_kept():
+    skeleton = person()
+    motion = walk(skeleton)
+    shape = FootShape(ball=0.15, tip=0.25, heel=-0.04, ankle_height=0.1, ball_height=0.04, foot_turn=np.eye(3),
+                      toe_turn=np.eye(3), ball_side=0.0)
+    gait = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, shapes={"foot.L": shape})
+    left = gait.soles[2 * gait.limb_name.index("foot.L")].vertices
+    assert left[:, 0].min() == pytest.approx(-0.04, abs=1e-6)
+    turn = motion.matrix[:, motion.bones.index("foot.L"), :3, :3]
+    part = 2 * gait.limb_name.index("foot.L")
+    np.testing.assert_allclose(rotation.matrix(gait.pose[part, :, 3:]), turn, atol=1e-9)
+
+
+def test_back_undoes_flattened():
+    random = np.random.default_rng(3)
+    turn = np.array([turn_about(random.normal(size=3), 0.3) for _ in range(20)])
+    hill = slope.Slope(turn, random.normal(size=(20, 3)))
+    pose = np.concatenate([random.normal(size=(20, 3)), rotation.quaternion(turn[::-1])], axis=1)
+
+    class Bones:
+        column, turns = {"foot": 0}, {}
+        matrix = np.tile(np.eye(4), (20, 1, 1, 1))
+
+    Bones.matrix[:, 0, :3, :3] = rotation.matrix(pose[:, 3:])
+    Bones.matrix[:, 0, :3, 3] = pose[:, :3]
+    flat = hill.flattened(Bones(), ("foot", None)).matrix[:, 0]
+    level = np.concatenate([flat[:, :3, 3], rotation.quaternion(flat[:, :3, :3])], axis=1)
+    back = hill.back(level)
+    np.testing.assert_allclose(back[:, :3], pose[:, :3], atol=1e-12)
+    np.testing.assert_allclose(rotation.matrix(back[:, 3:]), rotation.matrix(pose[:, 3:]), atol=1e-12)
+    # what lies on the slope lies at height 0
+    on = hill.at + np.einsum("tij,j->ti", turn, (0.3, -0.2, 0.0))
+    Bones.matrix[:, 0, :3, 3] = on
+    np.testing.assert_allclose(hill.flattened(Bones(), ("foot",)).matrix[:, 0, 2, 3], 0.0, atol=1e-12)
