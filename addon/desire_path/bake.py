@@ -267,6 +267,8 @@ class Bake:
         self.report = self._report(sim, seconds)
         write_json(os.path.join(self.folder, "report.json"), self.report)
         publish(self.folder)
+        if not self.plant_mesh:
+            delete(self.folder, plant_mesh.FILES)  # of a bake before
 
     def _write(self, sim, fresh, number, seconds):
         """One frame of every film into the folder `fresh`; None: it is there already."""

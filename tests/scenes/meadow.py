@@ -34,7 +34,7 @@ def height(x, y):
 
 
 def add_ground(step, passes):
-    """Fine where the walk or the path goes; grass thins out with the distance."""
+    """Fine where the walk or the path goes; short grass where the camera looks, high grass beside the way."""
     if passes > 1:
         x, y = demo.lines(-2.6, 0.6, step, 26.0), demo.lines(-5.6, 6.8, step, 26.0)
     else:
@@ -43,23 +43,27 @@ def add_ground(step, passes):
     at = np.empty((len(obj.data.vertices), 3), np.float32)
     obj.data.vertices.foreach_get("co", at.ravel())
     x, y = at[:, 0].astype(float), at[:, 1].astype(float)
-    away = np.hypot(np.maximum(abs(x) - 1.5, 0.0), np.maximum(abs(y) - 5.0, 0.0))
     patches = 0.5 + 0.5 * noise.rough(x, y, 1.7, 51)
-    near = np.clip(1.25 - away / 9.0, 0.0, 1.0)
-    demo.paint(obj, "sedge", np.clip(near * (0.75 + 0.5 * patches), 0.0, 1.0))
-    aside = np.clip((abs(x + 0.25) - 0.75) / 1.2, 0.0, 1.0)  # high grass keeps off the path
-    demo.paint(obj, "high grass", np.clip(near * aside * (2.2 * patches - 0.7), 0.0, 1.0))
+    seen = (2.4, 2.5) if passes == 1 else (7.0, 9.0)
+    away = np.hypot(np.maximum(abs(x) - 0.3 * seen[0], 0.0), np.maximum(abs(y + 0.6) - 0.6 * seen[1], 0.0))
+    near = np.clip(1.6 - away / (0.6 * seen[0]), 0.0, 1.0)
+    demo.paint(obj, "short grass", np.clip(near * (0.75 + 0.5 * patches), 0.0, 1.0))
+    aside = np.clip((abs(x + 0.25) - 0.75) / 1.2, 0.0, 1.0)
+    wide = np.clip(1.6 - np.hypot(x, y + 1.0) / 9.0, 0.0, 1.0)
+    demo.paint(obj, "high grass", np.clip(wide * aside * (2.2 * patches - 0.7 + 0.8 * (1.0 - near)), 0.0, 1.0))
     obj.data.materials.append(materials.earth())
     return obj
 
 
 def cameras(scene, passes):
-    demo.add_sun().data.energy = 4.2
-    materials.sky(scene, 0.75)
+    sun = demo.add_sun()
+    sun.data.energy, sun.data.color, sun.location = 5.5, (1.0, 0.88, 0.70), (-3.0, -1.4, 2.7)
+    demo.aim(sun, (0.0, 0.0, 0.0))
+    materials.sky(scene, 0.9)
     if passes > 1:
         scene.camera = demo.add_camera("Path", (1.5, 9.6, 2.3), (-0.35, 0.6, 0.15), 40.0)
     else:
-        scene.camera = demo.add_camera("Trodden", (0.62, 1.75, 1.12), (0.02, -0.35, 0.10), 34.0)
+        scene.camera = demo.add_camera("Trodden", (0.62, 1.22, 0.86), (0.03, -0.16, 0.07), 32.0)
 
 
 def build(step=CELL, passes=1):
@@ -76,14 +80,15 @@ def build(step=CELL, passes=1):
     demo.follow_ground(walker, height, lambda x, y: 0.006)
     cameras(scene, passes)
     demo.cycles(scene)
-    scene.cycles.use_fast_gi = False
-    scene.cycles.max_bounces, scene.cycles.diffuse_bounces, scene.cycles.transmission_bounces = 4, 3, 2
+    scene.cycles.max_bounces, scene.cycles.transmission_bounces = 3, 2
+    scene.view_settings.exposure = 0.35
     return ground, walker
 
 
-def grow(ground):
-    """Two kinds of grass on one ground."""
-    for kind, group, density in ((os.environ.get("SHORT","carex"), "sedge", float(os.environ.get("DENS","110"))), ("meadow", "high grass", 45.0)):
+def grow(ground, passes):
+    """Two kinds of grass on one ground: a lawn shows single prints best, sedge how a path is worn."""
+    short = ("lawn", 300.0) if passes == 1 else ("carex", 110.0)
+    for (kind, density), group in ((short, "short grass"), (("meadow", 45.0), "high grass")):
         demo.activate(ground)
         bpy.ops.object.desire_path_plants_add(kind=kind, density=density, density_group=group)
 
@@ -94,7 +99,7 @@ def bake(ground, walker, folder, cell=CELL, passes=1):
     bpy.ops.object.desire_path_ground_add()
     settings = ground.desire_path
     settings.soil, settings.cell_size, settings.folder = "soil", cell, folder
-    grow(ground)
+    grow(ground, passes)
     demo.activate(walker)
     bpy.ops.object.desire_path_walker_add()
     walker.desire_path.mass = demo.MASS

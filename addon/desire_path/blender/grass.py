@@ -89,8 +89,12 @@ def _discard_mesh(mesh):
     used = [each for each in mesh.materials if each is not None]
     bpy.data.meshes.remove(mesh)
     for each in used:
-        if TAG in each and each.users == 0:
-            bpy.data.materials.remove(each)
+        discard_material(each)
+
+
+def discard_material(material):
+    if TAG in material and material.users == 0:
+        bpy.data.materials.remove(material)
 
 
 # ---- the object ------------------------------------------------------------------------------------
@@ -102,10 +106,16 @@ def make(ground, name):
     obj = bpy.data.objects.new(mesh.name, mesh)
     for collection in ground.users_collection:
         collection.objects.link(obj)
-    obj.parent = ground
     obj[TAG] = 1
     obj.modifiers.new(MODIFIER, "NODES")
     return obj
+
+
+def stand_on(obj, ground, scale):
+    """Let an object's points be metres in the world, and go along where the ground is moved."""
+    obj.parent = ground
+    obj.matrix_parent_inverse = ground.matrix_world.inverted()
+    obj.matrix_basis = ((1 / scale, 0, 0, 0), (0, 1 / scale, 0, 0), (0, 0, 1 / scale, 0), (0, 0, 0, 1))
 
 
 def fill(obj, ground, place, slope, sizes, count, scale):
@@ -115,22 +125,22 @@ def fill(obj, ground, place, slope, sizes, count, scale):
     sizes: smallest and largest plant; count: how many tufts there are to choose of
     scale: metres in a unit [m]
     """
-    obj.matrix_parent_inverse = ground.matrix_world.inverted()
-    obj.matrix_basis = ((1 / scale, 0, 0, 0), (0, 1 / scale, 0, 0), (0, 0, 1 / scale, 0), (0, 0, 0, 1))
+    stand_on(obj, ground, scale)
     mesh = obj.data
     mesh.clear_geometry()
     mesh.vertices.add(len(place))
     mesh.vertices.foreach_set("co", np.ascontiguousarray(place, np.float32).ravel())
     chance = _chances(place, 4)
-    _store(mesh, TURN, "FLOAT", 2 * np.pi * chance[0])
-    _store(mesh, SIZE, "FLOAT", sizes[0] + (sizes[1] - sizes[0]) * chance[1])
-    _store(mesh, TONE, "FLOAT", chance[2])
-    _store(mesh, PICK, "INT", np.minimum(chance[3] * count, count - 1))
-    _store(mesh, SLOPE, "FLOAT_VECTOR", np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
+    store(mesh, TURN, "FLOAT", 2 * np.pi * chance[0])
+    store(mesh, SIZE, "FLOAT", sizes[0] + (sizes[1] - sizes[0]) * chance[1])
+    store(mesh, TONE, "FLOAT", chance[2])
+    store(mesh, PICK, "INT", np.minimum(chance[3] * count, count - 1))
+    store(mesh, SLOPE, "FLOAT_VECTOR", np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
     mesh.update()
 
 
-def _store(mesh, name, kind, value):
+def store(mesh, name, kind, value):
+    """Values of a mesh's points as an attribute."""
     layer = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "POINT")
     key = "vector" if kind == "FLOAT_VECTOR" else "value"
     layer.data.foreach_set(key, np.ascontiguousarray(
@@ -205,12 +215,18 @@ def show(obj, name, kind, index=None, images=None, count=0):
     tree[TAG] = mark
     for each in obj.modifiers:
         if each.type == "NODES" and (each.node_group is None or each.node_group == old):
-            made = each.node_group
-            each.node_group = tree
-            if made is not None and made != old and made.users == 0:
-                bpy.data.node_groups.remove(made)
+            use_tree(each, tree)
             break
     _discard_tree(old)
+    tree.name = f"{MODIFIER} {obj.name}"
+
+
+def use_tree(modifier, tree):
+    """Let a modifier run a tree; older Blenders fill in a tree of their own."""
+    made = modifier.node_group
+    modifier.node_group = tree
+    if made is not None and TAG not in made and made.users == 0:
+        bpy.data.node_groups.remove(made)
 
 
 # ---- the nodes -------------------------------------------------------------------------------------
@@ -352,6 +368,13 @@ def _trodden(wire, points, info, field):
     tilt = wire.vector("ADD", wire.vector("SCALE", tilt, scale=keep), wire.vector("SCALE", way, scale=first))
     arch = wire.vector("ADD", wire.vector("SCALE", arch, scale=keep),
                        wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)))
+
+    # what lay across it is pressed flat, to the sides of the way it leans
+    aside = wire.vector("CROSS_PRODUCT", (0, 0, 1), way)
+    wide = wire.math("MULTIPLY", wire.vector("LENGTH", across), wire.math(
+        "SIGN", wire.vector("DOT_PRODUCT", across, aside)))
+    across = wire.vector("ADD", wire.vector("SCALE", across, scale=height), wire.vector(
+        "SCALE", aside, scale=wire.math("MULTIPLY", wide, own)))
 
     # broken stems turn to straw and are ground away foot by foot
     level, pressure = _surface(wire, field, place, foot)

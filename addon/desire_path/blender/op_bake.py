@@ -14,7 +14,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import axes, cover, ground, op_plants, playback, plants, props, sample, way
+from . import axes, cover, ground, op_plants, playback, plants, props, sample, stems, way
 from .op_walkers import Refusal, active, grounds, sentence, walkers
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -82,6 +82,7 @@ class Job:
         cell = axes.typed(settings.cell_size)
         if way.goes(there):
             gait, self.surface = way.carried(scene, obj, there, cell, first, last)
+            last = None  # every pass is shown
         else:
             gait = sample.gaits(scene, there, first, last)
             yield
@@ -95,7 +96,8 @@ class Job:
         yield
         self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path, cell_size=cell, frame_start=first,
                          frame_end=last, load_model=self.model, law=settings.law, heap=settings.heap,
-                         threads=settings.threads, origin=self.surface.origin, plants=grown)
+                         threads=settings.threads, origin=self.surface.origin, plants=grown,
+                         plant_mesh=settings.plant_mesh and bool(grown))
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
             for progress in frames:
@@ -166,6 +168,9 @@ def play(obj, surface, just_baked=False):
         playback.detach(obj)
         warnings = []
     plants.show(obj, index)
+    stems.remove(settings.plant_object)
+    settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
+                                       surface.scale) if index.complete else None
     settings.missing = missing(index)
     return index, warnings
 
@@ -193,6 +198,7 @@ def free(obj):
     settings = obj.desire_path
     playback.detach(obj)
     plants.show(obj)
+    stems.remove(settings.plant_object)
     cover.remove(obj)
     if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
         shared = sharing(obj)

@@ -135,6 +135,7 @@ def draw_plants(layout, context, obj):
     except DesirePathError as problem:
         told = str(problem)
     _lines(layout, told, "INFO", _letters(context))
+    _column(layout).prop(settings, "plant_mesh")
 
 
 def draw_output(layout, obj):

@@ -125,6 +125,11 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     plants: CollectionProperty(type=DesirePathPlants, name="Plants",
                                description="What grows on this ground, bends under feet and wears")
     plants_index: IntProperty(options={"HIDDEN"})
+    plant_mesh: BoolProperty(
+        name="Plant Mesh", description="Also bake the simulated plants as a mesh of stems, for close-ups: "
+        "where feet come near, in place of the grass; large files")
+    plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
+                                  description="The mesh of the simulated plants")
     vertex_group: BoolProperty(
         name="Vertex Groups", description="Also fill vertex groups with plant strength and "
         "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play")

@@ -1,6 +1,6 @@
 """way.py - walkers that go along a curve, as often as wanted, instead of where their keys lead them.
 
-    path object --waypoints--> passes.along --in turn--> one recording, its frames spread over the bake's
+    path object --waypoints--> passes.along --in turn--> one recording, baked a frame a pass
 """
 from dataclasses import replace
 
@@ -80,8 +80,7 @@ def goes(walkers):
 def carried(scene, obj, walkers, cell, first, last):
     """Recording of walkers along their paths, and the Surface they walk on.
 
-    Who has no path walks once as keyed. The walkers go one after the other, pass by pass. The frames
-    show all of it: in its own time where it fits into them, else quickened to end with the last frame.
+    Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
     from ..passes import in_turn
     from ..sim import Simulation
@@ -108,7 +107,4 @@ def carried(scene, obj, walkers, cell, first, last):
         walked.append(gait)
     rate = max(gait.rate() or gait.frame_rate for gait in walked)
     walked = [gait if gait.rate() == rate else gait.resample(rate) for gait in walked]
-    gait = in_turn(walked) if len(walked) > 1 else walked[0]
-    seconds = float(gait.time[-1] - gait.time[0])
-    shown = min(sample.frame_rate(scene), (last - first) / seconds)
-    return replace(gait, frame_start=first, frame_rate=shown), surface
+    return replace(in_turn(walked), frame_start=first, frame_rate=sample.frame_rate(scene)), surface
