@@ -22,6 +22,7 @@
 #endif
 
 #define BEYOND 1.02f  // edges between stems are hard when longer than this
+#define STICK 0.95f   // what is limp slides by no more than the rest of its way over the ground
 #define TINY 1e-18f   // squared length of what has none [m^2]
 
 // let particles go on as they moved; where they were is kept
@@ -94,7 +95,7 @@ INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
         const float plane = block->foot[2][l] + block->slope[0][l] * (x[l] - block->foot[0][l]) +
                             block->slope[1][l] * (y[l] - block->foot[1][l]);
         const float ground = floor[l] > DP_NO_FLOOR ? floor[l] : plane;
-        const float stick = z[l] > ground ? 0.0f : 0.5f * limp[l];
+        const float stick = z[l] > ground ? 0.0f : STICK * limp[l];
         x[l] += stick * (was_x[l] - x[l]);
         y[l] += stick * (was_y[l] - y[l]);
         z[l] = z[l] > ground ? z[l] : ground;

@@ -173,10 +173,6 @@ typedef struct DpPlantWindow
 // alpha_veg, TRAIL (7), and E_v, TRAIL (8) [Pa], of every cell; NULL is left out.
 DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
                          float* strength, float* modulus);
-// How plants lie: mean of (tip - root) / height over the cell's plants, sideways, and the share of
-// height that is lost, 0..1. Only for grass that follows; cells without plants get 0.
-DpStatus dp_plants_lean(const DpPlants* plants, const DpPlantWindow* window, float* lean_x,
-                        float* lean_y, float* crushed);
 
 // Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) into `root` (most, 2),
 // *count of them. weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
@@ -205,8 +201,8 @@ DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);
 // Plants have come or grown there: cells that nothing touched yet will see for themselves.
 void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1);
 
-// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways and the share of height that
-// is lost, as for dp_plants_lean(); NULL is left out.
+// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways, |lean| <= 1, and the share of
+// height that is lost, 0..1; 0 where nothing grows or nobody went. NULL is left out.
 void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* lean_x,
                   float* lean_y, float* crushed);
 

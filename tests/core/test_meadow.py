@@ -11,6 +11,7 @@ from desire_path.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
 from desire_path.plants import KINDS, Planting
 from desire_path.sim import Ground, Simulation
+from desire_path.soil import SOILS
 from scenes import gaits
 
 TOUGH = KINDS["lawn"]
@@ -253,3 +254,96 @@ def test_vigour_is_each_plants_own():
     for bad in (dict(vigour=[1.0]), dict(roots=roots, vigour=[1.0]), dict(roots=roots, vigour=[0, 0, 0, np.nan])):
         with pytest.raises(DesirePathError, match="vigour"):
             Planting("carex", **bad)
+
+
+# ---- oracles: cover, prints and rates, through the whole simulation ----------------------------------------------
+
+
+def walked(plants, rate=60.0, passes=4, soil="dry-sand"):
+    """Two box feet walk 2.5 m along x, back and forth in y by a few centimetres from pass to pass."""
+    sim = Simulation(Ground.flat(), soil, 0.01, plants=plants)
+    for number in range(passes):
+        sim.load(*gaits.strides(2.5, rate=rate, y=0.04 * (number % 3 - 1), shift=0.23 * number))
+        sim.run(10 ** 6)
+        sim.settle()
+    return sim
+
+
+WEARS = replace(KINDS["lawn"], strength=0.6, break_angle=10.0, degrade_rate=1.0, recover_rate=0.0, spread=1.3)
+
+
+@pytest.mark.parametrize("kind", [KINDS["carex"], WEARS])
+def test_cover_does_not_depend_on_the_frame_rate(kind):
+    cover = [walked([kind], rate).read("plant_strength", 0, -25, 250, 50).mean() for rate in (30.0, 60.0)]
+    assert cover[0] < 0.97 and abs(cover[0] - cover[1]) < 0.03
+
+
+def roots_of_cover(kind, share):
+    """Roots on a square lattice so dense that cover is about `share`."""
+    apart = 1.0 / np.sqrt(share * kind.full_density)
+    x = np.arange(-1.0, 1.0, apart)
+    return np.stack(np.meshgrid(x, x), -1).reshape(-1, 2)
+
+
+def test_prints_follow_the_stiffness_of_soil_and_roots():
+    """Bare, half and full cover of plants too low to bend: depth is m g L0 / ((E_g + alpha E_v0) A), TRAIL (8)-(10)."""
+    kind = replace(KINDS["carex"], height=0.0, reach=0.3, modulus=4e6)
+    soil = SOILS["snow"]
+    for share in (0.0, 0.5, 1.5):
+        plants = [Planting(kind, roots=roots_of_cover(kind, share))] if share else []
+        sim = Simulation(Ground.flat(), soil, 0.01, plants=plants)
+        sim.load(*gaits.pressed([gaits.box(0.28, 0.10)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -735]], seconds=1.0))
+        window = (-14, -5, 28, 10)
+        alpha, modulus = (sim.read(name, *window) for name in ("plant_strength", "young_modulus"))
+        np.testing.assert_allclose(modulus, soil.young_modulus + alpha * kind.modulus, rtol=1e-5)
+        assert abs(alpha.mean() - min(share, 1.0)) < 0.1
+        sim.run(110)
+        depth = sim.read("compression", *window)
+        expected = 735.0 * soil.layer_depth / (modulus.mean() * 0.28 * 0.10)
+        np.testing.assert_allclose(depth, expected, rtol=0.01)
+
+
+def test_where_plants_broke_prints_are_nearly_as_deep_as_on_bare_ground():
+    x = np.arange(-0.25, 0.25, 0.01)
+    roots = np.stack(np.meshgrid(x, x), -1).reshape(-1, 2)
+    brittle = replace(KINDS["carex"], degrade_angle=0.02, break_angle=0.02, reach=0.02, full_density=5000.0,
+                      modulus=1e6)
+    tough = replace(brittle, break_angle=4.0, degrade_rate=0.0)
+    depth = []
+    for plants in ([], [Planting(tough, roots=roots)], [Planting(brittle, roots=roots)]):
+        sim = Simulation(Ground.flat(), "snow", 0.01, plants=plants)
+        for _ in range(2):
+            sim.load(*gaits.pressed([gaits.box(0.28, 0.10)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -300]]))
+            sim.run(10 ** 6)
+        depth.append(sim.read("compression", -14, -5, 28, 10).mean())
+    under, beside = (sim.read("plant_strength", -12, j, 24, 6) for j in (-3, 10))
+    assert under.max() < 0.01 and beside.min() > 0.99
+    assert depth[1] < 0.35 * depth[0] and 0.75 * depth[0] < depth[2] <= depth[0]
+
+
+def test_several_kinds_share_a_ground():
+    sim = walked(["moss", Planting("carex", seed=1), Planting("fern", density=4.0, seed=2)], passes=1)
+    kinds = [sim.plantings[number].kind for _, number, _ in sim.stands]
+    assert kinds == [KINDS[name] for name in ("moss", "carex", "fern")]
+    worst = [min(sim.plants_alpha(stand)) for stand, _, _ in sim.stands]
+    assert worst[0] > 0.8 and worst[1] < 0.5 and worst[2] < 0.8  # moss bears it, sedge and fern break
+    strength = sim.read("plant_strength", 0, -25, 250, 50)
+    assert 0.0 <= strength.min() < strength.max() <= 1.0
+
+
+def test_bent_stems_return_to_their_rest_shape():
+    """Swept aside by a foot in the air, below phi_deg at every bend: back within 1 % of the height."""
+    kind = replace(KINDS["meadow"], degrade_angle=np.pi, break_angle=4.0)
+    sim = Simulation(Ground.flat(), "dry-sand", 0.01, plants=[Planting(kind, rectangle=(-0.5, -0.5, 1.0, 0.5))])
+    gait, loads = gaits.pressed([gaits.box(0.28, 0.10, 0.1)], [[-0.6, 0, 0.12, 1, 0, 0, 0]], [[0, 0, -1]], seconds=12.0)
+    gait.pose[:, :, 0] += np.minimum(gait.time, 1.0) * 1.5
+    gait.pose[:, :, 2] = np.where(gait.time < 1.0, 0.12, 2.0)
+    loads.touching[:, 60:] = 0
+    loads.force[:] = 0.0
+    sim.load(gait, loads)
+    rest = sim.plants_positions(0)
+    sim.run(90)
+    bent = np.abs(sim.plants_positions(0) - rest).max(axis=(1, 2))
+    sim.run(len(gait.time))
+    away = np.abs(sim.plants_positions(0) - rest).max()
+    assert bent.max() > 0.1 and away < 0.01 * kind.height and sim.report()["broke"] == 0

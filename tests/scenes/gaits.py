@@ -64,3 +64,32 @@ def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.
         point=pose[:, :, :3].copy(), warnings=(),
     )
     return gait, loads
+
+
+def strides(length, *, speed=1.3, rate=60.0, y=0.0, shift=0.0, mass=75.0):
+    """Two box feet that walk `length` [m] along x at `speed` [m/s]: (Gait, loads).
+
+    They stand for 0.6 of a cycle, 1.4 m long, and swing 12 cm high. shift: where in the cycle they begin, 0..1.
+    """
+    samples = int(length / speed * rate) + 1
+    time = np.arange(samples) / rate
+    stride = 1.4
+    pose, force = np.zeros((2, samples, 7)), np.zeros((2, samples, 3))
+    touching = np.zeros((2, samples), np.uint8)
+    pose[:, :, 3] = 1.0
+    for foot in range(2):
+        cycles = time * speed / stride + 0.5 * foot + shift
+        phase = cycles % 1.0
+        swung = np.clip((phase - 0.6) / 0.4, 0.0, 1.0)
+        ahead = np.floor(cycles) - 0.5 * foot - shift + swung * swung * (3.0 - 2.0 * swung)
+        pose[foot, :, 0] = stride * ahead
+        pose[foot, :, 1] = y + (0.08 if foot else -0.08)
+        pose[foot, :, 2] = 0.12 * np.sin(np.pi * swung)
+        touching[foot] = phase < 0.6
+        load = np.clip(np.minimum(phase / 0.1, (0.6 - phase) / 0.1), 0.0, 1.0)
+        force[foot, :, 2] = -mass * 9.81 * load
+    com = np.stack([time * speed, 0.0 * time + y, 0.0 * time + 0.95], -1)[None]
+    gait = Gait(time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(2), part_limb=np.arange(2),
+                soles=[box(0.28, 0.10, 0.10)] * 2, point=np.zeros((2, 3)), point_part=np.arange(2),
+                point_role=np.ones(2), frame_rate=rate)
+    return gait, SimpleNamespace(touching=touching, force=force, point=pose[:, :, :3].copy(), warnings=())

@@ -78,37 +78,10 @@ TEST(paper_is_as_printed)
     dp_plants_destroy(plants);
 }
 
-TEST(lean_tells_where_plants_lie)
-{
-    const DpPlantKind kind = dp_plant_kind_default();
-    DpPlants*         plants = lawn(&kind, 25, 25, 0.08, 1);
-    float             x[N * N], y[N * N], crushed[N * N], at[84];
-    double            low, high;
-    dp_plants_lean(plants, &window, x, y, crushed);
-    least_and_most(crushed, &low, &high);
-    CHECK_NEAR(high, 0.0, 0.0);
-    for (int k = 0; k < 625; ++k) {
-        dp_plants_read(plants, 0, k, at, NULL, NULL);
-        for (int p = 0; p < 28; ++p)
-            if (p % 7 > 1) at[3 * p + 1] -= at[3 * p + 2], at[3 * p + 2] = 0.0f;  // flat, to -y
-        dp_plants_write(plants, 0, k, at, NULL, NULL);
-    }
-    CHECK(dp_plants_lean(plants, &window, x, y, crushed) == DP_OK);
-    least_and_most(y, &low, &high);
-    CHECK_NEAR(low, -1.0, 1e-3);
-    CHECK_NEAR(high, -1.0, 1e-3);
-    least_and_most(x, &low, &high);
-    CHECK_NEAR(high, 0.0, 1e-3);
-    least_and_most(crushed, &low, &high);
-    CHECK_NEAR(low, 1.0, 1e-3);
-    dp_plants_destroy(plants);
-}
-
 int main(void)
 {
     RUN(full_cover_is_1_half_broken_is_a_half_none_is_0);
     RUN(a_thin_stand_covers_less);
     RUN(paper_is_as_printed);
-    RUN(lean_tells_where_plants_lie);
     return check_done();
 }

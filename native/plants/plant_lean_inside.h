@@ -1,0 +1,65 @@
+// plants/plant_lean_inside.h - what the files of the lean share.
+#pragma once
+#include "plants/plant_inside.h"
+
+#define CELLS (DP_TILE * DP_TILE)
+
+typedef struct LeanTile
+{
+    long    tx, ty;
+    bool    changed;
+    bool    brisk;           // something was held or swung up in the last step
+    int     i0, i1, j0, j1;  // cells that may move: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+    float   lean[2][CELLS], crushed[CELLS];
+    float   most[CELLS];    // crushed when it was let go
+    float   height[CELLS];  // of the stem, 0 = nothing grows [m]
+    float   rate[CELLS];    // at which it swings up [1/s]
+    float   heal[CELLS];    // at which it rises while its crushed is above `limp` [1/s]
+    float   limp[CELLS];
+    float   healing;       // the most of heal [1/s]
+    double  waited;        // since slow stems rose [s]
+    float   stays[CELLS];  // share of stems that is broken
+    int32_t held[CELLS];   // the step in which something held it last
+} LeanTile;
+
+// an offset in cells to the nearest cell of the other kind, sole or no sole
+typedef struct Offset
+{
+    int16_t i, j;
+} Offset;
+
+struct DpLean
+{
+    const DpPlants* plants;
+    double          cell, origin[2];
+    int32_t         step;
+    LeanTile**      tile;  // ascending (ty, tx)
+    int             tiles, room;
+    // scratch around one sole: a print's cells with a border of one
+    Offset*  offset;
+    float*   bottom;  // +inf where there is no sole
+    uint8_t* sole;
+    size_t   room_of_print;
+};
+
+static inline double lean_centre(const DpLean* lean, int axis, long cell)
+{
+    return lean->origin[axis] + ((double)cell + 0.5) * lean->cell;
+}
+
+static inline long lean_cell(const DpLean* lean, int axis, double at)
+{
+    return (long)floor((at - lean->origin[axis]) / lean->cell);
+}
+
+static inline long lean_tile(long cell)
+{
+    return cell >= 0 ? cell / DP_TILE : -((-cell - 1) / DP_TILE) - 1;
+}
+
+// a tile, made if nobody touched it yet; NULL without memory
+LeanTile* lean_touch(DpLean* lean, long tx, long ty);
+// a cell of a tile is not at rest
+void lean_may_move(LeanTile* tile, int i, int j);
+// plant_part.c: the grass under and beside one sole
+DpStatus lean_press_sole(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* sole);

@@ -1,0 +1,109 @@
+// The ground under plants: grids first, then functions; ceilings; nothing falls through a rim.
+#include "plants/lawn.h"
+
+#define CELL 0.01
+
+// a wall of 3 cm along y from x = 0.03 on, steep over one cell
+static double wall(const void* context, double x, double y)
+{
+    int* asked = (int*)(size_t)context;
+    (void)y;
+    if (asked) ++*asked;
+    return x < 0.03 ? 0.0 : x < 0.04 ? 3.0 * (x - 0.03) : 0.03;
+}
+
+TEST(limp_stems_lie_still_over_a_rim)
+{
+    const DpPlantKind   kind = dp_plant_kind_default();
+    const DpPlantShape  shape = dp_plant_shape(&kind);
+    const DpPlantGround ground = {.cell = CELL, .at = wall};
+    DpPlants*           plants = lawn(&kind, 1, 1, 0.1, 3);
+    double*             strength = dp_alloc((size_t)shape.bends, sizeof(double));
+    float*              at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    float*              push = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    DpPlantsTold        told = {0};
+    for (int p = 0; p < shape.particles; ++p)
+        push[3 * p] =
+            p % shape.rows > 1 ? 0.8f : 0.0f;  // broken at its foot, falls towards the wall
+    CHECK(dp_plants_write(plants, 0, 0, NULL, push, strength) == DP_OK);
+    double lowest = 1.0;
+    for (int k = 0; k < 240; ++k) {
+        CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+        dp_plants_read(plants, 0, 0, at, NULL, NULL);
+        for (int p = 0; p < shape.particles; ++p)
+            if (p % shape.rows > 0)
+                lowest = fmin(lowest, (double)at[3 * p + 2] - wall(NULL, (double)at[3 * p], 0.0));
+    }
+    double over = 0.0;  // some of it lies on the wall
+    for (int p = 0; p < shape.particles; ++p)
+        over = fmax(over, at[3 * p] > 0.045f ? (double)at[3 * p + 2] : 0.0);
+    printf("  lowest %.3f mm over the ground, %.1f mm on the wall\n", 1e3 * lowest, 1e3 * over);
+    CHECK(lowest > -1e-5);
+    CHECK(over >= 0.03 - 1e-6);
+    CHECK(told.awake == 0);  // it came to rest
+    dp_free(strength), dp_free(at), dp_free(push);
+    dp_plants_destroy(plants);
+}
+
+TEST(what_stands_over_all_ground_asks_for_none)
+{
+    const DpPlantKind   kind = dp_plant_kind_default();
+    int                 asked = 0;
+    const DpPlantGround ground = {.cell = CELL, .at = wall, .context = &asked};
+    DpPlants*           plants = lawn(&kind, 2, 2, 0.5, 3);
+    float               push[84] = {0};
+    DpPlantsTold        told;
+    for (int p = 0; p < 28; ++p) push[3 * p] = p % 7 > 1 ? 0.05f : 0.0f;
+    for (int k = 0; k < 4; ++k) dp_plants_write(plants, 0, k, NULL, push, NULL);
+    CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+    asked = 0;
+    for (int k = 0; k < 5; ++k)
+        CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+    // rows 2 upward stand 2 to 10 cm high; those under the wall's 3 cm may ask
+    printf("  asked %d times for %d particles and steps\n", asked, 5 * told.awake * 28);
+    CHECK(told.awake == 4 && asked < 5 * 4 * 28 / 3);
+    dp_plants_destroy(plants);
+}
+
+TEST(of_two_grids_the_first_counts_and_functions_come_last)
+{
+    const DpPlantKind   kind = dp_plant_kind_default();
+    float               low[40 * 40], high[10 * 10], at[84];
+    const DpPlantGround elsewhere = {.cell = CELL, .at = wall};
+    const DpPlantGround wide = {.nx = 40,
+                                .ny = 40,
+                                .row = 40,
+                                .cell = CELL,
+                                .x0 = -0.2,
+                                .y0 = -0.2,
+                                .height = low,
+                                .next = &elsewhere};
+    const DpPlantGround small = {.nx = 10,
+                                 .ny = 10,
+                                 .row = 10,
+                                 .cell = CELL,
+                                 .x0 = -0.05,
+                                 .y0 = -0.05,
+                                 .height = high,
+                                 .next = &wide};
+    DpPlants*           plants = lawn(&kind, 2, 1, 1.0, 3);
+    for (int k = 0; k < 1600; ++k) low[k] = -0.5f;
+    for (int k = 0; k < 100; ++k) high[k] = 0.25f;
+    CHECK(dp_plants_follow(plants, &small) == DP_OK);
+    dp_plants_read(plants, 0, 0, at, NULL, NULL);
+    CHECK_NEAR(at[3 + 2], 0.25, 1e-6);
+    dp_plants_read(plants, 0, 1, at, NULL, NULL);
+    CHECK_NEAR(at[3 + 2], 0.0, 1e-6);  // no grid tells of it: as it stood
+    CHECK(dp_plants_follow(plants, &wide) == DP_OK);
+    dp_plants_read(plants, 0, 0, at, NULL, NULL);
+    CHECK_NEAR(at[3 + 2], -0.5, 1e-6);
+    dp_plants_destroy(plants);
+}
+
+int main(void)
+{
+    RUN(limp_stems_lie_still_over_a_rim);
+    RUN(what_stands_over_all_ground_asks_for_none);
+    RUN(of_two_grids_the_first_counts_and_functions_come_last);
+    return check_done();
+}
