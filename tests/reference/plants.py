@@ -111,7 +111,7 @@ def substep(kind, at, speed, share, rest, limp, ground, h):
         for r in range(HELD, rows):
             if at[s, r, 2] > ground:
                 continue
-            at[s, r, :2] += 0.5 * limp[s, r] * (before[s, r, :2] - at[s, r, :2])
+            at[s, r, :2] += 0.95 * limp[s, r] * (before[s, r, :2] - at[s, r, :2])
             at[s, r, 2] = ground
     speed[:, HELD:] = np.clip((at - before)[:, HELD:] / h, -FASTEST, FASTEST)
 
