@@ -338,8 +338,8 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
         touch_point(&w, k, clearance[k]);
         tidy(w.on + (size_t)k * (size_t)times, times, shortest);
     }
-    walker_edges(gait, w.height, clearance, w.rise, limits->slow_speed, limits->release_speed, w.on,
-                 w.rate);
+    walker_edges(gait, w.height, clearance, w.rise, w.speed, limits->slow_speed,
+                 limits->release_speed, w.on, w.rate);
     for (int k = 0; k < gait->points; ++k) tidy(w.on + (size_t)k * (size_t)times, times, shortest);
     for (int walker = 0; walker < gait->walkers; ++walker)
         walker_support(gait, walker, w.height, w.speed, clearance,

@@ -21,8 +21,10 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
     for (int t = 0; t < times; ++t) {
         if (!on[t] || (t > 0 && on[t - 1]) || (t == 0 && rise[t] > -moves)) continue;
         int fastest = t;
-        for (int k = t; k < times && on[k] && rise[k] < 0.0 && (double)(k - t) < EDGE * rate; ++k)
+        for (int k = t; k < times && on[k] && rise[k] < 0.0 && (double)(k - t) < EDGE * rate; ++k) {
             if (rise[k] < rise[fastest]) fastest = k;
+            if (height[k] < clearance) break;  // who is down has come down
+        }
         // what comes down faster than its stop can be timed is timed by its height
         while (fastest + 1 < times && on[fastest + 1] && -rise[fastest] > fast &&
                height[fastest] > clearance + HOVER)
@@ -32,8 +34,7 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
 }
 
 // Mean upward speed, or acceleration, of a limb's balls; of all its points if it has none.
-static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate,
-                   bool speed)
+static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate, bool speed)
 {
     double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
     for (int k = 0; k < gait->points; ++k) {
@@ -56,9 +57,20 @@ static bool limb_on(const DpGait* gait, int limb, const uint8_t* on, int t)
     return false;
 }
 
+static bool rests(const DpGait* gait, int limb, const double* speed, double moves,
+                  const uint8_t* on, int t)
+{
+    for (int k = 0; k < gait->points; ++k) {
+        const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
+        if (gait->part_limb[gait->point_part[k]] == limb && on[at] && speed[at] < moves)
+            return true;
+    }
+    return false;
+}
+
 // A limb that has let go did so when its ball was lifted hardest.
-static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on, double rate,
-                  double moves)
+static void leave(const DpGait* gait, int limb, const double* rise, const double* speed,
+                  uint8_t* on, double rate, double moves)
 {
     const int times = gait->times, reach = (int)(EDGE * rate);
     for (int t = 1; t <= times; ++t) {
@@ -74,6 +86,9 @@ static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on,
             const double now = lift(gait, limb, rise, k, rate, false);
             if (now > most) most = now, hardest = k;
         }
+        // no limb has left while a point of it still rests
+        for (int s = hardest; s < t; ++s)
+            if (rests(gait, limb, speed, moves, on, s)) hardest = s + 1;
         for (int k = 0; k < gait->points; ++k) {
             if (gait->part_limb[gait->point_part[k]] != limb) continue;
             uint8_t* row = on + (size_t)k * (size_t)times;
@@ -83,11 +98,12 @@ static void leave(const DpGait* gait, int limb, const double* rise, uint8_t* on,
 }
 
 void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, double moves, double fast, uint8_t* on, double rate)
+                  const double* rise, const double* speed, double moves, double fast, uint8_t* on,
+                  double rate)
 {
     for (int k = 0; k < gait->points; ++k) {
         const size_t row = (size_t)k * (size_t)gait->times;
         arrive(on + row, height + row, clearance[k], rise + row, gait->times, rate, moves, fast);
     }
-    for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, on, rate, moves);
+    for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, speed, on, rate, moves);
 }

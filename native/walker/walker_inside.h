@@ -50,12 +50,14 @@ static inline DpVec3 walker_point(const DpGait* gait, int point)
 
 // Move the beginnings and ends of contacts to where the ground stops a foot and lets it go.
 // @param height, rise  of the points over the ground [m], and their upward speed [m/s] (K, T)
+// @param speed         of the points over the ground [m/s] (K, T)
 // @param clearance     resting height of each point [m] (K)
-// @param moves         at the clip's ends, what rises or falls faster is not at rest [m/s]
+// @param moves         what is faster is not at rest [m/s]
 // @param fast          what comes down faster than this is timed by its height [m/s]
 // @param on            the points' contacts, changed (K, T)
 void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, double moves, double fast, uint8_t* on, double rate);
+                  const double* rise, const double* speed, double moves, double fast, uint8_t* on,
+                  double rate);
 
 // A walker that does not fall is carried: where nobody touches, its lowest slowest foot does.
 // @param height, speed  of the points over the ground [m] [m/s] (K, T)

@@ -117,7 +117,7 @@ def test_it_stands_and_weighs_as_on_the_floor():
     flat, hill = walker.loads(gait), walker.loads(placed, ground=land.rest_height)
     assert not hill.warnings
     assert hill.mean == pytest.approx(flat.mean, rel=0.01)
-    assert (hill.touching != flat.touching).mean() < 0.03
+    assert (hill.touching != flat.touching).mean() < 0.04
     # nobody stands in the hill
     places = walker.point_places(placed)
     over = places[..., 2] - land.rest_height(places[..., :2].reshape(-1, 2)).reshape(places.shape[:2])
