@@ -11,7 +11,7 @@ from desire_path.blender import compat, footing, ground as ground_of, op_place, 
 from desire_path.sim import Simulation
 from scenes import meshes, people
 from run import Skip
-from test_rig import add_bones, refused
+from test_rig import add_bones, beast, refused
 
 WALKS = pathlib.Path(__file__).resolve().parents[1] / "scenes" / "walks"
 operator = bpy.ops.object
@@ -412,3 +412,16 @@ def test_strips_are_placed_over():
     animation.action = None
     again = sample.record(bpy.context.scene, obj, 1, 48)
     np.testing.assert_allclose(again.com, flat.com, atol=0.02)
+
+
+def test_a_beast_of_four_legs():
+    obj, _, _ = beast()
+    land = scene_of(obj)
+    land.desire_path.frame_start, land.desire_path.frame_end = 1, 6
+    bpy.context.scene.frame_end = 6
+    before = sample.record(bpy.context.scene, obj, 1, 6)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    over, gait, _ = on_hill(obj, 1, 6)
+    assert len(gait.limb_walker) == 4
+    np.testing.assert_allclose(over, walker.point_places(before)[..., 2], atol=0.02)
+    np.testing.assert_allclose(gait.pose[..., :2], before.pose[..., :2], atol=0.03)
