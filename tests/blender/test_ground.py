@@ -3,6 +3,7 @@ import bpy
 import numpy as np
 
 from desire_path.blender import compat, ground, playback
+from desire_path.sim import Simulation
 from scenes import meshes
 from test_playback import frames, index, play
 from test_sample import ids, refused
@@ -82,6 +83,29 @@ def test_painted_soils_through_modifiers():
     obj.desire_path.painted[0].vertex_group = "lost"
     refused(lambda: read(obj), "lost", "vertex group")
     assert ids() == before
+
+
+def test_the_heaviest_paint_wins():
+    """Weights above one half are the painted soil, those below leave the ground's own."""
+    obj = meshes.grid(41, 4, 0.02, 0.01, 0.01)
+    group = obj.vertex_groups.new(name="wet")
+    for vertex in obj.data.vertices:
+        group.add([vertex.index], vertex.co.x / 0.82, "REPLACE")
+    each = obj.desire_path.painted.add()
+    each.vertex_group, each.soil = "wet", "mud"
+    sim = Simulation(read(obj).ground, ["soil", "mud"], 0.02)
+    kind = sim.read("soil", 1, 1, 39, 1)[0]
+    wet = (np.arange(1, 40) + 0.5) * 0.02 / 0.82
+    sure = np.abs(wet - 0.5) > 0.03
+    assert (kind[sure] == (wet[sure] > 0.5)).all(), kind
+
+
+def test_a_hidden_ground_is_ground():
+    obj = meshes.grid(5, 5, 0.1)
+    plain, _, _ = mesh_of(read(obj))
+    obj.hide_viewport = True
+    hidden, _, _ = mesh_of(read(obj))
+    assert hidden.tobytes() == plain.tobytes() and obj.hide_viewport
 
 
 def test_refusals():
