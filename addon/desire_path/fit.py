@@ -48,11 +48,11 @@ class Fitted:
         return math.sqrt(sum((a - b) ** 2 for a, b in zip(self.wanted, self.reached)) / len(self.wanted))
 
 
-def fit(rows, kind="carex", *, seeds=SEEDS, progress=None, **options):
+def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **options):
     """The kind that wears as a table says, from a kind that looks like it: a Fitted.
 
     rows: (passes, cover [per cent], days of rest) of lane.read(); rows with days of rest tell how fast it grows
-    again. options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days;
+    again. rounds: how often at most lanes are trodden to check. options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days;
     stems break by wear alone, and what did not break recovers in two weeks.
     """
     try:
@@ -68,10 +68,10 @@ def fit(rows, kind="carex", *, seeds=SEEDS, progress=None, **options):
     if wanted.max() <= 1.0:
         raise DesirePathError("The table's cover seems to be in shares: give it in per cent.")
     kind = replace(as_kind(kind), break_angle=math.pi, recover_rate=0.0, spread=0.0)
-    lanes = _Lanes(kind, passes, seeds, progress, options)
+    lanes = _Lanes(kind, passes, seeds, rounds, progress, options)
     bent = lanes.bent()
     missed = np.zeros(len(wanted))  # what the model leaves out [points]
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         strength, spread = _solved(optimize, bent, wanted - missed)
         found = replace(kind, strength=strength * kind.degrade_rate, spread=spread,
                         recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * lane.DAY))
@@ -88,9 +88,9 @@ def fit(rows, kind="carex", *, seeds=SEEDS, progress=None, **options):
 class _Lanes:
     """The lanes of all seeds, trodden side by side."""
 
-    def __init__(self, kind, passes, seeds, progress, options):
+    def __init__(self, kind, passes, seeds, rounds, progress, options):
         self.kind, self.passes, self.seeds, self.progress, self.options = kind, passes, seeds, progress, options
-        self.begun = 0
+        self.begun, self.all = 0, rounds + 1
 
     def _each(self, walk):
         base, share = self.begun, dict.fromkeys(self.seeds, 0.0)
@@ -99,7 +99,7 @@ class _Lanes:
         def told(seed, done):
             share[seed] = done
             if self.progress:
-                self.progress((base + sum(share.values()) / len(share)) / (ROUNDS + 1))
+                self.progress((base + sum(share.values()) / len(share)) / self.all)
         with ThreadPoolExecutor(len(self.seeds)) as workers:
             return list(workers.map(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds))
 

@@ -40,8 +40,8 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
     """[(passes, cover [per cent]), ..] of a lane of one kind, rising.
 
     length, width [m]; mass of the walkers [kg]; seed: of the plants and of the walkers' scatter. rest_days: days
-    of growth before every count. frame_rate: steps of the simulation a second. density: plants [1/m^2], None =
-    twice the kind's own, so that chance averages out. progress: called with 0..1.
+    of growth before every count. frame_rate: of the walk's recording [1/s]. density: plants [1/m^2], None = the
+    kind's own. progress: called with 0..1.
     """
     kind, passes = as_kind(kind), _counts(passes)
     for name, value, low, high in (("length", length, 0.5, 1000.0), ("width", width, 0.1, 100.0),
@@ -72,7 +72,9 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
 def trodden(kind, passes, *, length, width, mass, seed, soil, cell_size, frame_rate, density, threads=0):
     """(Simulation of a planted lane with its walkers loaded, sample after each pass)."""
     ends = [(-BEYOND, 0.0), (length + BEYOND, 0.0)]
-    person = replace(walk(mass), frame_rate=frame_rate)
+    person = walk(mass)
+    if frame_rate != person.frame_rate:
+        person = replace(person.resample(frame_rate), frame_rate=frame_rate)
     gait = person.along(ends, passes, lateral=SCATTER * width, seed=seed)
     sim = Simulation(Ground.flat(), soil, cell_size, plants=planted(kind, length, width, seed, density),
                      threads=threads)
@@ -82,7 +84,7 @@ def trodden(kind, passes, *, length, width, mass, seed, soil, cell_size, frame_r
 
 def planted(kind, length, width, seed, density=None):
     """The lane's plants: places and vigour fill lane and range evenly, so that few plants tell what many would."""
-    count = max(int(round((2.0 * kind.density if density is None else density) * length * width)), 1)
+    count = max(int(round((kind.density if density is None else density) * length * width)), 1)
     even = (np.random.default_rng([int(seed), count]).random(3) + np.arange(count)[:, None] * EVEN) % 1.0
     roots = np.stack([even[:, 0] * length, (even[:, 1] - 0.5) * width], axis=1)
     tail = np.log(np.maximum(2.0 * np.minimum(even[:, 2], 1.0 - even[:, 2]), 1e-4)) / math.sqrt(2.0)

@@ -121,7 +121,7 @@ PAPER = {
 # Wear of carex was found by `python -m desire_path fit` from the cover of Cole's lanes, tests/scenes/lanes/cole.csv;
 # tests/core/test_lane.py holds it to them. Stems break by wear alone and have their reserve again after two weeks.
 # Lycopodium's is carex's by what tells the two apart in TRAIL Table 1: 0.8 of the reserve, wear from 5 degrees on.
-RESERVE, SPREAD = 0.35, 1.75
+RESERVE, SPREAD = 3.5, 1.75
 TWO_WEEKS = 14 * 24.0  # [h]
 
 # The others are for looks: heights and densities of common stands, sway falling with height (stems of cereals swing

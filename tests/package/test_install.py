@@ -125,8 +125,9 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
     assert not [n for n in names if "test" in n or n.endswith((".pyc", ".c", ".h"))]
     needs = [line for line in meta.splitlines() if line.startswith("Requires-Dist")]
     assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy>=1.23"]
-    assert [line for line in needs if "extra ==" in line] == [
-        'Requires-Dist: matplotlib>=3.6; extra == "plot"']
+    assert sorted(line for line in needs if "extra ==" in line) == [
+        'Requires-Dist: matplotlib>=3.6; extra == "plot"', 'Requires-Dist: scipy>=1.9; extra == "fit"']
+    assert {"desire_path/walks/walk.npz", "desire_path/walks/README.md"} <= set(names)
 
 
 @pytest.mark.parametrize("python", [sys.executable, PY313], ids=["3.11", "3.13"])

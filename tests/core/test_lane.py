@@ -1,0 +1,183 @@
+"""Lanes of plants that are trodden, and kinds that are found from what is left of them. Design 7, oracle 10."""
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from desire_path import fit, lane
+from desire_path.errors import DesirePathError
+from desire_path.plants import KINDS, Kind
+
+REPO = Path(__file__).resolve().parents[2]
+COLE = REPO / "tests" / "scenes" / "lanes" / "cole.csv"
+SHORT = dict(length=1.0, density=200.0, cell_size=0.04, threads=1)  # enough to see that something works
+JUDGED = dict(length=2.5, density=160.0, threads=1)  # as many plants as a lane of 5 m has, in half the time
+SEED = 7  # of a lane that judges: none that a kind was fitted to
+FEW = (10, 30)
+
+
+def side_by_side(*lanes):
+    """Covers of several lanes, (kind, options) each: arrays, one number for each count."""
+    with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
+        told = workers.map(lambda each: lane.measure(each[0], **{**JUDGED, "seed": SEED, **each[1]}), lanes)
+        return [np.array([cover for _, cover in rows]) for rows in told]
+
+
+# ---- oracle 10: the longest tests there are --------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def cole():
+    """{days: (counts, cover)} of the measured lanes."""
+    rows = lane.read(COLE)
+    return {days: tuple(np.array([row[:2] for row in rows if row[2] == days]).T) for days in (0.0, 365.0)}
+
+
+@pytest.fixture(scope="module")
+def trodden():
+    """Cover of one lane of carex after each of Cole's counts, and after its year."""
+    sim, marks = lane.trodden(KINDS["carex"], 500, **{**lane.USUAL, **JUDGED, "seed": SEED})
+    cover = lane.read_at(sim, [marks[n - 1] for n in lane.PASSES], marks[-1])
+    sim.rest_plants(365 * lane.DAY)
+    return np.array(cover), lane.cover(sim)
+
+
+def test_carex_keeps_the_cover_of_coles_lanes(cole, trodden):
+    counts, wanted = cole[0.0]
+    assert tuple(counts) == lane.PASSES
+    assert abs(trodden[0] - wanted).max() < 4.0, trodden[0]
+
+
+def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
+    counts, wanted = cole[365.0]
+    rested, = side_by_side(("carex", dict(passes=(25, 75), rest_days=365.0)))
+    reached = np.r_[rested, trodden[1]]
+    assert abs(reached - wanted[[0, 1, 3]]).max() < 8.0, reached
+
+
+def test_cover_falls_monotonically_and_convexly(trodden):
+    counts, cover = np.r_[0, lane.PASSES], np.r_[100.0, trodden[0]]
+    slope = np.diff(cover) / np.diff(counts)
+    assert (slope < 0).all() and (np.diff(slope) > 0).all()
+
+
+def test_what_must_not_matter_does_not():
+    """The walkers' mass, the seed and the frame rate; the kind does."""
+    seeds = [("carex", dict(passes=FEW, seed=seed)) for seed in (SEED, 11, 12, 13, 14)]
+    found = side_by_side(*seeds, ("carex", dict(passes=FEW, mass=65.0)), ("carex", dict(passes=FEW, mass=85.0)),
+                         ("carex", dict(passes=FEW, frame_rate=30.0)), ("lycopodium", dict(passes=FEW)))
+    by_seed, light, heavy, slow, lycopodium = np.array(found[:5]), *found[5:]
+    assert np.ptp(by_seed, axis=0).max() < 4.0, by_seed
+    assert abs(light - heavy).max() < 5.0, (light, heavy)
+    assert abs(slow - by_seed[0]).max() < 3.0, (slow, by_seed[0])
+    assert (lycopodium < by_seed[0] - 0.5).all()
+
+
+# ---- the experiment --------------------------------------------------------------------------------------
+
+
+def test_a_lane_repeats_and_counts_apart():
+    rows = lane.measure("carex", passes=(12, 4), seed=3, **SHORT)
+    assert [count for count, _ in rows] == [4, 12] and 100.0 > rows[0][1] > rows[1][1] > 50.0
+    told = []
+    assert lane.measure("carex", passes=(4,), seed=3, progress=told.append, **SHORT) == rows[:1]
+    assert told == sorted(told) and told[-1] == 1.0
+    rested = lane.measure("carex", passes=(4, 12), seed=3, rest_days=365.0, **SHORT)
+    assert all(later > before for (_, later), (_, before) in zip(rested, rows))
+    assert lane.measure("carex", passes=(4,), seed=4, **SHORT) != rows[:1]
+
+
+def test_few_plants_are_as_mixed_as_many():
+    planted = lane.planted(KINDS["carex"], 5.0, 0.5, 1)
+    assert len(planted.roots) == 200
+    low, high = planted.roots.min(axis=0), planted.roots.max(axis=0)
+    assert (low > (-1e-3, -0.2501)).all() and (high < (5.001, 0.2501)).all()
+    assert abs(planted.vigour.mean()) < 0.05 and planted.vigour.std() == pytest.approx(1.0, abs=0.12)
+    assert abs(np.corrcoef(planted.vigour, abs(planted.roots[:, 1]))[0, 1]) < 0.1
+
+
+def command(*words, cwd):
+    env = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
+    return subprocess.run([sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True,
+                          env=env, cwd=cwd)
+
+
+def test_the_command_line_measures_a_lane(tmp_path):
+    done = command("lane", "--kind", "lycopodium", "--length", 1, "--width", 0.5, "--passes", "2,5", "--mass", 75,
+                   "--seed", 7, "--cell", 0.04, "--out", "cover.csv", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "cover.csv").read_text()
+    assert text.startswith("passes,cover\n2,") and text.count("\n") == 3
+    rows = lane.read(tmp_path / "cover.csv")
+    assert [row[0] for row in rows] == [2, 5] and 100.0 >= rows[0][1] >= rows[1][1] > 50.0
+
+
+@pytest.mark.parametrize("words, told", [
+    (("--passes", "some"), "some"), (("--passes", "0,5"), "whole numbers"), (("--kind", "nettle"), "nettle"),
+    (("--length", "0"), "length"), (("--mass", "-5"), "mass"), (("--soil", "cheese"), "cheese"),
+    (("--kind", "nothing.json"), "nothing.json"), (("--rest-days", "-1"), "rest"),
+])
+def test_bad_words_are_one_sentence(tmp_path, words, told):
+    done = command("lane", "--passes", "1", *words, "--out", "cover.csv", cwd=tmp_path)
+    assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_tables_are_read(tmp_path):
+    file = tmp_path / "cover.csv"
+    for text, words in (("", "no columns"), ("a,b\n", "no columns"), ("passes,cover\nten,3\n", "Line 2"),
+                        ("passes,cover\n10\n", "Line 2"), ("passes,cover\n10,101\n", "Line 2"),
+                        ("passes,cover\n1.5,90\n", "Line 2"), ("passes,cover\n5,nan\n", "Line 2")):
+        file.write_text(text)
+        with pytest.raises(DesirePathError, match=words):
+            lane.read(file)
+    file.write_text("Cover,passes,days\n90,10,0\n95,10,365\n")
+    assert lane.read(file) == [(10, 90.0, 0.0), (10, 95.0, 365.0)]
+    with pytest.raises(DesirePathError, match="cannot be read"):
+        lane.read(tmp_path / "nothing.csv")
+
+
+# ---- the fit ---------------------------------------------------------------------------------------------
+
+
+def test_a_fit_finds_the_kind_a_lane_was_planted_with():
+    pytest.importorskip("scipy")
+    kind = replace(KINDS["carex"], strength=0.3, spread=1.2)
+    rows = [(count, cover, 0.0) for count, cover in lane.measure(kind, passes=(3, 8, 18), seed=5, **SHORT)]
+    rows.append((18, 100.0 - 0.5 * (100.0 - rows[-1][1]), 365.0))
+    found = fit.fit(rows, seeds=(5,), rounds=2, **SHORT)
+    assert found.worst < 4.0 and found.rms <= found.worst
+    assert found.kind.strength == pytest.approx(kind.strength, rel=0.3)
+    assert found.kind.spread == pytest.approx(kind.spread, rel=0.35)
+    assert found.kind.regrow_rate > 0.0 and found.kind.height == kind.height
+    assert [count for count, _ in lane.measure(found.kind, passes=(3, 8, 18), seed=5, **SHORT)] == [3, 8, 18]
+
+
+def test_a_fit_needs_a_table_it_can_work_with():
+    pytest.importorskip("scipy")
+    for rows, words in (([(10, 90.0, 0.0)], "at least two"), ([(10, 0.9, 0.0), (20, 0.8, 0.0)], "per cent")):
+        with pytest.raises(DesirePathError, match=words):
+            fit.fit(rows)
+
+
+def test_without_scipy_a_sentence_says_how_to_get_it(tmp_path):
+    (tmp_path / "cover.csv").write_text("passes,cover\n2,99\n4,98\n")
+    code = ("import sys; sys.modules['scipy'] = None; sys.path.insert(0, sys.argv[1]); "
+            "from desire_path.__main__ import main; sys.exit(main(sys.argv[2:]))")
+    done = subprocess.run([sys.executable, "-c", code, str(REPO / "addon"), "fit", "cover.csv", "--out", "kind.json"],
+                          capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 1 and "desire-path[fit]" in done.stderr and done.stderr.count("\n") == 1
+    assert not (tmp_path / "kind.json").exists()
+
+
+def test_the_shipped_kinds_are_fitted_ones():
+    carex, lycopodium = KINDS["carex"], KINDS["lycopodium"]
+    assert carex.spread == lycopodium.spread > 1.0 and lycopodium.strength == pytest.approx(0.8 * carex.strength)
+    for kind in (carex, lycopodium):
+        assert kind.strength / kind.recover_rate == pytest.approx(14 * lane.DAY)
+    assert Kind().spread == 0.0  # the paper's
