@@ -109,6 +109,7 @@ class Bake:
         self.threads = threads
         self.loads = None
         self.report = None
+        self.final = None  # the planes of maps_final.exr, when the bake is whole
 
     # ---- what is baked --------------------------------------------------------------------------
 
@@ -260,6 +261,9 @@ class Bake:
         sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
         started = _Soon(lambda: maps.write(os.path.join(self.folder, "maps_start.exr"), start,
                                            [("time", 0.0)] + self._notes(tiles)))
+        tx, ty, nx, ny = tiles
+        self.final = {entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
+                      for entry in maps.MAPS}
         sim.flush()
         started.result()
         write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})

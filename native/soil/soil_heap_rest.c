@@ -105,19 +105,26 @@ static void from_row(int32_t* restrict fill, const int32_t* restrict before,
     }
 }
 
+// fill[i] = max(fill[i], what comes from the cells beside it), between walls; where cones are as high
+// as their distance along the row, the highest so far is all one has to know
 static void along_row(int32_t* fill, const int32_t* surface, int count, int32_t straight)
 {
-    int32_t run = NOTHING;
-    for (int i = 0; i < count; ++i) {
-        run = run - straight > fill[i] ? run - straight : fill[i];
-        run = surface[i] == WALL ? NOTHING : run;
-        fill[i] = run;
-    }
-    run = NOTHING;
-    for (int i = count - 1; i >= 0; --i) {
-        run = run - straight > fill[i] ? run - straight : fill[i];
-        run = surface[i] == WALL ? NOTHING : run;
-        fill[i] = run;
+    for (int from = 0, to; from < count; from = to + 1) {
+        for (to = from; to < count && surface[to] != WALL; ++to) {
+        }
+        int32_t most = NOTHING, rise = 0;
+        for (int i = from; i < to; ++i, rise += straight) {
+            const int32_t here = fill[i] + rise;
+            most = here > most ? here : most;
+            fill[i] = most - rise;
+        }
+        most = NOTHING, rise = 0;
+        for (int i = to - 1; i >= from; --i, rise += straight) {
+            const int32_t here = fill[i] + rise;
+            most = here > most ? here : most;
+            fill[i] = most - rise;
+        }
+        if (to < count) fill[to] = NOTHING;
     }
 }
 

@@ -111,7 +111,7 @@ class Job:
             return "Nothing was baked."
         obj = self.object()
         settings = obj.desire_path
-        index, warnings = play(obj, self.surface, just_baked=self.bake.report is not None)
+        index, warnings = play(obj, self.surface, self.bake.final)
         self.warnings += warnings
         report = self.bake.report
         if report is None:
@@ -146,12 +146,15 @@ def _fits(obj):
             and not sharing(obj))
 
 
-def play(obj, surface, just_baked=False):
+def play(obj, surface, baked=None):
     """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
-    sentences about what could not be written."""
+    sentences about what could not be written.
+
+    baked: the final maps by name, where the bake was made just now and is whole
+    """
     from ..bake import read_index
     settings = obj.desire_path
-    index = read_index(folder(obj), just_baked)
+    index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
     if index.frames:
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
@@ -160,7 +163,7 @@ def play(obj, surface, just_baked=False):
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
                         layer_depth=depth, standing=plants.standing(obj))
-        planes = cover.planes(index)
+        planes = baked or cover.planes(index)
         warnings = cover.fill(obj, surface, index, depth, planes)
         if index.complete:
             warnings += cover.few_points(obj, surface, index, planes)
