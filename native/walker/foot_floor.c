@@ -13,7 +13,7 @@
 #define REST_SHORTEST 0.05  // a point rests when it is slow for this long              [s]
 #define APART 0.5           // resting places closer than this tell nothing of a slope  [m]
 #define PARTNERS 16         // later rests of the same point that each one is held against
-#define STEEPEST 0.05       // capture floors do not slope more than this               [-]
+#define STEEPEST 0.12       // what slopes more was not meant to be level               [-]
 #define RISE_LEAST 0.01     // over the whole way, less than this is not worth it       [m]
 #define OFF_MOST 0.01       // rests lie this close to the line, in the middle of all   [m]
 

@@ -28,9 +28,10 @@ static bool carried(const DpGait* gait, int walker, const uint8_t* on, int t)
     return false;
 }
 
-// the slowest lowest foot touches, at its own height
+// the slowest lowest foot touches, at its own height, and with it any that rests as low
 static void support(const DpGait* gait, int walker, int t, const double* height,
-                    const double* speed, const double* clearance, double thick, uint8_t* on)
+                    const double* speed, const double* clearance, const DpContactLimits* limits,
+                    uint8_t* on)
 {
     double least = INFINITY, lowest = 0.0;
     int    limb = -1;
@@ -44,8 +45,9 @@ static void support(const DpGait* gait, int walker, int t, const double* height,
     if (lowest > HIGHEST) return;
     for (int k = 0; k < gait->points && limb >= 0; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
-        if (limb_of(gait, k) != limb || isnan(height[at])) continue;
-        if (height[at] - clearance[k] <= lowest + thick) on[at] = 1;
+        if (gait->limb_walker[limb_of(gait, k)] != walker || isnan(height[at])) continue;
+        if (limb_of(gait, k) != limb && !(speed[at] < limits->slow_speed)) continue;
+        if (height[at] - clearance[k] <= lowest + limits->touch_height) on[at] = 1;
     }
 }
 
@@ -61,13 +63,13 @@ void walker_support(const DpGait* gait, int walker, const double* height, const 
                     double rate, uint8_t* on)
 {
     const int    times = gait->times;
-    const double floats = -limits->support_fall * DP_GRAVITY, thick = limits->touch_height;
+    const double floats = -limits->support_fall * DP_GRAVITY;
     for (int t = 0; t < times;) {
         int end = t;
         while (end < times && fall[end] > floats && !carried(gait, walker, on, end)) ++end;
         if ((double)(end - t) >= SHORTEST * rate)
             for (int s = t; s < end; ++s)
-                support(gait, walker, s, height, speed, clearance, thick, on);
+                support(gait, walker, s, height, speed, clearance, limits, on);
         t = end > t ? end : t + 1;
     }
     // at the clip's ends even a short gap hides a foot: the rest of its stance lies outside
@@ -76,9 +78,9 @@ void walker_support(const DpGait* gait, int walker, const double* height, const 
     while (last > first && !carried(gait, walker, on, last - 1)) --last;
     if (first < times && (double)first < SHORTEST * rate && mean(fall, 0, first) > floats)
         for (int s = 0; s < first; ++s)
-            support(gait, walker, s, height, speed, clearance, thick, on);
+            support(gait, walker, s, height, speed, clearance, limits, on);
     if (last > first && (double)(times - last) < SHORTEST * rate &&
         mean(fall, last, times) > floats)
         for (int s = last; s < times; ++s)
-            support(gait, walker, s, height, speed, clearance, thick, on);
+            support(gait, walker, s, height, speed, clearance, limits, on);
 }

@@ -28,6 +28,7 @@ SEEN = (
     ("floor 5 cm up", {}, lambda g: plates.raised(g, 0.05)),
     ("floor 5 cm down", {}, lambda g: plates.raised(g, -0.05)),
     ("floor tilted by 0.5 deg", {}, lambda g: plates.tilted(g, np.radians(0.5))),
+    ("floor tilted by 4 deg", {}, lambda g: plates.tilted(g, np.radians(4.0))),
     ("mirrored", {}, plates.mirrored),
     ("no toes", {"without": ("Toe",)}, lambda g: g),
     ("no knees", {"without": ("LeftLeg", "RightLeg", "UpLeg")}, lambda g: g),

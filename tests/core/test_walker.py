@@ -227,6 +227,7 @@ def test_a_trial_seen_otherwise_weighs_the_same(name):
     seen = {rate: gait.resample(rate) for rate in (24.0, 30.0, 60.0, 120.0, 240.0)}
     seen |= {"noise": plates.noisy(gait, 0.001), "up": plates.raised(gait, 0.05),
              "down": plates.raised(gait, -0.05), "tilt": plates.tilted(gait, np.radians(0.5)),
+             "steep": plates.tilted(gait, np.radians(4.0)), "far up": plates.raised(gait, 0.3),
              "mirror": plates.mirrored(gait), "no toes": plates.trial(name, without=("Toe",)),
              "no knees": plates.trial(name, without=("LeftLeg", "RightLeg", "UpLeg")),
              "no spine": plates.trial(name, without=("Spine", "Neck"))}

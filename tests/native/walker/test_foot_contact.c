@@ -217,6 +217,29 @@ TEST(who_hangs_presses_nothing)
     scene_free(&s);
 }
 
+TEST(two_feet_on_a_box_both_carry)
+{
+    enum
+    {
+        N = 120
+    };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        scene_com(&s, t, 0.0, 0.0, 1.4);
+        scene_put(&s, N, 0, t, 0.0, 0.1, 0.4);
+        scene_put(&s, N, 1, t, 0.0, -0.1, 0.4 + 0.002 * sin((double)t));
+    }
+    // the ground's height is that below the box
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    s.point_role[0] = DP_POINT_BALL;
+    for (int t = N / 2; t < N; ++t) scene_put(&s, N, 0, t, 0.0, 0.1, 0.0);  // one has stepped down
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 10; t < N / 2 - 20; ++t) CHECK(on[t] && on[N + t]);
+    scene_free(&s);
+}
+
 TEST(the_ground_marks_the_edges)
 {
     // a heel that skims the ground and falls the last centimetre, ever faster until it is stopped;
@@ -306,6 +329,7 @@ int main(void)
     RUN(falling_ball_touches_in_time);
     RUN(somebody_carries_what_does_not_fall);
     RUN(who_hangs_presses_nothing);
+    RUN(two_feet_on_a_box_both_carry);
     RUN(the_ground_marks_the_edges);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
