@@ -208,7 +208,7 @@ class Planting:
         return self.in_squares(self.squares(x0, y0, x1, y1))
 
     def squares(self, x0, y0, x1, y1):
-        """Squares (sx, sy) of side SQUARE that a rectangle [m] and the planting's own have in common."""
+        """Squares (column, row) of `side` that a rectangle [m] and the planting's own have in common."""
         if self.roots is not None:
             return []
         if self.rectangle is not None:
@@ -216,23 +216,18 @@ class Planting:
             x1, y1 = min(x1, self.rectangle[2]), min(y1, self.rectangle[3])
         if x0 >= x1 or y0 >= y1:
             return []
-        columns = range(math.floor(x0 / SQUARE), math.ceil(x1 / SQUARE))
-        rows = range(math.floor(y0 / SQUARE), math.ceil(y1 / SQUARE))
-        if len(columns) * len(rows) * SQUARE ** 2 * self.density > MOST_PLANTS:
+        side = self.side
+        columns = range(math.floor(x0 / side), math.ceil(x1 / side))
+        rows = range(math.floor(y0 / side), math.ceil(y1 / side))
+        if len(columns) * len(rows) * side ** 2 * self.density > MOST_PLANTS:
             raise DesirePathError(f"The walk would meet more than {MOST_PLANTS} plants: choose a lower density, or "
                                   "plant a rectangle.")
         return [(column, row) for row in rows for column in columns]
 
     def in_squares(self, squares):
         """Roots (n, 2) float32 [m] that stand in squares."""
-        found = [np.zeros((0, 2), np.float32)]
-        room = np.zeros((int(2 * SQUARE ** 2 * self.density) + 16, 2), np.float32)
-        for column, row in squares:
-            x0, y0 = column * SQUARE, row * SQUARE
-            count = _native.plants_place(x0, y0, x0 + SQUARE, y0 + SQUARE, self.density, None,
-                                         _mixed(self.seed, column, row), room)
-            found.append(room[:count].copy())
-        roots = np.concatenate(found)
+        known = {}
+        roots = np.concatenate([np.zeros((0, 2), np.float32)] + [self._square(at, known) for at in squares])
         if self.rectangle is not None:
             x0, y0, x1, y1 = self.rectangle
             inside = (roots[:, 0] >= x0) & (roots[:, 0] < x1) & (roots[:, 1] >= y0) & (roots[:, 1] < y1)
@@ -243,6 +238,36 @@ class Planting:
             j = np.clip(((roots[:, 1] - y0) / (y1 - y0) * rows).astype(int), 0, rows - 1)
             roots = roots[_chances(self.seed, roots) < self.weight[j, i]]
         return np.ascontiguousarray(roots)
+
+    def _square(self, at, known):
+        """Roots (n, 2) of a whole square at (column, row), and of others it needs to know into `known`.
+
+        Squares come in four turns, so that neighbours never have the same: each keeps its distance from those that
+        had theirs before, and needs to know no others.
+        """
+        if at in known:
+            return known[at]
+        column, row = at
+        turn, side = column % 2 + 2 * (row % 2), self.side
+        apart = 1.0 / math.sqrt(self.density)
+        low = np.array([column * side, row * side])
+        given = [np.zeros((0, 2), np.float32)]
+        for near in ((column + i, row + j) for j in (-1, 0, 1) for i in (-1, 0, 1)):
+            if near[0] % 2 + 2 * (near[1] % 2) < turn:
+                roots = self._square(near, known)
+                given.append(roots[((roots > low - apart) & (roots < low + side + apart)).all(1)])
+        given = np.concatenate(given)
+        room = np.zeros((len(given) + int(side * side * self.density) + 2, 2), np.float32)
+        room[:len(given)] = given
+        count = _native.plants_place(*low, *(low + side), self.density, None, _mixed(self.seed, column, row), room,
+                                     len(given))
+        known[at] = room[len(given):count]
+        return known[at]
+
+    @property
+    def side(self):
+        """Side of the squares [m]: SQUARE, or twice that and so on for plants that stand far apart."""
+        return SQUARE * 2.0 ** max(0, math.ceil(math.log2(4.0 / (SQUARE * math.sqrt(self.density)))))
 
     def told(self):
         """What it is, for a report: numbers and words only."""

@@ -40,11 +40,22 @@ static bool has_room(const Field* field, const float* root, double x, double y, 
     return true;
 }
 
+// note root k; one from beside the field in the field's cell that is nearest
+static void put(Field* field, int k, double x, double y)
+{
+    const int i = (int)dp_clamp((x - field->x0) / field->cell, 0.0, field->nx - 1.0);
+    const int j = (int)dp_clamp((y - field->y0) / field->cell, 0.0, field->ny - 1.0);
+    int*      first = &field->first[(size_t)j * (size_t)field->nx + (size_t)i];
+    field->next[k] = *first;
+    *first = k + 1;
+}
+
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
                          const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
                          int* count)
 {
-    if (!root || !count || most < 1 || !(x1 > x0) || !(y1 > y0) || !(density > 0.0))
+    if (!root || !count || most < 1 || *count < 0 || *count > most || !(x1 > x0) || !(y1 > y0) ||
+        !(density > 0.0))
         return DP_BAD_ARGUMENT;
     if (!(fabs(x0) < 1e7 && fabs(y0) < 1e7 && x1 < 1e7 && y1 < 1e7 && density < 1e9))
         return DP_BAD_ARGUMENT;
@@ -55,17 +66,20 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
         if (!(weight[k] >= 0.0f)) return DP_BAD_ARGUMENT;
         mean += fmin((double)weight[k], 1.0) / ((double)wx * wy);
     }
-    const double wanted = floor(area * density * mean + 0.5);
-    const int    goal = wanted < most ? (int)wanted : most;
-    *count = 0;
-    if (goal == 0) return DP_OK;
+    // what is wanted of a fraction of a plant is left to chance
+    const int    given = *count;
+    const double wanted = floor(area * density * mean + plant_hash(seed, 0, 3));
+    const int    goal = wanted < most - given ? given + (int)wanted : most;
+    if (goal == given) return DP_OK;
 
     Field field = {.x0 = x0, .y0 = y0, .cell = fmax(apart, sqrt(area / (4.0 * most + 64.0)))};
     field.cell = fmax(field.cell, fmax(x1 - x0, y1 - y0) / 30000.0);
     field.nx = (int)((x1 - x0) / field.cell) + 1, field.ny = (int)((y1 - y0) / field.cell) + 1;
     field.first = dp_alloc((size_t)field.nx * (size_t)field.ny, sizeof(int));
     field.next = dp_alloc((size_t)goal, sizeof(int));
-    const double darts = DARTS * (double)goal / fmax(mean, 1e-3);
+    const double darts = DARTS * (double)(goal - given) / fmax(mean, 1e-3);
+    for (int k = 0; field.first && field.next && k < given; ++k)
+        put(&field, k, (double)root[2 * k], (double)root[2 * k + 1]);
     for (uint64_t k = 0; field.first && field.next && *count < goal && (double)k < darts; ++k) {
         const double u = plant_hash(seed, k, 0), v = plant_hash(seed, k, 1);
         const double want = weight_at(weight, wx, wy, u, v);
@@ -73,12 +87,8 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
         const float  x = (float)(x0 + u * (x1 - x0)), y = (float)(y0 + v * (y1 - y0));
         const double near = apart / sqrt(fmax(want, THINNEST));
         if (!has_room(&field, root, (double)x, (double)y, near)) continue;
-        const int i = (int)dp_clamp(((double)x - x0) / field.cell, 0.0, field.nx - 1.0);
-        const int j = (int)dp_clamp(((double)y - y0) / field.cell, 0.0, field.ny - 1.0);
-        int*      first = &field.first[(size_t)j * (size_t)field.nx + (size_t)i];
         root[2 * *count] = x, root[2 * *count + 1] = y;
-        field.next[*count] = *first;
-        *first = ++*count;
+        put(&field, (*count)++, (double)x, (double)y);
     }
     const bool room = field.first && field.next;
     dp_free(field.first), dp_free(field.next);

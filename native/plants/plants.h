@@ -174,8 +174,9 @@ typedef struct DpPlantWindow
 DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
                          float* strength, float* modulus);
 
-// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) into `root` (most, 2),
-// *count of them. weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
+// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) in `root` (most, 2), *count of
+// them. What `root` holds before, *count roots of the ground around, stays and keeps its distance.
+// weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
                          const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
                          int* count);

@@ -3,7 +3,7 @@
 //   plants_default() -> 21 numbers of DpPlantKind;  plants_shape(kind) -> (rows, stems, stems of a
 //   sheet, particles, bends);  plants_wear(kind, reserve, strength, angle, dt) -> strength
 //   plants_regrow(kind, alpha, seconds) -> alpha
-//   plants_place(x0, y0, x1, y1, density, weight | None, seed, root) -> count
+//   plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given) -> count
 //   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None,
 //               colliders, dt, steps, workers) -> dict of DpPlantsTold
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
@@ -124,8 +124,9 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     DpShape            grid = {2, {-1, -1}}, list = {2, {-1, 2}};
     const float*       weight = NULL;
     float*             root;
-    if (!PyArg_ParseTuple(arguments, "dddddOKO:plants_place", &x0, &y0, &x1, &y1, &density,
-                          &weights, &seed, &roots))
+    int                count = 0;
+    if (!PyArg_ParseTuple(arguments, "dddddOKO|i:plants_place", &x0, &y0, &x1, &y1, &density,
+                          &weights, &seed, &roots, &count))
         return NULL;
     if (weights != Py_None && !(weight = dp_door_open(&door, weights, "weight", 'f', &grid, false)))
         goto done;
@@ -134,7 +135,6 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
         answer = dp_door_result(DP_BAD_ARGUMENT, "placing plants");
         goto done;
     }
-    int      count = 0;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_plants_place(x0, y0, x1, y1, density, weight, (int)grid.n[1], (int)grid.n[0], seed,
@@ -375,8 +375,10 @@ PyMethodDef dp_py_plants_methods[] = {
     {"plants_regrow", plants_regrow, METH_VARARGS,
      "plants_regrow(kind, alpha, seconds) -> share of cover after so long without walkers."},
     {"plants_place", plants_place, METH_VARARGS,
-     "plants_place(x0, y0, x1, y1, density, weight | None, seed, root) -> count\n\n"
-     "Poisson-disc: fills root, float32 (most, 2) [m]; weight float32 (wy, wx) thins."},
+     "plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given=0) -> count\n\n"
+     "Poisson-disc: fills root, float32 (most, 2) [m], after the `given` ones it holds; weight "
+     "float32 "
+     "(wy, wx) thins."},
     {"plants_rest_shape", plants_rest, METH_VARARGS,
      "plants_rest_shape(kind, seed, root, heading | None, position)\n\n"
      "Fill position, float32 (n, particles, 3) [m], with plants nobody walked on."},

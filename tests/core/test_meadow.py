@@ -60,6 +60,16 @@ def test_the_same_seed_gives_the_same_roots_wherever_the_walk_goes():
     assert not np.array_equal(near, Planting("carex", seed=12).within(-1, -1, 1, 1)[:len(near)])
 
 
+@pytest.mark.parametrize("density", [0.02, 3.0, 80.0])
+def test_squares_have_no_seams(density):
+    wide = 6.0 if density > 1 else 40.0
+    roots = Planting("carex", density=density, seed=5).within(-wide, -wide, wide, wide).astype(float)
+    inside = roots[(abs(roots) < wide).all(1)]
+    assert abs(len(inside) / (4 * wide * wide * density) - 1.0) < max(0.02, 1.5 / np.sqrt(len(inside)))
+    apart = min(np.hypot(*(roots[k + 1:] - root).T).min() for k, root in enumerate(roots[:-1]))
+    assert apart >= np.sqrt(0.5 / density) - 1e-5
+
+
 def test_weight_thins_and_rectangles_end():
     weight = np.array([[1.0, 0.0], [1.0, 0.25]], np.float32)
     roots = Planting("lawn", weight=weight, rectangle=(0.5, 0.5, 4.5, 4.5)).within(-10, -10, 10, 10)
