@@ -135,9 +135,8 @@ static void lane(int passes)
     }
     const double took = now() - start;
     printf(
-        "a lane with %d plants, %d passes %*s %6.1f s, %.0f ms a pass (of work %.1f s); %ld bends "
-        "broke\n",
-        world.grown, passes, 3, "", took, 1e3 * took / passes, spent() - worked,
+        "a lane, %d plants, %d passes %16.1f s, %.0f ms a pass (%.1f s of work); %ld bends broke\n",
+        world.grown, passes, took, 1e3 * took / passes, spent() - worked,
         dp_sim_report(world.sim).broke);
     world_drop(&world);
 }

@@ -9,7 +9,7 @@ import pytest
 from desire_path import maps
 from desire_path.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
-from desire_path.plants import KINDS, Planting
+from desire_path.plants import KINDS, PAPER, Planting
 from desire_path.sim import Ground, Simulation
 from desire_path.soil import SOILS
 from scenes import gaits
@@ -282,7 +282,7 @@ def walked(plants, rate=60.0, passes=4, soil="dry-sand"):
 WEARS = replace(KINDS["lawn"], strength=0.6, break_angle=10.0, degrade_rate=1.0, recover_rate=0.0, spread=1.3)
 
 
-@pytest.mark.parametrize("kind", [KINDS["carex"], WEARS])
+@pytest.mark.parametrize("kind", [PAPER["carex"], WEARS])
 def test_cover_does_not_depend_on_the_frame_rate(kind):
     cover = [walked([kind], rate).read("plant_strength", 0, -25, 250, 50).mean() for rate in (30.0, 60.0)]
     assert cover[0] < 0.97 and abs(cover[0] - cover[1]) < 0.03

@@ -361,7 +361,7 @@ def test_the_command_line_walks_passes(walk, tmp_path):
     index = read_index(tmp_path / "out")
     assert index.frames == 3 and index.lean
     cover = [maps.read(index.path(n)).planes["G"].sum() for n in range(4)]
-    assert cover[0] > cover[1] > cover[3]
+    assert cover[0] >= cover[1] >= cover[2] >= cover[3] and cover[0] > cover[3]
     final = maps.read(tmp_path / "out" / "maps_final.exr").planes
     assert {"compression", "heap", "pressure_time", "plant_strength", "lean_x", "lean_y", "crushed"} <= set(final)
 
