@@ -16,7 +16,7 @@ bl_info = {
 __version__ = ".".join(str(part) for part in bl_info["version"])
 
 _HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "place_feet": "place", "Soil": "soil",
-         "SOILS": "soil", "Ground": "sim",
+         "SOILS": "soil", "Kind": "plants", "KINDS": "plants", "Planting": "plants", "Ground": "sim",
          "Simulation": "sim", "Bake": "bake", "read_index": "bake", "DesirePathError": "errors"}
 
 

@@ -42,6 +42,7 @@ SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are fo
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
+PASS_RATE = 60.0  # the same where a frame is a pass: there are many, and each print is trodden again [1/s]
 FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
 MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
@@ -146,7 +147,8 @@ class Bake:
 
     def _simulation(self):
         """The ground with the recording on it, at a whole number of samples a frame."""
-        samples = max(1, math.ceil(SAMPLE_RATE / self.frame_rate - 1e-6))
+        least = PASS_RATE if self.film == "passes" else SAMPLE_RATE
+        samples = max(1, math.ceil(least / self.frame_rate - 1e-6))
         gait = self.gait.resample(self.frame_rate * samples)
         self.times = gait.time - gait.time[0]
         self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]

@@ -15,6 +15,7 @@ from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
 from desire_path.gait import Gait
 from desire_path.path import Path
+from desire_path.plants import KINDS
 from desire_path.sim import Ground, Simulation
 from scenes import bvh, ship_walk
 
@@ -321,8 +322,8 @@ def test_a_frame_may_be_a_pass(walk, tmp_path):
     last = read_index(tmp_path / "frames")
     assert last.frames == int((gait.time[-1] - gait.time[0]) * 60 + 1e-6) + 1
     final = [maps.read(tmp_path / name / "maps_final.exr").planes for name in ("passes", "frames")]
-    for name, plane in final[0].items():
-        assert np.array_equal(plane, final[1][name]), name
+    volume = [planes["compression"].sum() for planes in final]
+    assert volume[0] == pytest.approx(volume[1], rel=0.03)  # steps of 60 and of 120 a second
     with pytest.raises(DesirePathError, match="no film"):
         Bake(gait, Ground.flat(), film="reel")
 
@@ -353,7 +354,8 @@ def command(*words, cwd):
 def test_the_command_line_walks_passes(walk, tmp_path):
     walk.save(tmp_path / "walk.npz")
     (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n1.5,1.5\n")
-    done = command("bake", "walk.npz", "--passes", 3, "--along", "path.csv", "--plants", "carex:30", "--cell", 0.02,
+    replace(KINDS["carex"], strength=0.1, break_angle=2.0).save(tmp_path / "frail.json")
+    done = command("bake", "walk.npz", "--passes", 3, "--along", "path.csv", "--plants", "frail.json:30", "--cell", 0.02,
                    "--soil", "soil", "--out", "out", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "out" / "report.json").read_text())
