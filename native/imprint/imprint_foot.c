@@ -60,9 +60,9 @@ DpBox dp_imprint_box(const DpMesh* sole, DpPose pose)
     for (int n = 0; n < sole->vertex_count; ++n) {
         const float* at = sole->vertex + 3 * (size_t)n;
         const DpVec3 p = dp_place(pose, dp_vec3((double)at[0], (double)at[1], (double)at[2]));
-        box.x0 = fmin(box.x0, p.x), box.x1 = fmax(box.x1, p.x);
-        box.y0 = fmin(box.y0, p.y), box.y1 = fmax(box.y1, p.y);
-        box.z0 = fmin(box.z0, p.z), box.z1 = fmax(box.z1, p.z);
+        box.x0 = p.x < box.x0 ? p.x : box.x0, box.x1 = p.x > box.x1 ? p.x : box.x1;
+        box.y0 = p.y < box.y0 ? p.y : box.y0, box.y1 = p.y > box.y1 ? p.y : box.y1;
+        box.z0 = p.z < box.z0 ? p.z : box.z0, box.z1 = p.z > box.z1 ? p.z : box.z1;
     }
     return box;
 }

@@ -266,6 +266,14 @@ static double level_of(const DpSoilPatch* patch, Box box)
     return isfinite(high) ? floor((double)high) : 0.0;
 }
 
+DP_CLONES
+static int any_loose(const float* heap, int count)
+{
+    int loose = 0;
+    for (int i = 0; i < count; ++i) loose |= heap[i] > 0.0f;
+    return loose;
+}
+
 // the cells of a box between which loose soil lies: nothing else can move; empty without any
 static Box loose_in(const DpSoilPatch* patch, Box box)
 {
@@ -273,8 +281,8 @@ static Box loose_in(const DpSoilPatch* patch, Box box)
     for (int j = box.j0; j < box.j1; ++j) {
         const float* heap = patch->heap + soil_at(patch, 0, j);
         int          first = box.i0, last = box.i1 - 1;
-        while (first < box.i1 && !(heap[first] > 0.0f)) ++first;
-        if (first == box.i1) continue;
+        if (!any_loose(heap + first, box.i1 - first)) continue;
+        while (!(heap[first] > 0.0f)) ++first;
         while (!(heap[last] > 0.0f)) --last;
         loose.i0 = first < loose.i0 ? first : loose.i0;
         loose.i1 = last >= loose.i1 ? last + 1 : loose.i1;
