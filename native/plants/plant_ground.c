@@ -1,8 +1,8 @@
-// plants/plant_ground.c - the ground under plants: where roots stand, and how high it is around them.
+// plants/plant_ground.c - the ground under plants: where roots stand, how high it is around them.
 //
-// Grids are told where the ground may have changed since the last step; elsewhere a plant stands as
-// it stood. Of the ground around a plant the highest is kept, its ceiling: what is over that needs no
-// look at the ground.
+// Grids are told where the ground may have changed since the last step; elsewhere a plant stands
+// as it stood. Of the ground around a plant the highest is kept, its ceiling: what is over that
+// needs no look at the ground.
 #include "plants/plant_inside.h"
 
 #define LOOKS_MOST 4096  // at ground that is a function, for one ceiling

@@ -1,13 +1,13 @@
-// plants/plant_lean.c - how grass lies, cell by cell: pressed flat under soles, parted at their edge,
-// standing up again as far as its stems are whole.
+// plants/plant_lean.c - how grass lies, cell by cell: pressed flat under soles, parted at their
+// edge, standing up again as far as its stems are whole.
 //
 // Plants are sparse and soles have edges. Besides the plants, every planted cell that was touched
 // keeps one stem, a mean of the kinds that grow there. A sole presses it to the height it leaves:
 //   crushed = 1 - gap / height,  |lean| = sqrt(1 - (1 - crushed)^2), a straight stem's
-// towards where the foot goes; nearer to the sole's edge than half its height, out of its way. Beside
-// the sole it leans away as far as that. Let go, it rises to the share of stems that is broken: one
-// bent at its foot beyond phi_deg as its strength returns, by exp(-t mu_rec / eps_b), then, or if
-// nothing wears it, as it swings, by exp(-t rate); lean and crushed keep their ratio.
+// towards where the foot goes; nearer to the sole's edge than half its height, out of its way.
+// Beside the sole it leans away as far as that. Let go, it rises to the share of stems that is
+// broken: one bent at its foot beyond phi_deg as its strength returns, by exp(-t mu_rec / eps_b),
+// then, or if nothing wears it, as it swings, by exp(-t rate); lean and crushed keep their ratio.
 #include <string.h>
 
 #include "base/alloc.h"

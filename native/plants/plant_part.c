@@ -159,7 +159,7 @@ static bool lay_out(DpLean* lean, const Print* print, const DpPlantGround* groun
                 inside ? c->bottom[(size_t)v * (size_t)c->row + (size_t)u] : INFINITY;
             const size_t at = at_print(print, i, j);
             lean->bottom[at] = bottom;
-            lean->sole[at] = isfinite(bottom);
+            lean->sole[at] = isfinite(bottom) ? 1 : 0;
             if (isfinite(bottom) && !low)
                 low = (double)bottom - plant_ground_at(ground, x, y) < tallest;
         }

@@ -71,9 +71,9 @@ typedef struct DpPlants DpPlants;
 DpPlants*               dp_plants_create(uint64_t seed);
 void                    dp_plants_destroy(DpPlants* plants);
 
-// Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed. What
-// differs from plant to plant hangs on the seed and the place of its root alone.
-// *stand names them from now on, 0, 1, 2..
+// Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed.
+// What differs from plant to plant hangs on the seed and the place of its root alone. *stand names
+// them from now on, 0, 1, 2..
 DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
                        const float* heading, int count, int* stand);
 // How the ground slopes under each plant of a stand, dz/dx and dz/dy (count, 2) [-].
@@ -84,8 +84,9 @@ DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand 
 double dp_plants_extent(const DpPlants* plants);
 double dp_plants_reach(const DpPlants* plants);
 
-// Heights of the ground's current surface at cell centres, NaN = no ground: where it may have changed
-// since the last step. Or a function that tells them, called from several threads: elsewhere.
+// Heights of the ground's current surface at cell centres, NaN = no ground: where it may have
+// changed since the last step. Or a function that tells them, called from several threads:
+// elsewhere.
 typedef struct DpPlantGround
 {
     int                         nx, ny, row;
@@ -174,9 +175,9 @@ typedef struct DpPlantWindow
 DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
                          float* strength, float* modulus);
 
-// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) in `root` (most, 2), *count of
-// them. What `root` holds before, *count roots of the ground around, stays and keeps its distance.
-// weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
+// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) in `root` (most, 2),
+// *count of them. What `root` holds before, *count roots of the ground around, stays and keeps its
+// distance. weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
                          const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
                          int* count);
@@ -192,8 +193,8 @@ DpStatus dp_lean_create(DpLean** lean, const DpPlants* plants, double cell, doub
                         double origin_y);
 void     dp_lean_destroy(DpLean* lean);
 
-// dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands up
-// to the share of its stems that is broken. Grass is met where the ground is told.
+// dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands
+// up to the share of its stems that is broken. Grass is met where the ground is told.
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt);
 
@@ -202,8 +203,8 @@ DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);
 // Plants have come or grown there: cells that nothing touched yet will see for themselves.
 void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1);
 
-// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways, |lean| <= 1, and the share of
-// height that is lost, 0..1; 0 where nothing grows or nobody went. NULL is left out.
+// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways, |lean| <= 1, and the share
+// of height that is lost, 0..1; 0 where nothing grows or nobody went. NULL is left out.
 void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* lean_x,
                   float* lean_y, float* crushed);
 

@@ -49,8 +49,8 @@ void     dp_sim_destroy(DpSim* sim);
 // Plants on this ground; borrowed like the terrain, on which nobody has walked yet.
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
 
-// Plant roots at xy (count, 2) [m] as one more stand, at any time; those without ground are left out.
-// *grown of them came up; none: *stand is -1.
+// Plant roots at xy (count, 2) [m] as one more stand, at any time; those without ground are left
+// out. *grown of them came up; none: *stand is -1.
 DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int count, int* stand,
                      int* grown);
 

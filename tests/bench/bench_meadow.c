@@ -1,10 +1,11 @@
-// tests/bench/bench_meadow.c - what plants cost a walk: a meadow of 100,000, and a lane trodden often.
+// tests/bench/bench_meadow.c - what plants cost a walk: a meadow of 100,000, and a trodden lane.
 //
 //   scripts/bench meadow   or   build/bench_meadow [passes]
 //
 // The walker has two feet of two parts and steps 0.7 m in half a second, at 60 frames a second, on
-// soil of 1 cm cells. First on bare ground, then among plants that are all asleep when it comes; then
-// back and forth over a lane of 0.5 m x 5 m with 200 plants, as often as told (500), on two cores.
+// soil of 1 cm cells. First on bare ground, then among plants that are all asleep when it comes;
+// then back and forth over a lane of 0.5 m x 5 m with 200 plants, as often as told (500), on two
+// cores.
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

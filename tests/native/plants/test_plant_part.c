@@ -1,4 +1,5 @@
-// A sole in the grass: flat under it, away from it beside, its way where it goes, mirrored when it is.
+// A sole in the grass: flat under it, away from it beside, its way where it goes, mirrored when it
+// is.
 #include "plants/lawn.h"
 
 #define CELL 0.01

@@ -1,5 +1,5 @@
-// What must hold of plants on trodden ground: roots hold the soil, nothing lies in the ground or in a
-// sole, threads and memory do not matter, and cost follows the feet.
+// What must hold of plants on trodden ground: roots hold the soil, nothing lies in the ground or
+// in a sole, threads and memory do not matter, and cost follows the feet.
 #include "sim/sim.h"
 
 #include "check.h"
