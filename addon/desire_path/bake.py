@@ -401,6 +401,7 @@ class Bake:
             "passes": len(self.passes), "contacts": found["contacts"], "deepest_m": found["deepest_m"],
             "pressed_m3": found["pressed_m3"], "pressed_heap_m3": found["pressed_heap_m3"],
             "heaped_m3": found["heaped_m3"], "displaced_m3": found["displaced_m3"],
+            **({"plants": found["plants"], "broken_bends": found["broke"]} if self.plants else {}),
             "seconds": round(seconds["total"], 3),
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),

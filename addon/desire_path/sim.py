@@ -208,11 +208,12 @@ class Simulation:
                 self._core.vary_plants(stand, np.ascontiguousarray(vigour[there]))
 
     def _plant_reach(self):
-        """Plant what the loaded recording can reach and is not planted yet."""
+        """Plant the tiles that the loaded recording can reach, as far as they are not planted yet."""
         i0, i1, j0, j1 = self.reach()
         cell, (ox, oy), bounds = self.cell_size, self.origin, self.bounds()
         if i0 >= i1:
             return
+        i0, j0, i1, j1 = i0 // TILE * TILE, j0 // TILE * TILE, -(-i1 // TILE) * TILE, -(-j1 // TILE) * TILE
         for number, planting in enumerate(self.plantings):
             wide = planting.kind.reach + planting.kind.height
             box = (ox + i0 * cell - wide, oy + j0 * cell - wide, ox + i1 * cell + wide, oy + j1 * cell + wide)

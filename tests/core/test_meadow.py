@@ -181,12 +181,13 @@ def bake(folder, plants, **more):
 
 
 def test_frames_and_maps_show_the_plants(tmp_path):
-    bake(tmp_path, [Planting("lawn", seed=2), "moss"])
+    made = bake(tmp_path, [Planting("lawn", seed=2), "moss"])
+    assert made.report["plants"] > 1000 and made.report["broken_bends"] >= 0
     index = read_index(tmp_path)
     assert index.lean and index.complete
     rest, last = (maps.read(index.path(number)).planes for number in (0, index.frames))
     flat, pressed = (maps.read(index.lean_path(number)).planes for number in (0, index.frames // 2))
-    assert rest["G"].mean() > 0.95 and not rest["R"].any()
+    assert rest["G"].min() > 0.7 and rest["G"].mean() > 0.95 and not rest["R"].any()  # up to the frame's edge
     assert not flat["R"].any() and not flat["B"].any() and pressed["B"].max() > 0.9
     np.testing.assert_array_equal(flat["A"], rest["G"])
     np.testing.assert_array_equal(maps.read(index.lean_path(index.frames)).planes["A"], last["G"])
