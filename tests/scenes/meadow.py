@@ -19,10 +19,10 @@ sys.path[:0] = [os.path.join(ROOT, "addon"), os.path.dirname(HERE)]
 
 from scenes import demo, mannequin, materials, noise  # noqa: E402
 
-CELL = 0.01  # [m]
+CELL, FAR_CELL = 0.01, 0.02  # of the ground seen from close by and from ten metres [m]
 PASSES = 200
 # where the path goes: a bend to the right, past the middle of the picture [m]
-WAY = ((-0.75, 6.5), (-0.35, 4.6), (0.0, 2.6), (0.0, 0.6), (-0.3, -1.4), (-1.0, -3.4), (-2.1, -5.2))
+WAY = ((-0.30, 4.5), (-0.10, 3.4), (0.05, 2.2), (0.0, 0.6), (-0.35, -1.2), (-1.0, -2.6), (-1.7, -3.6))
 
 
 def height(x, y):
@@ -36,7 +36,7 @@ def height(x, y):
 def add_ground(step, passes):
     """Fine where the walk or the path goes; short grass where the camera looks, high grass beside the way."""
     if passes > 1:
-        x, y = demo.lines(-2.6, 0.6, step, 26.0), demo.lines(-5.6, 6.8, step, 26.0)
+        x, y = demo.lines(-2.2, 0.5, step, 26.0), demo.lines(-4.2, 5.1, step, 26.0)
     else:
         x, y = demo.lines(-0.5, 0.5, step, 26.0), demo.lines(-2.95, 1.85, step, 26.0)
     obj = demo.add_mesh(x, y, height)
@@ -61,7 +61,7 @@ def cameras(scene, passes):
     demo.aim(sun, (0.0, 0.0, 0.0))
     materials.sky(scene, 0.9)
     if passes > 1:
-        scene.camera = demo.add_camera("Path", (1.5, 9.6, 2.3), (-0.35, 0.6, 0.15), 40.0)
+        scene.camera = demo.add_camera("Path", (0.9, 8.6, 2.2), (-0.35, 0.9, 0.10), 42.0)
     else:
         scene.camera = demo.add_camera("Trodden", (0.62, 1.22, 0.86), (0.03, -0.16, 0.07), 32.0)
 
@@ -87,7 +87,7 @@ def build(step=CELL, passes=1):
 
 def grow(ground, passes):
     """Two kinds of grass on one ground: a lawn shows single prints best, sedge how a path is worn."""
-    short = ("lawn", 300.0) if passes == 1 else ("carex", 110.0)
+    short = ("lawn", 300.0) if passes == 1 else ("carex", 80.0)
     for (kind, density), group in ((short, "short grass"), (("meadow", 45.0), "high grass")):
         demo.activate(ground)
         bpy.ops.object.desire_path_plants_add(kind=kind, density=density, density_group=group)
@@ -128,7 +128,7 @@ def main():
     words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="meadow.py", description=__doc__.splitlines()[0])
     parser.add_argument("--out", default="out", help="folder for the .blend files and the bakes")
-    parser.add_argument("--cell", type=float, default=CELL, help="cell size and mesh spacing [m]")
+    parser.add_argument("--coarse", type=float, default=1.0, help="cells so many times as large")
     parser.add_argument("--only", choices=("meadow", "path"), help="one of the two files")
     parser.add_argument("--passes", type=int, default=PASSES, help="how often the path is walked")
     chosen = parser.parse_args(words)
@@ -136,15 +136,16 @@ def main():
     os.makedirs(out, exist_ok=True)
     import desire_path
     desire_path.register()
-    for name, passes in (("meadow", 1), ("path", chosen.passes)):
+    for name, passes, cell in (("meadow", 1, CELL), ("path", chosen.passes, FAR_CELL)):
         if chosen.only not in (None, name):
             continue
         begun = time.perf_counter()
-        ground, walker = build(chosen.cell, passes)
+        cell *= chosen.coarse
+        ground, walker = build(cell, passes)
         bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
         file = os.path.join(out, f"{name}.blend")
         bpy.ops.wm.save_as_mainfile(filepath=file, compress=True)
-        bake(ground, walker, f"//bake_{name}", chosen.cell, passes)
+        bake(ground, walker, f"//bake_{name}", cell, passes)
         scene = bpy.context.scene
         scene.frame_set(scene.frame_end)
         bpy.ops.wm.save_as_mainfile(filepath=file, compress=True)

@@ -4,8 +4,9 @@
     blender -b demo.blend --python-exit-code 1 -P render.py -- prints FOLDER WIDTH HEIGHT SAMPLES
     blender -b demo.blend --python-exit-code 1 -P render.py -- film FOLDER WIDTH HEIGHT SAMPLES STEP
     blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES N
+    blender -b meadow.blend --python-exit-code 1 -P render.py -- view PATH WIDTH HEIGHT SAMPLES FRAME
 
-`prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames N, N .. of the film.
+`view` looks through the file's own camera; `prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames N, N .. of the film.
 """
 import os
 import sys
@@ -40,5 +41,7 @@ elif what == "frames":
 elif what == "prints":
     for soil in ("sand", "snow", "mud"):
         picture("Print in " + soil, scene.frame_end, os.path.join(path, soil + ".png"))
+elif what == "view":
+    picture(scene.camera.name, which[0], path)
 else:
     picture("Still", scene.frame_end, path)

@@ -8,7 +8,7 @@ import os
 import numpy as np
 
 from ..soil import SOILS
-from . import compat, playback
+from . import axes, compat, playback
 
 LEVELS = 1024  # of a weight in a vertex group
 COARSE = 0.05  # points farther apart than this do not show a foot [m]
@@ -26,8 +26,9 @@ def make_groups(obj):
     return float(SOILS[settings.soil].layer_depth)
 
 
-def fill(obj, surface, index, depth, planes):
-    """Write the last frame's values; returns sentences about what could not be written."""
+def fill(obj, surface, index, depth, planes, standing=()):
+    """Write the last frame's values, and off the images plants as they grew (`standing`: see playback.attach);
+    returns sentences about what could not be written."""
     from .. import mesh as meshes
     settings = obj.desire_path
     mesh = obj.data
@@ -38,6 +39,10 @@ def fill(obj, surface, index, depth, planes):
     value = meshes.at_points({name: plane for name, plane in planes.items() if plane.any()}, index.cell,
                              (index.x0, index.y0), compat.positions(mesh),
                              surface.world[:3] * surface.scale, playback.ALIGNED)
+    if "plant_strength" in value and standing:
+        at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
+        off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
+        value["plant_strength"] = np.where(off, _grown(obj, standing), value["plant_strength"]).astype(np.float32)
     warnings = []
     if settings.attributes:
         made = []
@@ -56,6 +61,23 @@ def fill(obj, surface, index, depth, planes):
                 _weigh(obj.vertex_groups[playback.group_name(name)], value[name] / full)
     mesh.update_tag()
     return warnings
+
+
+def _grown(obj, standing):
+    """Cover of every vertex where nobody walked, from (vertex group or attribute, cover where it is 1)."""
+    out = np.zeros(len(obj.data.vertices), np.float32)
+    for name, full in standing:
+        weight = compat.float_attribute(obj.data, name) if name else np.float32(1.0)
+        group = obj.vertex_groups.get(name) if name else None
+        if group is not None:
+            weight = np.zeros(len(out), np.float32)
+            for vertex in obj.data.vertices:
+                for member in vertex.groups:
+                    if member.group == group.index:
+                        weight[vertex.index] = member.weight
+        if weight is not None:
+            out += np.float32(full) * weight
+    return np.minimum(out, 1.0)
 
 
 def remove(obj):

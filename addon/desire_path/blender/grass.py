@@ -211,7 +211,7 @@ def show(obj, name, kind, index=None, images=None, count=0):
     chosen = scattered(old) if old is not None else None
     if chosen is None or TAG in chosen and chosen[TAG] != mark:  # the user's own stay
         chosen = tufts(name, kind)
-    tree = _tree(obj.name, chosen, index, images, count)
+    tree = _tree(obj.name, chosen, kind.height, index, images, count)
     tree[TAG] = mark
     for each in obj.modifiers:
         if each.type == "NODES" and (each.node_group is None or each.node_group == old):
@@ -232,7 +232,7 @@ def use_tree(modifier, tree):
 # ---- the nodes -------------------------------------------------------------------------------------
 
 
-def _tree(name, collection, index, images, count):
+def _tree(name, collection, height, index, images, count):
     tree = compat.geometry_tree(f"{MODIFIER} {name}", bpy.data.node_groups.new)
     wire = playback.Wiring(tree)
     points = wire.add("NodeGroupInput").outputs[0]
@@ -252,7 +252,7 @@ def _tree(name, collection, index, images, count):
         risen = wire.add("GeometryNodeSetPosition", Geometry=parted.outputs[1],
                          Offset=wire.xyz(z=field.ground(here)[0])).outputs[0]
         standing = _instances(wire, _join(wire, risen, beside.outputs[1]), info)
-        grown = _join(wire, standing, _trodden(wire, parted.outputs[0], info, field))
+        grown = _join(wire, standing, _trodden(wire, parted.outputs[0], info, field, height))
     tree.links.new(grown, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
     return tree
@@ -312,8 +312,8 @@ def _touched(wire, field, here, far):
     return wire.math("GREATER_THAN", most, TOUCHED)
 
 
-def _trodden(wire, points, info, field):
-    """Real tufts, every stem bent as the images say at its root."""
+def _trodden(wire, points, info, field, high):
+    """Real tufts, every stem bent as the images say at its root; a mesh of somebody else is one stem."""
     points = wire.store(points, PLACE, wire.add("GeometryNodeInputPosition").outputs[0], "FLOAT_VECTOR")
     real = wire.add("GeometryNodeRealizeInstances", Geometry=_instances(wire, points, info)).outputs[0]
 
@@ -327,9 +327,14 @@ def _trodden(wire, points, info, field):
     root = wire.vector("SCALE", turned(ROOT), scale=size)
     across = wire.vector("SCALE", turned(AT), scale=size)
     tilt, arch = turned(TILT), turned(ARCH)
-    length, along = wire.split(root)[2], wire.split(across)[2]
-    root, across = (wire.vector("MULTIPLY", each, (1, 1, 0)) for each in (root, across))
     place = wire.named(PLACE, "FLOAT_VECTOR")
+    foreign = wire.math("LESS_THAN", wire.split(root)[2], 1e-6)
+    as_it_is = wire.vector("SUBTRACT", wire.add("GeometryNodeInputPosition").outputs[0], place)
+    across = wire.vector("ADD", across, wire.vector("SCALE", as_it_is, scale=foreign))
+    length = wire.math("ADD", wire.split(root)[2], wire.math("MULTIPLY", foreign, wire.math(
+        "MULTIPLY", size, max(high, tuft.SHORTEST))))
+    along = wire.split(across)[2]
+    root, across = (wire.vector("MULTIPLY", each, (1, 1, 0)) for each in (root, across))
     foot = wire.vector("ADD", place, root)
     tone = wire.split(wire.named(LOOK, "FLOAT_VECTOR"))[1]
     chance = [wire.math("FRACT", wire.math("MULTIPLY_ADD", tone, factor, wire.named(TONE)))

@@ -164,7 +164,7 @@ def play(obj, surface, baked=None):
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
                         layer_depth=depth, standing=plants.standing(obj))
         planes = baked or cover.planes(index)
-        warnings = cover.fill(obj, surface, index, depth, planes)
+        warnings = cover.fill(obj, surface, index, depth, planes, plants.standing(obj))
         if index.complete:
             warnings += cover.few_points(obj, surface, index, planes)
     else:

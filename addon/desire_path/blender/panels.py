@@ -43,7 +43,9 @@ def draw_ground(layout, context, obj):
     box = layout.box().column(align=True)
     there = walkers(context.scene, obj)
     for each in there:
-        box.label(text=f"{each.name}, {weight(each.desire_path)}", icon="ARMATURE_DATA")
+        passes = each.desire_path.passes if each.desire_path.path is not None else 1
+        box.label(text=f"{each.name}, {weight(each.desire_path)}" + (f", {passes} passes" if passes > 1 else ""),
+                  icon="ARMATURE_DATA")
     if not there:
         box.label(text="None: select an armature and press Add Walker", icon="INFO")
 

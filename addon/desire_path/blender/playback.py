@@ -247,7 +247,8 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
 
     # a group of that name on the object is filled instead of an attribute
     if layer_depth > 0.0:
-        weights = (split.outputs[1], wire.math("MULTIPLY", split.outputs[2], 1.0 / layer_depth))
+        strength = wire.named(STRENGTH) if "lean" in shown else split.outputs[1]
+        weights = (strength, wire.math("MULTIPLY", split.outputs[2], 1.0 / layer_depth))
         for name, weight in zip(GROUPS, weights):
             geometry = wire.store(geometry, group_name(name), weight)
     tree.links.new(geometry, leave.inputs[0])
