@@ -10,91 +10,17 @@ import bpy
 import numpy as np
 
 from .. import tuft
-from . import compat, playback
+from . import compat, playback, tufts
+from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 
 TAG = playback.TAG
 MODIFIER = "Desire Path Grass"
-# of a root: turn about +Z [rad], size, tone 0..1, rise of the ground along x and y, which tuft
-TURN, SIZE, TONE, SLOPE, PICK = "tuft_turn", "tuft_size", "tuft_tone", "tuft_slope", "tuft_pick"
+# of a root: turn about +Z [rad], size, rise of the ground along x and y, which tuft
+TURN, SIZE, SLOPE, PICK = "tuft_turn", "tuft_size", "tuft_slope", "tuft_pick"
 PLACE = "tuft_place"  # of a trodden tuft: where its root stands at rest [m]
-ROOT, AT, TILT, ARCH, LOOK = "tuft_root", "tuft_at", "tuft_tilt", "tuft_arch", "tuft_look"  # see Tuft
-STRENGTH = playback.STRENGTH
 TOUCHED = 0.004  # lean and crush from which a tuft is bent stem by stem
 GRIND = 1.2e5  # pressure over time that grinds most broken stems away, some six footfalls [Pa s]
 STEM_LIFT = 0.0015, 0.005  # how far trodden stems lie over the ground, the lowest and the highest [m]
-
-
-# ---- the plants' meshes ------------------------------------------------------------------------------
-
-
-def tufts(name, kind):
-    """The collection of a kind's tufts, in no scene: what the nodes scatter. Made when needed."""
-    mark = f"{name} {kind!r}"
-    for each in bpy.data.collections:
-        if each.get(TAG) == mark and each.library is None:
-            return each
-    look = tuft.look_of(name, kind)
-    found = bpy.data.collections.new(f"{label(name)} Tufts")
-    found[TAG] = mark
-    made = material(name, look)
-    for number in range(look.tufts):
-        shape = tuft.tuft(kind, look, number)
-        mesh = bpy.data.meshes.new(f"{label(name)} {number + 1}")
-        mesh.from_pydata(shape.vertices.tolist(), [], [list(face) for face in shape.faces])
-        mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
-        for key, value in ((ROOT, shape.root), (AT, shape.at), (TILT, shape.tilt), (ARCH, shape.arch),
-                           (LOOK, shape.look)):
-            layer = mesh.attributes.new(key, "FLOAT_VECTOR", "POINT")
-            layer.data.foreach_set("vector", np.ascontiguousarray(value).ravel())
-        mesh.materials.append(made)
-        mesh.update()
-        found.objects.link(bpy.data.objects.new(mesh.name, mesh))
-    return found
-
-
-def reach(collection):
-    """How far from a plant's middle its stems are rooted, at most [m]."""
-    out = 0.0
-    for obj in collection.objects:
-        layer = obj.data.attributes.get(ROOT)
-        if layer is not None and len(layer.data):
-            root = np.empty((len(layer.data), 3), np.float32)
-            layer.data.foreach_get("vector", root.ravel())
-            out = max(out, float(np.hypot(root[:, 0], root[:, 1]).max()))
-    return out
-
-
-def label(name):
-    """A kind's name for people: a file's is its own name."""
-    return tuft.Path(str(name)).stem.replace("_", " ").replace("-", " ").title()
-
-
-def discard_tufts(collection):
-    """Remove tufts that nothing scatters any more, with their meshes and material."""
-    if collection is None or TAG not in collection or collection.users > 0:
-        return
-    objects = list(collection.objects)
-    bpy.data.collections.remove(collection)
-    for obj in objects:
-        if obj.users > 0:
-            continue
-        mesh = obj.data
-        bpy.data.objects.remove(obj)
-        _discard_mesh(mesh)
-
-
-def _discard_mesh(mesh):
-    if mesh is None or mesh.users > 0:
-        return
-    used = [each for each in mesh.materials if each is not None]
-    bpy.data.meshes.remove(mesh)
-    for each in used:
-        discard_material(each)
-
-
-def discard_material(material):
-    if TAG in material and material.users == 0:
-        bpy.data.materials.remove(material)
 
 
 # ---- the object ------------------------------------------------------------------------------------
@@ -102,7 +28,7 @@ def discard_material(material):
 
 def make(ground, name):
     """An object for a ground's grass, a child of the ground; `fill` gives it roots."""
-    mesh = bpy.data.meshes.new(f"{ground.name} {label(name)}")
+    mesh = bpy.data.meshes.new(f"{ground.name} {tufts.label(name)}")
     obj = bpy.data.objects.new(mesh.name, mesh)
     for collection in ground.users_collection:
         collection.objects.link(obj)
@@ -131,20 +57,12 @@ def fill(obj, ground, place, slope, sizes, count, scale):
     mesh.vertices.add(len(place))
     mesh.vertices.foreach_set("co", np.ascontiguousarray(place, np.float32).ravel())
     chance = _chances(place, 4)
-    store(mesh, TURN, "FLOAT", 2 * np.pi * chance[0])
-    store(mesh, SIZE, "FLOAT", sizes[0] + (sizes[1] - sizes[0]) * chance[1])
-    store(mesh, TONE, "FLOAT", chance[2])
-    store(mesh, PICK, "INT", np.minimum(chance[3] * count, count - 1))
-    store(mesh, SLOPE, "FLOAT_VECTOR", np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
+    tufts.store(mesh, TURN, "FLOAT", 2 * np.pi * chance[0])
+    tufts.store(mesh, SIZE, "FLOAT", sizes[0] + (sizes[1] - sizes[0]) * chance[1])
+    tufts.store(mesh, TONE, "FLOAT", chance[2])
+    tufts.store(mesh, PICK, "INT", np.minimum(chance[3] * count, count - 1))
+    tufts.store(mesh, SLOPE, "FLOAT_VECTOR", np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
     mesh.update()
-
-
-def store(mesh, name, kind, value):
-    """Values of a mesh's points as an attribute."""
-    layer = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "POINT")
-    key = "vector" if kind == "FLOAT_VECTOR" else "value"
-    layer.data.foreach_set(key, np.ascontiguousarray(
-        value, np.int32 if kind == "INT" else np.float32).ravel())
 
 
 def _chances(place, count):
@@ -167,7 +85,7 @@ def remove(obj):
     old = _tree_of(obj)
     mesh = obj.data
     bpy.data.objects.remove(obj)
-    _discard_mesh(mesh)
+    tufts.discard_mesh(mesh)
     _discard_tree(old)
 
 
@@ -190,7 +108,7 @@ def _discard_tree(tree):
         return
     collection = scattered(tree)
     playback.discard(tree)
-    discard_tufts(collection)
+    tufts.discard(collection)
 
 
 def scattered(tree):
@@ -210,7 +128,7 @@ def show(obj, name, kind, index=None, images=None, count=0):
     mark = f"{name} {kind!r}"
     chosen = scattered(old) if old is not None else None
     if chosen is None or TAG in chosen and chosen[TAG] != mark:  # the user's own stay
-        chosen = tufts(name, kind)
+        chosen = tufts.collection(name, kind)
     tree = _tree(obj.name, chosen, kind.height, index, images, count)
     tree[TAG] = mark
     for each in obj.modifiers:
@@ -248,7 +166,7 @@ def _tree(name, collection, height, index, images, count):
         beside = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=points,
                           Selection=playback.within(wire, field.where(here)))
         parted = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=beside.outputs[0],
-                          Selection=_touched(wire, field, here, reach(collection)))
+                          Selection=_touched(wire, field, here, tufts.reach(collection)))
         risen = wire.add("GeometryNodeSetPosition", Geometry=parted.outputs[1],
                          Offset=wire.xyz(z=field.ground(here)[0])).outputs[0]
         standing = _instances(wire, _join(wire, risen, beside.outputs[1]), info)
@@ -447,49 +365,3 @@ def _bent(wire, length, along, across, tilt, arch):
     turned = wire.vector("ADD", across, wire.vector("SCALE", way, scale=back))
     turned = wire.vector("SUBTRACT", turned, wire.xyz(z=wire.math("MULTIPLY", ahead, sine)))
     return wire.vector("ADD", out, turned)
-
-
-# ---- the material ----------------------------------------------------------------------------------
-
-
-def material(name, look):
-    """Leaves that let light through, dark at the root, each plant and stem of its own tone; straw
-    where `plant_strength` is low. Native nodes, to be changed at will."""
-    made = bpy.data.materials.new(label(name))
-    made[TAG] = 1
-    made.diffuse_color = (*(2.2 * each ** 0.8 for each in look.high), 1.0)
-    made.use_nodes = True
-    tree = made.node_tree
-    tree.nodes.clear()
-    wire = playback.Wiring(tree)
-
-    def attribute(key, kind):
-        return wire.add("ShaderNodeAttribute", {"attribute_name": key, "attribute_type": kind}).outputs
-
-    def either(key):
-        """An attribute of the mesh, or of the instance."""
-        return wire.math("ADD", attribute(key, "GEOMETRY")[2], attribute(key, "INSTANCER")[2])
-
-    def mix(share, a, b):
-        if isinstance(a, tuple) and isinstance(b, tuple):
-            more = tuple(y - x for x, y in zip(a, b))
-        else:
-            more = wire.vector("SUBTRACT", b, a)
-        return wire.vector("MULTIPLY_ADD", more, wire.xyz(share, share, share), a)
-
-    along, tone, head = wire.split(attribute(LOOK, "GEOMETRY")[1])
-    plant, strength = either(TONE), either(STRENGTH)
-    colour = mix(head, mix(along, look.low, look.high), look.head)
-    colour = mix(wire.math("SUBTRACT", 1.0, strength), colour, look.dead)
-    # brightness differs from stem to stem and plant to plant, and so, a little, does the hue
-    light = wire.math("ADD", wire.math("MULTIPLY_ADD", tone, 0.5, 0.62), wire.math("MULTIPLY", plant, 0.32))
-    hue = wire.math("MULTIPLY_ADD", wire.math("SUBTRACT", plant, tone), 0.016, 0.5)
-    colour = wire.add("ShaderNodeHueSaturation", Hue=hue, Value=light, Color=colour).outputs[0]
-    leaf = wire.add("ShaderNodeBsdfPrincipled", Roughness=0.5, **{"Base Color": colour})
-    for key in ("Specular", "Specular IOR Level"):
-        if key in leaf.inputs:
-            leaf.inputs[key].default_value = 0.25
-    through = wire.add("ShaderNodeBsdfTranslucent", Color=mix(0.35, colour, (0.55, 0.60, 0.05)))
-    both = wire.add("ShaderNodeMixShader", _0=0.3, _1=leaf.outputs[0], _2=through.outputs[0])
-    wire.add("ShaderNodeOutputMaterial", Surface=both.outputs[0])
-    return made

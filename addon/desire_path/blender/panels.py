@@ -4,7 +4,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, plants
+from . import op_bake, plants, tufts
 from .op_walkers import walkers
 
 
@@ -207,7 +207,7 @@ class OBJECT_UL_desire_path_plants(bpy.types.UIList):
 
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
         row = layout.row(align=True)
-        row.label(text=plants.grass.label(item.kind))
+        row.label(text=tufts.label(item.kind))
         row.label(text=f"{item.count:,}")
         if plants.shown(item) is not None:
             row.prop(item.grass, "hide_viewport", text="", emboss=False)

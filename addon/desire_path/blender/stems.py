@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import tuft
 from ..errors import DesirePathError
-from . import compat, grass, playback
+from . import compat, grass, playback, tufts
 
 MODIFIER, BLADES = "Desire Path Plants", "Desire Path Blades"
 KIND = "kind"  # attribute: which of the kinds a point belongs to
@@ -40,10 +40,10 @@ def show(ground, folder, path, frame_start, scale):
     foot = np.flatnonzero(found["along"] == 0.0)
     stem = np.repeat(np.arange(len(foot)), np.diff(np.append(foot, len(plant))))
     own = np.mod(tone + 0.618034 * stem, 1.0)
-    grass.store(mesh, grass.LOOK, "FLOAT_VECTOR", np.column_stack([found["along"], own, np.zeros(len(own))]))
-    grass.store(mesh, grass.TONE, "FLOAT", tone)
-    grass.store(mesh, grass.STRENGTH, "FLOAT", np.where(found["unbroken"], 1.0, 0.45))
-    grass.store(mesh, KIND, "INT", found["kind"])
+    tufts.store(mesh, tufts.LOOK, "FLOAT_VECTOR", np.column_stack([found["along"], own, np.zeros(len(own))]))
+    tufts.store(mesh, tufts.TONE, "FLOAT", tone)
+    tufts.store(mesh, tufts.STRENGTH, "FLOAT", np.where(found["unbroken"], 1.0, 0.45))
+    tufts.store(mesh, KIND, "INT", found["kind"])
     mesh.update()
     obj = bpy.data.objects.new(mesh.name, mesh)
     for collection in ground.users_collection:
@@ -63,7 +63,7 @@ def _blades(name, kinds):
     tree[playback.TAG] = 1
     wire = playback.Wiring(tree)
     line = wire.add("GeometryNodeMeshToCurve", Mesh=wire.add("NodeGroupInput").outputs[0]).outputs[0]
-    along = wire.split(wire.named(grass.LOOK, "FLOAT_VECTOR"))[0]
+    along = wire.split(wire.named(tufts.LOOK, "FLOAT_VECTOR"))[0]
     thin = wire.math("SUBTRACT", 1.02, wire.math("POWER", along, 2.0))
     line = wire.add("GeometryNodeSetCurveRadius", Curve=line, Radius=thin).outputs[0]
     half = (0.5 * WIDTH, 0.0, 0.0)
@@ -72,7 +72,7 @@ def _blades(name, kinds):
     for number, kind in enumerate(kinds):
         its = wire.add("FunctionNodeCompare", {"data_type": "INT", "operation": "EQUAL"}, A=wire.named(KIND, "INT"),
                        B=number).outputs[0]
-        made = grass.material(str(kind), tuft.LOOKS.get(str(kind), tuft.LOOKS["meadow"]))
+        made = tufts.material(str(kind), tuft.LOOKS.get(str(kind), tuft.LOOKS["meadow"]))
         blades = wire.add("GeometryNodeSetMaterial", Geometry=blades, Selection=its, Material=made).outputs[0]
     leave = tree.nodes.new("NodeGroupOutput")
     tree.links.new(blades, leave.inputs[0])
@@ -95,4 +95,4 @@ def remove(obj):
                 if node.bl_idname == "GeometryNodeSetMaterial"}
         playback.discard(tree)
         for each in made - {None}:
-            grass.discard_material(each)
+            tufts.discard_material(each)
