@@ -125,8 +125,14 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
                                             options->cutoff_high)
                       : flies    ? options->cutoff_high
                                  : options->cutoff_low;
+    // quick steps may need all of the upper bound over the ground too
+    const double level =
+        step > 0.0
+            ? fmin(options->cutoff_level * fmax(options->cutoff_share / step, options->cutoff_low),
+                   options->cutoff_high)
+            : options->cutoff_level * up;
     for (int c = 2; c >= 0; --c) {
-        const double cutoff = c < 2 ? up * options->cutoff_level : up;
+        const double cutoff = c < 2 ? level : up;
         read_line(gait, walker, c, line);
         if (c == 2 && flies) flies = falls(air, line, times, rate);
         if (flies)
