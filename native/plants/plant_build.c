@@ -172,6 +172,7 @@ static void rest_shape(PlantStand* stand)
                 at[0] = (float)x, at[1] = (float)y, at[2] = (float)z;
                 const double far = sqrt(x * x + y * y + z * z);
                 if (far > (double)stand->extent) stand->extent = (float)far;
+                stand->aside = fmaxf(stand->aside, (float)sqrt(x * x + y * y));
                 const double lean = dx != 0.0 || dy != 0.0 ? (double)kind->curl * r : 0.0;
                 const double most = lean < 0.9 * PI ? lean : 0.9 * PI;  // no stem rolls up
                 x += (double)stand->gap * sin(most) * dx;

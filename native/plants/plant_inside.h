@@ -60,6 +60,7 @@ typedef struct PlantStand
     DpPlantShape shape;
     float        gap;        // between rows [m]
     float        extent;     // farthest particle from the root [m]
+    float        aside;      // the same at rest, along x or y [m]
     float        near;       // neighbours of a row are at least so far apart, seen from above [m]
     float        bend_rate;  // [1/s^2]
     float*       rest;       // in the plant's frame (particles, 3)

@@ -171,23 +171,44 @@ static double reach_of(const PlantStand* stand)
     return (double)stand->extent + (double)stand->kind.radius;
 }
 
-// mark the plants that a collider can meet
-static void touch(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count)
+// how far to a side each plant of a block stands or lies, at most
+static void lies_aside(const PlantStand* stand, const PlantBlock* block, double aside[DP_LANES])
 {
-    const double reach = reach_of(stand);
+    float most[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) most[l] = block->state ? 0.0f : stand->aside;
+    for (int p = 0; block->state && p < stand->shape.particles; ++p)
+        for (int d = 0; d < 2; ++d) {
+            const float* at = block->state->at[d] + p * DP_LANES;
+            for (int l = 0; l < DP_LANES; ++l) {
+                const float off = fabsf(at[l] - block->foot[d][l]);
+                most[l] = off > most[l] ? off : most[l];
+            }
+        }
+    for (int l = 0; l < DP_LANES; ++l) aside[l] = (double)most[l];
+}
+
+// mark the plants that a collider can meet, as they are and as far as they move in a step of dt
+static void touch(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                  double dt)
+{
     const double half = 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth);
     const double high = (double)(DP_STRETCH_MOST * stand->kind.height + stand->kind.radius) + 0.01;
+    const double spare = (double)stand->kind.radius + (double)DP_SPEED_MOST * dt + 0.01;
+    double       aside[DP_LANES];
+    lies_aside(stand, block, aside);
     block->touched = false;
     for (int l = 0; l < DP_LANES; ++l) {
         const double x = (double)block->root[0][l], y = (double)block->root[1][l];
         const double z = (double)block->root[2][l];
         const double lift = (double)(fabsf(block->slope[0][l]) + fabsf(block->slope[1][l])) * half;
         const double tall = high + lift;  // outer stems stand higher on a slope
+        const double reach = fmin(reach_of(stand), aside[l] + spare);
+        const double deep = reach_of(stand);
         bool         meets = false;
         for (int k = 0; k < count && l < block->count; ++k)
             meets = meets ||
                     (x + reach > push[k].x0 && x - reach < push[k].x1 && y + reach > push[k].y0 &&
-                     y - reach < push[k].y1 && z + tall > push[k].z0 && z - reach < push[k].z1);
+                     y - reach < push[k].y1 && z + tall > push[k].z0 && z - deep < push[k].z1);
         block->touched_lane[l] = meets;
         block->touched = block->touched || meets;
     }
@@ -206,7 +227,7 @@ static bool add_task(DpPlants* plants, int* tasks, PlantStand* stand, PlantBlock
 }
 
 // blocks that live through this step; -1 without memory
-static int call_up(DpPlants* plants, const PlantPush* push, int count)
+static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt)
 {
     int       tasks = 0;
     PlantPush all = {0};
@@ -226,7 +247,10 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count)
             const bool near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 && box[3] > y0;
             if (!near && !stand->up[b]) continue;
             PlantBlock* block = &stand->block[b];
-            touch(stand, block, push, count);
+            if (!near)
+                block->touched = false, memset(block->touched_lane, 0, sizeof block->touched_lane);
+            else
+                touch(stand, block, push, count, dt);
             if (!block->touched && !block->awake) continue;
             if (!block->awake && !plant_wake(plants, stand, block)) return -1;
             stand->up[b] = 1;
@@ -308,7 +332,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
     const double wanted = ceil(dt / DP_SUBSTEP - 1e-9);
     step.steps = wanted < 1.0 ? 1 : wanted > DP_SUBSTEPS_MOST ? DP_SUBSTEPS_MOST : (int)wanted;
 
-    const int tasks = call_up(plants, step.push, step.pushes);
+    const int tasks = call_up(plants, step.push, step.pushes, dt);
     workers = workers < 1 || tasks < 16 ? 1 : workers > 64 ? 64 : workers;
     for (int s = 0; s < plants->stands; ++s) {
         const PlantStand* stand = &plants->stand[s];
