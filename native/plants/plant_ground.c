@@ -5,7 +5,8 @@
 // needs no look at the ground.
 #include "plants/plant_inside.h"
 
-#define LOOKS_MOST 4096  // at ground that is a function, for one ceiling
+#define LOOKS_MOST \
+    1024  // at cells for one ceiling; where there are more around a plant, it has none
 
 static bool piece_ok(const DpPlantGround* g)
 {
@@ -56,6 +57,13 @@ double plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int 
 
 // ---- ceilings --------------------------------------------------------------------------------
 
+// are there too many cells within +-reach?
+static bool is_wide(const DpPlantGround* ground, double reach)
+{
+    const double cells = 2.0 * reach / ground->cell + 1.0;
+    return !(cells * cells <= LOOKS_MOST);
+}
+
 // What grids say of the square of +-reach about a root: the highest there; do they hold all of it?
 typedef struct Square
 {
@@ -66,6 +74,7 @@ typedef struct Square
 static Square look_around(const DpPlantGround* ground, double x, double y, double reach)
 {
     Square square = {-INFINITY, false, false};
+    if (ground && is_wide(ground, reach)) square.highest = INFINITY;
     for (; ground; ground = ground->next) {
         if (ground->at) continue;
         const double u0 = (x - reach - ground->x0) / ground->cell;
@@ -79,7 +88,7 @@ static Square look_around(const DpPlantGround* ground, double x, double y, doubl
         square.any = true;
         square.all = square.all ||
                      (u0 >= 0.0 && v0 >= 0.0 && u1 <= ground->nx - 1.0 && v1 <= ground->ny - 1.0);
-        for (int j = j0; j <= j1; ++j) {
+        for (int j = j0; j <= j1 && square.highest < INFINITY; ++j) {
             const float* height = ground->height + (size_t)j * (size_t)ground->row;
             float        most = square.highest;
             for (int i = i0; i <= i1; ++i) most = height[i] > most ? height[i] : most;
@@ -93,9 +102,9 @@ static Square look_around(const DpPlantGround* ground, double x, double y, doubl
 static float highest_of(const DpPlantGround* ground, double x, double y, double reach)
 {
     while (ground && !ground->at) ground = ground->next;
-    const double cells = ground && ground->cell > 0.0 ? ceil(reach / ground->cell) + 1.0 : INFINITY;
-    if (!((2.0 * cells + 1.0) * (2.0 * cells + 1.0) <= LOOKS_MOST)) return INFINITY;
-    float highest = -INFINITY;
+    if (!ground || is_wide(ground, reach)) return INFINITY;
+    const double cells = ceil(reach / ground->cell) + 1.0;
+    float        highest = -INFINITY;
     for (double j = -cells; j <= cells; ++j)
         for (double i = -cells; i <= cells; ++i)
             highest = fmaxf(highest, (float)ground->at(ground->context, x + i * ground->cell,
