@@ -52,8 +52,9 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     """The kind that wears as a table says, from a kind that looks like it: a Fitted.
 
     rows: (passes, cover [per cent], days of rest) of lane.read(); rows with days of rest tell how fast it grows
-    again. rounds: how often at most lanes are trodden to check. options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days;
-    stems break by wear alone, and what did not break recovers in two weeks.
+    again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
+    options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days; stems break
+    by wear alone, and what did not break recovers in two weeks.
     """
     try:
         from scipy import optimize

@@ -31,7 +31,7 @@ USUAL = {"length": 5.0, "width": 0.5, "mass": 75.0, "seed": 0, "soil": "soil", "
 
 
 def walk(mass=75.0):
-    """The walk that comes with Desire Path: whole strides on level ground that repeat, of a person of this mass [kg]."""
+    """The walk that comes with Desire Path: whole strides that repeat on level ground, of a person of `mass` [kg]."""
     return replace(Gait.load(WALK), mass=[mass]).check()
 
 

@@ -110,7 +110,7 @@ def test_cover_trail_7_8(law):
 
 
 def test_regrowth_is_logistic():
-    carex = KINDS["carex"]
+    carex = PAPER["carex"]
     for alpha in (0.863, 0.704, 0.398, 0.2):
         told = _native.plants_regrow(carex.numbers(), alpha, YEAR)
         assert told == pytest.approx(twin.regrow(asdict(carex), alpha, YEAR), abs=1e-4)
