@@ -11,7 +11,8 @@
 #include "plants/plant_inside.h"
 
 #define PI 3.14159265358979323846
-#define CHUNK 64  // cells of a row summed at once
+#define RUNNERS 4.0  // seeds and runners come from so many times as far as roots reach
+#define CHUNK 64     // cells of a row summed at once
 
 // sums over the plants around a point
 typedef struct Sums
@@ -37,9 +38,10 @@ static bool bins_around(const PlantStand* stand, double x0, double x1, double y,
     return true;
 }
 
-static void add_plants(Sums* sums, const PlantStand* stand, double x, double y)
+// wide: kernels reach so many times as far
+static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, double wide)
 {
-    const double reach = (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
+    const double reach = wide * (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
     const double full = (double)stand->kind.full_density * PI * reach * reach / 3.0;  // K_ref
     int          range[4];
     if (!bins_around(stand, x, x, y, reach, range)) return;
@@ -64,16 +66,16 @@ static void add_plants(Sums* sums, const PlantStand* stand, double x, double y)
         }
 }
 
-static Sums sums_at(const DpPlants* plants, double x, double y)
+static Sums sums_at(const DpPlants* plants, double x, double y, double wide)
 {
     Sums sums = {0};
-    for (int s = 0; s < plants->stands; ++s) add_plants(&sums, &plants->stand[s], x, y);
+    for (int s = 0; s < plants->stands; ++s) add_plants(&sums, &plants->stand[s], x, y, wide);
     return sums;
 }
 
-float plant_cover_at(const DpPlants* plants, float x, float y)
+float plant_cover_around(const DpPlants* plants, float x, float y)
 {
-    const Sums sums = sums_at(plants, (double)x, (double)y);
+    const Sums sums = sums_at(plants, (double)x, (double)y, RUNNERS);
     return (float)(sums.whole / fmax(sums.full, 1.0));
 }
 
@@ -136,7 +138,7 @@ static void cover_printed(const DpPlants* plants, const DpPlantWindow* window, f
         for (int i = 0; i < window->nx; ++i) {
             const size_t at = (size_t)j * (size_t)window->row + (size_t)i;
             const Sums   sums =
-                sums_at(plants, window->x0 + i * window->cell, window->y0 + j * window->cell);
+                sums_at(plants, window->x0 + i * window->cell, window->y0 + j * window->cell, 1.0);
             const double share = sums.plants ? 1.0 / sums.plants : 0.0;
             if (strength) strength[at] = (float)fmin(share * sums.paper, 1.0);  // TRAIL (7)
             if (modulus) modulus[at] = (float)(share * sums.paper_root);        // TRAIL (8)

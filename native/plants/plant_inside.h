@@ -116,8 +116,8 @@ void   plant_limits(PlantStand* stand);
 double plant_return_rate(const DpPlantKind* kind);
 // at which its swings die away, or it creeps [1/s]
 double plant_rise_rate(const DpPlantKind* kind);
-// alpha_veg at a point. TRAIL (7)
-float plant_cover_at(const DpPlants* plants, float x, float y);
+// alpha_veg around a point, as far as plants grow again from
+float plant_cover_around(const DpPlants* plants, float x, float y);
 // One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
 typedef struct PlantStature
 {

@@ -6,6 +6,8 @@
 //   once.
 //   A bend above a broken one is held by nothing: it neither wears nor recovers, and
 //   TRAIL (7) does not count it, so that half the stems broken at their feet is half the cover.
+//   Regrowth (ours): d alpha/dt = r alpha (1 - alpha), alpha the cover around a plant as far as
+//   seeds and runners come, four times its roots' reach: a lane grows again from its borders, too.
 //   Strength is a double: a day's recovery in steps of a frame is below what a float can hold.
 #include "base/wide.h"
 
@@ -180,8 +182,8 @@ DpStatus dp_plants_rest(DpPlants* plants, double seconds)
         if (!cover) return DP_NO_MEMORY;
         for (int slot = 0; slot < stand->count; ++slot)
             cover[slot] =
-                plant_cover_at(plants, stand->block[slot / DP_LANES].root[0][slot % DP_LANES],
-                               stand->block[slot / DP_LANES].root[1][slot % DP_LANES]);
+                plant_cover_around(plants, stand->block[slot / DP_LANES].root[0][slot % DP_LANES],
+                                   stand->block[slot / DP_LANES].root[1][slot % DP_LANES]);
         for (int b = 0; b < stand->blocks; ++b) {
             PlantBlock* block = &stand->block[b];
             if (!block->state) continue;
