@@ -144,6 +144,28 @@ TEST(regrowth_is_logistic)
     dp_plants_destroy(plants);
 }
 
+// a bare strip among whole plants grows as the stand around it does; a bare field stays bare
+TEST(bare_ground_grows_again_from_around)
+{
+    const double year = 365.25 * 86400;
+    double       none[20] = {0};
+    for (int whole = 0; whole < 2; ++whole) {
+        DpPlantKind kind = dp_plant_kind_default();
+        kind.regrow_rate = (float)(1.02 / year);
+        DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
+        double    strip = 0.0;
+        for (int k = 0; k < 1600; ++k)  // 0.4 m wide, wider than roots reach
+            if (!whole || (k % 40 >= 18 && k % 40 < 22))
+                dp_plants_write(plants, 0, k, NULL, NULL, none);
+        CHECK(dp_plants_rest(plants, year) == DP_OK);
+        for (int k = 0; k < 1600; ++k)
+            if (k % 40 >= 18 && k % 40 < 22) strip += dp_plants_alpha(plants, 0, k) / 160;
+        printf("  after a year %.2f\n", strip);
+        CHECK(whole ? strip > 0.2 && strip < 0.9 : !(strip > 0.0));
+        dp_plants_destroy(plants);
+    }
+}
+
 int main(void)
 {
     RUN(a_stem_held_at_30_degrees_loses_mu_t_and_breaks_at_nothing);
@@ -152,5 +174,6 @@ int main(void)
     RUN(sleepers_recover_exactly_what_their_time_gives);
     RUN(frames_a_second_do_not_matter);
     RUN(regrowth_is_logistic);
+    RUN(bare_ground_grows_again_from_around);
     return check_done();
 }
