@@ -123,7 +123,6 @@ PAPER = {
 # have their reserve again after two weeks. Lycopodium's is carex's by what tells the two apart in TRAIL Table 1: 0.8
 # of the reserve, wear from 5 degrees on.
 RESERVE, SPREAD = 3.8, 1.75
-REGROWTH = 1.35 / YEAR  # more than 1.02, which takes mean cover to mean cover: bare places grow from what is around
 TWO_WEEKS = 14 * 24.0  # [h]
 
 # The others are for looks: heights and densities of common stands, sway falling with height (stems of cereals swing
@@ -131,9 +130,8 @@ TWO_WEEKS = 14 * 24.0  # [h]
 # footfalls for lawn grasses, three for ferns. Trodden turf stands again within the quarter of an hour, high grass
 # within hours, straw and fronds hardly the next day.
 KINDS = {
-    "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 180, RESERVE, spread=SPREAD, hours=TWO_WEEKS, regrow_rate=REGROWTH),
-    "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 180, 0.8 * RESERVE, spread=SPREAD, hours=TWO_WEEKS,
-                        regrow_rate=REGROWTH),
+    "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 180, RESERVE, spread=SPREAD, hours=TWO_WEEKS),
+    "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 180, 0.8 * RESERVE, spread=SPREAD, hours=TWO_WEEKS),
     "lawn": _kind(0.05, 0.04, 0.0125, 6.0, 20, 180, 0.4, form="tuft", radius=0.003, reach=0.08, full_density=150.0,
                   density=300.0, modulus=12e6, hours=0.25, degrade_rate=0.007, spread=1.0),
     "meadow": _kind(0.30, 0.08, 0.04, 1.8, 15, 180, 0.2, form="tuft", sheets=3, curl_deg=6, radius=0.004, reach=0.18,
