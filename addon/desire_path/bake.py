@@ -23,13 +23,12 @@ import hashlib
 import json
 import math
 import os
-import threading
 import time
 from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import maps, plant_mesh, walker
+from . import _native, maps, plant_mesh, walker
 from .errors import DesirePathError
 from .folder import FORMAT, FRAMES, MAPS, OURS, delete, frame_path, frames_there, publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
@@ -141,7 +140,8 @@ class Bake:
         for planting in self.plants:
             arrays += planting.arrays()
         for array in arrays + self.ground.arrays():
-            digest.update(np.ascontiguousarray(array).data)
+            digest.update(f"{array.shape} {array.dtype}".encode())
+            digest.update(_native.digest(np.ascontiguousarray(array)))
         digest.update(repr([part for part in self.ground.native if isinstance(part, float)]).encode())
         return digest.hexdigest()
 
@@ -218,7 +218,6 @@ class Bake:
         seconds = {"total": time.perf_counter()}
         check_cell(self.cell_size)
         self._check_soles()
-        signature = _Soon(self._signature)
         sim = self._simulation()
         tiles = self._rectangle(sim)
         sim.open_frames(*tiles)
@@ -227,7 +226,7 @@ class Bake:
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
         fresh = os.path.join(self.folder, "frames.new")
-        index = self._index(tiles, signature.result())
+        index = self._index(tiles, self._signature())
         done = self._prepare(fresh, index)
         spent_step = spent_write = 0.0
         count = self.frame_end - self.frame_start + 1
@@ -261,13 +260,11 @@ class Bake:
 
         seconds["step"], seconds["write"] = spent_step, spent_write
         sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
-        started = _Soon(lambda: maps.write(os.path.join(self.folder, "maps_start.exr"), start,
-                                           [("time", 0.0)] + self._notes(tiles)))
+        maps.write(os.path.join(self.folder, "maps_start.exr"), start, [("time", 0.0)] + self._notes(tiles))
         tx, ty, nx, ny = tiles
         self.final = {entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
                       for entry in maps.MAPS}
         sim.flush()
-        started.result()
         write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
         seconds["total"] = time.perf_counter() - seconds["total"]
         self.report = self._report(sim, seconds)
@@ -406,27 +403,6 @@ class Bake:
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
         }
-
-
-class _Soon(threading.Thread):
-    """What a function returns or raises, worked out while others go on."""
-
-    def __init__(self, function):
-        super().__init__(daemon=True)
-        self.function, self.value, self.problem = function, None, None
-        self.start()
-
-    def run(self):
-        try:
-            self.value = self.function()
-        except Exception as problem:  # told to who asks
-            self.problem = problem
-
-    def result(self):
-        self.join()
-        if self.problem is not None:
-            raise self.problem
-        return self.value
 
 
 def _plain(problem):

@@ -1,5 +1,6 @@
 // python/py_sim.c - desire_path._native.Simulation: a terrain, what presses it, and its frames.
 #include "base/alloc.h"
+#include "base/digest.h"
 #include "base/parallel.h"
 #include "python/py_sim.h"
 
@@ -342,6 +343,19 @@ static PyType_Spec type_spec = {.name = "desire_path._native.Simulation",
                                 .flags = Py_TPFLAGS_DEFAULT,
                                 .slots = type_slots};
 
+static PyObject* digest(PyObject* module, PyObject* object)
+{
+    (void)module;
+    Py_buffer view;
+    uint64_t  words[DP_DIGEST_WORDS];
+    if (PyObject_GetBuffer(object, &view, PyBUF_C_CONTIGUOUS) < 0) return NULL;
+    Py_BEGIN_ALLOW_THREADS
+    dp_digest(view.buf, (size_t)view.len, words);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
+    return PyBytes_FromStringAndSize((const char*)words, sizeof words);
+}
+
 static PyObject* bytes_live(PyObject* module, PyObject* unused)
 {
     (void)module, (void)unused;
@@ -357,6 +371,8 @@ static PyObject* bytes_peak(PyObject* module, PyObject* unused)
 }
 
 static PyMethodDef memory_methods[] = {
+    {"digest", digest, METH_O,
+     "digest(buffer) -> bytes: 64 of them, which differ when the buffer's bytes do."},
     {"bytes_live", bytes_live, METH_NOARGS, "bytes_live() -> int: memory the core holds now [B]."},
     {"bytes_peak", bytes_peak, METH_NOARGS,
      "bytes_peak() -> int: the most the core held since the last call [B]."},

@@ -4,11 +4,9 @@
         bpy.ops.object.desire_path_bake()
     print(stages.line(spent))
 
-A stage's seconds are those of the main thread, without the stages inside it; `rest` of a line is what
-no stage claims.
+A stage's seconds are without the stages inside it; `rest` of a line is what no stage claims.
 """
 import contextlib
-import threading
 import time
 
 STAGES = {  # name -> module and function below desire_path
@@ -17,7 +15,7 @@ STAGES = {  # name -> module and function below desire_path
     "create": ("sim", "Simulation.__init__"),
     "loads": ("walker", "Walker.loads"),
     "load": ("sim", "Simulation.load"),
-    "signature": ("bake", "_Soon.result"),
+    "signature": ("bake", "Bake._signature"),
     "step": ("sim", "Simulation.run"),
     "frames": ("sim", "Simulation.write_frame"),
     "flush": ("sim", "Simulation.flush"),
@@ -40,8 +38,6 @@ def clock():
 
     def timed(name, function):
         def around(*args, **words):
-            if threading.current_thread() is not threading.main_thread():
-                return function(*args, **words)
             begun = time.perf_counter()
             inside.append(0.0)
             try:
