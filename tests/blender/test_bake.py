@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from desire_path import bake, maps
-from desire_path.blender import compat, op_bake, playback
+from desire_path.blender import compat, op_bake, op_forces, playback
 from desire_path.gait import Gait
 from desire_path.soil import SOILS
 from scenes import meshes, people
@@ -336,6 +336,19 @@ def test_painted_soils_press_differently(folder):
     far = y > -0.5
     assert (painted[far] == plain[far]).all() and plain[far].max() > 0.0
     assert painted[y < -0.75].max() > 1.5 * plain[y < -0.75].max()
+
+
+def test_painted_soils_on_uneven_ground(folder):
+    ground, walker = scene(folder, frames=16, height=lambda x, y: 0.03 * np.sin(5 * y))
+    ground.vertex_groups.new(name="snowy").add(list(range(1000)), 1.0, "REPLACE")
+    assert bpy.ops.object.desire_path_paint_add() == {"FINISHED"}
+    assert pressed(ground).max() > 0.0
+    walker.desire_path.path = curve = bpy.data.objects.new("way", bpy.data.meshes.new("way"))
+    curve.data.from_pydata([(0, 0, 0), (0, -1.5, 0)], [(0, 1)], [])
+    assert pressed(ground).max() > 0.0
+    meshes.activate(walker)
+    assert op_forces.read(bpy.context.scene, walker).loads.force.any()
+    assert bpy.ops.object.desire_path_place_feet() == {"FINISHED"}
 
 
 def pressed(ground):

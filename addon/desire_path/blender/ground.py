@@ -138,6 +138,13 @@ def smooth(vertices, cell, corner):
     return not meshes.are_centres(vertices, cell, corner, playback.ALIGNED)
 
 
+def land(surface, cell):
+    """A Simulation of a ground's shape alone, to ask for heights and slopes; its soils do not matter."""
+    from ..sim import Ground, Simulation
+    shape = surface.ground.native[:3]
+    return Simulation(Ground((*shape, None), surface.ground.name), cell_size=cell)
+
+
 def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
     """A recording as it is on this ground: feet that lie on slopes have soles that do, and the feet of walkers
     that ask for it are placed."""
@@ -145,11 +152,10 @@ def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
     if not asks and np.ptp(surface.vertices[:, 2]) < LEVEL:
         return gait
     from .. import place, slope
-    from ..sim import Simulation
-    land = Simulation(surface.ground, cell_size=cell)
-    if slope.steep(land, gait):
-        gait = sample.gaits(scene, walkers, frame_start, frame_end, land)
-    return place.place_feet(gait, land, walkers=asks) if asks else gait
+    below = land(surface, cell)
+    if slope.steep(below, gait):
+        gait = sample.gaits(scene, walkers, frame_start, frame_end, below)
+    return place.place_feet(gait, below, walkers=asks) if asks else gait
 
 
 # ---- painted soils ---------------------------------------------------------------------------------

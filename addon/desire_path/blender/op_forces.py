@@ -67,7 +67,6 @@ class Reading:
 def read(scene, armature):
     """A Reading of what an armature does now."""
     from .. import walker
-    from ..sim import Simulation
     from ..soil import SOILS
     settings = armature.desire_path
     land = settings.ground
@@ -80,7 +79,7 @@ def read(scene, armature):
         cell = axes.typed(land.desire_path.cell_size)
         surface = ground.read(scene, land, cell, first, box=ground.under(gait))
         gait = ground.walked(scene, [armature], gait, surface, cell, first, last)
-        below = Simulation(surface.ground, cell_size=cell).rest_height
+        below = ground.land(surface, cell).rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)
     forces = limbs(gait, loads, axes.unit_scale(scene), below)
     return Reading(gait, loads, forces, tuple(dict.fromkeys(gait.warnings + loads.warnings)))

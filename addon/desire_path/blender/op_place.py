@@ -33,11 +33,10 @@ def frames_of(scene, armature, land):
 def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
     from .. import bake as baking, sink, walker
-    from ..sim import Simulation
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
     cell = axes.typed(land.desire_path.cell_size)
     surface = ground.read(scene, land, cell, frames[0], box=ground.under(gait))
-    below = Simulation(surface.ground, cell_size=cell)
+    below = ground.land(surface, cell)
     if slope.steep(below, gait):
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)

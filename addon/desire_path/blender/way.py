@@ -83,7 +83,6 @@ def carried(scene, obj, walkers, cell, first, last):
     Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
     from ..passes import in_turn
-    from ..sim import Simulation
     alone = [sample.record(scene, each, first, last) for each in walkers]
     lines = [waypoints(scene, each.desire_path.path) if each.desire_path.path is not None else None
              for each in walkers]
@@ -97,7 +96,7 @@ def carried(scene, obj, walkers, cell, first, last):
     boxes = np.array(boxes)
     box = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
     surface = ground.read(scene, obj, cell, first, last, box=box)
-    land = Simulation(surface.ground, cell_size=cell).rest_height
+    land = ground.land(surface, cell).rest_height
     walked = []
     for each, line, gait in zip(walkers, lines, alone):
         settings = each.desire_path
