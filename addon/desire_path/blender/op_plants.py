@@ -7,7 +7,7 @@ from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
 from . import plants, props
-from .op_walkers import Refusal, active
+from .op_walkers import Refusal
 
 DELAY = 0.25  # of the grass behind a number that is dragged [s]
 
