@@ -36,6 +36,7 @@ typedef struct MeshGround
     int      grids, bins;  // grids there are; bins of all of them
     int32_t* start;        // (bins + 1)
     int32_t* item;         // triangles, ascending within a bin
+    bool     level;        // all vertices lie equally high
 } MeshGround;
 
 // rest ground as it was given; kind_weight goes by mesh vertex or height sample
@@ -51,6 +52,7 @@ typedef struct Rest
     size_t       weights;      // of each kind
     float*       kind_weight;  // (kind_count, weights)
     double       bounds[4];    // {x0, y0, x1, y1} [m]
+    bool         level;        // all of it lies equally high, to the bit
 } Rest;
 
 DpStatus rest_create(Rest* rest, const DpGround* ground, int workers);

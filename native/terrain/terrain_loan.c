@@ -101,9 +101,11 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* 
         const size_t at = part->in_tile + (size_t)j * DP_TILE;
         for (int g = 0; g < 4; ++g) memcpy(grid[g] + to, from[g] + at, wide * sizeof(float));
         memcpy(loan->kind + to, tile->kind + at, wide);
+        const bool painted = terrain->soil_count > 1;  // else all of it is soil 0
         for (size_t i = 0; i < wide; ++i) {
-            grid[4][to + i] = terrain->soils[tile->kind[at + i]].young_modulus;  // TRAIL (9), E_g
-            grid[5][to + i] = terrain->slope[tile->kind[at + i]];
+            const size_t kind = painted ? tile->kind[at + i] : 0;
+            grid[4][to + i] = terrain->soils[kind].young_modulus;  // TRAIL (9), E_g
+            grid[5][to + i] = terrain->slope[kind];
         }
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;

@@ -172,6 +172,7 @@ typedef struct Binning
         double bounds[4];
         size_t facing;
         bool   bad;
+        bool   level;  // its points are as high as the first of all
     } * share;  // what every chunk found
 } Binning;
 
@@ -193,15 +194,16 @@ static void take_points(void* context, int chunk, int worker)
     const size_t  first = 3 * (size_t)chunk * CHUNK;
     const size_t  end = 3 * (size_t)end_of(chunk, binning->ground->vertex_count);
     double        x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
-    bool          bad = false;
+    bool          bad = false, level = true;
     (void)worker;
     for (size_t n = first; n < end; n += 3) {
         const double x = vertex[n], y = vertex[n + 1], z = vertex[n + 2];
+        level &= z == vertex[2];
         bad |= !(fabs(x) < 1e100 && fabs(y) < 1e100 && fabs(z) < 1e100);  // squares are finite
         x0 = x < x0 ? x : x0, x1 = x > x1 ? x : x1;
         y0 = y < y0 ? y : y0, y1 = y > y1 ? y : y1;
     }
-    *share = (struct Share){{x0, y0, x1, y1}, 0, bad};
+    *share = (struct Share){{x0, y0, x1, y1}, 0, bad, level};
     memcpy(binning->mesh->vertex + first, vertex + first, (end - first) * sizeof *vertex);
 }
 
@@ -214,7 +216,7 @@ static void take_triangles(void* context, int chunk, int worker)
     const int      end = end_of(chunk, mesh->triangle_count);
     double         x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     (void)worker;
-    *share = (struct Share){{0.0}, 0, false};
+    *share = (struct Share){{0.0}, 0, false, false};
     for (int t = chunk * CHUNK; t < end; ++t) {
         for (size_t n = 3 * (size_t)t; n < 3 * (size_t)t + 3; ++n) {
             share->bad |= corner[n] < 0 || corner[n] >= mesh->vertex_count;
@@ -225,8 +227,10 @@ static void take_triangles(void* context, int chunk, int worker)
         binning->place[t] = facet.sign == 0.0 ? NOWHERE : place_of(mesh, &facet);
         if (facet.sign == 0.0) continue;
         ++share->facing;
-        x0 = fmin(x0, least(facet.x)), x1 = fmax(x1, most(facet.x));
-        y0 = fmin(y0, least(facet.y)), y1 = fmax(y1, most(facet.y));
+        const double left = least(facet.x), right = most(facet.x);
+        const double near = least(facet.y), far = most(facet.y);
+        x0 = left < x0 ? left : x0, x1 = right > x1 ? right : x1;
+        y0 = near < y0 ? near : y0, y1 = far > y1 ? far : y1;
     }
     share->bounds[0] = x0, share->bounds[1] = y0, share->bounds[2] = x1, share->bounds[3] = y1;
 }
@@ -256,6 +260,8 @@ static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_
     const int       chunks = chunks_of((size_t)ground->triangle_count);
     dp_parallel_for(point_chunks, workers, take_points, binning);
     if (!sum_up(binning->share, point_chunks, bounds, facing)) return DP_BAD_ARGUMENT;
+    binning->mesh->level = true;
+    for (int c = 0; c < point_chunks; ++c) binning->mesh->level &= binning->share[c].level;
     for (bool again = false;; again = true) {
         double box[4];
         memcpy(box, bounds, sizeof box);

@@ -32,6 +32,9 @@ static DpStatus copy_heights(Rest* rest, const DpGround* ground)
     rest->heights = dp_alloc(count, sizeof(float));
     if (!rest->heights) return DP_NO_MEMORY;
     memcpy(rest->heights, ground->heights, count * sizeof(float));
+    rest->level = true;
+    for (size_t n = 1; n < count && rest->level; ++n)
+        rest->level = ground->heights[n] == ground->heights[0];
     rest->nx = ground->nx, rest->ny = ground->ny;
     rest->x0 = ground->x0, rest->y0 = ground->y0;
     rest->spacing = ground->spacing;
@@ -66,6 +69,7 @@ DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
         case DP_GROUND_FLAT:
             if (!isfinite(ground->height)) return DP_BAD_ARGUMENT;
             rest->height = ground->height;
+            rest->level = true;
             rest->bounds[0] = rest->bounds[1] = -INFINITY;
             rest->bounds[2] = rest->bounds[3] = INFINITY;
             break;
@@ -76,6 +80,7 @@ DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
         case DP_GROUND_MESH:
             status = mesh_create(&rest->mesh, ground, workers, rest->bounds);
             weights = (size_t)rest->mesh.vertex_count;
+            rest->level = rest->mesh.level;
             break;
         default:
             return DP_BAD_ARGUMENT;
@@ -184,7 +189,7 @@ void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, doub
 DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius)
 {
     const DpVec3 up = {0.0, 0.0, 1.0};
-    if (terrain->rest.kind == DP_GROUND_FLAT) return up;
+    if (terrain->rest.level) return up;
     const double step = radius / sqrt(5.0);  // the points (2, 1) lie on the rim
     double       at_u[DISC * DISC], at_v[DISC * DISC], at_z[DISC * DISC];
     double       mean_u = 0.0, mean_v = 0.0, mean_z = 0.0;
