@@ -38,6 +38,7 @@ typedef struct Window
     int      row;             // nx + 2, and what makes rows start evenly
     int32_t* surface;         // present surface h, WALL where no soil can go [steps] (ny + 2, row)
     int32_t* fill;            // envelope of the cones                        [steps] (ny + 2, row)
+    int32_t* turn;            // where a run of cells begins: its end, and minus that for a run of walls
     int32_t* spare;           // one row
 } Window;
 
@@ -91,40 +92,46 @@ static int32_t* row_of(const Window* window, int32_t* grid, int j)
 
 // ---- envelope --------------------------------------------------------------------------------
 
+// What a row got from the row before, as bits.
+#define ROW_RAISED 1  // a cell is higher than it was
+#define ROW_CONES 2   // a cone reaches it
+
 // fill[i] = max(fill[i], what comes from the row before), NOTHING on walls
 DP_CLONES
-static void from_row(int32_t* restrict fill, const int32_t* restrict before,
-                     const int32_t* restrict surface, int count, int32_t straight, int32_t diagonal)
+static int from_row(int32_t* restrict fill, const int32_t* restrict before,
+                    const int32_t* restrict surface, int count, int32_t straight, int32_t diagonal)
 {
+    int raised = 0, cones = 0;
     for (int i = 0; i < count; ++i) {
         const int32_t side = before[i - 1] > before[i + 1] ? before[i - 1] : before[i + 1];
         const int32_t up = before[i] - straight, across = side - diagonal;
         const int32_t come = up > across ? up : across;
         const int32_t most = come > fill[i] ? come : fill[i];
-        fill[i] = surface[i] == WALL ? NOTHING : most;
+        const int32_t now = surface[i] == WALL ? NOTHING : most;
+        raised |= now > fill[i];
+        cones |= now > NOTHING / 2;
+        fill[i] = now;
     }
+    return (raised ? ROW_RAISED : 0) | (cones ? ROW_CONES : 0);
 }
 
 // fill[i] = max(fill[i], what comes from the cells beside it), between walls; where cones are as high
-// as their distance along the row, the highest so far is all one has to know
-static void along_row(int32_t* fill, const int32_t* surface, int count, int32_t straight)
+// as their distance along the row, the highest so far is all one has to know. Both ways at once.
+static void along_row(int32_t* restrict fill, int32_t* restrict spare, const int32_t* restrict turn,
+                      int count, int32_t straight)
 {
-    for (int from = 0, to; from < count; from = to + 1) {
-        for (to = from; to < count && surface[to] != WALL; ++to) {
+    for (int from = turn[0] < 0 ? -turn[0] : 0; from < count;) {
+        const int to = turn[from];
+        int32_t   ahead = NOTHING, back = NOTHING, rise = 0;
+        for (int i = from, k = to - 1; i < to; ++i, --k, rise += straight) {
+            const int32_t here = fill[i] + rise, there = fill[k] + rise;
+            ahead = here > ahead ? here : ahead;
+            back = there > back ? there : back;
+            fill[i] = ahead - rise;
+            spare[k] = back - rise;
         }
-        int32_t most = NOTHING, rise = 0;
-        for (int i = from; i < to; ++i, rise += straight) {
-            const int32_t here = fill[i] + rise;
-            most = here > most ? here : most;
-            fill[i] = most - rise;
-        }
-        most = NOTHING, rise = 0;
-        for (int i = to - 1; i >= from; --i, rise += straight) {
-            const int32_t here = fill[i] + rise;
-            most = here > most ? here : most;
-            fill[i] = most - rise;
-        }
-        if (to < count) fill[to] = NOTHING;
+        for (int i = from; i < to; ++i) fill[i] = fill[i] > spare[i] ? fill[i] : spare[i];
+        from = to < count ? -turn[to] : count;
     }
 }
 
@@ -147,32 +154,41 @@ static int wants_more(const int32_t* fill, const int32_t* below, const int32_t* 
     return more;
 }
 
-// envelope of the cones: two chamfer passes, and again while distances still lead around the sole
-static void spread(const Heap* heap)
+// row j learns from row j + from, and its cells from each other; returns what it got
+static int spread_row(const Heap* heap, int j, int from)
 {
     const Window* window = &heap->window;
-    const int     nx = window->nx, ny = window->ny;
-    for (bool more = true; more;) {
-        for (int j = 0; j < ny; ++j) {
-            int32_t*       fill = row_of(window, window->fill, j);
-            const int32_t* surface = row_of(window, window->surface, j);
-            from_row(fill, row_of(window, window->fill, j - 1), surface, nx, heap->straight,
-                     heap->diagonal);
-            along_row(fill, surface, nx, heap->straight);
-        }
-        for (int j = ny - 1; j >= 0; --j) {
-            int32_t*       fill = row_of(window, window->fill, j);
-            const int32_t* surface = row_of(window, window->surface, j);
-            from_row(fill, row_of(window, window->fill, j + 1), surface, nx, heap->straight,
-                     heap->diagonal);
-            along_row(fill, surface, nx, heap->straight);
-        }
-        more = false;
-        for (int j = 0; j < ny && !more; ++j)
-            more =
-                wants_more(row_of(window, window->fill, j), row_of(window, window->fill, j - 1),
-                           row_of(window, window->fill, j + 1), row_of(window, window->surface, j),
-                           nx, heap->straight, heap->diagonal) != 0;
+    int32_t*      fill = row_of(window, window->fill, j);
+    const int     got =
+        from_row(fill, row_of(window, window->fill, j + from), row_of(window, window->surface, j),
+                 window->nx, heap->straight, heap->diagonal);
+    if (got & ROW_CONES)
+        along_row(fill, window->spare, row_of(window, window->turn, j), window->nx, heap->straight);
+    return got;
+}
+
+// first row that still gets more from its neighbours; the number of rows: none
+static int wanting_row(const Heap* heap)
+{
+    const Window* window = &heap->window;
+    int           j = 0;
+    while (j < window->ny &&
+           !wants_more(row_of(window, window->fill, j), row_of(window, window->fill, j - 1),
+                       row_of(window, window->fill, j + 1), row_of(window, window->surface, j),
+                       window->nx, heap->straight, heap->diagonal))
+        ++j;
+    return j;
+}
+
+// envelope of the cones: two chamfer passes, and again from the first row that still wants more
+// while distances lead around the sole
+static void spread(const Heap* heap)
+{
+    const int ny = heap->window.ny;
+    for (int first = 0; first < ny; first = wanting_row(heap)) {
+        for (int j = first; j < ny; ++j) (void)spread_row(heap, j, -1);
+        for (int j = ny - 1; j >= 0; --j)
+            if (!(spread_row(heap, j, 1) & ROW_RAISED) && j < first) break;
     }
 }
 
@@ -221,6 +237,49 @@ static Laid fill_to(const Heap* heap, double height)
 
 // ---- window ----------------------------------------------------------------------------------
 
+#define LANES 8  // lowest and highest of so many columns at once
+
+// lowest firm ground and highest surface of one row; ground that is not there is NaN and not less
+DP_CLONES
+static void range_of_row(const float* restrict rest, const float* restrict compression,
+                         const float* restrict heap, int count, double* restrict low,
+                         double* restrict high)
+{
+    for (int i = 0; i < count; i += LANES) {
+        const int lanes = count - i < LANES ? count - i : LANES;
+        for (int k = 0; k < lanes; ++k) {
+            const double firm = (double)rest[i + k] - (double)compression[i + k];
+            const double top = firm + (double)heap[i + k];
+            low[k] = firm < low[k] ? firm : low[k];
+            high[k] = top > high[k] ? top : high[k];
+        }
+    }
+}
+
+// the surface in steps above `low`; WALL where takes_soil() says no
+DP_CLONES
+static void surface_of_row(int32_t* restrict surface, const float* restrict rest,
+                           const float* restrict compression, const float* restrict heap,
+                           const int32_t* restrict ring, int count, float hollow, double low,
+                           double steps)
+{
+    for (int i = 0; i < count; ++i) {
+        const int    takes = (rest[i] == rest[i]) & (ring[i] != 0) & (compression[i] < hollow);
+        const double at = (double)rest[i] - (double)compression[i] - low;
+        const double top = (at + (double)heap[i]) * steps + 0.5;
+        surface[i] = takes ? (int32_t)(takes ? top : 0.0) : WALL;
+    }
+}
+
+static void find_turns(int32_t* turn, const int32_t* surface, int count)
+{
+    for (int from = 0, to = 0; from < count; from = to) {
+        const bool wall = surface[from] == WALL;
+        while (to < count && (surface[to] == WALL) == wall) ++to;
+        turn[from] = wall ? -to : to;
+    }
+}
+
 // read the surface into the window; false if its heights do not fit the steps
 static bool open_window(Heap* heap, double height, double slope, const int box[4])
 {
@@ -228,15 +287,14 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
     Window*      window = &heap->window;
     window->i0 = box[0], window->j0 = box[2];
     window->nx = box[1] - box[0], window->ny = box[3] - box[2];
-    double low = INFINITY, high = -INFINITY;
-    for (int j = box[2]; j < box[3]; ++j)
-        for (int i = box[0]; i < box[1]; ++i) {
-            const size_t p = soil_at(patch, i, j);
-            if (!soil_is_ground(patch->rest[p])) continue;
-            const double firm = (double)patch->rest[p] - (double)patch->compression[p];
-            low = soil_least(low, firm);
-            high = soil_most(high, firm + (double)patch->heap[p]);
-        }
+    double low = INFINITY, high = -INFINITY, lows[LANES], highs[LANES];
+    for (int k = 0; k < LANES; ++k) lows[k] = INFINITY, highs[k] = -INFINITY;
+    for (int j = box[2]; j < box[3]; ++j) {
+        const size_t p = soil_at(patch, box[0], j);
+        range_of_row(patch->rest + p, patch->compression + p, patch->heap + p, window->nx, lows,
+                     highs);
+    }
+    for (int k = 0; k < LANES; ++k) low = soil_least(low, lows[k]), high = soil_most(high, highs[k]);
     const double fall = slope * patch->cell * (double)(window->nx + window->ny);
     const double range = high - low + height + fall;
     int          exponent = 0;
@@ -251,13 +309,11 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
     for (size_t k = 0; k < cells; ++k) window->surface[k] = WALL;
     const double steps = 1.0 / heap->step;  // a power of two: exact
     for (int j = 0; j < window->ny; ++j) {
-        int32_t* surface = row_of(window, window->surface, j);
-        for (int i = 0; i < window->nx; ++i) {
-            const size_t p = soil_at(patch, window->i0 + i, window->j0 + j);
-            if (!takes_soil(heap, p)) continue;
-            const double at = (double)patch->rest[p] - (double)patch->compression[p] - low;
-            surface[i] = (int32_t)((at + (double)patch->heap[p]) * steps + 0.5);
-        }
+        const size_t p = soil_at(patch, window->i0, window->j0 + j);
+        int32_t*     surface = row_of(window, window->surface, j);
+        surface_of_row(surface, patch->rest + p, patch->compression + p, patch->heap + p,
+                       heap->imprint->ring + p, window->nx, heap->hollow, low, steps);
+        find_turns(row_of(window, window->turn, j), surface, window->nx);
     }
     return true;
 }
@@ -423,12 +479,14 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
         const size_t row = ((size_t)(box[1] - box[0]) + 2 + 15) / 16 * 16;
         const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);
         const size_t apexes = ((size_t)heap.apex_count * sizeof(Apex) + 63) / 64 * 64;
-        char*        block = dp_soil_scratch_block(scratch, apexes + 2 * cells * sizeof(int32_t));
+        char*        block = dp_soil_scratch_block(scratch, apexes + (3 * cells + row) * sizeof(int32_t));
         if (!block) return DP_NO_MEMORY;
         heap.apex = (Apex*)(void*)block;
         heap.window.row = (int)row;
         heap.window.surface = (int32_t*)(void*)(block + apexes);
         heap.window.fill = heap.window.surface + cells;
+        heap.window.turn = heap.window.fill + cells;
+        heap.window.spare = heap.window.turn + cells;
         (void)find_apexes(&heap, shares, heap.apex, &width, border);
         if (!open_window(&heap, 16.0 * likely, slope, box)) return DP_BAD_ARGUMENT;
 

@@ -182,22 +182,46 @@ static void raise_row(float* restrict height, float* restrict heap, const float*
 
 // ---- window ----------------------------------------------------------------------------------
 
-static void read_row(const Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
-                     int j, double level, double tan_slack)
+// A row of a window as it is read; what no soil can go to stays a barrier without any.
+typedef struct Row
 {
-    const double cell = patch->cell;
-    for (int i = window->box.i0; i < window->box.i1; ++i) {
-        const size_t p = soil_at(patch, i, j), w = cell_of(window, i, j);
-        if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
-        const double slope = (double)patch->rest_slope[p];
-        window->firm[w] = (float)((double)patch->rest[p] - (double)patch->compression[p] - level);
-        window->sum[w] = (double)patch->heap[p];
-        window->heap[w] = patch->heap[p];
-        window->height[w] = window->firm[w] + window->heap[w];
-        window->fall[w] = (float)(slope * cell);
+    float * firm, *height, *heap, *fall, *slack;
+    double* sum;
+} Row;
+
+DP_CLONES
+static void fill_row(const Row* to, const float* restrict rest, const float* restrict compression,
+                     const float* restrict loose, const float* restrict rest_slope,
+                     const int32_t* restrict ring, int count, double cell, double level,
+                     double tan_slack)
+{
+    float *restrict  firm = to->firm, *restrict height = to->height, *restrict heap = to->heap;
+    float *restrict  fall = to->fall, *restrict slack = to->slack;
+    double* restrict sum = to->sum;
+    for (int i = 0; i < count; ++i) {
+        const int    open = (rest[i] == rest[i]) & (ring[i] != 0);
+        const double slope = (double)rest_slope[i];
+        const float  ground = (float)((double)rest[i] - (double)compression[i] - level);
+        const float  lies = open ? loose[i] : 0.0f;
+        firm[i] = open ? ground : BARRIER;
+        sum[i] = (double)lies;
+        heap[i] = lies;
+        height[i] = open ? ground + lies : BARRIER;
+        fall[i] = open ? (float)(slope * cell) : 0.0f;
         // tan(gamma + slack) - tan(gamma), from its first order: a little stricter
-        window->slack[w] = (float)(tan_slack * (1.0 + slope * slope) * cell);
+        slack[i] = open ? (float)(tan_slack * (1.0 + slope * slope) * cell) : 0.0f;
     }
+}
+
+// `sole` tells where one stands (0), as imprint->ring does
+static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, int j,
+                     double level, double tan_slack)
+{
+    const size_t p = soil_at(patch, window->box.i0, j), w = cell_of(window, window->box.i0, j);
+    const Row    row = {window->firm + w, window->height + w, window->heap + w,
+                        window->fall + w, window->slack + w,  window->sum + w};
+    fill_row(&row, patch->rest + p, patch->compression + p, patch->heap + p, patch->rest_slope + p,
+             sole, window->box.i1 - window->box.i0, patch->cell, level, tan_slack);
 }
 
 static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
@@ -217,7 +241,13 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     for (size_t k = 0; k < cells; ++k) window->firm[k] = window->height[k] = BARRIER;
     memset(window->sum, 0, cells * sizeof(double));
     memset(window->heap, 0, 5 * cells * sizeof(float));
-    for (int j = box.j0; j < box.j1; ++j) read_row(window, patch, imprint, j, level, tan_slack);
+    int32_t* nobody = (int32_t*)(void*)window->share;  // a row of cells where no sole stands
+    for (size_t i = 0; !imprint && i < nx; ++i) nobody[i] = DP_RING_FAR;
+    for (int j = box.j0; j < box.j1; ++j) {
+        const int32_t* sole = imprint ? imprint->ring + soil_at(patch, box.i0, j) : nobody;
+        read_row(window, patch, sole, j, level, tan_slack);
+    }
+    memset(window->share, 0, nx * sizeof(float));
     return true;
 }
 
@@ -254,16 +284,26 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
     return open;
 }
 
+#define LANES 16  // the highest of so many columns at once
+
+DP_CLONES
+static void highest_of_row(const float* restrict rest, int count, float* restrict high)
+{
+    for (int i = 0; i < count; i += LANES) {
+        const int lanes = count - i < LANES ? count - i : LANES;
+        for (int k = 0; k < lanes; ++k) high[k] = rest[i + k] > high[k] ? rest[i + k] : high[k];
+    }
+}
+
 // a height near the ground, so that floats are small; the same for mirrored ground
 static double level_of(const DpSoilPatch* patch, Box box)
 {
-    float high = -INFINITY;
+    float high[LANES];
+    for (int k = 0; k < LANES; ++k) high[k] = -INFINITY;
     for (int j = box.j0; j < box.j1; ++j)
-        for (int i = box.i0; i < box.i1; ++i) {
-            const float rest = patch->rest[soil_at(patch, i, j)];
-            if (rest > high) high = rest;
-        }
-    return isfinite(high) ? floor((double)high) : 0.0;
+        highest_of_row(patch->rest + soil_at(patch, box.i0, j), box.i1 - box.i0, high);
+    for (int k = 1; k < LANES; ++k) high[0] = high[k] > high[0] ? high[k] : high[0];
+    return isfinite(high[0]) ? floor((double)high[0]) : 0.0;
 }
 
 DP_CLONES
@@ -372,9 +412,10 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     settled->at_rest = true;
     if (look.i0 >= look.i1 || look.j0 >= look.j1) return DP_OK;
 
-    const double tan_slack = tan(tolerance), level = level_of(patch, look);
+    const Box    asked = look;
     look = loose_in(patch, look);
     if (look.i0 >= look.i1) return DP_OK;
+    const double tan_slack = tan(tolerance), level = level_of(patch, asked);
     const float film = (float)(0.1 * tan_slack * patch->cell);
     int         margin = FIRST_MARGIN;
     DpStatus    status = DP_OK;
