@@ -78,7 +78,7 @@ void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, dou
 // ---- ramps
 // ---------------------------------------------------------------------------------------
 
-// first sample after t at which the support's state has changed, or `times`
+// first sample after t at which the support's state has changed, or `times`, the search's end
 static int run_end(const uint8_t* on, int times, int t)
 {
     const uint8_t state = on[t];
@@ -86,10 +86,11 @@ static int run_end(const uint8_t* on, int times, int t)
     return t;
 }
 
-static int run_begin(const uint8_t* on, int t)
+// first sample of the run that holds t, or `least`, the search's end
+static int run_begin(const uint8_t* on, int least, int t)
 {
     const uint8_t state = on[t];
-    while (t > 0 && on[t - 1] == state) --t;
+    while (t > least && on[t - 1] == state) --t;
     return t;
 }
 
@@ -113,23 +114,28 @@ static double alone_time(const uint8_t* touching, int count, int times, int self
 }
 
 // Time over which a support that begins (or ends) at sample t changes weight with the others: the
-// shortest overlap with one that it relieves (or that relieves it).
+// shortest overlap with one that it relieves (or that relieves it). Only its own run is searched: who
+// taps beside one that stands for hours costs no more than the taps.
 static double ramp_time(const uint8_t* touching, int count, int times, int self, int t, bool begins,
                         double rate, const DpLoadOptions* options, bool rolls)
 {
     const size_t row = (size_t)times;
     const int    own_end = run_end(touching + (size_t)self * row, times, t);
-    const int    own_begin = run_begin(touching + (size_t)self * row, t);
+    const int    own_begin = run_begin(touching + (size_t)self * row, 0, t);
     bool         company = false;
     double       shortest = INFINITY;
     for (int other = 0; other < count; ++other) {
         const uint8_t* on = touching + (size_t)other * row;
         if (other == self || !on[t]) continue;
         company = true;
-        const int end = run_end(on, times, t), begin = run_begin(on, t);
-        if (begins && begin < t && end < own_end) shortest = fmin(shortest, (double)(end - t));
-        if (!begins && begin > own_begin && end > t + 1)
-            shortest = fmin(shortest, (double)(t + 1 - begin));
+        if (begins && on[t - 1]) {
+            const int end = run_end(on, own_end, t);
+            if (end < own_end) shortest = fmin(shortest, (double)(end - t));
+        }
+        if (!begins && on[t + 1]) {
+            const int begin = run_begin(on, own_begin, t);
+            if (begin > own_begin) shortest = fmin(shortest, (double)(t + 1 - begin));
+        }
     }
     if (!company) return alone_time(touching, count, times, self, t, begins, rate, options);
     const double overlap = shortest / rate;
