@@ -254,13 +254,15 @@ def detect(skeleton):
                 found = [(f"{f[0]} {i // 2 + 1}",) + f[1:] for i, f in enumerate(found)]
             warnings.append("The feet were found by the shape of the rig, not by name: check that "
                             + ", ".join(bones.names[f[3]] for f in found) + " are the feet.")
+    if not found and (slots := _foot_by_name(bones, "", "")):
+        found.append((_limb_word("", ""), "", "") + slots)  # a pogo stick, a lamp: one leg in the middle
     if not found:
         raise DesirePathError(
             "No foot bones were found: the armature has no bone named like a foot or an ankle and "
             "no pair of legs; choose the foot bones by hand.")
     feet = []
     for word, side, place, foot, toe, heel in found:
-        thigh, shank = (-1, -1) if side is None else _legs_by_name(bones, side, place, foot)
+        thigh, shank = _legs_by_name(bones, side, place, foot) if side else (-1, -1)
         if thigh < 0 or shank < 0:
             guess = _leg_by_structure(bones, foot)
             thigh, shank = guess if guess[0] >= 0 else (thigh, shank)

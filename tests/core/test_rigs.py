@@ -215,6 +215,17 @@ def test_four_legs_by_name_and_by_structure():
             assert {f.foot for f in found.feet} == {"front_foot.L", "front_foot.R", "foot.L", "foot.R"}
 
 
+def test_one_leg_in_the_middle_is_a_foot():
+    legs = (("thigh", "thigh", "shank"), ("shin", "shank", "foot"), ("foot", "foot", "toe"), ("toe", "toe", "tip"))
+    above, bones = "hips", [("hips", None, "hips", "spine", 0)]
+    for name, head, tail in legs:
+        bones.append((name, above, head, tail, 0))
+        above = name
+    found = rigs.detect(skeleton(bones))
+    assert [(f.limb, f.foot, f.toe, f.thigh, f.shank) for f in found.feet] == [("foot", "foot", "toe", "thigh", "shin")]
+    assert found.hips == "hips" and not found.warnings
+
+
 def test_nothing_to_walk_on_gets_a_sentence():
     chair = skeleton([("seat", None, "hips", "spine", 0), ("back", "seat", "spine", "neck", 0)])
     with pytest.raises(DesirePathError, match="No foot bones were found: .* choose the foot bones"):
