@@ -69,7 +69,10 @@ def summary(gait, loads):
     told = []
     for w, name in enumerate(gait.walker_name):
         limbs = gait.limb_walker == w
-        starts = [each.start for each in stays if each.walker == w and each.start > loads.time[0]]
+        steps = [each for each in stays if each.walker == w and each.start > loads.time[0]]
+        starts = [each.start for each in steps]
+        # a cadence is known once a foot comes down again: two that land together are no steps
+        again = len({each.limb for each in steps}) < len(steps)
         way = np.linalg.norm(np.diff(gait.com[w, :, :2], axis=0), axis=1)
         if len(gait.cut):
             way[gait.cut - 1] = 0.0
@@ -78,7 +81,7 @@ def summary(gait, loads):
             "walker": name, "mass_kg": float(gait.mass[w]),
             "contacts": sum(each.walker == w for each in stays),
             "cadence_per_min": (60.0 * (len(starts) - 1) / (starts[-1] - starts[0])
-                                if len(starts) > 1 and starts[-1] > starts[0] else None),
+                                if again and starts[-1] > starts[0] else None),
             "mean_force_bw": float(loads.mean[w]) if loads.mean is not None else float(total.mean()),
             "peak_force_bw": float(force[limbs].max(initial=0.0)),
             "speed_m_s": float(way.sum() / lasts) if lasts > 0.0 else 0.0,

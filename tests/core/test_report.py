@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import report, walker
+from desire_path import body, report, walker
+from scenes import trials
 from tests.core.test_cli import REPO
 from tests.core.test_place import cmu
 from tests.core.test_walker import two_feet
@@ -94,3 +95,14 @@ def test_the_command_writes_both_tables(tmp_path, walk):
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "loads.csv").exists() and (tmp_path / "contacts.csv").exists()
     assert "contacts, 1" in done.stdout and "Mean force" in done.stdout
+
+
+def test_feet_that_land_together_have_no_cadence():
+    """Off a box, one foot a blink after the other: two touch-downs, but no steps."""
+    trial = trials.make("landing, uneven")
+    gait = body.gait_from_bones(trial.skeleton, trial.motion, mass=trial.mass, frame_rate=trial.rate)
+    loads = walker.loads(gait, ground=0.0)
+    (told,) = report.summary(gait, loads)
+    downs = [each.start for each in report.contacts(gait, loads) if each.start > loads.time[0]]
+    assert len(downs) == 2 and 0.0 < downs[1] - downs[0] < 0.1
+    assert told["cadence_per_min"] is None and "a minute" not in report.sentences(told)[0]
