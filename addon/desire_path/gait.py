@@ -29,7 +29,6 @@ _NUMBERS = (  # name, type, shape by letters
     ("point_part", "i4", "K"),
     ("point_role", "i4", "K"),
 )
-MOST_MASS = 1e7  # of a walker [kg]
 _NAMES = (("limb_name", "L"), ("part_name", "P"), ("walker_name", "W"))
 
 
