@@ -39,8 +39,10 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
     """
     gait.check()
     line = path if isinstance(path, Path) else Path(path)
-    if isinstance(passes, bool) or int(passes) != passes or passes < 1:
+    if isinstance(passes, bool) or not 1 <= passes < math.inf or int(passes) != passes:
         raise DesirePathError(f"A walk of {passes} passes cannot be made: give a whole number from 1 on.")
+    if isinstance(seed, bool) or not 0 <= seed < math.inf or int(seed) != seed:
+        raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number, 0 or more.")
     for name, value, most in (("lateral", lateral, 100.0), ("timing", timing, 0.3), ("stride", stride, 0.3),
                               ("pause", pause, 1e9)):
         if not (np.isfinite(value) and 0.0 <= value <= most):

@@ -10,6 +10,7 @@ from .errors import DesirePathError
 ROUNDING = 0.3  # corners are rounded over about this length [m]
 STEP = 0.01  # distance of the curve's samples, where the path is not too long [m]
 MOST = 400_000  # samples
+FARTHEST = 1e7  # a place may lie from the origin [m]
 
 
 class Path:
@@ -77,6 +78,10 @@ def _checked(points):
     if not np.isfinite(points).all():
         raise DesirePathError(f"Row {int(np.argmin(np.isfinite(points).all(axis=1))) + 1} of the path is not a "
                               "finite place: mend it.")
+    far = abs(points).max(axis=1)
+    if far.max() > FARTHEST:
+        raise DesirePathError(f"Row {int(np.argmax(far > FARTHEST)) + 1} of the path lies {far.max():.3g} m away: give "
+                              f"places within {FARTHEST:g} m.")
     return points
 
 

@@ -291,6 +291,8 @@ def test_paths_are_read(tmp_path):
     (dict(path=[(0, 0), (np.nan, 1)]), "Row 2"), (dict(passes=0), "0 passes"), (dict(passes=1.5), "1.5 passes"),
     (dict(lateral=-1), "lateral of -1"), (dict(stride=2), "stride of 2"), (dict(timing=np.nan), "timing of nan"),
     (dict(pause=-1), "pause"), (dict(passes=10 ** 7), "too long for one recording"),
+    (dict(passes=np.inf), "inf passes"), (dict(passes=np.nan), "nan passes"), (dict(seed=-1), "seed of -1"),
+    (dict(seed=0.5), "seed of 0.5"), (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
 ])
 def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
     with pytest.raises(DesirePathError, match=words):
@@ -372,6 +374,7 @@ def test_the_command_line_walks_passes(walk, tmp_path):
     (("--passes", 3), "--along"), (("--along", "nothing.csv"), "nothing.csv"),
     (("--along", "path.csv", "--passes", 0), "0 passes"), (("--along", "path.csv", "--place-feet"), "--place-feet"),
     (("--plants", "nettle"), "nettle"), (("--plants", "carex:many"), "carex:many"),
+    (("--along", "path.csv", "--seed", -1), "seed of -1"),
 ])
 def test_bad_words_are_one_sentence(walk, tmp_path, words, told):
     walk.save(tmp_path / "walk.npz")
