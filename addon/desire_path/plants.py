@@ -93,7 +93,10 @@ class Kind:
             told = json.loads(Path(path).read_text(encoding="utf-8"))
         except FileNotFoundError:
             raise DesirePathError(f"There is no plant kind at {path}: check the path.") from None
-        except (UnicodeDecodeError, json.JSONDecodeError):
+        except OSError as error:
+            raise DesirePathError(f"The plant kind {path} cannot be read ({error.strerror}): choose a file that "
+                                  "Kind.save() wrote.") from None
+        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError):
             raise DesirePathError(f"{path} is not a plant kind: save one with Kind.save().") from None
         if not isinstance(told, dict) or told.pop("desire_path_plant", None) != _VERSION:
             raise DesirePathError(f"{path} is not a plant kind of this version: save one with Kind.save().")

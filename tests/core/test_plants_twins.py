@@ -233,3 +233,5 @@ def test_bad_kinds_get_a_sentence(tmp_path, text, words):
         Kind.load(path)
     with pytest.raises(DesirePathError, match="check the path"):
         Kind.load(tmp_path / "nothing.json")
+    with pytest.raises(DesirePathError, match="cannot be read"):
+        Kind.load(tmp_path)
