@@ -130,21 +130,21 @@ def _lane(args):
     rows = lane.measure(_kind(args.kind), length=args.length, width=args.width, passes=_counts(args.passes),
                         mass=args.mass, seed=args.seed, rest_days=args.rest_days, soil=args.soil,
                         cell_size=args.cell, threads=args.threads, progress=lambda done: _bar(done, "of the passes"))
-    lane.write(args.out, rows)
     for count, cover in rows:
         print(f"{count:5} passes  {cover:5.1f} % cover")
+    lane.write(args.out, rows)
     print(f"written to    {os.path.abspath(args.out)}")
 
 
 def _fit(args):
     found = fit.fit(lane.read(args.cover), _kind(args.kind), length=args.length, width=args.width, mass=args.mass,
                     progress=lambda done: _bar(done, "of the lanes, at most"))
-    found.kind.save(args.out)
     for count, wanted, reached in zip(found.passes, found.wanted, found.reached):
         print(f"{count:5} passes  {wanted:5.1f} % wanted  {reached:5.1f} % reached")
     print(f"fit           {found.rms:.1f} points off on average (rms), {found.worst:.1f} at worst")
     print(f"strength      {found.kind.strength:.4g}")
     print(f"spread        {found.kind.spread:.4g}")
+    found.kind.save(args.out)
     print(f"written to    {os.path.abspath(args.out)}")
 
 

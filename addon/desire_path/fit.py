@@ -51,7 +51,8 @@ class Fitted:
 def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **options):
     """The kind that wears as a table says, from a kind that looks like it: a Fitted.
 
-    rows: (passes, cover [per cent], days of rest) of lane.read(); rows with days of rest tell how fast it grows
+    rows: (passes, cover [per cent], days of rest) of lane.read(), of which those with the same passes count by their
+    mean; rows with days of rest tell how fast it grows
     again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
     options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days; stems break
     by wear alone, and what did not break recovers in two weeks.
@@ -61,7 +62,11 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     except ImportError:
         raise DesirePathError("Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
                               "or pip install scipy.") from None
-    fresh = sorted({row[0]: row[1] for row in rows if not row[2]}.items())
+    told = {}
+    for count, cover, days in rows:
+        if not days:
+            told.setdefault(count, []).append(cover)
+    fresh = [(count, sum(covers) / len(covers)) for count, covers in sorted(told.items())]
     if len(fresh) < 2:
         raise DesirePathError("A fit needs the cover after at least two counts of passes: add rows to the table.")
     passes, wanted = tuple(zip(*fresh))

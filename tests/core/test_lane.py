@@ -122,10 +122,17 @@ def test_the_command_line_measures_a_lane(tmp_path):
     (("--passes", "some"), "some"), (("--passes", "0,5"), "whole numbers"), (("--kind", "nettle"), "nettle"),
     (("--length", "0"), "length"), (("--mass", "-5"), "mass"), (("--soil", "cheese"), "cheese"),
     (("--kind", "nothing.json"), "nothing.json"), (("--rest-days", "-1"), "rest"),
+    (("--seed", "-1"), "seed of -1"),
 ])
 def test_bad_words_are_one_sentence(tmp_path, words, told):
     done = command("lane", "--passes", "1", *words, "--out", "cover.csv", cwd=tmp_path)
     assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_what_was_measured_is_told_before_it_is_written(tmp_path):
+    done = command("lane", "--passes", "1", "--length", 0.5, "--cell", 0.04, "--out", "nowhere/cover.csv", cwd=tmp_path)
+    assert done.returncode == 1 and "cannot be written" in done.stderr and done.stderr.count("\n") == 1
+    assert done.stdout.startswith("    1 passes"), done.stdout
 
 
 def test_tables_are_read(tmp_path):
@@ -156,6 +163,13 @@ def test_a_fit_finds_the_kind_a_lane_was_planted_with():
     assert found.kind.spread == pytest.approx(kind.spread, rel=0.35)
     assert found.kind.regrow_rate > 0.0 and found.kind.height == kind.height
     assert [count for count, _ in lane.measure(found.kind, passes=(3, 8, 18), seed=5, **SHORT)] == [3, 8, 18]
+
+
+def test_a_count_that_was_taken_twice_counts_by_its_mean():
+    pytest.importorskip("scipy")
+    rows = [(3, 95.0, 0.0), (8, 90.0, 0.0), (3, 97.0, 0.0), (8, 80.0, 0.0)]
+    found = fit.fit(rows, seeds=(5,), rounds=1, **SHORT)
+    assert found.passes == (3, 8) and found.wanted == (96.0, 85.0)
 
 
 def test_a_fit_needs_a_table_it_can_work_with():
