@@ -74,7 +74,15 @@ def test_plants_stand_on_the_ground_as_dense_as_asked():
         np.testing.assert_allclose(slope[inner, 1], 0.2, atol=0.02)
     assert [each.kind for each in ground.desire_path.plants] == ["carex", "fern", "moss"]
     refused(bpy.ops.object.desire_path_plants_add, "cactus", "carex", kind="cactus")
+    refused(bpy.ops.object.desire_path_plants_add, "nan", density=float("nan"))
     assert len(ground.desire_path.plants) == 3
+
+
+def test_the_densest_that_can_be_typed_grows():
+    each = add(bed(size=(10, 10)), "carex", density=1e9)
+    assert each.density == 5e4 and abs(each.count / (5e4 * 0.04) - 1.0) < 0.15
+    each.density = 0.0
+    assert 0.0 < each.density < 0.01 and each.count == 0
 
 
 def test_a_painted_group_thins_and_moves_nobody():

@@ -7,6 +7,8 @@ import numpy as np
 
 from desire_path import bake, maps
 from desire_path.blender import compat, op_bake, playback, plants, stems, way
+from desire_path.errors import DesirePathError
+from desire_path.plants import KINDS
 from scenes import meshes
 from test_bake import refused, scene, state
 from test_plants import everything, grown
@@ -82,6 +84,48 @@ def test_free_and_bake_again_leave_nothing(folder):
     assert state(ground) == before and everything() == have
     assert len(grown(ground.desire_path.plants[0].grass, 24)[0]) == ground.desire_path.plants[0].count
     assert not [path for path in (folder / "bake").rglob("*") if path.is_file()]
+
+
+def test_a_bake_is_freed_without_the_file_of_its_kind(folder):
+    file = folder / "fern-tall.json"
+    KINDS["fern"].save(file)
+    ground, _ = scene(folder, frames=24)
+    none = everything()
+    assert bpy.ops.object.desire_path_plants_add(kind=str(file)) == {"FINISHED"}
+    before, have = state(ground), everything()
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    file.unlink()
+    refused(bpy.ops.object.desire_path_bake, "fern-tall.json")
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    assert state(ground) == before and everything() == have
+    each = ground.desire_path.plants[0]
+    assert len(grown(each.grass, 24)[0]) == each.count > 10
+    assert bpy.ops.object.desire_path_remove() == {"FINISHED"}
+    assert everything() == none and not ground.desire_path.is_ground
+
+
+def test_a_duplicate_of_the_ground_leaves_its_grass_alone(folder):
+    ground, _ = meadow(folder)
+    ground.desire_path.plant_mesh = True
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    have = everything()
+    meshes.activate(ground)
+    bpy.ops.object.duplicate()
+    other, mine = bpy.context.object, ground.desire_path.plants[0]
+    count, stood = mine.count, compat.positions(mine.grass.data).tobytes()
+    theirs = other.desire_path.plants[0]
+    theirs.density = 20.0
+    assert theirs.count < 0.4 * count and plants.shown(theirs) is None
+    assert bpy.ops.object.desire_path_plants_update() == {"FINISHED"}
+    assert compat.positions(mine.grass.data).tobytes() == stood
+    assert bpy.ops.object.desire_path_grass_add() == {"FINISHED"}
+    assert len(theirs.grass.data.vertices) == theirs.count and theirs.grass != mine.grass
+    assert bpy.ops.object.desire_path_plants_remove() == {"FINISHED"}
+    assert bpy.ops.object.desire_path_remove() == {"FINISHED"}  # the files are the other's, too
+    bpy.data.meshes.remove(other.data)
+    assert everything() == have and len(mine.grass.data.vertices) == count
+    assert ground.desire_path.plant_object is not None and playback.modifier(ground) is not None
+    assert bake.read_index(str(folder / "bake")).complete
 
 
 def test_saved_and_loaded_it_plays_on(folder):
@@ -182,7 +226,14 @@ def test_waypoints_of_curves_meshes_and_empties():
     bpy.context.view_layer.update()
     here.unit_settings.scale_length = 0.1
     np.testing.assert_allclose(way.waypoints(here, root)[:, :2], np.array(PLACES) * 0.1, atol=1e-6)
-    assert not [each for each in bpy.data.curves if each.name != "Way"]
+    bare = meshes.link(bpy.data.objects.new("bare", bpy.data.curves.new("bare", "CURVE")))
+    try:
+        way.waypoints(here, bare)
+    except DesirePathError as problem:
+        assert "no length" in str(problem)
+    else:
+        raise AssertionError("a curve without splines is no path")
+    assert not [each for each in bpy.data.curves if each.name not in ("Way", "bare")]
 
 
 def test_passes_along_a_curve_are_a_frame_each(folder):

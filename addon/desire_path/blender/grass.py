@@ -78,6 +78,12 @@ def _chances(place, count):
     return np.stack(out)
 
 
+def of(obj, ground):
+    """An object that was made for a ground, or None: a ground's duplicate only knows the other's."""
+    parent = obj.parent if obj is not None else None
+    return None if parent is not None and parent != ground and parent.desire_path.is_ground else obj
+
+
 def remove(obj):
     """Take an object of grass away, with all that was made for it."""
     if obj is None:
@@ -122,14 +128,20 @@ def scattered(tree):
 def show(obj, name, kind, index=None, images=None, count=0):
     """Let an object's roots grow: standing, or as a bake's images say.
 
+    kind: None where it cannot be known any more, for grass to stand as it is
     index, images, count: of the bake, see playback; images: {"trail": .., "lean": ..}
     """
     old = _tree_of(obj)
-    mark = f"{name} {kind!r}"
     chosen = scattered(old) if old is not None else None
-    if chosen is None or TAG in chosen and chosen[TAG] != mark:  # the user's own stay
+    if kind is None:
+        if chosen is None:
+            return
+        mark, height = old[TAG], 0.0
+    else:
+        mark, height = f"{name} {kind!r}", kind.height
+    if chosen is None or kind is not None and TAG in chosen and chosen[TAG] != mark:  # the user's own stay
         chosen = tufts.collection(name, kind)
-    tree = _tree(obj.name, chosen, kind.height, index, images, count)
+    tree = _tree(obj.name, chosen, height, index, images, count)
     tree[TAG] = mark
     for each in obj.modifiers:
         if each.type == "NODES" and (each.node_group is None or each.node_group == old):

@@ -171,7 +171,7 @@ def play(obj, surface, baked=None):
         playback.detach(obj)
         warnings = []
     plants.show(obj, index)
-    stems.remove(settings.plant_object)
+    stems.remove(plants.grass.of(settings.plant_object, obj))
     settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
                                        surface.scale) if index.complete else None
     settings.missing = missing(index)
@@ -201,7 +201,7 @@ def free(obj):
     settings = obj.desire_path
     playback.detach(obj)
     plants.show(obj)
-    stems.remove(settings.plant_object)
+    stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
     if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
         shared = sharing(obj)

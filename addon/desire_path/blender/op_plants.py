@@ -84,7 +84,7 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     kind: StringProperty(
         name="Kind", default="carex", search=props.kinds, search_options={"SUGGESTION"},
         description="A kind of plant, or a .json file in which a kind was saved")
-    density: FloatProperty(name="Density [1/m2]", min=0.0, max=1e6, description="Plants on a square metre where the "
+    density: FloatProperty(name="Density [1/m2]", min=0.0, max=5e4, description="Plants on a square metre where the "
                            "group is 1; 0 = as dense as the kind usually stands")
     density_group: StringProperty(name="Density Group", description="A vertex group or float attribute that thins "
                                   "the plants out; empty = they grow everywhere")

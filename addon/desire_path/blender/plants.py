@@ -163,8 +163,13 @@ def show(obj, index=None):
     images = playback.images(ours.node_group) if ours is not None and index is not None else None
     for each in obj.desire_path.plants:
         if shown(each) is not None:
-            grass.show(each.grass, each.kind, kind(each.kind), index, images,
-                       index.frames if index is not None else 0)
+            try:
+                its = kind(each.kind)
+            except DesirePathError:
+                if index is not None:
+                    raise
+                its = None  # its file is gone: what was baked is let go all the same
+            grass.show(each.grass, each.kind, its, index, images, index.frames if index is not None else 0)
 
 
 def standing(obj):
@@ -184,9 +189,10 @@ def plantings(scene, obj):
 
 def shown(each):
     """The object that shows a planting, or None: one the user deleted is only held by us."""
-    return each.grass if each.grass is not None and each.grass.users_collection else None
+    found = grass.of(each.grass, each.id_data)
+    return found if found is not None and found.users_collection else None
 
 
 def forget(each):
     """Take away what was made for a planting."""
-    grass.remove(each.grass)
+    grass.remove(grass.of(each.grass, each.id_data))

@@ -74,7 +74,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
         name="Kind", default="carex", search=kinds, search_options={"SUGGESTION"}, update=_replant,
         description="A kind of plant, or a .json file in which a kind was saved")
     density: FloatProperty(
-        name="Density [1/m2]", default=80.0, min=0.001, soft_max=1000.0, max=1e6, precision=1, step=100,
+        name="Density [1/m2]", default=80.0, min=0.001, soft_max=1000.0, max=5e4, precision=1, step=100,
         update=_replant, description="How many plants grow on a square metre where the group is 1")
     density_group: StringProperty(
         name="Density Group", update=_replant, description="A vertex group or float attribute that thins "

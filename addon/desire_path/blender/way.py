@@ -38,8 +38,9 @@ def waypoints(scene, obj):
             found = sample.evaluated(own, copy, scene.frame_current)
             world = axes.matrix(found.matrix_world, obj.name)
             mesh = found.to_mesh()
-            local = np.array([vertex.co[:] for vertex in mesh.vertices], np.float64).reshape(-1, 3)
-            edges = [tuple(edge.vertices) for edge in mesh.edges]
+            there = mesh is not None  # a curve without splines has none
+            local = np.array([vertex.co[:] for vertex in mesh.vertices] if there else [], np.float64).reshape(-1, 3)
+            edges = [tuple(edge.vertices) for edge in mesh.edges] if there else []
             found.to_mesh_clear()
     finally:
         bpy.data.objects.remove(copy)
