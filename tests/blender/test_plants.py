@@ -79,7 +79,7 @@ def test_plants_stand_on_the_ground_as_dense_as_asked():
 
 
 def test_the_densest_that_can_be_typed_grows():
-    each = add(bed(size=(10, 10)), "carex", density=1e9)
+    each = add(bed(size=(11, 11)), "carex", density=1e9)
     assert each.density == 5e4 and abs(each.count / (5e4 * 0.04) - 1.0) < 0.15
     each.density = 0.0
     assert 0.0 < each.density < 0.01 and each.count == 0
