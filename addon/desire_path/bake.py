@@ -6,7 +6,7 @@
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps/pass_0001.exr      or after a pass, where a frame is a pass
-    folder/maps_start.exr          plant_strength_in, young_modulus_in
+    folder/maps_start.exr          plant_strength_in, young_modulus_in, plant_strength
     folder/maps_final.exr          compression, heap, pressure_time, plant_strength; lean_x, lean_y, crushed
     folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
     folder/report.json             what happened, in numbers
@@ -44,6 +44,7 @@ MOST_SOLE = 1_000_000  # cells one sole may cover
 PASS_RATE = 60.0  # the same where a frame is a pass: there are many, and each print is trodden again [1/s]
 FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
 MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
+START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
@@ -260,7 +261,8 @@ class Bake:
 
         seconds["step"], seconds["write"] = spent_step, spent_write
         sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
-        maps.write(os.path.join(self.folder, "maps_start.exr"), start, [("time", 0.0)] + self._notes(tiles))
+        maps.write(os.path.join(self.folder, "maps_start.exr"), start,
+                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(tiles))
         tx, ty, nx, ny = tiles
         self.final = {entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
                       for entry in maps.MAPS}
@@ -379,10 +381,10 @@ class Bake:
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles
         window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-        planes = {"plant_strength_in": sim.read("plant_strength", *window),
+        strength = sim.read("plant_strength", *window)
+        planes = {"plant_strength_in": strength, "plant_strength": strength,
                   "young_modulus_in": sim.read("young_modulus", *window)}
         if self.plants:
-            planes["plant_strength"] = planes["plant_strength_in"]
             planes.update({entry.name: sim.read(entry.name, *window) for entry in maps.LEAN})
         return planes
 

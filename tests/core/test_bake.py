@@ -60,6 +60,8 @@ def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
     assert (tmp_path / "maps" / "second_0001.exr").exists()
     start = maps.read(tmp_path / "maps_start.exr")
     assert np.all(start.planes["young_modulus_in"] > 1e5)
+    assert set(start.planes) == {"young_modulus_in", "plant_strength_in", "plant_strength"}
+    assert start.notes["unit_young_modulus_in"] == "Pa" and start.notes["unit_plant_strength_in"] == "-"
 
 
 def test_the_first_file_is_ground_at_rest_and_the_last_the_final_map(tmp_path):
