@@ -4,7 +4,7 @@
 //   TRAIL (4): a body that nobody carries falls; where it does not, the foot that is lowest and
 //   slowest touches at its own height, as on a block that the ground does not show. Feet farther up
 //   hang from something else, a chair, a rope or wings, and press nothing. test_foot_contact.c,
-//   somebody_carries_what_does_not_fall, who_hangs_presses_nothing.
+//   somebody_carries_what_does_not_fall, who_glides_stands_on_both_feet, who_hangs_presses_nothing.
 #include <math.h>
 
 #include "base/vec.h"
@@ -28,25 +28,26 @@ static bool carried(const DpGait* gait, int walker, const uint8_t* on, int t)
     return false;
 }
 
-// the slowest lowest foot touches, at its own height, and with it any that rests as low
+// the slowest lowest foot touches, at its own height, and with it any as low that hardly moves
+// faster: who glides on two feet stands on both
 static void support(const DpGait* gait, int walker, int t, const double* height,
                     const double* speed, const double* clearance, const DpContactLimits* limits,
                     uint8_t* on)
 {
-    double least = INFINITY, lowest = 0.0;
+    double least = INFINITY, lowest = 0.0, pace = 0.0;
     int    limb = -1;
     for (int k = 0; k < gait->points; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
         if (gait->limb_walker[limb_of(gait, k)] != walker || isnan(height[at])) continue;
         const double d = height[at] - clearance[k];
         const double cost = speed[at] + RISE_TO_SPEED * d;
-        if (cost < least) least = cost, lowest = d, limb = limb_of(gait, k);
+        if (cost < least) least = cost, lowest = d, pace = speed[at], limb = limb_of(gait, k);
     }
     if (lowest > HIGHEST) return;
     for (int k = 0; k < gait->points && limb >= 0; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
         if (gait->limb_walker[limb_of(gait, k)] != walker || isnan(height[at])) continue;
-        if (limb_of(gait, k) != limb && !(speed[at] < limits->slow_speed)) continue;
+        if (limb_of(gait, k) != limb && !(speed[at] < pace + limits->slow_speed)) continue;
         if (height[at] - clearance[k] <= lowest + limits->touch_height) on[at] = 1;
     }
 }

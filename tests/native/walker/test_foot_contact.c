@@ -190,6 +190,28 @@ TEST(somebody_carries_what_does_not_fall)
     scene_free(&s);
 }
 
+TEST(who_glides_stands_on_both_feet)
+{
+    // a skater at 2 m/s, faster than any foot that touches: the right foot a hair behind the left
+    enum
+    {
+        N = 240
+    };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        const double way = 2.0 * (double)t / RATE;
+        scene_com(&s, t, way, 0.0, 1.0);
+        scene_put(&s, N, 0, t, way, 0.1, 0.0);
+        scene_put(&s, N, 1, t, way + 0.001 * sin(0.3 * (double)t), -0.1, 0.0);
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 0; t < N; ++t) CHECK(on[t] == 1 && on[N + t] == 1);
+    scene_free(&s);
+}
+
 TEST(who_hangs_presses_nothing)
 {
     // it stands for 1 s, is drawn up by 60 cm within another, and hangs there
@@ -328,6 +350,7 @@ int main(void)
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
     RUN(somebody_carries_what_does_not_fall);
+    RUN(who_glides_stands_on_both_feet);
     RUN(who_hangs_presses_nothing);
     RUN(two_feet_on_a_box_both_carry);
     RUN(the_ground_marks_the_edges);
