@@ -4,10 +4,12 @@
 //
 // Departures
 //   TRAIL (1): q_perp keeps the roll the foot has over its floor: what was flat on the floor is flat
-//   on the slope, a heel that strikes or leaves does so there too. As printed (`flat`) every foot near
-//   the ground is flat on it, on level ground too. test_foot_place.c, level_ground_changes_nothing.
-//   TRAIL (2): a roll that is kept would have the heel strike up a slope that only toes carry on; what
-//   the toes are up over the floor fades to nothing at 2 theta_0. test_place.py, prints_of_a_hill.
+//   on the slope, a heel that strikes or leaves does so there too. As printed (`flat`) every foot
+//   near the ground is flat on it, on level ground too. test_foot_place.c,
+//   level_ground_changes_nothing.
+//   TRAIL (2): a roll that is kept would have the heel strike up a slope that only toes carry on;
+//   what the toes are up over the floor fades to nothing at 2 theta_0. test_place.py,
+//   prints_of_a_hill.
 //   The parts of a foot hang together at the ball; where it was how high over the floor, it is so
 //   high over the ground.
 #include <math.h>
