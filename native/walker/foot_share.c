@@ -114,8 +114,8 @@ static double alone_time(const uint8_t* touching, int count, int times, int self
 }
 
 // Time over which a support that begins (or ends) at sample t changes weight with the others: the
-// shortest overlap with one that it relieves (or that relieves it). Only its own run is searched: who
-// taps beside one that stands for hours costs no more than the taps.
+// shortest overlap with one that it relieves (or that relieves it). Only its own run is searched:
+// who taps beside one that stands for hours costs no more than the taps.
 static double ramp_time(const uint8_t* touching, int count, int times, int self, int t, bool begins,
                         double rate, const DpLoadOptions* options, bool rolls)
 {
