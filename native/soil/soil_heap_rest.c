@@ -154,15 +154,16 @@ static int wants_more(const int32_t* fill, const int32_t* below, const int32_t* 
     return more;
 }
 
-// row j learns from row j + from, and its cells from each other; returns what it got
-static int spread_row(const Heap* heap, int j, int from)
+// row j learns from row j + from, and its cells from each other if it got any of `when`; returns
+// what it got
+static int spread_row(const Heap* heap, int j, int from, int when)
 {
     const Window* window = &heap->window;
     int32_t*      fill = row_of(window, window->fill, j);
     const int     got =
         from_row(fill, row_of(window, window->fill, j + from), row_of(window, window->surface, j),
                  window->nx, heap->straight, heap->diagonal);
-    if (got & ROW_CONES)
+    if (got & when)
         along_row(fill, window->spare, row_of(window, window->turn, j), window->nx, heap->straight);
     return got;
 }
@@ -181,14 +182,16 @@ static int wanting_row(const Heap* heap)
 }
 
 // envelope of the cones: two chamfer passes, and again from the first row that still wants more
-// while distances lead around the sole
+// while distances lead around the sole. Once a row's cells have learnt from each other, they do so
+// again only when the row is raised.
 static void spread(const Heap* heap)
 {
     const int ny = heap->window.ny;
-    for (int first = 0; first < ny; first = wanting_row(heap)) {
-        for (int j = first; j < ny; ++j) (void)spread_row(heap, j, -1);
+    int       when = ROW_CONES;
+    for (int first = 0; first < ny; first = wanting_row(heap), when = ROW_RAISED) {
+        for (int j = first; j < ny; ++j) (void)spread_row(heap, j, -1, when);
         for (int j = ny - 1; j >= 0; --j)
-            if (!(spread_row(heap, j, 1) & ROW_RAISED) && j < first) break;
+            if (!(spread_row(heap, j, 1, ROW_RAISED) & ROW_RAISED) && j < first) break;
     }
 }
 

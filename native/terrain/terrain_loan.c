@@ -234,14 +234,6 @@ static const float* grid_of(const Tile* tile, const float* rest, DpField field)
     return NULL;
 }
 
-// what a cell's soil says
-static float from_soil(const DpTerrain* terrain, DpField field, uint8_t soil)
-{
-    return field == DP_FIELD_MODULUS ? terrain->soils[soil].young_modulus  // TRAIL (9), E_g
-           : field == DP_FIELD_KIND  ? (float)soil
-                                     : 0.0f;
-}
-
 // a tile as its fields are read; what an untouched one is asked for is made for the moment
 typedef struct View
 {
@@ -295,16 +287,23 @@ static void read_row(const View* view, DpField field, size_t at, int count, floa
         memcpy(out, grid + at, (size_t)count * sizeof *out);
         return;
     }
-    const float* plant = view->plant;
-    const bool   roots = plant && field == DP_FIELD_MODULUS;
-    const bool   strength = plant && field == DP_FIELD_PLANT_STRENGTH;
-    const bool   height = tile && field == DP_FIELD_HEIGHT_CHANGE;
-    for (int i = 0; i < count; ++i) {
-        const size_t p = at + (size_t)i;
-        out[i] = height     ? tile->heap[p] - tile->compression[p]
-                 : strength ? plant[p]
-                            : from_soil(view->terrain, field, view->kind[p]);
-        if (roots) out[i] += plant[TILE_CELLS + p];  // TRAIL (9), E_v
+    const float*     plant = view->plant ? view->plant + at : NULL;
+    const uint8_t*   kind = view->kind + at;
+    const DpTerrain* terrain = view->terrain;
+    if (field == DP_FIELD_PLANT_STRENGTH && plant) {
+        memcpy(out, plant, (size_t)count * sizeof *out);
+    } else if (field == DP_FIELD_HEIGHT_CHANGE && tile) {
+        for (int i = 0; i < count; ++i)
+            out[i] = tile->heap[at + (size_t)i] - tile->compression[at + (size_t)i];
+    } else if (field == DP_FIELD_KIND) {
+        for (int i = 0; i < count; ++i) out[i] = (float)kind[i];
+    } else if (field == DP_FIELD_MODULUS) {
+        const bool painted = terrain->soil_count > 1;  // else all of it is soil 0
+        for (int i = 0; i < count; ++i)
+            out[i] = terrain->soils[painted ? kind[i] : 0].young_modulus;  // TRAIL (9), E_g
+        for (int i = 0; plant && i < count; ++i) out[i] += plant[TILE_CELLS + i];  // E_v
+    } else {
+        memset(out, 0, (size_t)count * sizeof *out);
     }
 }
 
