@@ -227,12 +227,17 @@ def test_waypoints_of_curves_meshes_and_empties():
     here.unit_settings.scale_length = 0.1
     np.testing.assert_allclose(way.waypoints(here, root)[:, :2], np.array(PLACES) * 0.1, atol=1e-6)
     bare = meshes.link(bpy.data.objects.new("bare", bpy.data.curves.new("bare", "CURVE")))
-    try:
-        way.waypoints(here, bare)
-    except DesirePathError as problem:
-        assert "no length" in str(problem)
-    else:
-        raise AssertionError("a curve without splines is no path")
+    for at in ((0.0, 5.0), (1.0, 5.0)):  # beside the line that was there, another
+        line.data.splines.new("POLY").points[0].co = (*at, 0.0, 1.0)
+    line.data.splines[1].points.add(1)
+    line.data.splines[1].points[1].co = (1.0, 6.0, 0.0, 1.0)
+    for odd, words in ((bare, "no length"), (line, "not one line")):
+        try:
+            way.waypoints(here, odd)
+        except DesirePathError as problem:
+            assert words in str(problem)
+        else:
+            raise AssertionError(words)
     assert not [each for each in bpy.data.curves if each.name not in ("Way", "bare")]
 
 

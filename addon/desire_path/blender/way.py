@@ -49,6 +49,8 @@ def waypoints(scene, obj):
     order = _chain(len(local), edges)
     if len(order) < 2:
         raise DesirePathError(f"The path '{obj.name}' has no length: give it two or more points.")
+    if len(set(order)) < len({v for edge in edges for v in edge}):
+        raise DesirePathError(f"The path '{obj.name}' is not one line: join its pieces, or take away what branches off.")
     return axes.points(world, local[order], scale)
 
 
