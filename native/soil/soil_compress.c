@@ -185,35 +185,59 @@ static Answer answer(Sole* sole, const Balance* balance, double s)
     return sum;
 }
 
+// largest spring and gap of `columns`
+DP_CLONES
+static void find_most(const Columns* columns, double* restrict stiffest, double* restrict highest)
+{
+    for (int k = 0; k < LANES; ++k) {
+        const double gap = k < columns->count ? columns->gap[k] : -INFINITY;
+        stiffest[k] = soil_most(stiffest[k], columns->spring[k]);
+        highest[k] = soil_most(highest[k], gap);
+    }
+}
+
+// add up shares, springs, and the springs' forces if the sole hung at its highest gap
+DP_CLONES
+static void add_up(const Columns* columns, double highest, double slope_grid,
+                   double* restrict share, double* restrict springs, double* restrict hanging)
+{
+    const double share_grid = ldexp(1.5, 52 - 30);
+    for (int k = 0; k < LANES; ++k) {
+        const double gap = highest - columns->gap[k];
+        share[k] += soil_on_grid(columns->share[k], share_grid);
+        springs[k] += soil_on_grid(columns->spring[k], slope_grid);
+        hanging[k] += soil_on_grid(columns->spring[k] * soil_least(gap, 1.0), slope_grid);
+    }
+}
+
 // look at all columns: scales of the sums, and a first guess; false if there are none
 static bool weigh(Balance* balance, Sole* sole, double load)
 {
-    double       stiffest = 0.0, highest = -INFINITY, share = 0.0, springs = 0.0, hanging = 0.0;
-    const double share_grid = ldexp(1.5, 52 - 30);
+    double stiffest[LANES] = {0}, highest[LANES];
+    for (int k = 0; k < LANES; ++k) highest[k] = -INFINITY;
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c) find_most(&sole->chunk[c], stiffest, highest);
+    for (int k = 1; k < LANES; ++k) {
+        stiffest[0] = soil_most(stiffest[0], stiffest[k]);
+        highest[0] = soil_most(highest[0], highest[k]);
+    }
+    if (!(stiffest[0] > 0.0 && isfinite(stiffest[0]) && isfinite(highest[0]))) return false;
+    const double slope_grid = soil_grid(RIGID_STIFFER * stiffest[0]);
+    double       share[LANES] = {0}, springs[LANES] = {0}, hanging[LANES] = {0};
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
-            for (int k = 0; k < sole->chunk[c].count; ++k) {
-                stiffest = soil_most(stiffest, sole->chunk[c].spring[k]);
-                highest = soil_most(highest, sole->chunk[c].gap[k]);
-            }
-    if (!(stiffest > 0.0 && isfinite(stiffest) && isfinite(highest))) return false;
-    const double slope_grid = soil_grid(RIGID_STIFFER * stiffest);
-    for (from_the_start(sole); next_columns(sole);)
-        for (int c = 0; c < sole->filled; ++c) {
-            const Columns* columns = &sole->chunk[c];
-            for (int k = 0; k < columns->count; ++k) {
-                const double hang = columns->spring[k] * soil_least(highest - columns->gap[k], 1.0);
-                share += soil_on_grid(columns->share[k], share_grid);
-                springs += soil_on_grid(columns->spring[k], slope_grid);
-                hanging += soil_on_grid(hang, slope_grid);
-            }
-        }
+            add_up(&sole->chunk[c], highest[0], slope_grid, share, springs, hanging);
+    for (int k = 1; k < LANES; ++k) {
+        share[0] += share[k];
+        springs[0] += springs[k];
+        hanging[0] += hanging[k];
+    }
     balance->load = load;
     balance->force_grid = soil_grid(load);
     balance->slope_grid = slope_grid;
-    balance->highest = highest;
-    balance->guess = (load + hanging) / springs - highest;
-    balance->sole = share * sole->patch->cell * sole->patch->cell;
+    balance->highest = highest[0];
+    balance->guess = (load + hanging[0]) / springs[0] - highest[0];
+    balance->sole = share[0] * sole->patch->cell * sole->patch->cell;
     return true;
 }
 

@@ -38,7 +38,7 @@ typedef struct Window
     int      row;             // nx + 2, and what makes rows start evenly
     int32_t* surface;         // present surface h, WALL where no soil can go [steps] (ny + 2, row)
     int32_t* fill;            // envelope of the cones                        [steps] (ny + 2, row)
-    int32_t* turn;            // where a run of cells begins: its end, and minus that for a run of walls
+    int32_t* turn;            // where a run of cells begins: its end; of walls: minus that
     int32_t* spare;           // one row
 } Window;
 
@@ -297,7 +297,10 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
         range_of_row(patch->rest + p, patch->compression + p, patch->heap + p, window->nx, lows,
                      highs);
     }
-    for (int k = 0; k < LANES; ++k) low = soil_least(low, lows[k]), high = soil_most(high, highs[k]);
+    for (int k = 0; k < LANES; ++k) {
+        low = soil_least(low, lows[k]);
+        high = soil_most(high, highs[k]);
+    }
     const double fall = slope * patch->cell * (double)(window->nx + window->ny);
     const double range = high - low + height + fall;
     int          exponent = 0;
@@ -419,8 +422,26 @@ static double edge_of(const DpSoilPatch* patch, const DpImprint* imprint, int i,
     return away;
 }
 
-// border cells with a share; returns how many, *width = sum of omega * cell, the border's length
-static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double* width, int box[4])
+// cells of a row with its frame, so many that rows start evenly
+static size_t even_row(int nx)
+{
+    return ((size_t)nx + 2 + 15) / 16 * 16;
+}
+
+// most border cells there can be: those beside touched ones
+static size_t count_border(const DpSoilPatch* patch, const DpImprint* imprint)
+{
+    size_t    count = 0;
+    const int i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0;
+    const int j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
+    for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
+        for (int i = i0; i < patch->nx && i <= imprint->i1; ++i)
+            count += imprint->ring[soil_at(patch, i, j)] == 1;
+    return count;
+}
+
+// border cells with a share; *width = sum of omega * cell, the border's length; box is theirs
+static void find_apexes(Heap* heap, const HeapShares* shares, double* width, int box[4])
 {
     const DpSoilPatch* patch = heap->patch;
     const DpImprint*   imprint = heap->imprint;
@@ -435,11 +456,8 @@ static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double*
             if (imprint->ring[p] != 1 || !takes_soil(heap, p)) continue;
             const double share = soil_heap_share(shares, i, j);
             if (!(share > 0.0)) continue;
-            if (apex) {
-                const double firm = (double)patch->rest[p] - (double)patch->compression[p];
-                apex[count] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
-            }
-            ++count;
+            const double firm = (double)patch->rest[p] - (double)patch->compression[p];
+            heap->apex[count++] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
             sum += share;
             if (i < box[0]) box[0] = i;
             if (i >= box[1]) box[1] = i + 1;
@@ -447,7 +465,14 @@ static int find_apexes(Heap* heap, const HeapShares* shares, Apex* apex, double*
             if (j >= box[3]) box[3] = j + 1;
         }
     *width = sum * patch->cell;
-    return count;
+    heap->apex_count = count;
+}
+
+// room for `apexes` and for a window as large as the patch; NULL when there is none
+static void* make_room(const DpSoilPatch* patch, size_t apexes, DpSoilScratch* scratch)
+{
+    const size_t row = even_row(patch->nx), cells = row * ((size_t)patch->ny + 2);
+    return dp_soil_scratch_block(scratch, apexes + (3 * cells + row) * sizeof(int32_t));
 }
 
 static void grow(int box[4], const int around[4], int reach, const DpSoilPatch* patch)
@@ -466,10 +491,14 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
     double       width = 0.0;
     const double area = patch->cell * patch->cell;
     heap.hollow = hollow_under(patch, imprint);
-    heap.apex_count = find_apexes(&heap, shares, NULL, &width, border);
+    const size_t apexes = (count_border(patch, imprint) * sizeof(Apex) + 63) / 64 * 64;
+    char*        block = make_room(patch, apexes, scratch);
+    if (!block) return DP_NO_MEMORY;
+    heap.apex = (Apex*)(void*)block;
+    find_apexes(&heap, shares, &width, border);
     if (heap.apex_count == 0) {  // all that lies ahead is hollow: then it is filled
         heap.hollow = INFINITY;
-        heap.apex_count = find_apexes(&heap, shares, NULL, &width, border);
+        find_apexes(&heap, shares, &width, border);
     }
     if (heap.apex_count == 0) return DP_NO_GROUND;
 
@@ -479,18 +508,13 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
     double       found = *height;
     for (bool again = true; again; reach = soil_least(2.0 * reach, 30000.0)) {
         grow(box, border, (int)reach, patch);
-        const size_t row = ((size_t)(box[1] - box[0]) + 2 + 15) / 16 * 16;
+        const size_t row = even_row(box[1] - box[0]);
         const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);
-        const size_t apexes = ((size_t)heap.apex_count * sizeof(Apex) + 63) / 64 * 64;
-        char*        block = dp_soil_scratch_block(scratch, apexes + (3 * cells + row) * sizeof(int32_t));
-        if (!block) return DP_NO_MEMORY;
-        heap.apex = (Apex*)(void*)block;
         heap.window.row = (int)row;
         heap.window.surface = (int32_t*)(void*)(block + apexes);
         heap.window.fill = heap.window.surface + cells;
         heap.window.turn = heap.window.fill + cells;
         heap.window.spare = heap.window.turn + cells;
-        (void)find_apexes(&heap, shares, heap.apex, &width, border);
         if (!open_window(&heap, 16.0 * likely, slope, box)) return DP_BAD_ARGUMENT;
 
         found = *height;
