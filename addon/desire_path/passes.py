@@ -39,9 +39,9 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
     """
     gait.check()
     line = path if isinstance(path, Path) else Path(path)
-    if isinstance(passes, bool) or not 1 <= passes < math.inf or int(passes) != passes:
+    if not _is_whole(passes, 1):
         raise DesirePathError(f"A walk of {passes} passes cannot be made: give a whole number from 1 on.")
-    if isinstance(seed, bool) or not 0 <= seed < math.inf or int(seed) != seed:
+    if not _is_whole(seed, 0):
         raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number, 0 or more.")
     for name, value, most in (("lateral", lateral, 100.0), ("timing", timing, 0.3), ("stride", stride, 0.3),
                               ("pause", pause, 1e9)):
@@ -63,6 +63,11 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
             scatter = _Scatter(random, even % 1.0, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
             turns.append((w, *_one(cycle, way, rate, scatter, ground)))
     return _chained([cycle.gait for cycle in cycles], turns, rate, [pause if n else 0.0 for n in range(len(turns))])
+
+
+def _is_whole(value, least):
+    return (isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+            and least <= value < math.inf and int(value) == value)
 
 
 # ---- one pass ----------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 """Lanes of plants that are trodden, and kinds that are found from what is left of them. Design 7, oracle 10."""
 
+import math
 import os
 import subprocess
 import sys
@@ -127,6 +128,12 @@ def test_the_command_line_measures_a_lane(tmp_path):
 def test_bad_words_are_one_sentence(tmp_path, words, told):
     done = command("lane", "--passes", "1", *words, "--out", "cover.csv", cwd=tmp_path)
     assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+@pytest.mark.parametrize("density", [0.0, -1.0, math.nan, 1e9])
+def test_a_lane_that_cannot_be_planted_gets_a_sentence(density):
+    with pytest.raises(DesirePathError, match="density"):
+        lane.measure("carex", passes=(1,), density=density)
 
 
 def test_what_was_measured_is_told_before_it_is_written(tmp_path):

@@ -292,7 +292,8 @@ def test_paths_are_read(tmp_path):
     (dict(lateral=-1), "lateral of -1"), (dict(stride=2), "stride of 2"), (dict(timing=np.nan), "timing of nan"),
     (dict(pause=-1), "pause"), (dict(passes=10 ** 7), "too long for one recording"),
     (dict(passes=np.inf), "inf passes"), (dict(passes=np.nan), "nan passes"), (dict(seed=-1), "seed of -1"),
-    (dict(seed=0.5), "seed of 0.5"), (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
+    (dict(seed=0.5), "seed of 0.5"), (dict(passes="3"), "3 passes"), (dict(seed=None), "None"),
+    (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
 ])
 def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
     with pytest.raises(DesirePathError, match=words):
