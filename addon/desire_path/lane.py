@@ -50,8 +50,8 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
             raise DesirePathError(f"A {name} of {value:g} cannot be used for a lane: choose {low:g} to {high:g}.")
     stand = kind.density if density is None else density
     if not 0.0 < stand * length * width <= MOST_PLANTS:
-        raise DesirePathError(f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that makes "
-                              f"up to {MOST_PLANTS} plants.")
+        raise DesirePathError(f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that "
+                              f"makes up to {MOST_PLANTS} plants.")
     lane = dict(length=length, width=width, mass=mass, seed=seed, soil=soil, cell_size=cell_size,
                 frame_rate=frame_rate, density=density)
     if not rest_days:

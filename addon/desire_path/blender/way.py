@@ -50,7 +50,7 @@ def waypoints(scene, obj):
     if len(order) < 2:
         raise DesirePathError(f"The path '{obj.name}' has no length: give it two or more points.")
     if len(set(order)) < len({v for edge in edges for v in edge}):
-        raise DesirePathError(f"The path '{obj.name}' is not one line: join its pieces, or take away what branches off.")
+        raise DesirePathError(f"The path '{obj.name}' is not one line: join its pieces, or take off branches.")
     return axes.points(world, local[order], scale)
 
 
