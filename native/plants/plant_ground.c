@@ -3,6 +3,8 @@
 // Grids are told where the ground may have changed since the last step; elsewhere a plant stands
 // as it stood. Of the ground around a plant the highest is kept, its ceiling: what is over that
 // needs no look at the ground.
+#include "base/wide.h"
+
 #include "plants/plant_inside.h"
 
 #define LOOKS_MOST \
@@ -71,6 +73,24 @@ typedef struct Square
     bool  any, all;
 } Square;
 
+// the highest of a part of a grid and `most`; what is no number is passed over
+DP_CLONES
+static float highest_in(const DpPlantGround* ground, int i0, int i1, int j0, int j1, float most)
+{
+    float top[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) top[l] = most;
+    for (int j = j0; j <= j1; ++j) {
+        const float* height = ground->height + (size_t)j * (size_t)ground->row;
+        int          i = i0;
+        for (; i + DP_LANES <= i1 + 1; i += DP_LANES)
+            for (int l = 0; l < DP_LANES; ++l)
+                top[l] = height[i + l] > top[l] ? height[i + l] : top[l];
+        for (; i <= i1; ++i) top[0] = height[i] > top[0] ? height[i] : top[0];
+    }
+    for (int l = 0; l < DP_LANES; ++l) most = top[l] > most ? top[l] : most;
+    return most;
+}
+
 static Square look_around(const DpPlantGround* ground, double x, double y, double reach)
 {
     Square square = {-INFINITY, false, false};
@@ -88,12 +108,8 @@ static Square look_around(const DpPlantGround* ground, double x, double y, doubl
         square.any = true;
         square.all = square.all ||
                      (u0 >= 0.0 && v0 >= 0.0 && u1 <= ground->nx - 1.0 && v1 <= ground->ny - 1.0);
-        for (int j = j0; j <= j1 && square.highest < INFINITY; ++j) {
-            const float* height = ground->height + (size_t)j * (size_t)ground->row;
-            float        most = square.highest;
-            for (int i = i0; i <= i1; ++i) most = height[i] > most ? height[i] : most;
-            square.highest = most;
-        }
+        if (square.highest < INFINITY)
+            square.highest = highest_in(ground, i0, i1, j0, j1, square.highest);
     }
     return square;
 }

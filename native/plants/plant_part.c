@@ -1,4 +1,6 @@
 // plants/plant_part.c - a sole in the grass: what it presses flat, and what it parts beside it.
+#include "base/wide.h"
+
 #include "base/alloc.h"
 #include "plants/plant_lean_inside.h"
 
@@ -28,16 +30,41 @@ static int length2(Offset o)
     return o.i * o.i + o.j * o.j;
 }
 
-// look at a neighbour: is the other kind nearer by its way?
-static inline void look(DpLean* lean, size_t own, ptrdiff_t step, int di, int dj)
+// how a cell's offset would be by way of a neighbour at (di, dj)
+static inline Offset by_way_of(Offset there, bool alike, int di, int dj)
 {
-    const size_t there = own + (size_t)step;
-    Offset       way = {(int16_t)di, (int16_t)dj};
-    if (lean->sole[there] == lean->sole[own]) {
-        way.i = (int16_t)(way.i + lean->offset[there].i);
-        way.j = (int16_t)(way.j + lean->offset[there].j);
+    return (Offset){(int16_t)(di + (alike ? there.i : 0)), (int16_t)(dj + (alike ? there.j : 0))};
+}
+
+// a row's cells look at the row before it
+DP_CLONES
+static void look_back(Offset* restrict own, const Offset* restrict back,
+                      const uint8_t* restrict sole, const uint8_t* restrict sole_back, int nx,
+                      int dj)
+{
+    for (int i = 0; i < nx; ++i) {
+        Offset best = own[i];
+        for (int d = -1; d <= 1; ++d) {
+            const Offset way = by_way_of(back[i + d], sole_back[i + d] == sole[i], d, dj);
+            const bool   nearer = length2(way) < length2(best);
+            best.i = nearer ? way.i : best.i, best.j = nearer ? way.j : best.j;
+        }
+        own[i] = best;
     }
-    if (length2(way) < length2(lean->offset[own])) lean->offset[own] = way;
+}
+
+// then each of them at the one beside it, `step` away, one after the other
+static void look_along(Offset* own, const uint8_t* sole, int nx, int step)
+{
+    const int first = step < 0 ? 0 : nx - 1;
+    Offset    beside = own[first + step];
+    uint8_t   kind = sole[first + step];
+    for (int n = 0, i = first; n < nx; ++n, i -= step) {
+        const Offset way = by_way_of(beside, kind == sole[i], step, 0);
+        kind = sole[i];
+        beside = own[i];
+        if (length2(way) < length2(beside)) own[i] = beside = way;
+    }
 }
 
 // offsets to the nearest cell of the other kind, in two passes
@@ -50,14 +77,12 @@ static void find_edges(DpLean* lean, const Print* print)
     for (int pass = 0; pass < 2; ++pass) {
         const int step = pass ? 1 : -1;
         for (int jj = 0; jj < ny; ++jj) {
-            const int j = pass ? ny - 1 - jj : jj;
-            for (int ii = 0; ii < nx; ++ii) {
-                const size_t own = at_print(print, pass ? nx - 1 - ii : ii, j);
-                for (int d = -1; d <= 1; ++d) look(lean, own, step * row + d, d, step);
-                look(lean, own, step, step, 0);
-            }
-            for (int ii = 0; ii < nx; ++ii)
-                look(lean, at_print(print, pass ? ii : nx - 1 - ii, j), -step, -step, 0);
+            const size_t   at = at_print(print, 0, pass ? ny - 1 - jj : jj);
+            Offset*        own = lean->offset + at;
+            const uint8_t* sole = lean->sole + at;
+            look_back(own, own + step * row, sole, sole + step * row, nx, step);
+            look_along(own, sole, nx, step);
+            look_along(own, sole, nx, -step);
         }
     }
 }
@@ -149,20 +174,21 @@ static bool lay_out(DpLean* lean, const Print* print, const DpPlantGround* groun
 {
     const DpPlantCollider* c = print->sole;
     bool                   low = false;
-    for (int j = -1; j <= print->ny; ++j)
-        for (int i = -1; i <= print->nx; ++i) {
-            const double x = lean_centre(lean, 0, print->i0 + i),
-                         y = lean_centre(lean, 1, print->j0 + j);
-            const double u = (x - c->x0) / c->cell + 0.5, v = (y - c->y0) / c->cell + 0.5;
-            const bool   inside = u >= 0.0 && v >= 0.0 && u < c->nx && v < c->ny;
-            const float  bottom =
-                inside ? c->bottom[(size_t)v * (size_t)c->row + (size_t)u] : INFINITY;
-            const size_t at = at_print(print, i, j);
-            lean->bottom[at] = bottom;
-            lean->sole[at] = isfinite(bottom) ? 1 : 0;
-            if (isfinite(bottom) && !low)
-                low = (double)bottom - plant_ground_at(ground, x, y) < tallest;
+    for (int j = -1; j <= print->ny; ++j) {
+        const double y = lean_centre(lean, 1, print->j0 + j), v = (y - c->y0) / c->cell + 0.5;
+        const bool   crosses = v >= 0.0 && v < c->ny;
+        const float* from = crosses ? c->bottom + (size_t)v * (size_t)c->row : NULL;
+        float*       to = lean->bottom + at_print(print, 0, j);
+        uint8_t*     sole = lean->sole + at_print(print, 0, j);
+        for (int i = -1; i <= print->nx; ++i) to[i] = INFINITY, sole[i] = 0;
+        for (int i = -1; i <= print->nx && crosses; ++i) {
+            const double x = lean_centre(lean, 0, print->i0 + i), u = (x - c->x0) / c->cell + 0.5;
+            if (!(u >= 0.0 && u < c->nx)) continue;
+            to[i] = from[(size_t)u];
+            sole[i] = isfinite(to[i]) ? 1 : 0;
+            if (sole[i] && !low) low = (double)to[i] - plant_ground_at(ground, x, y) < tallest;
         }
+    }
     return low;
 }
 

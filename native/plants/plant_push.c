@@ -9,6 +9,7 @@
 #include "plants/plant_inside.h"
 
 #define ROW_PASSES 4
+#define CERTAIN 1e-6     // this far out of a sole's swept box it is not met [m]
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
 // distances to the nearest cell without sole, by the two-pass chamfer metric
@@ -61,19 +62,27 @@ static ptrdiff_t cell_under(const DpPlantCollider* c, double left, double x, dou
     return isfinite(c->bottom[at]) ? at : -1;
 }
 
+// is a point surely outside of what a sole goes through in this step? Cheaper than to find its cell
+static bool is_clear(const PlantPush* push, const DpVec3* p)
+{
+    return p->x < push->x0 - CERTAIN || p->x > push->x1 + CERTAIN || p->y < push->y0 - CERTAIN ||
+           p->y > push->y1 + CERTAIN || p->z > push->z1 + CERTAIN;
+}
+
 // underside of the lowest sole whose column holds (x, y, z): +inf if none
 static double sole_over(const Probe* probe, const DpVec3* p, const PlantPush** which)
 {
     double lowest = INFINITY;
     for (int k = 0; k < probe->count; ++k) {
-        const DpPlantCollider* c = probe->push[k].collider;
-        if (!c->bottom) continue;
+        const PlantPush*       push = &probe->push[k];
+        const DpPlantCollider* c = push->collider;
+        if (!c->bottom || is_clear(push, p)) continue;
         const ptrdiff_t at = cell_under(c, probe->left, p->x, p->y);
         if (at < 0) continue;
         const double bottom = (double)c->bottom[at] - c->velocity.z * probe->left;
         if (p->z >= bottom + c->thickness || bottom >= lowest) continue;
         lowest = bottom;
-        if (which) *which = &probe->push[k];
+        if (which) *which = push;
     }
     return lowest;
 }
