@@ -34,8 +34,8 @@ void dp_lean_destroy(DpLean* lean)
 {
     if (!lean) return;
     for (int t = 0; t < lean->tiles; ++t) dp_free(lean->tile[t]);
-    dp_free(lean->tile), dp_free(lean->offset), dp_free(lean->bottom);
-    dp_free(lean->sole), dp_free(lean);
+    for (int k = 0; k < lean->print_room; ++k) lean_drop_print(&lean->print[k]);
+    dp_free(lean->tile), dp_free(lean->print), dp_free(lean);
 }
 
 // ---- tiles -----------------------------------------------------------------------------------
@@ -161,17 +161,39 @@ static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
     if (due) tile->waited = 0.0;
 }
 
+DpStatus dp_lean_look(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
+                      int count)
+{
+    if (!lean || count < 0 || (count > 0 && !colliders) || !plant_ground_ok(ground))
+        return DP_BAD_ARGUMENT;
+    if (count > lean->print_room) {
+        LeanPrint* more = dp_realloc(lean->print, (size_t)count, sizeof *more);
+        if (!more) return DP_NO_MEMORY;
+        lean->print = more, lean->print_room = count;
+    }
+    lean->prints = 0;
+    for (int k = 0; k < count; ++k) {
+        if (!colliders[k].bottom) continue;
+        const DpStatus status =
+            lean_look_at(lean, &lean->print[lean->prints], ground, &colliders[k]);
+        if (status != DP_OK) return status;
+        ++lean->prints;
+    }
+    lean->looked = true;
+    return DP_OK;
+}
+
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt)
 {
     if (!lean || count < 0 || (count > 0 && !colliders) || !(dt > 0.0) || !plant_ground_ok(ground))
         return DP_BAD_ARGUMENT;
     ++lean->step;
-    for (int k = 0; k < count; ++k) {
-        if (!colliders[k].bottom) continue;
-        const DpStatus status = lean_press_sole(lean, ground, &colliders[k]);
-        if (status != DP_OK) return status;
-    }
+    DpStatus status = lean->looked ? DP_OK : dp_lean_look(lean, ground, colliders, count);
+    for (int k = 0; k < lean->prints && status == DP_OK; ++k)
+        status = lean_press_print(lean, &lean->print[k], ground);
+    lean->looked = false;
+    if (status != DP_OK) return status;
     for (int t = 0; t < lean->tiles; ++t)
         if (lean->tile[t]->i0 < lean->tile[t]->i1) rise_tile(lean, lean->tile[t], dt);
     return DP_OK;

@@ -28,6 +28,19 @@ typedef struct Offset
     int16_t i, j;
 } Offset;
 
+// A window of the lean's cells around a sole; grids have a border of one cell.
+typedef struct LeanPrint
+{
+    const DpPlantCollider* sole;
+    long                   i0, j0;  // world cell of its cell (0, 0)
+    int                    nx, ny;  // 0 = the sole meets no grass
+    double                 motion[2];  // where the foot goes, shorter when slow
+    Offset*                offset;
+    float*                 bottom;  // +inf where there is no sole
+    uint8_t*               under;   // is there a sole?
+    size_t                 room;
+} LeanPrint;
+
 struct DpLean
 {
     const DpPlants* plants;
@@ -35,11 +48,9 @@ struct DpLean
     int32_t         step;
     LeanTile**      tile;  // ascending (ty, tx)
     int             tiles, room;
-    // scratch around one sole: a print's cells with a border of one
-    Offset*  offset;
-    float*   bottom;  // +inf where there is no sole
-    uint8_t* sole;
-    size_t   room_of_print;
+    LeanPrint*      print;  // of soles, in their order (print_room)
+    int             prints, print_room;
+    bool            looked;  // prints are those of the step to come
 };
 
 static inline double lean_centre(const DpLean* lean, int axis, long cell)
@@ -61,5 +72,8 @@ static inline long lean_tile(long cell)
 LeanTile* lean_touch(DpLean* lean, long tx, long ty);
 // a cell of a tile is not at rest
 void lean_may_move(LeanTile* tile, int i, int j);
-// plant_part.c: the grass under and beside one sole
-DpStatus lean_press_sole(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* sole);
+// plant_part.c: what a sole covers; then the grass under and beside it
+DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
+                      const DpPlantCollider* sole);
+DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground);
+void     lean_drop_print(LeanPrint* print);

@@ -11,16 +11,7 @@
 #define SLIGHT 0.002     // leaning less than this is standing
 #define MOST_CELLS 4e6   // around one sole
 
-// A window of the lean's cells around a sole.
-typedef struct Print
-{
-    const DpPlantCollider* sole;
-    long                   i0, j0;  // world cell of its cell (0, 0)
-    int                    nx, ny;
-    double                 motion[2];  // where the foot goes, shorter when slow
-} Print;
-
-static size_t at_print(const Print* print, int i, int j)
+static size_t at_print(const LeanPrint* print, int i, int j)
 {
     return (size_t)(j + 1) * (size_t)(print->nx + 2) + (size_t)(i + 1);
 }
@@ -68,18 +59,18 @@ static void look_along(Offset* own, const uint8_t* sole, int nx, int step)
 }
 
 // offsets to the nearest cell of the other kind, in two passes
-static void find_edges(DpLean* lean, const Print* print)
+static void find_edges(const LeanPrint* print)
 {
     const Offset    far = {FAR, FAR};
     const int       nx = print->nx, ny = print->ny;
     const ptrdiff_t row = nx + 2;
-    for (size_t k = 0; k < (size_t)row * (size_t)(ny + 2); ++k) lean->offset[k] = far;
+    for (size_t k = 0; k < (size_t)row * (size_t)(ny + 2); ++k) print->offset[k] = far;
     for (int pass = 0; pass < 2; ++pass) {
         const int step = pass ? 1 : -1;
         for (int jj = 0; jj < ny; ++jj) {
             const size_t   at = at_print(print, 0, pass ? ny - 1 - jj : jj);
-            Offset*        own = lean->offset + at;
-            const uint8_t* sole = lean->sole + at;
+            Offset*        own = print->offset + at;
+            const uint8_t* sole = print->under + at;
             look_back(own, own + step * row, sole, sole + step * row, nx, step);
             look_along(own, sole, nx, step);
             look_along(own, sole, nx, -step);
@@ -110,28 +101,28 @@ static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, do
 }
 
 // how far a cell lies inside the sole's edge, < 0 outside [cells]
-static double depth_at(const DpLean* lean, size_t p)
+static double depth_at(const LeanPrint* print, size_t p)
 {
-    const double length = sqrt((double)length2(lean->offset[p]));
-    return lean->sole[p] ? length : -length;
+    const double length = sqrt((double)length2(print->offset[p]));
+    return print->under[p] ? length : -length;
 }
 
 // the stem of one cell under or beside a sole
-static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, LeanTile* tile,
+static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
                  int pi, int pj)
 {
     const long   i = print->i0 + pi, j = print->j0 + pj;
     const int    ti = (int)(i - tile->tx * DP_TILE), tj = (int)(j - tile->ty * DP_TILE);
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti, p = at_print(print, pi, pj);
     const double high = (double)tile->height[t];
-    const Offset edge = lean->offset[p];
-    const bool   under = isfinite(lean->bottom[p]);
+    const Offset edge = print->offset[p];
+    const bool   under = isfinite(print->bottom[p]);
     if (!(high > 0.0) || edge.i >= FAR) return;
     const double length = sqrt((double)length2(edge)), parted = fmin(PARTED * high, PARTED_MOST);
     const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
     if (!under && !(near > 0.0)) return;
     const size_t by = under ? p : at_print(print, pi + edge.i, pj + edge.j);
-    const double gap = (double)lean->bottom[by] -
+    const double gap = (double)print->bottom[by] -
                        plant_ground_at(ground, lean_centre(lean, 0, i), lean_centre(lean, 1, j));
     const double pressed = dp_clamp(1.0 - gap / high, 0.0, 1.0);
     if (!(pressed > 0.0)) return;  // the sole is above it; without ground, too
@@ -146,8 +137,8 @@ static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, 
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
     const double out = near + (1.0 - near) * (1.0 - own);
     const size_t row = (size_t)(print->nx + 2);
-    double       ox = depth_at(lean, p - 1) - depth_at(lean, p + 1);
-    double       oy = depth_at(lean, p - row) - depth_at(lean, p + row);
+    double       ox = depth_at(print, p - 1) - depth_at(print, p + 1);
+    double       oy = depth_at(print, p - row) - depth_at(print, p + row);
     const double steep = sqrt(ox * ox + oy * oy);
     ox = steep > 0.1 ? ox / steep : 0.0, oy = steep > 0.1 ? oy / steep : 0.0;
     double x = out * ox + (1.0 - near) * print->motion[0];
@@ -156,21 +147,28 @@ static void meet(DpLean* lean, const Print* print, const DpPlantGround* ground, 
     press(lean, tile, ti, tj, pressed, sqrt(pressed * (2.0 - pressed)), x, y);
 }
 
-static bool make_room(DpLean* lean, size_t cells)
+static bool make_room(LeanPrint* print)
 {
-    if (cells <= lean->room_of_print) return true;
-    dp_free(lean->offset), dp_free(lean->bottom), dp_free(lean->sole);
-    lean->room_of_print = cells + cells / 4;
-    lean->offset = dp_alloc(lean->room_of_print, sizeof(Offset));
-    lean->bottom = dp_alloc(lean->room_of_print, sizeof(float));
-    lean->sole = dp_alloc(lean->room_of_print, 1);
-    if (lean->offset && lean->bottom && lean->sole) return true;
-    lean->room_of_print = 0;
+    const size_t cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
+    if (cells <= print->room) return true;
+    lean_drop_print(print);
+    print->room = cells + cells / 4;
+    print->offset = dp_alloc(print->room, sizeof(Offset));
+    print->bottom = dp_alloc(print->room, sizeof(float));
+    print->under = dp_alloc(print->room, 1);
+    if (print->offset && print->bottom && print->under) return true;
+    lean_drop_print(print);
     return false;
 }
 
+void lean_drop_print(LeanPrint* print)
+{
+    dp_free(print->offset), dp_free(print->bottom), dp_free(print->under);
+    print->offset = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
+}
+
 // The sole on the lean's own cells; false if it is nowhere less than `tallest` over the ground.
-static bool lay_out(DpLean* lean, const Print* print, const DpPlantGround* ground, double tallest)
+static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, double tallest)
 {
     const DpPlantCollider* c = print->sole;
     bool                   low = false;
@@ -178,8 +176,8 @@ static bool lay_out(DpLean* lean, const Print* print, const DpPlantGround* groun
         const double y = lean_centre(lean, 1, print->j0 + j), v = (y - c->y0) / c->cell + 0.5;
         const bool   crosses = v >= 0.0 && v < c->ny;
         const float* from = crosses ? c->bottom + (size_t)v * (size_t)c->row : NULL;
-        float*       to = lean->bottom + at_print(print, 0, j);
-        uint8_t*     sole = lean->sole + at_print(print, 0, j);
+        float*       to = print->bottom + at_print(print, 0, j);
+        uint8_t*     sole = print->under + at_print(print, 0, j);
         for (int i = -1; i <= print->nx; ++i) to[i] = INFINITY, sole[i] = 0;
         for (int i = -1; i <= print->nx && crosses; ++i) {
             const double x = lean_centre(lean, 0, print->i0 + i), u = (x - c->x0) / c->cell + 0.5;
@@ -200,32 +198,42 @@ static double plants_tallest(const DpPlants* plants)
     return most;
 }
 
-DpStatus lean_press_sole(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* c)
+DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
+                      const DpPlantCollider* c)
 {
     const double tallest = plants_tallest(lean->plants);
     const double margin = fmin(PARTED * tallest, PARTED_MOST) + 2.0 * lean->cell;
-    Print        print = {.sole = c};
-    print.i0 = lean_cell(lean, 0, c->x0 - 0.5 * c->cell - margin);
-    print.j0 = lean_cell(lean, 1, c->y0 - 0.5 * c->cell - margin);
+    print->sole = c;
+    print->nx = print->ny = 0;
+    print->i0 = lean_cell(lean, 0, c->x0 - 0.5 * c->cell - margin);
+    print->j0 = lean_cell(lean, 1, c->y0 - 0.5 * c->cell - margin);
     const long i1 = lean_cell(lean, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
     const long j1 = lean_cell(lean, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
-    if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MOST_CELLS) return DP_OK;
-    print.nx = (int)(i1 - print.i0), print.ny = (int)(j1 - print.j0);
+    if ((double)(i1 - print->i0) * (double)(j1 - print->j0) > MOST_CELLS) return DP_OK;
+    print->nx = (int)(i1 - print->i0), print->ny = (int)(j1 - print->j0);
     const double speed = sqrt(c->velocity.x * c->velocity.x + c->velocity.y * c->velocity.y);
-    print.motion[0] = c->velocity.x / (speed + SLOW),
-    print.motion[1] = c->velocity.y / (speed + SLOW);
-    if (!make_room(lean, (size_t)(print.nx + 2) * (size_t)(print.ny + 2))) return DP_NO_MEMORY;
-    if (!lay_out(lean, &print, ground, tallest)) return DP_OK;
-    find_edges(lean, &print);
-    for (long ty = lean_tile(print.j0); ty <= lean_tile(j1 - 1); ++ty)
-        for (long tx = lean_tile(print.i0); tx <= lean_tile(i1 - 1); ++tx) {
+    print->motion[0] = c->velocity.x / (speed + SLOW),
+    print->motion[1] = c->velocity.y / (speed + SLOW);
+    const bool room = make_room(print);
+    if (room && lay_out(lean, print, ground, tallest))
+        find_edges(print);
+    else
+        print->nx = print->ny = 0;
+    return room ? DP_OK : DP_NO_MEMORY;
+}
+
+DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground)
+{
+    const int nx = print->nx, ny = print->ny;
+    if (nx < 1 || ny < 1) return DP_OK;
+    for (long ty = lean_tile(print->j0); ty <= lean_tile(print->j0 + ny - 1); ++ty)
+        for (long tx = lean_tile(print->i0); tx <= lean_tile(print->i0 + nx - 1); ++tx) {
             LeanTile* tile = lean_touch(lean, tx, ty);
             if (!tile) return DP_NO_MEMORY;
-            const long from_i = tx * DP_TILE - print.i0, from_j = ty * DP_TILE - print.j0;
-            for (int j = from_j > 0 ? (int)from_j : 0; j < print.ny && j < from_j + DP_TILE; ++j)
-                for (int i = from_i > 0 ? (int)from_i : 0; i < print.nx && i < from_i + DP_TILE;
-                     ++i)
-                    meet(lean, &print, ground, tile, i, j);
+            const long from_i = tx * DP_TILE - print->i0, from_j = ty * DP_TILE - print->j0;
+            for (int j = from_j > 0 ? (int)from_j : 0; j < ny && j < from_j + DP_TILE; ++j)
+                for (int i = from_i > 0 ? (int)from_i : 0; i < nx && i < from_i + DP_TILE; ++i)
+                    meet(lean, print, ground, tile, i, j);
         }
     return DP_OK;
 }

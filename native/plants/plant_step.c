@@ -333,7 +333,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
     step.steps = wanted < 1.0 ? 1 : wanted > DP_SUBSTEPS_MOST ? DP_SUBSTEPS_MOST : (int)wanted;
 
     const int tasks = call_up(plants, step.push, step.pushes, dt);
-    workers = workers < 1 || tasks < 16 ? 1 : workers > 64 ? 64 : workers;
+    workers = workers < 1 ? 1 : workers > 64 ? 64 : workers;
     for (int s = 0; s < plants->stands; ++s) {
         const PlantStand* stand = &plants->stand[s];
         const size_t floats = DP_LANES * (size_t)(3 * stand->shape.particles + stand->shape.bends +

@@ -197,6 +197,10 @@ void     dp_lean_destroy(DpLean* lean);
 // up to the share of its stems that is broken. Grass is met where the ground is told.
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt);
+// The part of a step that only looks: what the soles cover. May run while the plants move; the step
+// that follows, with the same soles, goes on from there. Without it the step looks itself.
+DpStatus dp_lean_look(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
+                      int count);
 
 // Plants have worn within x0..x1, y0..y1 [m].
 DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);

@@ -4,6 +4,7 @@
 // The soles are those that press the soil, where the pressed soil holds them: never below it. Feet
 // in swing brush what they come near to.
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
@@ -316,6 +317,27 @@ static double surface(const void* terrain, double x, double y)
     return dp_terrain_surface_at(terrain, x, y);
 }
 
+// plants move while the lean looks at the same soles: neither reads what the other writes
+typedef struct Moving
+{
+    DpSim*               sim;
+    const DpPlantGround* ground;
+    double               dt;
+    DpPlantsTold         told;
+    DpStatus             status[2];
+} Moving;
+
+static void move(void* context, int index, int worker)
+{
+    Moving*       moving = context;
+    const Meadow* m = &moving->sim->meadow;
+    (void)worker;
+    moving->status[index] =
+        index == 0 ? dp_plants_step(m->plants, moving->ground, m->sole, m->soles, moving->dt,
+                                    moving->sim->bench_count, &moving->told)
+                   : dp_lean_look(m->lean, moving->ground, m->sole, m->soles);
+}
+
 DpStatus dp_meadow_step(DpSim* sim, int sample)
 {
     Meadow*      m = &sim->meadow;
@@ -332,9 +354,11 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     status = dp_plants_follow(m->plants, ground);
     if (status != DP_OK) return status;
 
-    DpPlantsTold told;
-    status = dp_plants_step(m->plants, ground, m->sole, m->soles, dt, sim->bench_count, &told);
-    if (status != DP_OK) return status;
+    Moving moving = {.sim = sim, .ground = ground, .dt = dt};
+    dp_parallel_for(2, sim->bench_count, move, &moving);
+    for (int k = 0; k < 2; ++k)
+        if (moving.status[k] != DP_OK) return moving.status[k];
+    const DpPlantsTold told = moving.told;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
     if (told.changed) {
