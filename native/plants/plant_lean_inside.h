@@ -32,8 +32,8 @@ typedef struct Offset
 typedef struct LeanPrint
 {
     const DpPlantCollider* sole;
-    long                   i0, j0;  // world cell of its cell (0, 0)
-    int                    nx, ny;  // 0 = the sole meets no grass
+    long                   i0, j0;     // world cell of its cell (0, 0)
+    int                    nx, ny;     // 0 = the sole meets no grass
     double                 motion[2];  // where the foot goes, shorter when slow
     Offset*                offset;
     float*                 bottom;  // +inf where there is no sole

@@ -168,7 +168,8 @@ void lean_drop_print(LeanPrint* print)
 }
 
 // The sole on the lean's own cells; false if it is nowhere less than `tallest` over the ground.
-static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, double tallest)
+static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGround* ground,
+                    double tallest)
 {
     const DpPlantCollider* c = print->sole;
     bool                   low = false;
