@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import walker, whole
+from . import table, walker, whole
 from .errors import DesirePathError
 from .gait import Gait
 from .plants import MOST_PLANTS, Planting, as_kind
@@ -127,27 +127,16 @@ def read_at(sim, marks, last, progress=None, what=None):
 def write(path, rows):
     """The table `passes,cover`, cover in per cent."""
     with whole.file(path, "The table of cover", "w", newline="", encoding="utf-8") as stream:
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(("passes", "cover"))
-        table.writerows((count, f"{share:.2f}") for count, share in rows)
+        lines = csv.writer(stream, lineterminator="\n")
+        lines.writerow(("passes", "cover"))
+        lines.writerows((count, f"{share:.2f}") for count, share in rows)
 
 
 def read(path):
     """[(passes, cover, days of rest), ..] of a table with the columns passes,cover and, if it likes, days."""
-    path = os.fspath(path)
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
-            rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]
-    except OSError as error:
-        raise DesirePathError(f"{path} cannot be read ({error.strerror}): give a table with the columns "
-                              "passes,cover.") from None
-    except (UnicodeDecodeError, csv.Error):
-        raise DesirePathError(f"{path} is no table of text: give one with the columns passes,cover.") from None
-    names = [cell.strip().lower() for cell in rows[0]] if rows else []
-    if "passes" not in names or "cover" not in names:
-        raise DesirePathError(f"{path} has no columns passes and cover: let its first line say passes,cover.")
+    names, rows = table.read(path, ("passes", "cover"))
     found = []
-    for number, row in enumerate(rows[1:], 2):
+    for number, row in enumerate(rows, 2):
         try:
             told = {name: float(cell) for name, cell in zip(names, row) if name in ("passes", "cover", "days")}
             row = told["passes"], told["cover"], told.get("days", 0.0)

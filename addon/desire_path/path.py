@@ -1,10 +1,8 @@
 """The line a walker follows over the ground: waypoints become a smooth curve, measured along itself."""
 
-import csv
-import os
-
 import numpy as np
 
+from . import table
 from .errors import DesirePathError
 
 ROUNDING = 0.3  # corners are rounded over about this length [m]
@@ -100,21 +98,10 @@ def _smoothed(line, sigma):
 
 def read(file):
     """Waypoints (n, 2 or 3) [m] of a table with the columns x,y or x,y,z."""
-    file = os.fspath(file)
-    try:
-        with open(file, newline="", encoding="utf-8-sig") as stream:
-            rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]
-    except OSError as error:
-        raise DesirePathError(f"{file} cannot be read ({error.strerror}): give a table with the columns "
-                              "x,y or x,y,z.") from None
-    except (UnicodeDecodeError, csv.Error):
-        raise DesirePathError(f"{file} is no table of text: give one with the columns x,y or x,y,z.") from None
-    names = [cell.strip().lower() for cell in rows[0]] if rows else []
-    if "x" not in names or "y" not in names:
-        raise DesirePathError(f"{file} has no columns x and y: let its first line say x,y or x,y,z.")
+    names, rows = table.read(file, ("x", "y"), columns="x,y or x,y,z")
     columns = [names.index(name) for name in ("x", "y", "z") if name in names]
     points = []
-    for number, row in enumerate(rows[1:], 2):
+    for number, row in enumerate(rows, 2):
         try:
             points.append([float(row[column]) for column in columns])
         except (ValueError, IndexError):
