@@ -3,9 +3,12 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <time.h>
 #include <unistd.h>
 
 #define MOST_WORKERS 64
+#define PATIENCE 100000  // who waits looks again and again for so long before it sleeps [ns]
+#define LOOKS 64         // between two looks at the clock
 
 // One loop. Its caller works at it, too, and takes it from the list before it waits for the others:
 // so a loop within a loop, or one that no helper has time for, is done by its caller alone.
@@ -15,17 +18,46 @@ typedef struct Job
     void*       context;
     int         count;
     atomic_int  next;
-    int         workers, joined, inside;  // wanted; who came, the caller first; helpers at work
+    int         workers, joined;  // wanted; who came, the caller first
+    atomic_int  inside;           // helpers at work
     struct Job* after;
 } Job;
 
 // Helpers stay once they are started and sleep between loops: to start a thread for each loop of a
-// step costs more than many a loop does.
+// step costs more than many a loop does. To wake one costs as much as a short loop, so they fall
+// asleep late: loops of a step follow each other closely.
 static pthread_mutex_t door = PTHREAD_MUTEX_INITIALIZER;  // of all below, and of a job's last line
 static pthread_cond_t  called = PTHREAD_COND_INITIALIZER, finished = PTHREAD_COND_INITIALIZER;
 static Job*            jobs;
+static atomic_uint     posted;  // jobs so far
 static int             helpers;
 static pthread_once_t  forks = PTHREAD_ONCE_INIT;
+
+static long now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (long)t.tv_sec * 1000000000L + t.tv_nsec;
+}
+
+static void pause_briefly(void)
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+}
+
+// look for a while whether a job has come since `seen`, or, with a job, whether all have left it
+static void look_out(unsigned seen, Job* job)
+{
+    const long until = now() + PATIENCE;
+    do {
+        for (int look = 0; look < LOOKS; ++look) {
+            if (job ? atomic_load(&job->inside) == 0 : atomic_load(&posted) != seen) return;
+            pause_briefly();
+        }
+    } while (now() < until);
+}
 
 static void work_at(Job* job, int worker)
 {
@@ -43,15 +75,19 @@ static void* help(void* unused)
         Job* job = jobs;
         while (job && job->joined >= job->workers) job = job->after;
         if (!job) {
-            pthread_cond_wait(&called, &door);
+            const unsigned seen = atomic_load(&posted);
+            pthread_mutex_unlock(&door);
+            look_out(seen, NULL);
+            pthread_mutex_lock(&door);
+            if (atomic_load(&posted) == seen) pthread_cond_wait(&called, &door);
             continue;
         }
         const int worker = job->joined++;
-        ++job->inside;
+        atomic_fetch_add(&job->inside, 1);
         pthread_mutex_unlock(&door);
         work_at(job, worker);
         pthread_mutex_lock(&door);
-        if (--job->inside == 0) pthread_cond_broadcast(&finished);
+        if (atomic_fetch_sub(&job->inside, 1) == 1) pthread_cond_broadcast(&finished);
     }
     return unused;
 }
@@ -90,6 +126,7 @@ void dp_parallel_for(int count, int workers, DpWork work, void* context)
     pthread_mutex_lock(&door);
     while (helpers < workers - 1 && start_helper()) ++helpers;
     job.after = jobs, jobs = &job;
+    atomic_fetch_add(&posted, 1);
     for (int w = 1; w < workers; ++w) pthread_cond_signal(&called);
     pthread_mutex_unlock(&door);
     work_at(&job, 0);
@@ -97,7 +134,11 @@ void dp_parallel_for(int count, int workers, DpWork work, void* context)
     Job** link = &jobs;
     while (*link != &job) link = &(*link)->after;
     *link = job.after;
-    while (job.inside > 0) pthread_cond_wait(&finished, &door);
+    pthread_mutex_unlock(&door);
+    look_out(0, &job);
+    if (atomic_load(&job.inside) == 0) return;
+    pthread_mutex_lock(&door);
+    while (atomic_load(&job.inside) > 0) pthread_cond_wait(&finished, &door);
     pthread_mutex_unlock(&door);
 }
 
