@@ -150,7 +150,7 @@ void plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
 typedef struct PlantPush
 {
     const DpPlantCollider* collider;
-    const float*           out;  // distance to the side [m] (ny, nx), NULL for capsules
+    const float*           out;  // distance to the side [m] (ny + 2, nx + 2), NULL for capsules
     double                 x0, y0, z0, x1, y1, z1;  // swept box
 } PlantPush;
 
@@ -168,7 +168,8 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
                       const DpPlantGround* ground);
 // no particle below the ground
 void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
-// fill the distances to the side of a sole
+// fill the distances to the side of a sole (ny + 2, nx + 2)
+#define PLANT_SIDE_CELLS(sole) ((size_t)((sole)->nx + 2) * (size_t)((sole)->ny + 2))
 void plant_side_field(const DpPlantCollider* collider, float* out);
 // can all pieces be read? NULL can
 bool plant_ground_ok(const DpPlantGround* ground);

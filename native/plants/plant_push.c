@@ -4,35 +4,44 @@
 // the shorter way, down or to the side. Afterwards each stem is gone through from its foot upward:
 // whoever is too far from the particle below comes closer, and since that one is clear of every
 // sole, there is always a place that is.
+//
+// Most particles near a sole are in nobody's way. A row of all lanes is looked at before any of its
+// particles is: who is within what no sole goes through, near the one below and beside, stays. The
+// ground is asked for in the last sub-step; until then the one of the step before holds.
+#include "base/wide.h"
+
 #include <string.h>
 
 #include "plants/plant_inside.h"
 
 #define ROW_PASSES 4
+#define SWEPT_MOST 16    // soles; where more are near, every particle is looked at
 #define CERTAIN 1e-6     // this far out of a sole's swept box it is not met [m]
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
-// distances to the nearest cell without sole, by the two-pass chamfer metric
+// distances to the nearest cell without sole, by the two-pass chamfer metric; a border of none
 void plant_side_field(const DpPlantCollider* c, float* out)
 {
-    const float one = (float)c->cell, two = (float)(c->cell * 1.4142135623730951);
-    for (int pass = 0; pass < 2; ++pass)
-        for (int jj = 0; jj < c->ny; ++jj)
-            for (int ii = 0; ii < c->nx; ++ii) {
-                const int j = pass ? c->ny - 1 - jj : jj, i = pass ? c->nx - 1 - ii : ii;
-                float*    here = out + (size_t)j * (size_t)c->nx + i;
-                if (pass == 0)
-                    *here = isfinite(c->bottom[(size_t)j * (size_t)c->row + (size_t)i]) ? 1e9f : 0;
-                const int step = pass ? 1 : -1;
-                for (int k = 0; k < 4; ++k) {  // the four neighbours that were seen before
-                    const int  di = k < 3 ? k - 1 : step, dj = k < 3 ? step : 0;
-                    const bool inside =
-                        i + di >= 0 && i + di < c->nx && j + dj >= 0 && j + dj < c->ny;
-                    const float there = inside ? here[(ptrdiff_t)dj * c->nx + di] : 0.0f;
-                    const float far = there + (di != 0 && dj != 0 ? two : one);
-                    if (far < *here) *here = far;
-                }
+    const float     one = (float)c->cell, two = (float)(c->cell * 1.4142135623730951);
+    const ptrdiff_t row = c->nx + 2;
+    memset(out, 0, PLANT_SIDE_CELLS(c) * sizeof *out);
+    for (int pass = 0; pass < 2; ++pass) {
+        const ptrdiff_t step = pass ? 1 : -1;  // towards the neighbours that were seen before
+        for (int jj = 0; jj < c->ny; ++jj) {
+            const int    j = pass ? c->ny - 1 - jj : jj;
+            const float* bottom = c->bottom + (size_t)j * (size_t)c->row;
+            float*       here = out + (j + 1) * row + (pass ? c->nx : 1);
+            for (int ii = 0; ii < c->nx; ++ii, here -= step) {
+                if (!(bottom[pass ? c->nx - 1 - ii : ii] < INFINITY)) continue;  // 0 it is
+                const float* beyond = here + step * row;
+                float        far = pass ? *here : INFINITY;
+                far = beyond[0] + one < far ? beyond[0] + one : far;
+                far = beyond[-1] + two < far ? beyond[-1] + two : far;
+                far = beyond[1] + two < far ? beyond[1] + two : far;
+                *here = here[step] + one < far ? here[step] + one : far;
             }
+        }
+    }
 }
 
 typedef struct Probe
@@ -92,7 +101,7 @@ static double side_at(const PlantPush* push, int i, int j)
 {
     const DpPlantCollider* c = push->collider;
     const bool             inside = i >= 0 && j >= 0 && i < c->nx && j < c->ny;
-    return inside ? (double)push->out[(ptrdiff_t)j * c->nx + i] : 0.0;
+    return inside ? (double)push->out[(ptrdiff_t)(j + 1) * (c->nx + 2) + i + 1] : 0.0;
 }
 
 // out of a sole by its side, if that is shorter than `down`
@@ -224,7 +233,12 @@ static void push_one(const Probe* probe, int k, DpVec3 before, DpVec3 below, dou
     const DpPlantCollider* by = NULL;
     DpVec3                 p = get(probe->block, k);
     const double           pushed = clear(probe, &p, &by);
-    if (by) rub(by, &p, before, pushed, h);
+    if (by) {
+        Probe down = *probe;
+        down.only_down = true;
+        rub(by, &p, before, pushed, h);
+        clear(&down, &p, &by);  // where it was taken to, the sole may be lower
+    }
     const DpVec3 arm = dp_sub(p, below);
     if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
     put(probe->block, k, p);
@@ -327,31 +341,129 @@ static void shrink_row(const PlantStand* stand, const Probe* probe, int first)
     }
 }
 
+// ---- who has to be looked at -----------------------------------------------------------------
+
+// What a sole goes through in this step, from the block's origin, a bit wide [m].
+typedef struct Swept
+{
+    float x0, y0, x1, y1, z1;
+} Swept;
+
+// of those that a block's plants can meet; how many they are
+static int sweep_block(const PlantStand* stand, const PlantBlock* block, const PlantPush* push,
+                       int count, Swept* swept)
+{
+    const double* o = block->origin;
+    const double  wide = (double)stand->kind.radius + 1e-4;
+    float         low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int l = 0; l < DP_LANES; ++l)
+        for (int d = 0; d < 2; ++d) {
+            low[d] = fminf(low[d], block->foot[d][l] - 1.1f * stand->extent);
+            high[d] = fmaxf(high[d], block->foot[d][l] + 1.1f * stand->extent);
+        }
+    int met = 0;
+    for (int k = 0; k < count; ++k) {
+        const Swept at = {(float)(push[k].x0 - o[0] - wide), (float)(push[k].y0 - o[1] - wide),
+                          (float)(push[k].x1 - o[0] + wide), (float)(push[k].y1 - o[1] + wide),
+                          (float)(push[k].z1 - o[2] + wide)};
+        if (at.x0 > high[0] || at.x1 < low[0] || at.y0 > high[1] || at.y1 < low[1]) continue;
+        swept[met++] = at;
+    }
+    return met;
+}
+
+#define TORN 0x40000000  // two neighbours are too far apart
+#define STEMS_KNOWN 30   // a bit for each of the first stems of a row; the others share the last
+
+static int32_t stem_bit(int c)
+{
+    return (int32_t)1 << (c < STEMS_KNOWN ? c : STEMS_KNOWN - 1);
+}
+
+// The stems of a row, lane by lane, that may be in a sole, on the ground, or too far from the
+// particle below, as bits; and whether the row is torn.
+DP_CLONES
+static void look_at_row(const PlantStand* stand, const PlantBlock* block, int first,
+                        const Swept* swept, int count, const float* low, int32_t* due)
+{
+    const int   rows = stand->shape.rows, a_sheet = stand->shape.stems_a_sheet;
+    const float most = LAST_WORD * stand->gap * (1.0f - 1e-5f);
+    const float near = LAST_WORD * stand->near * (1.0f - 1e-5f);
+    for (int l = 0; l < DP_LANES; ++l) due[l] = 0;
+    for (int c = 0; c < a_sheet; ++c) {
+        const int     k = (first + c * rows) * DP_LANES, beside = k - rows * DP_LANES;
+        const float * x = block->state->at[0] + k, *y = block->state->at[1] + k;
+        const float * z = block->state->at[2] + k, *limp = block->state->limp + k;
+        const int32_t bit = stem_bit(c);
+        for (int l = 0; l < DP_LANES; ++l) {
+            const float dx = x[l] - x[l - DP_LANES], dy = y[l] - y[l - DP_LANES];
+            const float dz = z[l] - z[l - DP_LANES];
+            due[l] |= (dx * dx + dy * dy + dz * dz > most * most) | (z[l] <= low[l]) ? bit : 0;
+        }
+        for (int n = 0; n < count; ++n) {
+            const Swept at = swept[n];
+            for (int l = 0; l < DP_LANES; ++l)
+                due[l] |= (x[l] >= at.x0) & (x[l] <= at.x1) & (y[l] >= at.y0) & (y[l] <= at.y1) &
+                                  (z[l] <= at.z1)
+                              ? bit
+                              : 0;
+        }
+        if (c == 0) continue;
+        const float *bx = block->state->at[0] + beside, *by = block->state->at[1] + beside;
+        const float *bz = block->state->at[2] + beside, *blimp = block->state->limp + beside;
+        for (int l = 0; l < DP_LANES; ++l) {
+            const float dx = x[l] - bx[l], dy = y[l] - by[l], dz = z[l] - bz[l];
+            due[l] |= (dx * dx + dy * dy + dz * dz > near * near) & (limp[l] + blimp[l] <= 0.0f);
+        }
+    }
+}
+
+// one row of one sheet in one lane: out of everything, near the row below and one another
+static void push_row(const PlantStand* stand, PlantBlock* block, const Probe* probe, int first,
+                     int32_t due, const float* before, double h)
+{
+    const DpPlantShape shape = stand->shape;
+    const int          size = shape.particles * DP_LANES, l = probe->lane;
+    const double       most = (double)(LAST_WORD * stand->gap);
+    for (int c = 0; c < shape.stems_a_sheet; ++c) {
+        if (!(due & stem_bit(c))) continue;
+        const int    k = (first + c * shape.rows) * DP_LANES + l;
+        const DpVec3 old =
+            world(block, (double)before[k], (double)before[size + k], (double)before[2 * size + k]);
+        push_one(probe, k, old, get(block, k - DP_LANES), most, h);
+    }
+    // who had to go down on the way is the lowest now, and the others follow
+    bool torn = true;
+    for (int pass = 0; torn && pass < ROW_PASSES; ++pass)
+        torn = keep_row(stand, probe, first, most);
+    if (torn) shrink_row(stand, probe, first);
+}
+
 void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
                       const DpPlantGround* ground, const float* before, double left, double h)
 {
     const DpPlantShape shape = stand->shape;
-    const int          size = shape.particles * DP_LANES, a_sheet = shape.stems_a_sheet;
-    const double       most = (double)(LAST_WORD * stand->gap);
-    for (int l = 0; l < block->count; ++l) {
-        if (!block->touched_lane[l]) continue;
-        const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius,
-                             left, false};
-        for (int sheet = 0; sheet < shape.stems; sheet += a_sheet)
-            for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
-                for (int c = 0; c < a_sheet; ++c) {
-                    const int    k = ((sheet + c) * shape.rows + r) * DP_LANES + l;
-                    const DpVec3 old = world(block, (double)before[k], (double)before[size + k],
-                                             (double)before[2 * size + k]);
-                    push_one(&probe, k, old, get(block, k - DP_LANES), most, h);
-                }
-                // who had to go down on the way is the lowest now, and the others follow
-                bool torn = true;
-                for (int pass = 0; torn && pass < ROW_PASSES; ++pass)
-                    torn = keep_row(stand, &probe, sheet * shape.rows + r, most);
-                if (torn) shrink_row(stand, &probe, sheet * shape.rows + r);
-            }
+    const bool         last = !(left > 0.5 * h);
+    Swept              swept[SWEPT_MOST];
+    float              low[DP_LANES];
+    int32_t            due[DP_LANES];
+    const bool         few = count <= SWEPT_MOST;
+    const int          ways = few ? sweep_block(stand, block, push, count, swept) : 0;
+    for (int l = 0; l < DP_LANES; ++l) {
+        low[l] = !few ? INFINITY : -INFINITY;
+        if (few && last) low[l] = (float)((double)block->ceiling[l] - block->origin[2]) + 1e-5f;
     }
+    for (int sheet = 0; sheet < shape.stems; sheet += shape.stems_a_sheet)
+        for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
+            const int first = sheet * shape.rows + r;
+            look_at_row(stand, block, first, swept, ways, low, due);
+            for (int l = 0; l < block->count; ++l) {
+                if (!due[l] || !block->touched_lane[l]) continue;
+                const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius,
+                                     left, false};
+                push_row(stand, block, &probe, first, due[l], before, h);
+            }
+        }
 }
 
 void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,

@@ -17,10 +17,11 @@ static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantG
                 (double)box[3] < y0)
                 continue;
             PlantBlock* block = &stand->block[b];
+            if (block->awake) continue;  // the step sees to it
             for (int l = 0; l < DP_LANES; ++l) {
                 PlantBlock was = *block;
                 plant_ground_lane(stand, block, ground, l);
-                if (!block->state || block->awake) continue;
+                if (!block->state) continue;
                 for (int p = 0; p < stand->shape.particles; ++p)  // a sleeper rises and sinks whole
                     block->state->at[2][p * DP_LANES + l] +=
                         (float)(plant_rest_at(stand, block, p, l).z -

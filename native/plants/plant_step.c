@@ -274,15 +274,14 @@ static bool prepare_sides(DpPlants* plants, PlantPush* push, int count)
 {
     size_t cells = 0;
     for (int k = 0; k < count; ++k)
-        if (push[k].collider->bottom)
-            cells += (size_t)push[k].collider->nx * (size_t)push[k].collider->ny;
+        if (push[k].collider->bottom) cells += PLANT_SIDE_CELLS(push[k].collider);
     if (!make_room(&plants->side, &plants->side_room, cells)) return false;
     float* out = plants->side;
     for (int k = 0; k < count; ++k) {
         if (!push[k].collider->bottom) continue;
         plant_side_field(push[k].collider, out);
         push[k].out = out;
-        out += (size_t)push[k].collider->nx * (size_t)push[k].collider->ny;
+        out += PLANT_SIDE_CELLS(push[k].collider);
     }
     return true;
 }
