@@ -99,13 +99,17 @@ LeanTile* lean_touch(DpLean* lean, long tx, long ty)
     return tile;
 }
 
+static void widen(LeanBox* box, int i, int j)
+{
+    const bool none = box->i0 >= box->i1;
+    box->i0 = none || i < box->i0 ? i : box->i0, box->i1 = none || i >= box->i1 ? i + 1 : box->i1;
+    box->j0 = none || j < box->j0 ? j : box->j0, box->j1 = none || j >= box->j1 ? j + 1 : box->j1;
+}
+
 void lean_may_move(LeanTile* tile, int i, int j)
 {
-    const bool none = tile->i0 >= tile->i1;
-    tile->i0 = none || i < tile->i0 ? i : tile->i0,
-    tile->i1 = none || i >= tile->i1 ? i + 1 : tile->i1;
-    tile->j0 = none || j < tile->j0 ? j : tile->j0,
-    tile->j1 = none || j >= tile->j1 ? j + 1 : tile->j1;
+    widen(&tile->moves, i, j);
+    widen(&tile->brisk, i, j);
 }
 
 // ---- standing up -----------------------------------------------------------------------------
@@ -126,46 +130,57 @@ static bool rise(LeanTile* tile, size_t p, float keep)
 
 static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
 {
-    const int  i0 = tile->i0, i1 = tile->i1, j0 = tile->j0, j1 = tile->j1;
-    const bool due = (tile->waited + dt) * (double)tile->healing > DUE;
+    const bool    due = (tile->waited + dt) * (double)tile->healing > DUE;
+    const LeanBox at = due ? tile->moves : tile->brisk, none = {0, 0, 0, 0};
     tile->waited += dt;
-    if (!due && !tile->brisk) return;
-    tile->brisk = false;
+    tile->brisk = none;
+    if (due) tile->moves = none;
     float rate = 0.0f, keep = 1.0f, heal = 0.0f, kept = 1.0f;  // neighbours mostly are alike
-    tile->i0 = tile->i1 = tile->j0 = tile->j1 = 0;
-    for (int j = j0; j < j1; ++j)
-        for (int i = i0; i < i1; ++i) {
+    for (int j = at.j0; j < at.j1; ++j)
+        for (int i = at.i0; i < at.i1; ++i) {
             const size_t p = (size_t)j * DP_TILE + (size_t)i;
             if (!(tile->crushed[p] > 0.0f)) continue;
             if (tile->held[p] == lean->step) {
                 lean_may_move(tile, i, j);
-                tile->brisk = true;
                 continue;
             }
             if (tile->crushed[p] > tile->limp[p]) {
+                if (!due) continue;
                 if (tile->heal[p] < heal || tile->heal[p] > heal) {
                     heal = tile->heal[p];
                     kept = (float)exp(-(double)heal * tile->waited);
                 }
-                if (!due || rise(tile, p, kept)) lean_may_move(tile, i, j);
+                if (!rise(tile, p, kept)) continue;
+                widen(&tile->moves, i, j);
+                if (!(tile->crushed[p] > tile->limp[p])) widen(&tile->brisk, i, j);
                 continue;
             }
             if (tile->rate[p] < rate || tile->rate[p] > rate) {
                 rate = tile->rate[p];
                 keep = (float)exp(-(double)rate * dt);
             }
-            if (!rise(tile, p, keep)) continue;
-            lean_may_move(tile, i, j);
-            tile->brisk = true;
+            if (rise(tile, p, keep)) lean_may_move(tile, i, j);
         }
     if (due) tile->waited = 0.0;
 }
 
-DpStatus dp_lean_look(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
-                      int count)
+DpStatus dp_lean_ready(DpLean* lean, const DpPlantCollider* colliders, int count)
 {
-    if (!lean || count < 0 || (count > 0 && !colliders) || !plant_ground_ok(ground))
-        return DP_BAD_ARGUMENT;
+    if (!lean || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
+    for (int k = 0; k < count; ++k) {
+        if (!colliders[k].bottom) continue;
+        const LeanPrint at = lean_window(lean, &colliders[k]);
+        if (at.nx < 1) continue;
+        for (long ty = lean_tile(at.j0); ty <= lean_tile(at.j0 + at.ny - 1); ++ty)
+            for (long tx = lean_tile(at.i0); tx <= lean_tile(at.i0 + at.nx - 1); ++tx)
+                if (!lean_touch(lean, tx, ty)) return DP_NO_MEMORY;
+    }
+    return DP_OK;
+}
+
+static DpStatus look(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
+                     int count)
+{
     if (count > lean->print_room) {
         LeanPrint* more = dp_realloc(lean->print, (size_t)count, sizeof *more);
         if (!more) return DP_NO_MEMORY;
@@ -179,7 +194,6 @@ DpStatus dp_lean_look(DpLean* lean, const DpPlantGround* ground, const DpPlantCo
         if (status != DP_OK) return status;
         ++lean->prints;
     }
-    lean->looked = true;
     return DP_OK;
 }
 
@@ -189,13 +203,12 @@ DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCo
     if (!lean || count < 0 || (count > 0 && !colliders) || !(dt > 0.0) || !plant_ground_ok(ground))
         return DP_BAD_ARGUMENT;
     ++lean->step;
-    DpStatus status = lean->looked ? DP_OK : dp_lean_look(lean, ground, colliders, count);
+    DpStatus status = look(lean, ground, colliders, count);
     for (int k = 0; k < lean->prints && status == DP_OK; ++k)
         status = lean_press_print(lean, &lean->print[k], ground);
-    lean->looked = false;
     if (status != DP_OK) return status;
     for (int t = 0; t < lean->tiles; ++t)
-        if (lean->tile[t]->i0 < lean->tile[t]->i1) rise_tile(lean, lean->tile[t], dt);
+        if (lean->tile[t]->moves.i0 < lean->tile[t]->moves.i1) rise_tile(lean, lean->tile[t], dt);
     return DP_OK;
 }
 
@@ -211,7 +224,7 @@ static void grow_box(const DpLean* lean, LeanTile* tile, const double box[4], bo
     }
     if (from[0] >= to[0] || from[1] >= to[1]) return;
     grow(lean, tile, from[0], to[0], from[1], to[1], first);
-    tile->changed = tile->brisk = true;
+    tile->changed = true;
     lean_may_move(tile, from[0], from[1]), lean_may_move(tile, to[0] - 1, to[1] - 1);
 }
 

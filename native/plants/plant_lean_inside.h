@@ -4,12 +4,18 @@
 
 #define CELLS (DP_TILE * DP_TILE)
 
+// cells of a tile: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+typedef struct LeanBox
+{
+    int i0, i1, j0, j1;
+} LeanBox;
+
 typedef struct LeanTile
 {
     long    tx, ty;
     bool    changed;
-    bool    brisk;           // something was held or swung up in the last step
-    int     i0, i1, j0, j1;  // cells that may move: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+    LeanBox moves;  // what is not at rest
+    LeanBox brisk;  // of it what is held or swings, or may: the others wait until they are due
     float   lean[2][CELLS], crushed[CELLS];
     float   most[CELLS];    // crushed when it was let go
     float   height[CELLS];  // of the stem, 0 = nothing grows [m]
@@ -50,7 +56,6 @@ struct DpLean
     int             tiles, room;
     LeanPrint*      print;  // of soles, in their order (print_room)
     int             prints, print_room;
-    bool            looked;  // prints are those of the step to come
 };
 
 static inline double lean_centre(const DpLean* lean, int axis, long cell)
@@ -72,8 +77,9 @@ static inline long lean_tile(long cell)
 LeanTile* lean_touch(DpLean* lean, long tx, long ty);
 // a cell of a tile is not at rest
 void lean_may_move(LeanTile* tile, int i, int j);
-// plant_part.c: what a sole covers; then the grass under and beside it
-DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
-                      const DpPlantCollider* sole);
-DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground);
-void     lean_drop_print(LeanPrint* print);
+// plant_part.c: where a sole can meet grass; what it covers; then the grass under and beside it
+LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* sole);
+DpStatus  lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
+                       const DpPlantCollider* sole);
+DpStatus  lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground);
+void      lean_drop_print(LeanPrint* print);

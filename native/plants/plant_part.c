@@ -1,6 +1,8 @@
 // plants/plant_part.c - a sole in the grass: what it presses flat, and what it parts beside it.
 #include "base/wide.h"
 
+#include <stdlib.h>
+
 #include "base/alloc.h"
 #include "plants/plant_lean_inside.h"
 
@@ -44,27 +46,27 @@ static void look_back(Offset* restrict own, const Offset* restrict back,
     }
 }
 
-// then each of them at the one beside it, `step` away, one after the other
-static void look_along(Offset* own, const uint8_t* sole, int nx, int step)
+// a row's own nearest cells of the other kind, to the left and to the right
+static void look_along(Offset* own, const uint8_t* sole, int nx)
 {
-    const int first = step < 0 ? 0 : nx - 1;
-    Offset    beside = own[first + step];
-    uint8_t   kind = sole[first + step];
-    for (int n = 0, i = first; n < nx; ++n, i -= step) {
-        const Offset way = by_way_of(beside, kind == sole[i], step, 0);
-        kind = sole[i];
-        beside = own[i];
-        if (length2(way) < length2(beside)) own[i] = beside = way;
+    for (int step = -1; step <= 1; step += 2) {
+        int far = FAR;  // from the cell before to its nearest
+        for (int n = 0, i = step < 0 ? 0 : nx - 1; n < nx; ++n, i -= step) {
+            far = sole[i + step] != sole[i] ? 1 : far < FAR ? far + 1 : FAR;
+            if (far < abs(own[i].i)) own[i] = (Offset){(int16_t)(step * far), 0};
+        }
     }
 }
 
-// offsets to the nearest cell of the other kind, in two passes
+// Offsets to the nearest cell of the other kind: within a row first, then down and up again.
 static void find_edges(const LeanPrint* print)
 {
     const Offset    far = {FAR, FAR};
     const int       nx = print->nx, ny = print->ny;
     const ptrdiff_t row = nx + 2;
     for (size_t k = 0; k < (size_t)row * (size_t)(ny + 2); ++k) print->offset[k] = far;
+    for (int j = 0; j < ny; ++j)
+        look_along(print->offset + at_print(print, 0, j), print->under + at_print(print, 0, j), nx);
     for (int pass = 0; pass < 2; ++pass) {
         const int step = pass ? 1 : -1;
         for (int jj = 0; jj < ny; ++jj) {
@@ -72,8 +74,6 @@ static void find_edges(const LeanPrint* print)
             Offset*        own = print->offset + at;
             const uint8_t* sole = print->under + at;
             look_back(own, own + step * row, sole, sole + step * row, nx, step);
-            look_along(own, sole, nx, step);
-            look_along(own, sole, nx, -step);
         }
     }
 }
@@ -96,7 +96,6 @@ static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, do
     }
     tile->most[p] = fmaxf(tile->most[p], tile->crushed[p]);
     tile->held[p] = lean->step;
-    tile->brisk = true;
     lean_may_move(tile, i, j);
 }
 
@@ -107,32 +106,61 @@ static double depth_at(const LeanPrint* print, size_t p)
     return print->under[p] ? length : -length;
 }
 
-// the stem of one cell under or beside a sole
-static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
-                 int pi, int pj)
+// Height of the ground at a cell's centre: grids mostly have the lean's own cells.
+static double ground_at(const DpLean* lean, const DpPlantGround* ground, long i, long j)
 {
-    const long   i = print->i0 + pi, j = print->j0 + pj;
-    const int    ti = (int)(i - tile->tx * DP_TILE), tj = (int)(j - tile->ty * DP_TILE);
+    const double x = lean_centre(lean, 0, i), y = lean_centre(lean, 1, j);
+    if (ground && !ground->at) {
+        const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
+        const double ci = floor(u + 0.5), cj = floor(v + 0.5);
+        const bool   centred = fabs(u - ci) < 1e-6 && fabs(v - cj) < 1e-6;
+        if (centred && ci >= 0.0 && cj >= 0.0 && ci < ground->nx && cj < ground->ny) {
+            const float height = ground->height[(size_t)cj * (size_t)ground->row + (size_t)ci];
+            if (isfinite(height)) return (double)height;
+        }
+    }
+    return plant_ground_at(ground, x, y);
+}
+
+// a stem beside a sole leans away from its edge, the less the farther it stands
+static void part(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
+                 int pi, int pj, int ti, int tj)
+{
+    const size_t t = (size_t)tj * DP_TILE + (size_t)ti;
+    const double high = (double)tile->height[t], parted = fmin(PARTED * high, PARTED_MOST);
+    const Offset edge = print->offset[at_print(print, pi, pj)];
+    const double reach = parted / lean->cell + 0.5;
+    if (!((double)length2(edge) < reach * reach)) return;
+    const double length = sqrt((double)length2(edge));
+    const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
+    const double bottom = (double)print->bottom[at_print(print, pi + edge.i, pj + edge.j)];
+    const double gap = bottom - ground_at(lean, ground, print->i0 + pi, print->j0 + pj);
+    const double size = dp_clamp(1.0 - gap / high, 0.0, 1.0) * near * near;
+    if (size > SLIGHT)
+        press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -edge.i, -edge.j);
+}
+
+// A stem under a sole is pressed to the height it leaves, towards where the foot goes; near the
+// sole's edge, or under one that does not move, out of its way.
+static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground,
+                    LeanTile* tile, int pi, int pj, int ti, int tj)
+{
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti, p = at_print(print, pi, pj);
     const double high = (double)tile->height[t];
-    const Offset edge = print->offset[p];
-    const bool   under = isfinite(print->bottom[p]);
-    if (!(high > 0.0) || edge.i >= FAR) return;
-    const double length = sqrt((double)length2(edge)), parted = fmin(PARTED * high, PARTED_MOST);
-    const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
-    if (!under && !(near > 0.0)) return;
-    const size_t by = under ? p : at_print(print, pi + edge.i, pj + edge.j);
-    const double gap = (double)print->bottom[by] -
-                       plant_ground_at(ground, lean_centre(lean, 0, i), lean_centre(lean, 1, j));
+    const double gap =
+        (double)print->bottom[p] - ground_at(lean, ground, print->i0 + pi, print->j0 + pj);
     const double pressed = dp_clamp(1.0 - gap / high, 0.0, 1.0);
-    if (!(pressed > 0.0)) return;  // the sole is above it; without ground, too
-    if (!under) {
-        const double size = pressed * near * near;
-        if (size > SLIGHT)
-            press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -edge.i, -edge.j);
+    if (!(pressed > 0.0)) return;                    // the sole is above it; without ground, too
+    if (pressed < (double)tile->crushed[t]) return;  // it may rise to the sole
+    const double lx = (double)tile->lean[0][t], ly = (double)tile->lean[1][t];
+    const double size = sqrt(pressed * (2.0 - pressed));
+    if (size * size <= lx * lx + ly * ly) {  // it leans so far already, whereto is the same
+        press(lean, tile, ti, tj, pressed, size, 0.0, 0.0);
         return;
     }
-    if (pressed < (double)tile->crushed[t]) return;  // it may rise to the sole
+    const Offset edge = print->offset[p];
+    const double length = sqrt((double)length2(edge)), parted = fmin(PARTED * high, PARTED_MOST);
+    const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
     const double own =
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
     const double out = near + (1.0 - near) * (1.0 - own);
@@ -144,7 +172,20 @@ static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* grou
     double x = out * ox + (1.0 - near) * print->motion[0];
     double y = out * oy + (1.0 - near) * print->motion[1];
     if (!(x * x + y * y > 1e-6)) x = edge.i, y = edge.j;  // halfway between two sides: either
-    press(lean, tile, ti, tj, pressed, sqrt(pressed * (2.0 - pressed)), x, y);
+    press(lean, tile, ti, tj, pressed, size, x, y);
+}
+
+// the stem of one cell
+static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
+                 int pi, int pj)
+{
+    const int ti = (int)(print->i0 + pi - tile->tx * DP_TILE);
+    const int tj = (int)(print->j0 + pj - tile->ty * DP_TILE);
+    if (!(tile->height[(size_t)tj * DP_TILE + (size_t)ti] > 0.0f)) return;
+    if (print->under[at_print(print, pi, pj)])
+        flatten(lean, print, ground, tile, pi, pj, ti, tj);
+    else
+        part(lean, print, ground, tile, pi, pj, ti, tj);
 }
 
 static bool make_room(LeanPrint* print)
@@ -172,20 +213,25 @@ static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGro
                     double tallest)
 {
     const DpPlantCollider* c = print->sole;
+    const double           per_cell = lean->cell / c->cell;  // mostly 1
+    const double           u0 = (lean_centre(lean, 0, print->i0) - c->x0) / c->cell + 0.5;
+    const double           v0 = (lean_centre(lean, 1, print->j0) - c->y0) / c->cell + 0.5;
     bool                   low = false;
     for (int j = -1; j <= print->ny; ++j) {
-        const double y = lean_centre(lean, 1, print->j0 + j), v = (y - c->y0) / c->cell + 0.5;
+        const double v = v0 + j * per_cell;
         const bool   crosses = v >= 0.0 && v < c->ny;
         const float* from = crosses ? c->bottom + (size_t)v * (size_t)c->row : NULL;
         float*       to = print->bottom + at_print(print, 0, j);
         uint8_t*     sole = print->under + at_print(print, 0, j);
         for (int i = -1; i <= print->nx; ++i) to[i] = INFINITY, sole[i] = 0;
         for (int i = -1; i <= print->nx && crosses; ++i) {
-            const double x = lean_centre(lean, 0, print->i0 + i), u = (x - c->x0) / c->cell + 0.5;
+            const double u = u0 + i * per_cell;
             if (!(u >= 0.0 && u < c->nx)) continue;
             to[i] = from[(size_t)u];
             sole[i] = isfinite(to[i]) ? 1 : 0;
-            if (sole[i] && !low) low = (double)to[i] - plant_ground_at(ground, x, y) < tallest;
+            if (sole[i] && !low)
+                low =
+                    (double)to[i] - ground_at(lean, ground, print->i0 + i, print->j0 + j) < tallest;
         }
     }
     return low;
@@ -199,24 +245,36 @@ static double plants_tallest(const DpPlants* plants)
     return most;
 }
 
+static double margin_of(const DpLean* lean)
+{
+    return fmin(PARTED * plants_tallest(lean->plants), PARTED_MOST) + 2.0 * lean->cell;
+}
+
+LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* c)
+{
+    const double margin = margin_of(lean);
+    LeanPrint    print = {.sole = c};
+    print.i0 = lean_cell(lean, 0, c->x0 - 0.5 * c->cell - margin);
+    print.j0 = lean_cell(lean, 1, c->y0 - 0.5 * c->cell - margin);
+    const long i1 = lean_cell(lean, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
+    const long j1 = lean_cell(lean, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
+    if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MOST_CELLS) return print;
+    print.nx = (int)(i1 - print.i0), print.ny = (int)(j1 - print.j0);
+    return print;
+}
+
 DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
                       const DpPlantCollider* c)
 {
-    const double tallest = plants_tallest(lean->plants);
-    const double margin = fmin(PARTED * tallest, PARTED_MOST) + 2.0 * lean->cell;
+    const LeanPrint window = lean_window(lean, c);
     print->sole = c;
-    print->nx = print->ny = 0;
-    print->i0 = lean_cell(lean, 0, c->x0 - 0.5 * c->cell - margin);
-    print->j0 = lean_cell(lean, 1, c->y0 - 0.5 * c->cell - margin);
-    const long i1 = lean_cell(lean, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
-    const long j1 = lean_cell(lean, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
-    if ((double)(i1 - print->i0) * (double)(j1 - print->j0) > MOST_CELLS) return DP_OK;
-    print->nx = (int)(i1 - print->i0), print->ny = (int)(j1 - print->j0);
+    print->i0 = window.i0, print->j0 = window.j0, print->nx = window.nx, print->ny = window.ny;
+    if (print->nx < 1) return DP_OK;
     const double speed = sqrt(c->velocity.x * c->velocity.x + c->velocity.y * c->velocity.y);
     print->motion[0] = c->velocity.x / (speed + SLOW),
     print->motion[1] = c->velocity.y / (speed + SLOW);
     const bool room = make_room(print);
-    if (room && lay_out(lean, print, ground, tallest))
+    if (room && lay_out(lean, print, ground, plants_tallest(lean->plants)))
         find_edges(print);
     else
         print->nx = print->ny = 0;
@@ -227,14 +285,19 @@ DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGro
 {
     const int nx = print->nx, ny = print->ny;
     if (nx < 1 || ny < 1) return DP_OK;
+    const double far =
+        (margin_of(lean) - 1.5 * lean->cell) / lean->cell;  // nothing is parted there
     for (long ty = lean_tile(print->j0); ty <= lean_tile(print->j0 + ny - 1); ++ty)
         for (long tx = lean_tile(print->i0); tx <= lean_tile(print->i0 + nx - 1); ++tx) {
             LeanTile* tile = lean_touch(lean, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             const long from_i = tx * DP_TILE - print->i0, from_j = ty * DP_TILE - print->j0;
             for (int j = from_j > 0 ? (int)from_j : 0; j < ny && j < from_j + DP_TILE; ++j)
-                for (int i = from_i > 0 ? (int)from_i : 0; i < nx && i < from_i + DP_TILE; ++i)
-                    meet(lean, print, ground, tile, i, j);
+                for (int i = from_i > 0 ? (int)from_i : 0; i < nx && i < from_i + DP_TILE; ++i) {
+                    const size_t p = at_print(print, i, j);
+                    if (print->under[p] || (double)length2(print->offset[p]) < far * far)
+                        meet(lean, print, ground, tile, i, j);
+                }
         }
     return DP_OK;
 }

@@ -193,14 +193,14 @@ DpStatus dp_lean_create(DpLean** lean, const DpPlants* plants, double cell, doub
                         double origin_y);
 void     dp_lean_destroy(DpLean* lean);
 
+// Make room where soles can meet grass: reads the plants, which a step does not.
+DpStatus dp_lean_ready(DpLean* lean, const DpPlantCollider* colliders, int count);
+
 // dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands
-// up to the share of its stems that is broken. Grass is met where the ground is told.
+// up to the share of its stems that is broken. Grass is met where the ground is told. Once it is
+// ready for the same soles, the step may run while the plants move.
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt);
-// The part of a step that only looks: what the soles cover. May run while the plants move; the step
-// that follows, with the same soles, goes on from there. Without it the step looks itself.
-DpStatus dp_lean_look(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
-                      int count);
 
 // Plants have worn within x0..x1, y0..y1 [m].
 DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);

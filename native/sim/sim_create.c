@@ -51,6 +51,10 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
         bench->soil_scratch = dp_soil_scratch_create();
         whole = bench->loan && bench->imprint_scratch && bench->soil_scratch;
     }
+    for (int n = 0; whole && n < AHEAD_MOST; ++n) {
+        sim->ahead.loan[n] = dp_loan_create();
+        whole = sim->ahead.loan[n] != NULL;
+    }
     if (!whole) {
         dp_sim_destroy(sim);
         return DP_NO_MEMORY;
@@ -62,6 +66,7 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
 static void drop_recording(DpSim* sim)
 {
     dp_meadow_drop(sim);
+    sim->ahead.planned = false, sim->ahead.count = 0;
     void* const blocks[] = {sim->time,  sim->pose,        sim->mass,           sim->sole,
                             sim->force, sim->limb,        sim->sole_vertex,    sim->sole_triangle,
                             sim->group, sim->order,       sim->pressure_point, sim->touching,
@@ -92,6 +97,7 @@ void dp_sim_destroy(DpSim* sim)
         dp_free(bench->imprint.cover);
         dp_free(bench->imprint.ring);
     }
+    for (int n = 0; n < AHEAD_MOST; ++n) dp_loan_destroy(sim->ahead.loan[n]);
     dp_free(sim->bench);
     dp_free(sim);
 }

@@ -44,15 +44,21 @@ typedef struct Bench
     DpStatus          status;
 } Bench;
 
-// A part between two samples
-typedef struct Way
+// A part between two samples, and its underside at the end.
+typedef struct Shadow
 {
-    DpPose pose;      // at the end
-    DpBox  from, to;  // [m]
-    DpVec3 way;       // of its middle [m]
-    bool   jumps;     // was put elsewhere: nothing lies between
-    bool   near;      // so low that plants can meet it
-} Way;
+    int       sample;    // from this sample to the next; -1 = none
+    DpPose    pose;      // at the end
+    DpBox     from, to;  // [m]
+    DpVec3    way;       // of its middle [m]
+    bool      jumps;     // was put elsewhere: nothing lies between
+    double    low;       // its lowest [m]
+    double    ground;    // rest height below it, NaN where there is none [m]
+    bool      cast;      // the underside is known
+    Cells     at;        // of its grids
+    DpImprint imprint;   // its own grids
+    size_t    room;      // cells of each
+} Shadow;
 
 // Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
 typedef struct Meadow
@@ -62,18 +68,29 @@ typedef struct Meadow
     double    extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording
-    Way*             way;           // (parts)
+    Shadow*          shadow;        // of this step and the next (2, parts)
     DpPlantCollider* sole;          // of parts near the ground (parts)
-    float**          bottom;
-    size_t*          bottom_room;
-    float*           cover;  // scratch of one imprint
-    size_t           cover_room;
 
     DpPlantGround* ground;  // around limbs near the ground (limbs)
     float**        height;
     size_t*        height_room;
     int            soles, grounds;  // of this step
 } Meadow;
+
+#define AHEAD_MOST 4  // limbs; where more press, they keep all cores busy by themselves
+
+// The next step's soil, worked out on loans while plants move. It counts unless they broke
+// something the loans hold: then the limbs are as they were planned, and press in their turn.
+typedef struct Ahead
+{
+    bool         planned;  // limbs and groups are those of the next step
+    int          count;    // limbs at work, 0 = none
+    Limb*        limb[AHEAD_MOST];
+    Limb         was[AHEAD_MOST];
+    DpSoilPatch* patch[AHEAD_MOST];
+    DpStatus     status[AHEAD_MOST];
+    DpLoan*      loan[AHEAD_MOST];
+} Ahead;
 
 struct DpSim
 {
@@ -102,7 +119,9 @@ struct DpSim
     int*   group;  // limbs in groups that touch each other: group k holds order[start[k]..]
     int*   order;
     int*   start;
+    int    groups;
 
+    Ahead       ahead;
     Meadow      meadow;
     DpSimReport report;
 };
@@ -134,12 +153,31 @@ DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double
 Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
 
+// cells whose centres may lie in a box [m]
+Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
+
+// sim_shadow.c: a part's way from `sample` to the next; its underside. Ahead of its step, if plants
+// can meet it.
+Shadow*  dp_shadow_way(DpSim* sim, int part, int sample);
+DpStatus dp_shadow_cast(DpSim* sim, Shadow* shadow, int part, DpImprintScratch* scratch);
+void     dp_shadow_ahead(DpSim* sim, int part, int sample, DpImprintScratch* scratch);
+
 // sim_plants.c: room for a recording's soles; what plants do in a step, after the soil
 DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs);
 void     dp_meadow_drop(DpSim* sim);
-DpStatus dp_meadow_step(DpSim* sim, int sample);
+DpStatus dp_meadow_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
 double   dp_meadow_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
 
-// sim_press.c: one limb's step, and its settling
-DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench);
+// sim_step.c: what every limb does in a step, and room for it on the terrain
+DpStatus dp_step_plan(DpSim* sim, int sample);
+
+// sim_ahead.c: plan the step from `sample` on, and lend its patches; how many limbs can press ahead
+DpStatus dp_ahead_open(DpSim* sim, int sample, int* limbs);
+void     dp_ahead_press(DpSim* sim, int sample, int index, Bench* bench);  // one of them
+// Cover has changed within x0..x1, y0..y1 [m]: what was lent there does not count.
+void dp_ahead_worn(DpSim* sim, double x0, double y0, double x1, double y1);
+bool dp_ahead_take(DpSim* sim);  // lay it down; false: the step has still to be made
+
+// sim_press.c: one limb's step on its patch, and its settling
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench);
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench);

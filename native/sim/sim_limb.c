@@ -26,6 +26,7 @@ DpPose dp_limb_pose(const DpSim* sim, int part, int sample, double w)
     const DpPose a = pose_at(sim, part, sample);
     if (w <= 0.0 || sample + 1 >= sim->gait.times) return a;
     const DpPose b = pose_at(sim, part, sample + 1);
+    if (w >= 1.0) return b;  // to the bit where the next interval begins
     const DpPose pose = {dp_add(dp_scale(a.at, 1.0 - w), dp_scale(b.at, w)),
                          dp_slerp(a.turn, b.turn, w)};
     return pose;

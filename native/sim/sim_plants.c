@@ -10,7 +10,6 @@
 
 #define FOOT_HIGH 0.15     // above its sole a foot is at least so high [m]
 #define FRICTION 0.5       // of leaves on a sole [-]
-#define FASTEST 25.0       // a sole that is faster was put elsewhere [m/s]
 #define RISE_TIME 0.1      // in which a sole that let go is where it was recorded [s]
 #define MARGIN_MOST 0.5    // beside a sole [m]
 #define SETTLED_MARGIN 16  // cells around trodden ground whose soil came to rest
@@ -50,8 +49,7 @@ DpLean* dp_sim_lean(const DpSim* sim)
     return sim->meadow.lean;
 }
 
-// cells whose centres may lie in a box
-static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double y1)
+Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1)
 {
     const double most = 1e9;
     const Cells cells = {(long)dp_clamp(floor((x0 - sim->origin_x) / sim->cell - 0.5), -most, most),
@@ -64,7 +62,7 @@ static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double 
 // the ground asks again for its cover within a box [m]
 static void cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
 {
-    const Cells at = cells_of(sim, x0, y0, x1, y1);
+    const Cells at = dp_sim_cells(sim, x0, y0, x1, y1);
     dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
 }
 
@@ -149,26 +147,26 @@ DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs)
     Meadow* m = &sim->meadow;
     if (!m->plants) return DP_OK;
     m->parts = parts, m->limbs = limbs;
-    m->way = dp_alloc((size_t)parts, sizeof *m->way);
+    m->shadow = dp_alloc(2 * (size_t)parts, sizeof *m->shadow);
+    for (int n = 0; m->shadow && n < 2 * parts; ++n) m->shadow[n].sample = -1;
     m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
-    m->bottom = dp_alloc((size_t)parts, sizeof *m->bottom);
-    m->bottom_room = dp_alloc((size_t)parts, sizeof *m->bottom_room);
     m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
     m->height = dp_alloc((size_t)limbs, sizeof *m->height);
     m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
-    const bool whole = m->way && m->sole && m->bottom && m->bottom_room && m->ground && m->height &&
-                       m->height_room;
+    const bool whole = m->shadow && m->sole && m->ground && m->height && m->height_room;
     return whole ? DP_OK : DP_NO_MEMORY;
 }
 
 void dp_meadow_drop(DpSim* sim)
 {
     Meadow* m = &sim->meadow;
-    for (int p = 0; m->bottom && p < m->parts; ++p) dp_free(m->bottom[p]);
+    for (int n = 0; m->shadow && n < 2 * m->parts; ++n) {
+        dp_free(m->shadow[n].imprint.bottom);
+        dp_free(m->shadow[n].imprint.cover);
+    }
     for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
-    dp_free(m->way), dp_free(m->sole), dp_free(m->bottom), dp_free(m->bottom_room),
-        dp_free(m->cover);
-    dp_free(m->ground), dp_free(m->height), dp_free(m->height_room);
+    dp_free(m->shadow), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
+        dp_free(m->height_room);
     *m = (Meadow){.plants = m->plants, .lean = m->lean, .extent = m->extent, .reach = m->reach};
 }
 
@@ -183,26 +181,6 @@ static bool make_room(float** grid, size_t* room, size_t cells)
 }
 
 // ---- a step ----------------------------------------------------------------------------------
-
-static Way way_of(const DpSim* sim, const Limb* limb, int part, int sample, double dt)
-{
-    const DpMesh* mesh = &sim->sole[part];
-    Way           way = {.pose = dp_limb_pose(sim, part, sample, 1.0)};
-    way.from = dp_imprint_box(mesh, dp_limb_pose(sim, part, sample, 0.0));
-    way.to = dp_imprint_box(mesh, way.pose);
-    way.way = dp_vec3(0.5 * (way.to.x0 + way.to.x1 - way.from.x0 - way.from.x1),
-                      0.5 * (way.to.y0 + way.to.y1 - way.from.y0 - way.from.y1),
-                      0.5 * (way.to.z0 + way.to.z1 - way.from.z0 - way.from.z1));
-    way.jumps = dp_length(way.way) > FASTEST * dt;
-    if (way.jumps) way.from = way.to, way.way = dp_vec3(0, 0, 0);
-    const double low = fmin(way.from.z0, way.to.z0) - fmax(limb->lowered, 0.0);
-    const double xy[2] = {0.25 * (way.from.x0 + way.from.x1 + way.to.x0 + way.to.x1),
-                          0.25 * (way.from.y0 + way.from.y1 + way.to.y0 + way.to.y1)};
-    double       ground;
-    dp_terrain_rest(sim->terrain, 1, xy, &ground);
-    way.near = low < ground + sim->meadow.extent;  // not where there is no ground
-    return way;
-}
 
 // the surface around a limb: what its soles can push plants onto, and what its soil moved
 static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
@@ -241,50 +219,43 @@ static float surface_at(const DpPlantGround* ground, long i, long j)
 }
 
 // a part's underside at the end of the step, lowered as its limb is, on the ground and not in it
-static DpStatus take_sole(DpSim* sim, const Limb* limb, int part, const Way* way, double was,
-                          double dt)
+static void take_sole(DpSim* sim, const Limb* limb, Shadow* shadow, double was, double dt)
 {
     Meadow*              m = &sim->meadow;
-    const DpMesh*        mesh = &sim->sole[part];
-    const DpBox          to = way->to;
-    const Cells          at = cells_of(sim, to.x0, to.y0, to.x1, to.y1);
     const DpPlantGround* ground = &m->ground[m->grounds - 1];
-    const int            s = m->soles, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
-    const size_t         cells = (size_t)nx * (size_t)ny;
-    if (!make_room(&m->bottom[s], &m->bottom_room[s], cells) ||
-        !make_room(&m->cover, &m->cover_room, cells))
-        return DP_NO_MEMORY;
-    const DpSoilPatch patch = {.nx = nx,
-                               .ny = ny,
-                               .row = nx,
-                               .cell = sim->cell,
-                               .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
-                               .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell};
-    DpImprint         imprint = {.bottom = m->bottom[s], .cover = m->cover};
-    const DpStatus    status =
-        dp_imprint_foot(&imprint, &patch, mesh, &way->pose, 1, 1, sim->bench[0].imprint_scratch);
-    if (status != DP_OK || imprint.i0 >= imprint.i1) return status;
-    const long di = lround((patch.x0 - ground->x0) / sim->cell);
-    const long dj = lround((patch.y0 - ground->y0) / sim->cell);
-    for (int j = imprint.j0; j < imprint.j1; ++j)
-        for (int i = imprint.i0; i < imprint.i1; ++i) {
-            float* bottom = &imprint.bottom[j * nx + i];
+    const DpImprint*     imprint = &shadow->imprint;
+    const int            nx = (int)(shadow->at.i1 - shadow->at.i0);
+    const int            ny = (int)(shadow->at.j1 - shadow->at.j0);
+    const double         x0 = sim->origin_x + ((double)shadow->at.i0 + 0.5) * sim->cell;
+    const double         y0 = sim->origin_y + ((double)shadow->at.j0 + 0.5) * sim->cell;
+    const long           di = lround((x0 - ground->x0) / sim->cell);
+    const long           dj = lround((y0 - ground->y0) / sim->cell);
+    if (imprint->i0 >= imprint->i1) return;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; ++i) {
+            float* bottom = &imprint->bottom[j * nx + i];
             if (isfinite(*bottom))
                 *bottom = fmaxf(*bottom - (float)limb->lowered, surface_at(ground, i + di, j + dj));
         }
-    DpVec3 moved = way->way;
-    moved.z -= way->jumps ? 0.0 : limb->lowered - was;
-    m->sole[m->soles++] = (DpPlantCollider){.nx = nx,
-                                            .ny = ny,
-                                            .row = nx,
-                                            .cell = sim->cell,
-                                            .x0 = patch.x0,
-                                            .y0 = patch.y0,
-                                            .bottom = m->bottom[s],
-                                            .thickness = fmax(FOOT_HIGH, to.z1 - to.z0),
-                                            .velocity = dp_scale(moved, 1.0 / dt),
-                                            .friction = FRICTION};
-    return DP_OK;
+    DpVec3 moved = shadow->way;
+    moved.z -= shadow->jumps ? 0.0 : limb->lowered - was;
+    m->sole[m->soles++] =
+        (DpPlantCollider){.nx = nx,
+                          .ny = ny,
+                          .row = nx,
+                          .cell = sim->cell,
+                          .x0 = x0,
+                          .y0 = y0,
+                          .bottom = imprint->bottom,
+                          .thickness = fmax(FOOT_HIGH, shadow->to.z1 - shadow->to.z0),
+                          .velocity = dp_scale(moved, 1.0 / dt),
+                          .friction = FRICTION};
+}
+
+// so low that plants can meet it; not where there is no ground
+static bool is_near(const DpSim* sim, const Limb* limb, const Shadow* shadow)
+{
+    return shadow->low - fmax(limb->lowered, 0.0) < shadow->ground + sim->meadow.extent;
 }
 
 // a limb's soles and the ground around them
@@ -296,17 +267,19 @@ static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
     Cells        near = {0, 0, 0, 0};
     limb->lowered = limb->stands ? limb->sink : was * exp(-dt / RISE_TIME);
     for (int p = 0; p < limb->part_count; ++p) {
-        const Way   way = m->way[limb->part[p]] = way_of(sim, limb, limb->part[p], sample, dt);
-        const DpBox a = way.from, b = way.to;
-        if (!way.near) continue;
-        near =
-            dp_cells_join(near, cells_of(sim, fmin(a.x0, b.x0) - margin, fmin(a.y0, b.y0) - margin,
-                                         fmax(a.x1, b.x1) + margin, fmax(a.y1, b.y1) + margin));
+        const Shadow* shadow = dp_shadow_way(sim, limb->part[p], sample);
+        const DpBox   a = shadow->from, b = shadow->to;
+        if (!is_near(sim, limb, shadow)) continue;
+        near = dp_cells_join(near,
+                             dp_sim_cells(sim, fmin(a.x0, b.x0) - margin, fmin(a.y0, b.y0) - margin,
+                                          fmax(a.x1, b.x1) + margin, fmax(a.y1, b.y1) + margin));
     }
     DpStatus status = take_ground(sim, limb, near);
     for (int p = 0; p < limb->part_count && m->grounds > grounds && status == DP_OK; ++p) {
-        const Way* way = &m->way[limb->part[p]];
-        if (way->near) status = take_sole(sim, limb, limb->part[p], way, was, dt);
+        Shadow* shadow = dp_shadow_way(sim, limb->part[p], sample);
+        if (!is_near(sim, limb, shadow)) continue;
+        status = dp_shadow_cast(sim, shadow, limb->part[p], sim->bench[0].imprint_scratch);
+        if (status == DP_OK) take_sole(sim, limb, shadow, was, dt);
     }
     return status;
 }
@@ -317,12 +290,15 @@ static double surface(const void* terrain, double x, double y)
     return dp_terrain_surface_at(terrain, x, y);
 }
 
-// plants move while the lean looks at the same soles: neither reads what the other writes
+// What goes on at once: plants move, the lean meets the same soles; for the next step limbs press
+// ahead and soles are cast. None reads what another writes.
 typedef struct Moving
 {
     DpSim*               sim;
+    int                  sample;
     const DpPlantGround* ground;
     double               dt;
+    int                  ahead;  // limbs
     DpPlantsTold         told;
     DpStatus             status[2];
 } Moving;
@@ -330,15 +306,21 @@ typedef struct Moving
 static void move(void* context, int index, int worker)
 {
     Moving*       moving = context;
-    const Meadow* m = &moving->sim->meadow;
-    (void)worker;
-    moving->status[index] =
-        index == 0 ? dp_plants_step(m->plants, moving->ground, m->sole, m->soles, moving->dt,
-                                    moving->sim->bench_count, &moving->told)
-                   : dp_lean_look(m->lean, moving->ground, m->sole, m->soles);
+    DpSim*        sim = moving->sim;
+    const Meadow* m = &sim->meadow;
+    if (index == 0)
+        moving->status[0] = dp_plants_step(m->plants, moving->ground, m->sole, m->soles, moving->dt,
+                                           sim->bench_count, &moving->told);
+    else if (index == 1)
+        moving->status[1] = dp_lean_step(m->lean, moving->ground, m->sole, m->soles, moving->dt);
+    else if (index < 2 + moving->ahead)
+        dp_ahead_press(sim, moving->sample + 1, index - 2, &sim->bench[worker]);
+    else
+        dp_shadow_ahead(sim, index - 2 - moving->ahead, moving->sample + 1,
+                        sim->bench[worker].imprint_scratch);
 }
 
-DpStatus dp_meadow_step(DpSim* sim, int sample)
+DpStatus dp_meadow_step(DpSim* sim, int sample, bool more)
 {
     Meadow*      m = &sim->meadow;
     const double dt = sim->time[sample + 1] - sim->time[sample];
@@ -351,20 +333,23 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
     for (int g = 0; g < m->grounds; ++g)
         m->ground[g].next = g + 1 < m->grounds ? &m->ground[g + 1] : &elsewhere;
     const DpPlantGround* ground = m->grounds > 0 ? m->ground : &elsewhere;
+    int                  ahead = 0;
     status = dp_plants_follow(m->plants, ground);
+    if (status == DP_OK) status = dp_lean_ready(m->lean, m->sole, m->soles);
+    if (status == DP_OK && more && sim->bench_count > 1)
+        status = dp_ahead_open(sim, sample + 1, &ahead);
     if (status != DP_OK) return status;
 
-    Moving moving = {.sim = sim, .ground = ground, .dt = dt};
-    dp_parallel_for(2, sim->bench_count, move, &moving);
+    Moving    moving = {.sim = sim, .sample = sample, .ground = ground, .dt = dt, .ahead = ahead};
+    const int shadows = more && sim->bench_count > 1 ? m->parts : 0;
+    dp_parallel_for(2 + ahead + shadows, sim->bench_count, move, &moving);
     for (int k = 0; k < 2; ++k)
         if (moving.status[k] != DP_OK) return moving.status[k];
     const DpPlantsTold told = moving.told;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
-    if (told.changed) {
-        cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
-        status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
-    }
-    if (status == DP_OK) status = dp_lean_step(m->lean, ground, m->sole, m->soles, dt);
-    return status;
+    if (!told.changed) return DP_OK;
+    cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
+    dp_ahead_worn(sim, told.x0, told.y0, told.x1, told.y1);
+    return dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
 }

@@ -84,13 +84,9 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
     return status == DP_NO_GROUND ? DP_OK : status;
 }
 
-DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench)
 {
-    DpSoilPatch* patch = NULL;
-    const Cells  at = limb->patch;
-    DpStatus     status =
-        dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
-    if (status == DP_OK) status = fit_imprint(bench, patch);
+    DpStatus status = fit_imprint(bench, patch);
     if (status != DP_OK) return status;
 
     const int    substeps = dp_limb_substeps(sim, limb, sample);
@@ -107,9 +103,8 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, Bench* bench)
     status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
                                sim->options.tolerance, most, bench->soil_scratch, &settled);
     if (status != DP_OK) return status;
-    dp_terrain_give_back(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
     limb->spills = settled.at_edge;
-    limb->trodden = dp_cells_join(limb->trodden, at);
+    limb->trodden = dp_cells_join(limb->trodden, limb->patch);
     return DP_OK;
 }
 

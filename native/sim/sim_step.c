@@ -1,7 +1,8 @@
 // sim/sim_step.c - all limbs, interval by interval. TRAIL 4.2: where the rooms meet.
 //
 // Limbs whose patches meet form a group and are worked on in the recording's order by one thread;
-// groups do not touch each other, so they may run at once and the result stays the same.
+// groups do not touch each other, so they may run at once and the result stays the same. On planted
+// ground the next step's soil is worked out while the plants still move: sim_ahead.c.
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "sim/sim_inside.h"
@@ -81,9 +82,16 @@ static void work_group(void* context, int group, int worker)
     DpSim*      sim = step->sim;
     Bench*      bench = &sim->bench[worker];
     for (int k = sim->start[group]; k < sim->start[group + 1]; ++k) {
-        Limb* limb = &sim->limb[sim->order[k]];
+        Limb*        limb = &sim->limb[sim->order[k]];
+        const Cells  at = limb->patch;
+        DpSoilPatch* patch = NULL;
         if (limb->lifts || bench->status != DP_OK) continue;
-        bench->status = dp_limb_press(sim, limb, step->sample, bench);
+        bench->status =
+            dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+        if (bench->status == DP_OK)
+            bench->status = dp_limb_press(sim, limb, step->sample, patch, bench);
+        if (bench->status == DP_OK)
+            dp_terrain_give_back(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
     }
 }
 
@@ -114,43 +122,56 @@ static void count(DpSim* sim)
     }
 }
 
-static DpStatus step_soil(DpSim* sim, int sample)
+// what every limb does in a step, and room for it on the terrain
+DpStatus dp_step_plan(DpSim* sim, int sample)
 {
+    sim->groups = 0;
     bool any = false;
     for (int l = 0; l < sim->gait.limbs; ++l) {
         plan_limb(sim, &sim->limb[l], sample);
         any = any || sim->limb[l].active;
     }
-    if (!any) return DP_OK;
-    const int groups = make_groups(sim);
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    if (any) sim->groups = make_groups(sim);
+    for (int l = 0; any && l < sim->gait.limbs; ++l) {
         const Limb* limb = &sim->limb[l];
         if (!limb->active || dp_cells_empty(limb->patch)) continue;
         const DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
                                                  limb->patch.j0, limb->patch.j1);
         if (status != DP_OK) return status;
     }
+    return DP_OK;
+}
+
+static DpStatus press_limbs(DpSim* sim, int sample)
+{
     long cells = 0;
     for (int l = 0; l < sim->gait.limbs; ++l) {
         const Cells* at = &sim->limb[l].patch;
         if (sim->limb[l].active && !sim->limb[l].lifts)
             cells += (at->i1 - at->i0) * (at->j1 - at->j0);
     }
+    const int  groups = sim->groups;
     const bool worth = groups >= FEW_GROUPS || (groups > 1 && cells >= MANY_CELLS);
     Step       step = {sim, sample};
     for (int b = 0; b < sim->bench_count; ++b) sim->bench[b].status = DP_OK;
     dp_parallel_for(groups, worth ? sim->bench_count : 1, work_group, &step);
     for (int b = 0; b < sim->bench_count; ++b)
         if (sim->bench[b].status != DP_OK) return sim->bench[b].status;
-    const DpStatus status = settle_limbs(sim);
-    count(sim);
-    return status;
+    return DP_OK;
 }
 
-static DpStatus step_once(DpSim* sim, int sample)
+static DpStatus step_soil(DpSim* sim, int sample)
 {
-    const DpStatus status = step_soil(sim, sample);
-    return status == DP_OK && sim->meadow.plants ? dp_meadow_step(sim, sample) : status;
+    DpStatus   status = DP_OK;
+    const bool planned = sim->ahead.planned;
+    const bool done = dp_ahead_take(sim);
+    if (!planned) status = dp_step_plan(sim, sample);
+    if (status != DP_OK || sim->groups == 0) return status;
+    if (!done) status = press_limbs(sim, sample);
+    if (status != DP_OK) return status;
+    status = settle_limbs(sim);
+    count(sim);
+    return status;
 }
 
 DpStatus dp_sim_run(DpSim* sim, int sample)
@@ -158,7 +179,9 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
     if (!sim->limb) return DP_BAD_ARGUMENT;
     if (sample > sim->gait.times - 1) sample = sim->gait.times - 1;
     while (sim->next < sample) {
-        const DpStatus status = step_once(sim, sim->next);
+        DpStatus status = step_soil(sim, sim->next);
+        if (status == DP_OK && sim->meadow.plants)
+            status = dp_meadow_step(sim, sim->next, sim->next + 1 < sample);
         if (status != DP_OK) return status;
         ++sim->next;
     }
