@@ -22,8 +22,9 @@
 #endif
 
 #define BEYOND 1.02f  // edges between stems are hard when longer than this
-#define STICK 0.95f   // what is limp slides by no more than the rest of its way over the ground
-#define TINY 1e-18f   // squared length of what has none [m^2]
+#define LAST_PASSES 16
+#define STICK 0.95f  // what is limp slides by no more than the rest of its way over the ground
+#define TINY 1e-18f  // squared length of what has none [m^2]
 
 // let particles go on as they moved; where they were is kept
 INLINE void go_on(float* restrict at, float* restrict speed, float* restrict before, float keep,
@@ -224,34 +225,43 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
     }
 }
 
-// the last word of a step: rows hold together, except under soles, who see to that themselves;
-// then, from the foot upward, no stem is longer than it may be
-DP_CLONES
-static void shorten(const PlantStand* stand, PlantBlock* block, const float* length)
+// rows come together, except under soles, who see to that themselves; how far the most stretched of
+// them was beyond its length, 1 = not at all
+INLINE float shorten_rows(const PlantStand* stand, PlantBlock* block, const float* length,
+                          const float* open)
 {
-    const int   rows = stand->shape.rows;
-    const float most = DP_STRETCH_MOST * stand->gap;
-    float       open[DP_LANES];
-    for (int l = 0; l < DP_LANES; ++l) open[l] = block->touched_lane[l] ? 0.0f : 1.0f;
-    for (int k = 0; k < 2 * stand->edges; ++k) {  // twice over
-        const int        e = k % stand->edges;
+    const int rows = stand->shape.rows;
+    float *   x = block->state->at[0], *y = block->state->at[1], *z = block->state->at[2];
+    float     longest[DP_LANES] = {0};
+    for (int e = 0; e < stand->edges; ++e) {
         const PlantEdge* edge = &stand->edge[e];
         const int        a = edge->a * DP_LANES, b = edge->b * DP_LANES;
         if (edge->b - edge->a != rows) continue;
-        float *      x = block->state->at[0], *y = block->state->at[1], *z = block->state->at[2];
         const float *rest = length + 2 * e * DP_LANES, *joined = rest + DP_LANES;
         LANES
         {
             const float dx = x[b + l] - x[a + l], dy = y[b + l] - y[a + l],
                         dz = z[b + l] - z[a + l];
-            const float over = 1.0f - BEYOND * rest[l] / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
-            const float back = 0.5f * open[l] * joined[l] * (over > 0.0f ? over : 0.0f);
+            const float far = sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+            const float over = 1.0f - BEYOND * rest[l] / far, held = open[l] * joined[l];
+            const float back = 0.5f * held * (over > 0.0f ? over : 0.0f);
+            const float share = held * far / (rest[l] > TINY ? rest[l] : TINY);
+            longest[l] = share > longest[l] ? share : longest[l];
             x[a + l] += back * dx, y[a + l] += back * dy, z[a + l] += back * dz;
             x[b + l] -= back * dx, y[b + l] -= back * dy, z[b + l] -= back * dz;
         }
     }
+    float most = 0.0f;
+    for (int l = 0; l < DP_LANES; ++l) most = longest[l] > most ? longest[l] : most;
+    return most;
+}
+
+// from the foot upward, no stem is longer than it may be
+INLINE void shorten_stems(const PlantStand* stand, PlantBlock* block)
+{
+    const float most = DP_STRETCH_MOST * stand->gap;
     for (int p = 0; p < stand->shape.particles; ++p) {
-        if (p % rows < DP_PLANT_HELD) continue;
+        if (p % stand->shape.rows < DP_PLANT_HELD) continue;
         float *x = block->state->at[0] + p * DP_LANES, *y = block->state->at[1] + p * DP_LANES;
         float* z = block->state->at[2] + p * DP_LANES;
         LANES
@@ -262,6 +272,20 @@ static void shorten(const PlantStand* stand, PlantBlock* block, const float* len
             const float back = over > 0.0f ? over : 0.0f;
             x[l] -= back * dx, y[l] -= back * dy, z[l] -= back * dz;
         }
+    }
+}
+
+// The last word of a step. Mostly one pass will do; who was just let go by a sole may need more.
+DP_CLONES
+static void shorten(const PlantStand* stand, PlantBlock* block, const float* length)
+{
+    float open[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) open[l] = block->touched_lane[l] ? 0.0f : 1.0f;
+    float longest = shorten_rows(stand, block, length, open);
+    for (int pass = 0; pass < LAST_PASSES; ++pass) {
+        if (pass > 0 || longest > BEYOND) longest = shorten_rows(stand, block, length, open);
+        shorten_stems(stand, block);
+        if (!(longest > DP_STRETCH_MOST)) return;
     }
 }
 
