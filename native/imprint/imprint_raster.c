@@ -105,8 +105,9 @@ DP_INLINE int plane_through(Plane* plane, const Corner* const* corner)
     const double   u2 = two->u - from->u, v2 = two->v - from->v, z2 = two->z - from->z;
     const double   twice = u1 * v2 - u2 * v1;
     if (twice == 0.0) return 0;
-    const double du = (z1 * v2 - z2 * v1) / twice;
-    const double dv = (u1 * z2 - u2 * z1) / twice;
+    const double whole = 1.0 / twice;
+    const double du = (z1 * v2 - z2 * v1) * whole;
+    const double dv = (u1 * z2 - u2 * z1) * whole;
     const int    fair = (du < STEEPEST) & (du > -STEEPEST) & (dv < STEEPEST) & (dv > -STEEPEST);
     plane->u = from->u, plane->v = from->v;
     plane->z = fair ? from->z : least->z;
@@ -182,7 +183,11 @@ DP_INLINE void lower_triangle(const DpSamples* samples, const DpReach* reach,
     const Corner*  mid = corner[by_v[1]];
     const Corner*  top = corner[by_v[2]];
     const Edge     whole = edge_between(low, top);
-    const Edge     lower = edge_between(low, mid), upper = edge_between(mid, top);
+    const double   v0 = (double)(2 * reach->q0 - samples->past_v);
+    const double   v1 = (double)(2 * reach->q1 - samples->past_v);
+    Edge           lower = whole, upper = whole;  // many triangles have no row in one of them
+    if (v0 < mid->v) lower = edge_between(low, mid);
+    if (v1 > mid->v) upper = edge_between(mid, top);
     for (int q = reach->q0; q <= reach->q1; ++q) {
         const double v = (double)(2 * q - samples->past_v);
         double       one = crossing(&whole, v);

@@ -10,6 +10,8 @@
 #define LOOKS_MOST \
     1024  // at cells for one ceiling; where there are more around a plant, it has none
 
+#define STILL 1e-6f  // who moves less sees the same ground [m]
+
 static bool piece_ok(const DpPlantGround* g)
 {
     if (g->at) return true;
@@ -172,6 +174,14 @@ bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlant
     return true;
 }
 
+// is a particle where its ground was seen, and on it?
+static bool lies_still(const PlantState* state, int k)
+{
+    return fabsf(state->at[0][k] - state->seen[0][k]) < STILL &&
+           fabsf(state->at[1][k] - state->seen[1][k]) < STILL && state->floor[k] > DP_NO_FLOOR &&
+           state->at[2][k] >= state->floor[k];
+}
+
 void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
 {
     const int    rows = stand->shape.rows;
@@ -183,9 +193,11 @@ void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlan
             const double own = block->origin[2] + (double)z[k], most = (double)block->ceiling[l];
             double       height = most;  // over all ground: it falls no further in a step
             if (own <= most) {
+                if (!block->told_lane[l] && lies_still(block->state, k)) continue;
                 const double x = block->origin[0] + (double)block->state->at[0][k];
                 const double y = block->origin[1] + (double)block->state->at[1][k];
                 height = plant_ground_at(ground, x, y);
+                for (int d = 0; d < 2; ++d) block->state->seen[d][k] = block->state->at[d][k];
             }
             block->state->floor[k] =
                 isfinite(height) ? (float)(height - block->origin[2]) : DP_NO_FLOOR;

@@ -30,7 +30,8 @@ typedef struct PlantState
     float*  at[3];     // positions from the block's origin [m]
     float*  speed[3];  // [m/s]
     float*  limp;      // 1 above a broken bend, else 0 (particles, lanes)
-    float*  floor;     // height of the ground under a particle, as it was last seen [m]
+    float*  floor;     // height of the ground under a particle, as it was last seen [m], ..
+    float*  seen[2];   // .. and where that was [m]
     double* strength;  // eps_b; 0 = broken
 } PlantState;
 
@@ -40,6 +41,7 @@ typedef struct PlantBlock
     int         count;  // lanes in use; the others repeat lane 0
     bool        awake, touched, wearing, changed;
     bool        touched_lane[DP_LANES];
+    bool        told_lane[DP_LANES];  // a grid tells of the ground around it: it may have changed
     int         broke;         // bends, in the last step
     double      quiet;         // time without motion [s]
     double      asleep_since;  // [s]

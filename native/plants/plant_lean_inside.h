@@ -28,22 +28,16 @@ typedef struct LeanTile
     int32_t held[CELLS];   // the step in which something held it last
 } LeanTile;
 
-// an offset in cells to the nearest cell of the other kind, sole or no sole
-typedef struct Offset
-{
-    int16_t i, j;
-} Offset;
-
 // A window of the lean's cells around a sole; grids have a border of one cell.
 typedef struct LeanPrint
 {
     const DpPlantCollider* sole;
-    long                   i0, j0;     // world cell of its cell (0, 0)
-    int                    nx, ny;     // 0 = the sole meets no grass
-    double                 motion[2];  // where the foot goes, shorter when slow
-    Offset*                offset;
-    float*                 bottom;  // +inf where there is no sole
-    uint8_t*               under;   // is there a sole?
+    long                   i0, j0;       // world cell of its cell (0, 0)
+    int                    nx, ny;       // 0 = the sole meets no grass
+    double                 motion[2];    // where the foot goes, shorter when slow
+    int32_t *              across, *up;  // to the nearest cell of the other kind, sole or no sole
+    float*                 bottom;       // +inf where there is no sole
+    uint8_t*               under;        // is there a sole?
     size_t                 room;
 } LeanPrint;
 

@@ -18,64 +18,71 @@ static size_t at_print(const LeanPrint* print, int i, int j)
     return (size_t)(j + 1) * (size_t)(print->nx + 2) + (size_t)(i + 1);
 }
 
-static int length2(Offset o)
+static int length2(const LeanPrint* print, size_t p)
 {
-    return o.i * o.i + o.j * o.j;
+    return print->across[p] * print->across[p] + print->up[p] * print->up[p];
 }
 
-// how a cell's offset would be by way of a neighbour at (di, dj)
-static inline Offset by_way_of(Offset there, bool alike, int di, int dj)
+// Rows of offsets to the nearest cell of the other kind, and of whether there is a sole.
+typedef struct EdgeRow
 {
-    return (Offset){(int16_t)(di + (alike ? there.i : 0)), (int16_t)(dj + (alike ? there.j : 0))};
-}
+    int32_t *      across, *up;
+    const uint8_t* sole;
+} EdgeRow;
 
-// a row's cells look at the row before it
-DP_CLONES
-static void look_back(Offset* restrict own, const Offset* restrict back,
-                      const uint8_t* restrict sole, const uint8_t* restrict sole_back, int nx,
-                      int dj)
+static EdgeRow row_at(const LeanPrint* print, int j)
 {
-    for (int i = 0; i < nx; ++i) {
-        Offset best = own[i];
-        for (int d = -1; d <= 1; ++d) {
-            const Offset way = by_way_of(back[i + d], sole_back[i + d] == sole[i], d, dj);
-            const bool   nearer = length2(way) < length2(best);
-            best.i = nearer ? way.i : best.i, best.j = nearer ? way.j : best.j;
-        }
-        own[i] = best;
-    }
+    const size_t at = at_print(print, 0, j);
+    return (EdgeRow){print->across + at, print->up + at, print->under + at};
 }
 
 // a row's own nearest cells of the other kind, to the left and to the right
-static void look_along(Offset* own, const uint8_t* sole, int nx)
+static void look_along(EdgeRow own, int nx)
 {
     for (int step = -1; step <= 1; step += 2) {
         int far = FAR;  // from the cell before to its nearest
         for (int n = 0, i = step < 0 ? 0 : nx - 1; n < nx; ++n, i -= step) {
-            far = sole[i + step] != sole[i] ? 1 : far < FAR ? far + 1 : FAR;
-            if (far < abs(own[i].i)) own[i] = (Offset){(int16_t)(step * far), 0};
+            far = own.sole[i + step] != own.sole[i] ? 1 : far < FAR ? far + 1 : FAR;
+            if (far < abs(own.across[i])) own.across[i] = step * far, own.up[i] = 0;
         }
+    }
+}
+
+// a row's cells look at those of the row `dj` beyond: by way of one of their own kind to its
+// nearest, or at one of the other kind itself
+DP_CLONES
+static void look_back(int32_t* restrict across, int32_t* restrict up, const uint8_t* restrict sole,
+                      const int32_t* restrict their_across, const int32_t* restrict their_up,
+                      const uint8_t* restrict their_sole, int nx, int dj)
+{
+    for (int i = 0; i < nx; ++i) {
+        int32_t best_i = across[i], best_j = up[i], best = best_i * best_i + best_j * best_j;
+        for (int d = -1; d <= 1; ++d) {
+            const int32_t alike = their_sole[i + d] == sole[i] ? 1 : 0;
+            const int32_t way_i = d + alike * their_across[i + d];
+            const int32_t way_j = dj + alike * their_up[i + d];
+            const int32_t far = way_i * way_i + way_j * way_j;
+            best_i = far < best ? way_i : best_i;
+            best_j = far < best ? way_j : best_j;
+            best = far < best ? far : best;
+        }
+        across[i] = best_i, up[i] = best_j;
     }
 }
 
 // Offsets to the nearest cell of the other kind: within a row first, then down and up again.
 static void find_edges(const LeanPrint* print)
 {
-    const Offset    far = {FAR, FAR};
-    const int       nx = print->nx, ny = print->ny;
-    const ptrdiff_t row = nx + 2;
-    for (size_t k = 0; k < (size_t)row * (size_t)(ny + 2); ++k) print->offset[k] = far;
-    for (int j = 0; j < ny; ++j)
-        look_along(print->offset + at_print(print, 0, j), print->under + at_print(print, 0, j), nx);
-    for (int pass = 0; pass < 2; ++pass) {
-        const int step = pass ? 1 : -1;
+    const int    nx = print->nx, ny = print->ny;
+    const size_t size = (size_t)(nx + 2) * (size_t)(ny + 2);
+    for (size_t k = 0; k < size; ++k) print->across[k] = print->up[k] = FAR;
+    for (int j = 0; j < ny; ++j) look_along(row_at(print, j), nx);
+    for (int pass = 0; pass < 2; ++pass)
         for (int jj = 0; jj < ny; ++jj) {
-            const size_t   at = at_print(print, 0, pass ? ny - 1 - jj : jj);
-            Offset*        own = print->offset + at;
-            const uint8_t* sole = print->under + at;
-            look_back(own, own + step * row, sole, sole + step * row, nx, step);
+            const int     j = pass ? ny - 1 - jj : jj, dj = pass ? 1 : -1;
+            const EdgeRow own = row_at(print, j), back = row_at(print, j + dj);
+            look_back(own.across, own.up, own.sole, back.across, back.up, back.sole, nx, dj);
         }
-    }
 }
 
 // one stem is pressed: no less than `crushed`, leaning by `size` towards (x, y)
@@ -102,7 +109,7 @@ static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, do
 // how far a cell lies inside the sole's edge, < 0 outside [cells]
 static double depth_at(const LeanPrint* print, size_t p)
 {
-    const double length = sqrt((double)length2(print->offset[p]));
+    const double length = sqrt((double)length2(print, p));
     return print->under[p] ? length : -length;
 }
 
@@ -128,16 +135,18 @@ static void part(DpLean* lean, const LeanPrint* print, const DpPlantGround* grou
 {
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti;
     const double high = (double)tile->height[t], parted = fmin(PARTED * high, PARTED_MOST);
-    const Offset edge = print->offset[at_print(print, pi, pj)];
+    const size_t p = at_print(print, pi, pj);
     const double reach = parted / lean->cell + 0.5;
-    if (!((double)length2(edge) < reach * reach)) return;
-    const double length = sqrt((double)length2(edge));
+    if (!((double)length2(print, p) < reach * reach)) return;
+    const double length = sqrt((double)length2(print, p));
     const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
-    const double bottom = (double)print->bottom[at_print(print, pi + edge.i, pj + edge.j)];
+    const double bottom =
+        (double)print->bottom[at_print(print, pi + print->across[p], pj + print->up[p])];
     const double gap = bottom - ground_at(lean, ground, print->i0 + pi, print->j0 + pj);
     const double size = dp_clamp(1.0 - gap / high, 0.0, 1.0) * near * near;
     if (size > SLIGHT)
-        press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -edge.i, -edge.j);
+        press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -print->across[p],
+              -print->up[p]);
 }
 
 // A stem under a sole is pressed to the height it leaves, towards where the foot goes; near the
@@ -158,8 +167,8 @@ static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* g
         press(lean, tile, ti, tj, pressed, size, 0.0, 0.0);
         return;
     }
-    const Offset edge = print->offset[p];
-    const double length = sqrt((double)length2(edge)), parted = fmin(PARTED * high, PARTED_MOST);
+    const double length = sqrt((double)length2(print, p)),
+                 parted = fmin(PARTED * high, PARTED_MOST);
     const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
     const double own =
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
@@ -171,7 +180,8 @@ static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* g
     ox = steep > 0.1 ? ox / steep : 0.0, oy = steep > 0.1 ? oy / steep : 0.0;
     double x = out * ox + (1.0 - near) * print->motion[0];
     double y = out * oy + (1.0 - near) * print->motion[1];
-    if (!(x * x + y * y > 1e-6)) x = edge.i, y = edge.j;  // halfway between two sides: either
+    if (!(x * x + y * y > 1e-6))
+        x = print->across[p], y = print->up[p];  // halfway between two sides: either
     press(lean, tile, ti, tj, pressed, size, x, y);
 }
 
@@ -194,18 +204,19 @@ static bool make_room(LeanPrint* print)
     if (cells <= print->room) return true;
     lean_drop_print(print);
     print->room = cells + cells / 4;
-    print->offset = dp_alloc(print->room, sizeof(Offset));
+    print->across = dp_alloc(print->room, sizeof(int32_t));
+    print->up = dp_alloc(print->room, sizeof(int32_t));
     print->bottom = dp_alloc(print->room, sizeof(float));
     print->under = dp_alloc(print->room, 1);
-    if (print->offset && print->bottom && print->under) return true;
+    if (print->across && print->up && print->bottom && print->under) return true;
     lean_drop_print(print);
     return false;
 }
 
 void lean_drop_print(LeanPrint* print)
 {
-    dp_free(print->offset), dp_free(print->bottom), dp_free(print->under);
-    print->offset = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
+    dp_free(print->across), dp_free(print->up), dp_free(print->bottom), dp_free(print->under);
+    print->across = print->up = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
 }
 
 // The sole on the lean's own cells; false if it is nowhere less than `tallest` over the ground.
@@ -216,17 +227,20 @@ static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGro
     const double           per_cell = lean->cell / c->cell;  // mostly 1
     const double           u0 = (lean_centre(lean, 0, print->i0) - c->x0) / c->cell + 0.5;
     const double           v0 = (lean_centre(lean, 1, print->j0) - c->y0) / c->cell + 0.5;
+    const size_t           cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
     bool                   low = false;
+    for (size_t k = 0; k < cells; ++k) print->bottom[k] = INFINITY, print->under[k] = 0;
+    const int first = (int)fmax(ceil(-u0 / per_cell), -1.0);
     for (int j = -1; j <= print->ny; ++j) {
         const double v = v0 + j * per_cell;
-        const bool   crosses = v >= 0.0 && v < c->ny;
-        const float* from = crosses ? c->bottom + (size_t)v * (size_t)c->row : NULL;
+        if (!(v >= 0.0 && v < c->ny)) continue;
+        const float* from = c->bottom + (size_t)v * (size_t)c->row;
         float*       to = print->bottom + at_print(print, 0, j);
         uint8_t*     sole = print->under + at_print(print, 0, j);
-        for (int i = -1; i <= print->nx; ++i) to[i] = INFINITY, sole[i] = 0;
-        for (int i = -1; i <= print->nx && crosses; ++i) {
+        for (int i = first; i <= print->nx; ++i) {
             const double u = u0 + i * per_cell;
-            if (!(u >= 0.0 && u < c->nx)) continue;
+            if (!(u >= 0.0)) continue;
+            if (u >= c->nx) break;
             to[i] = from[(size_t)u];
             sole[i] = isfinite(to[i]) ? 1 : 0;
             if (sole[i] && !low)
@@ -295,7 +309,7 @@ DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGro
             for (int j = from_j > 0 ? (int)from_j : 0; j < ny && j < from_j + DP_TILE; ++j)
                 for (int i = from_i > 0 ? (int)from_i : 0; i < nx && i < from_i + DP_TILE; ++i) {
                     const size_t p = at_print(print, i, j);
-                    if (print->under[p] || (double)length2(print->offset[p]) < far * far)
+                    if (print->under[p] || (double)length2(print, p) < far * far)
                         meet(lean, print, ground, tile, i, j);
                 }
         }

@@ -473,6 +473,7 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
     for (int l = 0; l < DP_LANES; ++l) {
         const bool known = plant_ground_lane(stand, block, ground, l);
         plant_ask_ceiling(stand, block, ground, l);
+        block->told_lane[l] = known;
         if (!known && !block->touched_lane[l]) continue;  // it stands as it stood
         const Probe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {

@@ -48,7 +48,7 @@ bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)
         const size_t places = (size_t)stand->shape.particles * DP_LANES;
         const size_t bends = (size_t)stand->shape.bends * DP_LANES;
         const size_t head = (sizeof(PlantState) + 63) / 64 * 64;
-        char* memory = dp_alloc(1, head + bends * sizeof(double) + 8 * places * sizeof(float));
+        char* memory = dp_alloc(1, head + bends * sizeof(double) + 10 * places * sizeof(float));
         if (!memory) return false;
         PlantState* state = block->state = (PlantState*)(void*)memory;
         state->strength = (double*)(void*)(memory + head);
@@ -57,6 +57,7 @@ bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)
         for (int d = 0; d < 3; ++d, grid += places) state->speed[d] = grid;
         state->limp = grid;
         state->floor = grid + places;
+        for (int d = 0; d < 2; ++d) state->seen[d] = grid + (size_t)(2 + d) * places;
         for (int p = 0; p < stand->shape.particles; ++p)
             for (int l = 0; l < DP_LANES; ++l) {
                 const DpVec3 at = plant_rest_at(stand, block, p, l);
