@@ -18,7 +18,7 @@
 int dp_gait_resample_count(double first, double last, double rate);
 
 // Fill com (W, count, 3) and pose (P, count, 7) at times first + k / rate (written to time
-// (count)): cubic in time for positions, slerp for rotations. One sample in: copied to all. Needs
+// (count)): cubic in time for positions and rotations. One sample in: copied to all. Needs
 // memory for nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
 DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* time, double* com,
                           double* pose);
