@@ -80,6 +80,10 @@ DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, cons
 DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
                            double rate, const DpLoadOptions* options, double* accel, double* way);
 
+// Keep of the times in the air the flights: those in which the body falls. Is there one?
+// @param air     where nothing carries it, changed (times);  height: of its mass centre [m] (times)
+bool walker_falls(uint8_t* air, const double* height, int times, double rate);
+
 // v0 of TRAIL (3): the velocity with which a limb touches after sample t, the last in the air.
 // @param limb_on  where the walker's limbs touch (limbs, T)
 DpVec3 walker_landing_velocity(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
