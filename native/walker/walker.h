@@ -74,6 +74,7 @@ typedef struct DpContactLimits
     double point_cutoff;        // low-pass of a point's speed                         [Hz]  > 0
     double com_cutoff;          // low-pass of the centre's speed                      [Hz]  > 0
     double support_fall;        // nobody touches and a_z > -this * g: somebody carries [-]  > 0
+    double frame_time;          // frames lay so far apart before it was resampled     [s]   >= 0
 } DpContactLimits;
 
 DpContactLimits dp_contact_limits_default(void);
