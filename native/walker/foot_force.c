@@ -8,6 +8,8 @@
 //   that runs, jumps and push-offs carry what they really carry. test_foot_force.c,
 //   jump_weighs_right. SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share. TRAIL (3):
 //   v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
+//   Design 4.3, step 2: mu is whole only while feet change or the force leans along the line between
+//   them, and none at rest; see doubtful(). tests/core/test_trials.py, squats.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

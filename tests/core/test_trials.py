@@ -49,6 +49,24 @@ def test_few_frames_tell_as_much(name):
         assert np.mean(rmse) <= 0.8 * trials.TRIALS[name][1], rate
 
 
+PUSHES = {"half a sine": lambda u: np.sin(np.pi * u), "blunt": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 0.6,
+          "sharp": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 1.5, "late": lambda u: np.sin(np.pi * u ** 1.25),
+          "early": lambda u: np.sin(np.pi * u ** 0.7), "with a knock": trials.heel_run}
+
+
+@pytest.mark.parametrize("push", PUSHES)
+def test_bounces_of_any_shape_are_found_in_few_frames(push):
+    """A jog over the heel, a run and a sprint, at 24 frames a second."""
+    over = dict(wide=0.05, strike=-0.25, flat=(0.18, 0.45), leave=1.0, arrive=(1.2, -0.9), part=(1.5, 1.6))
+    ball = dict(wide=0.03, strike=0.35, flat=(1.0, 0.0), leave=1.1, arrive=(1.5, -1.8), part=(3.0, 2.5))
+    for speed, step, contact, feet, within in ((2.4, 0.37, 0.30, over, 0.06), (3.8, 0.355, 0.22, over, 0.11),
+                                               (9.0, 0.225, 0.105, ball, 0.15)):
+        trial = trials.build(trials.steps(speed, step, contact, PUSHES[push], **feet), 3.0, rate=24.0, height=0.94)
+        found = trials.compare(trial, *loads_of(trial))
+        assert np.mean(found.rmse) <= within, speed
+        assert found.mean == pytest.approx(1.0, abs=0.03), speed
+
+
 def test_boxes_may_be_too_high_to_show():
     """Who stands on one is held up by something, and flies from where he begins to fall."""
     for drop in (0.3, 0.5):
