@@ -299,7 +299,7 @@ class Gait:
         return 1.0 / step if abs(steps - step).max() < 1e-3 * step else None
 
     def resample(self, rate):
-        """The same recording at an even rate [1/s]: cubic positions, slerped rotations."""
+        """The same recording at an even rate [1/s]: cubic positions and rotations."""
         from . import _native
 
         if not (np.isfinite(rate) and rate > 0):

@@ -9,7 +9,7 @@ import numpy as np
 from . import whole
 from .errors import DesirePathError
 
-RATE = 120.0  # loads are found at this rate [1/s] ..
+RATE = 240.0  # loads are found at this rate [1/s] ..
 RATE_KEPT = 100.0  # .. unless the recording is even and at least this fine
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
@@ -21,7 +21,8 @@ BESIDE = "Some steps land beside the ground and leave no print there."
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
 LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
           "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
-          "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5}
+          "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5,
+          "frame_time": 0.0}
 OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "cutoff_level": 2.0 / 3.0,
            "overlap_most": 0.3, "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25,
            "reach": 0.3}
@@ -86,11 +87,18 @@ def _even(gait):
     return gait.resample(RATE), False
 
 
-def _find_contacts(gait, below, limits):
+def _frames(gait):
+    """Frames a second that were recorded: the scene's, or the recording's if those are fewer."""
+    span = gait.time[-1] - gait.time[0]
+    return min(gait.frame_rate, (len(gait.time) - 1) / span) if span > 0 else gait.frame_rate
+
+
+def _find_contacts(gait, below, limits, frame_rate):
     from . import _native
 
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = np.zeros(len(gait.point))
+    limits = {"frame_time": 1.0 / frame_rate, **(limits or {})}
     _native.foot_contact(native_gait(gait), below, touching, clearance, _numbers(LIMITS, limits))
     return touching, clearance
 
@@ -102,7 +110,7 @@ def contacts(gait, ground_height=None, *, limits=None):
         return _contacts_by_piece(gait, ground_height, limits)
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground_height)
-    touching, clearance = _find_contacts(even, _carried_on(even, below), limits)
+    touching, clearance = _find_contacts(even, _carried_on(even, below), limits, _frames(gait))
     touching[_beside(even, below)] = 0
     return (touching if same else touching[:, _nearest(even.time, gait.time)]), clearance
 
@@ -171,7 +179,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     even, same = _even(gait)
     below = _on_even(gait, even, same, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
-    touching, clearance = _find_contacts(even, below, limits)
+    touching, clearance = _find_contacts(even, below, limits, _frames(gait))
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
     _native.foot_force(native_gait(even), touching, below, MODELS[model], float(settle_time),
@@ -264,13 +272,18 @@ def _once(warnings):
 
 
 def _at(want, have, touching, force, point):
-    """Loads at other times: the nearest contact, forces between their neighbours."""
+    """Loads at other times: the nearest contact, forces between their neighbours.
+
+    At an edge of contact a force jumps: beside one it is that of the nearest sample, as its contact is.
+    """
     near = _nearest(have, want)
     on = np.ascontiguousarray(touching[:, near])
+    after = np.clip(np.searchsorted(have, want), 1, len(have) - 1)
+    edge = touching[:, after] != touching[:, after - 1]
     new_force, new_point = np.zeros(on.shape + (3,)), point[:, near].copy()
     for p in range(len(on)):
         for c in range(3):
-            new_force[p, :, c] = np.interp(want, have, force[p, :, c])
+            new_force[p, :, c] = np.where(edge[p], force[p, near, c], np.interp(want, have, force[p, :, c]))
             known = np.isfinite(point[p, :, c])
             if known.any():
                 new_point[p, :, c] = np.interp(want, have[known], point[p, known, c])

@@ -124,9 +124,9 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     DpDoor          door = {0};
     DpGait          gait = {0};
     DpContactLimits l = dp_contact_limits_default();
-    double    n[11] = {l.touch_height,      l.release_height, l.release_height_toe, l.touch_speed,
+    double    n[12] = {l.touch_height,      l.release_height, l.release_height_toe, l.touch_speed,
                        l.touch_speed_share, l.release_speed,  l.slow_speed,         l.shortest,
-                       l.point_cutoff,      l.com_cutoff,     l.support_fall};
+                       l.point_cutoff,      l.com_cutoff,     l.support_fall,       l.frame_time};
     PyObject* result = NULL;
     if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
     const double* below =
@@ -136,8 +136,8 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
                         : NULL;
     double*  rest =
         on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true) : NULL;
-    if (!rest || read_numbers(&door, numbers, "limits", n, 11) < 0) goto done;
-    l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
+    if (!rest || read_numbers(&door, numbers, "limits", n, 12) < 0) goto done;
+    l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11]};
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_foot_contact(&gait, below, &l, on, rest);

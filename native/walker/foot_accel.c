@@ -14,6 +14,7 @@
 #include "walker/walker_inside.h"
 
 #define STEP_SHORTEST 0.15  // touch-downs closer than this are one step             [s]
+#define FALL_SEEN 0.1       // a fall shows in the mass centre's path over this       [s]
 #define FALLS 0.5           // who flies falls with this share of g at least          [-]
 
 static int by_value(const void* a, const void* b)
@@ -84,17 +85,29 @@ static double parabola(const double* value, int count, double rate)
     return square > 0.0 ? 2.0 * sum / square * rate * rate : 0.0;
 }
 
-// keep of these times the flights: those in which the body falls; is there one?
-static bool falls(uint8_t* air, const double* height, int times, double rate)
+// does the body fall over the `reach` samples around this one, all of them in the air?
+static bool falls_at(const double* height, int first, int end, int t, int reach, double rate)
 {
-    bool any = false;
+    const int latest = end - reach > first ? end - reach : first;
+    const int before = t - reach / 2;
+    const int from = before < first ? first : before > latest ? latest : before;
+    const int count = end - from < reach ? end - from : reach;
+    return parabola(height + from, count, rate) < -FALLS * DP_GRAVITY;
+}
+
+// Who stands on what the ground does not show, a box too high for his feet, touches nothing either
+// and flies from where he begins to fall.
+bool walker_falls(uint8_t* air, const double* height, int times, double rate)
+{
+    const int reach = (int)(FALL_SEEN * rate) + 1;
+    bool      any = false;
     for (int t = 0; t < times;) {
         int end = t;
         while (end < times && air[end]) ++end;
-        if (parabola(height + t, end - t, rate) < -FALLS * DP_GRAVITY)
-            any = true;
-        else
-            for (int k = t; k < end; ++k) air[k] = 0;
+        for (int k = t; k < end; ++k) {
+            air[k] = falls_at(height, t, end, k, reach, rate);
+            any = any || air[k];
+        }
         t = end > t ? end : t + 1;
     }
     return any;
@@ -134,7 +147,7 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
     for (int c = 2; c >= 0; --c) {
         const double cutoff = c < 2 ? level : up;
         read_line(gait, walker, c, line);
-        if (c == 2 && flies) flies = falls(air, line, times, rate);
+        if (c == 2 && flies) flies = walker_falls(air, line, times, rate);
         if (flies)
             walker_fly(line, air, times, rate, cutoff, c == 2 ? -DP_GRAVITY : 0.0, scratch);
         else

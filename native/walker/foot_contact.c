@@ -35,7 +35,8 @@ DpContactLimits dp_contact_limits_default(void)
                                     .shortest = 0.03,
                                     .point_cutoff = 20.0,
                                     .com_cutoff = 3.0,
-                                    .support_fall = 0.5};
+                                    .support_fall = 0.5,
+                                    .frame_time = 0.0};
     return limits;
 }
 
@@ -53,6 +54,7 @@ typedef struct Watch
     double*                gate;     // speed below which a point may touch [m/s] (W, T)
     double*                fall;     // a_com upward [m/s^2]                   (W, T)
     uint8_t*               on;       // the point touches                      (K, T)
+    uint8_t*               flown;    // nothing touched shortly before         (W, T)
     double*                scratch;  // for the low-pass
     double*                line;     // three signals                          (3, T)
 } Watch;
@@ -62,7 +64,7 @@ static void close_watch(Watch* w)
     dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->rise), dp_free(w->gate),
         dp_free(w->fall);
     dp_free(w->belt);
-    dp_free(w->on), dp_free(w->scratch), dp_free(w->line);
+    dp_free(w->on), dp_free(w->flown), dp_free(w->scratch), dp_free(w->line);
 }
 
 static bool open_watch(Watch* w)
@@ -77,10 +79,11 @@ static bool open_watch(Watch* w)
     w->gate = dp_alloc(walkers * times, sizeof(double));
     w->fall = dp_alloc(walkers * times, sizeof(double));
     w->on = dp_alloc(points * times, 1);
-    w->scratch = dp_alloc(3 * times + 8, sizeof(double));
+    w->flown = dp_alloc(walkers * times, 1);
+    w->scratch = dp_alloc(walker_fly_scratch(w->gait->times) + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
     return w->height && w->speed && w->drop && w->rise && w->belt && w->gate && w->fall && w->on &&
-           w->scratch && w->line;
+           w->flown && w->scratch && w->line;
 }
 
 static int limb_of(const DpGait* gait, int point)
@@ -339,11 +342,13 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
         tidy(w.on + (size_t)k * (size_t)times, times, shortest);
     }
     walker_edges(gait, w.height, clearance, w.rise, w.speed, limits->slow_speed,
-                 limits->release_speed, w.on, w.rate);
+                 limits->release_speed, limits->point_cutoff, w.on, w.flown, w.rate);
     for (int k = 0; k < gait->points; ++k) tidy(w.on + (size_t)k * (size_t)times, times, shortest);
     for (int walker = 0; walker < gait->walkers; ++walker)
         walker_support(gait, walker, w.height, w.speed, clearance,
                        w.fall + (size_t)walker * (size_t)times, limits, w.rate, w.on);
+    for (int walker = 0; walker < gait->walkers; ++walker)
+        walker_bounces(gait, walker, limits->frame_time, w.rate, w.on, w.flown, w.line, w.scratch);
     memset(touching, 0, (size_t)gait->parts * (size_t)times);
     for (int k = 0; k < gait->points; ++k) {
         uint8_t*       part = touching + (size_t)gait->point_part[k] * (size_t)times;

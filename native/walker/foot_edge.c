@@ -5,18 +5,40 @@
 // that its fall is fastest as it arrives, and it lets a foot go that is being pulled up, so that
 // the ball is lifted hardest as it leaves (Hreljac and Marshall 2000 time both by the peaks of the
 // foot's acceleration; O'Connor et al. 2007 by its vertical velocity).
+//
+// Speeds are low-passed, which turns a sudden stop into a slope of at least a quarter of the
+// cut-off's period to either side and moves the fastest fall ahead of the stop. Lengths of slopes
+// that follow upon each other add as squares: what the filter added is taken out again where a foot
+// comes down from a flight and is stopped with the whole body. test_foot_contact.c,
+// a_sudden_stop_out_of_a_flight_is_timed.
 #include <math.h>
 
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define EDGE 0.1    // the limits are no farther than this from the moment meant [s]
-#define HOVER 0.01  // what rests does so within this of its clearance              [m]
+#define EDGE 0.1     // the limits are no farther than this from the moment meant [s]
+#define FLIGHT 0.05  // who touched nothing so long before comes from a flight      [s]
+#define HOVER 0.01   // what rests does so within this of its clearance              [m]
+
+// The time from the fastest fall to the beginning of the stop that a low-pass made of it [samples]:
+// none for a stop much slower than the filter, a quarter of its period for a sudden one.
+static int smeared(const double* rise, int times, int fastest, double rate, double cutoff)
+{
+    const double half = 0.5 * rise[fastest], filter = 0.25 * rate / cutoff;
+    int          k = fastest + 1;
+    while (k < times && rise[k] < half && (double)(k - fastest) < EDGE * rate) ++k;
+    if (k >= times || !(rise[k] >= half)) return 0;
+    const double slope = (double)(k - fastest) - (rise[k] - half) / (rise[k] - rise[k - 1]);
+    return (int)(slope - sqrt(fmax(slope * slope - filter * filter, 0.0)) + 0.5);
+}
 
 // A point that touches while it still comes down does so when its fall is fastest.
 // @param height, rise  over the ground [m] and upward speed [m/s] (times)
+// @param flown         where the walker was in the air until then (times)
+// @param cutoff        of the low-pass through which rise has gone [Hz]
 static void arrive(uint8_t* on, const double* height, double clearance, const double* rise,
-                   int times, double rate, double moves, double fast)
+                   const uint8_t* flown, int times, double rate, double moves, double fast,
+                   double cutoff)
 {
     for (int t = 0; t < times; ++t) {
         if (!on[t] || (t > 0 && on[t - 1]) || (t == 0 && rise[t] > -moves)) continue;
@@ -25,10 +47,15 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
             if (rise[k] < rise[fastest]) fastest = k;
             if (height[k] < clearance) break;  // who is down has come down
         }
+        const int timed = fastest;
         // what comes down faster than its stop can be timed is timed by its height
         while (fastest + 1 < times && on[fastest + 1] && -rise[fastest] > fast &&
                height[fastest] > clearance + HOVER)
             ++fastest;
+        if (flown[t] && rise[timed] < 0.0) {
+            const int stop = timed + smeared(rise, times, timed, rate, cutoff);
+            while (fastest < stop && on[fastest + 1] && height[fastest] > clearance) ++fastest;
+        }
         for (; t < fastest; ++t) on[t] = 0;
     }
 }
@@ -97,13 +124,31 @@ static void leave(const DpGait* gait, int limb, const double* rise, const double
     }
 }
 
-void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, const double* speed, double moves, double fast, uint8_t* on,
-                  double rate)
+// where no limb of a walker touched shortly before
+static void find_flown(const DpGait* gait, int walker, const uint8_t* on, double rate,
+                       uint8_t* flown)
 {
+    const int before = (int)(FLIGHT * rate);
+    for (int t = 0; t < gait->times; ++t) flown[t] = t >= before;
+    for (int k = 0; k < gait->points; ++k) {
+        if (gait->limb_walker[gait->part_limb[gait->point_part[k]]] != walker) continue;
+        const uint8_t* row = on + (size_t)k * (size_t)gait->times;
+        for (int t = before; t < gait->times; ++t) flown[t] = flown[t] && !row[t - before];
+    }
+}
+
+void walker_edges(const DpGait* gait, const double* height, const double* clearance,
+                  const double* rise, const double* speed, double moves, double fast, double cutoff,
+                  uint8_t* on, uint8_t* flown, double rate)
+{
+    for (int walker = 0; walker < gait->walkers; ++walker)
+        find_flown(gait, walker, on, rate, flown + (size_t)walker * (size_t)gait->times);
     for (int k = 0; k < gait->points; ++k) {
         const size_t row = (size_t)k * (size_t)gait->times;
-        arrive(on + row, height + row, clearance[k], rise + row, gait->times, rate, moves, fast);
+        const int    walker = gait->limb_walker[gait->part_limb[gait->point_part[k]]];
+        arrive(on + row, height + row, clearance[k], rise + row,
+               flown + (size_t)walker * (size_t)gait->times, gait->times, rate, moves, fast,
+               cutoff);
     }
     for (int limb = 0; limb < gait->limbs; ++limb) leave(gait, limb, rise, speed, on, rate, moves);
 }

@@ -8,6 +8,8 @@
 //   that runs, jumps and push-offs carry what they really carry. test_foot_force.c,
 //   jump_weighs_right. SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share. TRAIL (3):
 //   v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
+//   Design 4.3, step 2: mu is whole only while feet change or the force leans along the line between
+//   them, and none at rest; see doubtful(). tests/core/test_trials.py, squats.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +21,7 @@
 #define PI 3.14159265358979323846
 #define LEAST_PULL 0.2     // a_z + g counts as no less than this share of g   [-]
 #define STILL 0.1          // accelerations below this share of g are near rest [-]
+#define THROWN 2.0         // accelerations upward of so many g turn the body too   [-]
 #define SOLE_LIFT 0.04     // a point this far above its limb's lowest carries nothing [m]
 #define TIP_CAPACITY 0.25  // toes carry a quarter of what heel or ball does      [-]
 #define TRAVEL 0.5         // who moves this fast is under way                  [m/s]
@@ -192,6 +195,18 @@ static double trust(const Load* l, const Supports* s, DpVec3 accel)
     return l->options->ramp_trust * change;
 }
 
+// Of an acceleration what makes the zero-moment point of two limbs doubtful, in its own terms: that
+// along the line between them, as far as it leans the force; not that across, which leans on
+// neither, and little of that upward, which presses both alike until the whole body turns with it.
+static DpVec3 doubtful(const Supports* s, DpVec3 accel, double pull)
+{
+    if (s->count != 2) return accel;
+    const DpVec3 line = dp_sub(s->at[1], s->at[0]);
+    const DpVec3 way = dp_unit(dp_vec3(line.x, line.y, 0.0));
+    const double lean = dp_dot(accel, way) * DP_GRAVITY / fmax(pull, LEAST_PULL * DP_GRAVITY);
+    return dp_add(dp_scale(way, lean), dp_vec3(0.0, 0.0, STILL / THROWN * accel.z));
+}
+
 static void share_out(const Load* l, Supports* s, DpVec3 accel, DpVec3 target)
 {
     const bool by_ramps = l->options->model == DP_LOAD_INERTIA;
@@ -309,7 +324,7 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     const double lever = (com.z - low / (double)limbs.count) / fmax(pull, LEAST_PULL * DP_GRAVITY);
     // zero-moment point; at rest, what lies below the mass centre
     const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));
-    share_out(l, &limbs, accel, zmp);
+    share_out(l, &limbs, doubtful(&limbs, accel, pull), zmp);
     DpVec3 miss = zmp;  // what the limbs' centres leave to their points
     for (int k = 0; k < limbs.count; ++k)
         miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));

@@ -28,11 +28,11 @@ static bool carried(const DpGait* gait, int walker, const uint8_t* on, int t)
     return false;
 }
 
-// the slowest lowest foot touches, at its own height, and with it any as low that hardly moves
-// faster: who glides on two feet stands on both
-static void support(const DpGait* gait, int walker, int t, const double* height,
+// The slowest lowest foot touches, at its own height, and with it any as low that hardly moves
+// faster: who glides on two feet stands on both. False if it is too high to carry.
+static bool support(const DpGait* gait, int walker, int t, const double* height,
                     const double* speed, const double* clearance, const DpContactLimits* limits,
-                    uint8_t* on)
+                    double highest, uint8_t* on)
 {
     double least = INFINITY, lowest = 0.0, pace = 0.0;
     int    limb = -1;
@@ -43,13 +43,29 @@ static void support(const DpGait* gait, int walker, int t, const double* height,
         const double cost = speed[at] + RISE_TO_SPEED * d;
         if (cost < least) least = cost, lowest = d, pace = speed[at], limb = limb_of(gait, k);
     }
-    if (lowest > HIGHEST) return;
-    for (int k = 0; k < gait->points && limb >= 0; ++k) {
+    if (limb < 0 || lowest > highest) return false;
+    for (int k = 0; k < gait->points; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
         if (gait->limb_walker[limb_of(gait, k)] != walker || isnan(height[at])) continue;
         if (limb_of(gait, k) != limb && !(speed[at] < pace + limits->slow_speed)) continue;
         if (height[at] - clearance[k] <= lowest + limits->touch_height) on[at] = 1;
     }
+    return true;
+}
+
+// Who is carried at one sample is so at those beside it, though his feet be a little higher there: a
+// stance on a box as high as feet may be does not come and go with the noise of the recording.
+static void support_all(const DpGait* gait, int walker, int first, int end, const double* height,
+                        const double* speed, const double* clearance, const DpContactLimits* limits,
+                        uint8_t* on)
+{
+    bool held = false;
+    for (int t = first; t < end; ++t)
+        held = support(gait, walker, t, height, speed, clearance, limits,
+                       HIGHEST + (held ? limits->touch_height : 0.0), on);
+    for (int t = end - 1; t >= first; --t)
+        held = support(gait, walker, t, height, speed, clearance, limits,
+                       HIGHEST + (held ? limits->touch_height : 0.0), on);
 }
 
 static double mean(const double* value, int first, int end)
@@ -69,8 +85,7 @@ void walker_support(const DpGait* gait, int walker, const double* height, const 
         int end = t;
         while (end < times && fall[end] > floats && !carried(gait, walker, on, end)) ++end;
         if ((double)(end - t) >= SHORTEST * rate)
-            for (int s = t; s < end; ++s)
-                support(gait, walker, s, height, speed, clearance, limits, on);
+            support_all(gait, walker, t, end, height, speed, clearance, limits, on);
         t = end > t ? end : t + 1;
     }
     // at the clip's ends even a short gap hides a foot: the rest of its stance lies outside
@@ -78,10 +93,8 @@ void walker_support(const DpGait* gait, int walker, const double* height, const 
     while (first < times && !carried(gait, walker, on, first)) ++first;
     while (last > first && !carried(gait, walker, on, last - 1)) --last;
     if (first < times && (double)first < SHORTEST * rate && mean(fall, 0, first) > floats)
-        for (int s = 0; s < first; ++s)
-            support(gait, walker, s, height, speed, clearance, limits, on);
+        support_all(gait, walker, 0, first, height, speed, clearance, limits, on);
     if (last > first && (double)(times - last) < SHORTEST * rate &&
         mean(fall, last, times) > floats)
-        for (int s = last; s < times; ++s)
-            support(gait, walker, s, height, speed, clearance, limits, on);
+        support_all(gait, walker, last, times, height, speed, clearance, limits, on);
 }

@@ -18,7 +18,7 @@
 int dp_gait_resample_count(double first, double last, double rate);
 
 // Fill com (W, count, 3) and pose (P, count, 7) at times first + k / rate (written to time
-// (count)): cubic in time for positions, slerp for rotations. One sample in: copied to all. Needs
+// (count)): cubic in time for positions and rotations. One sample in: copied to all. Needs
 // memory for nothing. DP_BAD_ARGUMENT if count does not match dp_gait_resample_count.
 DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* time, double* com,
                           double* pose);
@@ -74,6 +74,7 @@ typedef struct DpContactLimits
     double point_cutoff;        // low-pass of a point's speed                         [Hz]  > 0
     double com_cutoff;          // low-pass of the centre's speed                      [Hz]  > 0
     double support_fall;        // nobody touches and a_z > -this * g: somebody carries [-]  > 0
+    double frame_time;          // frames lay so far apart before it was resampled     [s]   >= 0
 } DpContactLimits;
 
 DpContactLimits dp_contact_limits_default(void);

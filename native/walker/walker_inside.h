@@ -54,10 +54,12 @@ static inline DpVec3 walker_point(const DpGait* gait, int point)
 // @param clearance     resting height of each point [m] (K)
 // @param moves         what is faster is not at rest [m/s]
 // @param fast          what comes down faster than this is timed by its height [m/s]
+// @param cutoff        with which speeds were low-passed [Hz]
 // @param on            the points' contacts, changed (K, T)
+// @param flown         scratch (W, T)
 void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, const double* speed, double moves, double fast, uint8_t* on,
-                  double rate);
+                  const double* rise, const double* speed, double moves, double fast, double cutoff,
+                  uint8_t* on, uint8_t* flown, double rate);
 
 // A walker that does not fall is carried: where nobody touches, its lowest slowest foot does.
 // @param height, speed  of the points over the ground [m] [m/s] (K, T)
@@ -79,6 +81,17 @@ DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, cons
 // Needs memory: DP_NO_MEMORY.
 DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
                            double rate, const DpLoadOptions* options, double* accel, double* way);
+
+// Keep of the times in the air the flights: those in which the body falls. Is there one?
+// @param air     where nothing carries it, changed (times);  height: of its mass centre [m] (times)
+bool walker_falls(uint8_t* air, const double* height, int times, double rate);
+
+// Contacts that a flight follows end where the body's momentum says, within half a frame.
+// @param frame   time between the frames that were recorded [s] >= 0
+// @param on      the points' contacts, changed (K, T)
+// @param air, height, scratch  room for (T), (T) and (walker_fly_scratch(T))
+void walker_bounces(const DpGait* gait, int walker, double frame, double rate, uint8_t* on,
+                    uint8_t* air, double* height, double* scratch);
 
 // v0 of TRAIL (3): the velocity with which a limb touches after sample t, the last in the air.
 // @param limb_on  where the walker's limbs touch (limbs, T)

@@ -45,7 +45,7 @@ def row(name, found):
 
 def known():
     print(f"{'known forces':20s} {'RMSE of left and right foot [body weights] at frames a second':s}")
-    rates = (240.0, 120.0, 60.0, 30.0, 24.0)
+    rates = (240.0, 120.0, 60.0, 48.0, 30.0, 25.0, 24.0)
     print(f"{'':20s} " + "".join(f"{rate:<14.0f}" for rate in rates) + "120, trunk wobbles")
     for name in trials.TRIALS:
         rows = [trials.errors(name, rate).rmse for rate in rates] + [trials.errors(name, 120.0, shake=0.0025).rmse]

@@ -17,11 +17,11 @@ def loads_of(trial):
 
 
 # RMSE of a foot at 120 frames a second, and at 24 [body weights]; a knock of the ground shorter than the
-# filters is lost, and 24 frames a second hold two of a sprinter's stance
-WITHIN = {"walk 1.25 m/s": (0.04, 0.06), "walk 0.8 m/s": (0.04, 0.05), "walk 1.9 m/s": (0.05, 0.07),
-          "run 3.8 m/s": (0.10, 0.14), "run 2.6 m/s": (0.10, 0.13), "sprint 9 m/s": (0.14, 0.22),
-          "landing": (0.07, 0.08), "landing, uneven": (0.15, 0.22), "squats": (0.02, 0.02),
-          "squats, uneven": (0.05, 0.05)}
+# filters is lost
+WITHIN = {"walk 1.25 m/s": (0.04, 0.05), "walk 0.8 m/s": (0.04, 0.04), "walk 1.9 m/s": (0.05, 0.05),
+          "run 3.8 m/s": (0.09, 0.11), "run 2.6 m/s": (0.08, 0.10), "sprint 9 m/s": (0.13, 0.10),
+          "landing": (0.06, 0.06), "landing, uneven": (0.13, 0.13), "squats": (0.01, 0.01),
+          "squats, uneven": (0.01, 0.01)}
 
 
 @pytest.mark.parametrize("name", trials.TRIALS)
@@ -29,8 +29,53 @@ def test_known_forces_are_found(name):
     for rate, within in zip((120.0, 24.0), WITHIN[name]):
         found = trials.errors(name, rate)
         assert max(found.rmse) <= within, rate
-        assert found.mean == pytest.approx(1.0, abs=0.04 if rate > 30 else 0.06)
+        assert found.mean == pytest.approx(1.0, abs=0.02)
         assert max(abs(found.late), default=0.0) <= 1.01 / rate + 0.02
+
+
+@pytest.mark.parametrize("name", trials.TRIALS)
+def test_few_frames_tell_as_much(name):
+    """Thinned to 24, 25 or 30 frames a second, wherever the first one falls."""
+    fine = trials.make(name, 480.0)
+    for rate in (24.0, 25.0, 30.0):
+        rmse = []
+        for begin in np.arange(4) / 4 * 480.0 / rate:
+            pick = np.round(np.arange(begin, len(fine.time) - 1, 480.0 / rate)).astype(int)
+            trial = replace(fine, rate=rate, time=fine.time[pick], force=fine.force[:, pick],
+                            motion=replace(fine.motion, time=fine.time[pick], matrix=fine.motion.matrix[pick]))
+            found = trials.compare(trial, *loads_of(trial))
+            assert found.mean == pytest.approx(1.0, abs=0.03), (rate, begin)
+            rmse.append(found.rmse)
+        assert np.mean(rmse) <= 0.8 * trials.TRIALS[name][1], rate
+
+
+PUSHES = {"half a sine": lambda u: np.sin(np.pi * u), "blunt": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 0.6,
+          "sharp": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 1.5, "late": lambda u: np.sin(np.pi * u ** 1.25),
+          "early": lambda u: np.sin(np.pi * u ** 0.7), "with a knock": trials.heel_run}
+
+
+@pytest.mark.parametrize("push", PUSHES)
+def test_bounces_of_any_shape_are_found_in_few_frames(push):
+    """A jog over the heel, a run and a sprint, at 24 frames a second."""
+    over = dict(wide=0.05, strike=-0.25, flat=(0.18, 0.45), leave=1.0, arrive=(1.2, -0.9), part=(1.5, 1.6))
+    ball = dict(wide=0.03, strike=0.35, flat=(1.0, 0.0), leave=1.1, arrive=(1.5, -1.8), part=(3.0, 2.5))
+    for speed, step, contact, feet, within in ((2.4, 0.37, 0.30, over, 0.06), (3.8, 0.355, 0.22, over, 0.11),
+                                               (9.0, 0.225, 0.105, ball, 0.15)):
+        trial = trials.build(trials.steps(speed, step, contact, PUSHES[push], **feet), 3.0, rate=24.0, height=0.94)
+        found = trials.compare(trial, *loads_of(trial))
+        assert np.mean(found.rmse) <= within, speed
+        assert found.mean == pytest.approx(1.0, abs=0.03), speed
+
+
+def test_boxes_may_be_too_high_to_show():
+    """Who stands on one is held up by something, and flies from where he begins to fall."""
+    for drop in (0.3, 0.5):
+        trial = trials.landing(120.0, drop=drop)
+        assert max(trials.compare(trial, *loads_of(trial)).rmse) <= 0.054, drop
+    # on one just as high as feet may stand over the ground, noise does not lift them
+    trial = trials.make("landing")
+    gait = plates.noisy(loads_of(trial)[0], 0.001)
+    assert max(trials.compare(trial, gait, walker.loads(gait)).rmse) <= 0.06
 
 
 @pytest.mark.parametrize("name", trials.TRIALS)
@@ -83,7 +128,7 @@ def moves(name):
 
 def print_of(gait, rate):
     """(pressed volume [m^3], mean of the deepest 2 % of the cells [m]) as a bake at this frame rate has them."""
-    gait = gait.resample(rate)
+    gait = replace(gait.resample(rate), frame_rate=rate)
     gait = gait.resample(rate * math.ceil(bake.SAMPLE_RATE / rate - 1e-6))
     low = gait.pose[..., :2].min(axis=(0, 1)) - 1.0
     size = ((gait.pose[..., :2].max(axis=(0, 1)) + 1.0 - low) / CELL).astype(int)

@@ -407,7 +407,7 @@ def test_native_door_checks():
     with pytest.raises((TypeError, ValueError)):
         _native.foot_contact(good, ground[:1], on, clear)
     with pytest.raises(ValueError):
-        _native.foot_contact(good, ground, on, clear, np.full(11, -1.0))
+        _native.foot_contact(good, ground, on, clear, np.full(12, -1.0))
     broken = gait.pose.copy()
     broken[1, 7, 2] = np.nan
     with pytest.raises(ValueError, match="pose"):

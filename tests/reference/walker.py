@@ -216,7 +216,8 @@ def inertia_of_two(com, mass, feet, on, rate, cutoff):
             zmp = com[t, :2] - lever * accel[t, :2]
             d = feet[0, t, :2] - feet[1, t, :2]
             a_star = (zmp - feet[1, t, :2]) @ d / (d @ d)
-            still = smoothstep(np.linalg.norm(accel[t]) / (0.1 * G))
+            lean = accel[t, :2] @ d / np.linalg.norm(d) / max(accel[t, 2] + G, 0.2 * G)  # along their line
+            still = smoothstep(np.hypot(lean / 0.1, accel[t, 2] / G / 2.0))
             mu = 0.25 * max(still, 1 - weight[0, t], 1 - weight[1, t])
             a = share_of_two(s, a_star, np.linalg.norm(d), mu)
             # the foot ahead brakes, the one behind drives, both along their lines to the mass centre

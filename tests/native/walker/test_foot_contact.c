@@ -294,6 +294,30 @@ TEST(the_ground_marks_the_edges)
     scene_free(&s);
 }
 
+TEST(a_sudden_stop_out_of_a_flight_is_timed)
+{
+    // a low-pass makes a slope of the stop and moves the fastest fall 17 ms ahead of it
+    enum
+    {
+        N = 480
+    };
+    Scene s = scene_make(N, 2.0 * RATE, 1, 1);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / (2.0 * RATE), down = now < 1.0 ? 1.0 - now : 0.0;
+        const double near = fmin(down, 0.1);
+        scene_com(&s, t, 0.0, 0.0, 6.0 - 0.5 * DP_GRAVITY * fmin(now * now, 1.0));
+        scene_put(&s, N, 0, t, 0.0, 0.0, 0.2 * down + near * (0.8 - 4.0 * near));
+    }
+    uint8_t               on[N];
+    double                clearance[1];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    int first = 0;
+    while (first < N && !on[first]) ++first;
+    CHECK_NEAR((double)first / (2.0 * RATE), 1.0, 0.0135);
+    scene_free(&s);
+}
+
 TEST(short_ticks_and_gaps_close)
 {
     // a foot at rest that is lifted for 2 samples, and one in the air that dips for 2
@@ -354,6 +378,7 @@ int main(void)
     RUN(who_hangs_presses_nothing);
     RUN(two_feet_on_a_box_both_carry);
     RUN(the_ground_marks_the_edges);
+    RUN(a_sudden_stop_out_of_a_flight_is_timed);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
     return check_done();

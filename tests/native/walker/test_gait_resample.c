@@ -1,4 +1,5 @@
 // Resampling: counts, exact cubics, uneven times, rotations the shortest way.
+#include "base/vec.h"
 #include "check.h"
 #include "scene.h"
 
@@ -71,6 +72,56 @@ TEST(turns_the_shortest_way)
     scene_free(&s);
 }
 
+// the quaternion of a foot that rolls to and fro while it turns to the side, at a time
+static DpQuat rolling(double t)
+{
+    const DpQuat side = dp_quat_about(dp_vec3(0.0, 0.0, 1.0), 0.5 * sin(5.0 * t));
+    return dp_quat_product(side, dp_quat_about(dp_vec3(0.0, 1.0, 0.0), 0.8 * sin(9.0 * t)));
+}
+
+TEST(turns_without_a_jerk_at_frames)
+{
+    enum
+    {
+        T = 25,
+        FINE = 241
+    };
+    Scene s = scene_make(T, 24.0, 1, 1);
+    for (int k = 0; k < T; ++k) {
+        const DpQuat q = rolling((double)k / 24.0);
+        double*      out = s.pose + 7 * k + 3;
+        const double sign = k % 3 ? 1.0 : -1.0;  // either sign is the same turn
+        out[0] = sign * q.w, out[1] = sign * q.x, out[2] = sign * q.y, out[3] = sign * q.z;
+    }
+    static double time[FINE], com[3 * FINE], pose[7 * FINE];
+    CHECK(dp_gait_resample(scene_gait(&s, T, 1, 1), 240.0, FINE, time, com, pose) == DP_OK);
+    double worst = 0.0;
+    for (int k = 0; k < FINE; ++k) {
+        const double* p = pose + 7 * k + 3;
+        const DpQuat  q = rolling(time[k]);
+        const double  dot = fabs(p[0] * q.w + p[1] * q.x + p[2] * q.y + p[3] * q.z);
+        CHECK_NEAR(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3], 1.0, 1e-12);
+        worst = fmax(worst, 2.0 * acos(fmin(dot, 1.0)));
+    }
+    CHECK(worst < 2e-3);  // [rad]; a slerp from frame to frame is off by 14e-3
+    scene_free(&s);
+}
+
+TEST(who_tumbles_turns_the_shortest_way)
+{
+    // a turn of 160 degrees from frame to frame: two frames on nobody knows which way it went
+    Scene s = scene_make(4, 1.0, 1, 1);
+    for (int k = 0; k < 4; ++k) {
+        const DpQuat q = dp_quat_about(dp_vec3(1.0, 0.0, 0.0), 2.8 * (double)k);
+        double*      out = s.pose + 7 * k + 3;
+        out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+    }
+    double time[31], com[93], pose[217];
+    CHECK(dp_gait_resample(scene_gait(&s, 4, 1, 1), 10.0, 31, time, com, pose) == DP_OK);
+    for (int k = 0; k < 31; ++k) CHECK_NEAR(fabs(pose[7 * k + 3]), fabs(cos(0.14 * k)), 1e-9);
+    scene_free(&s);
+}
+
 TEST(copies_a_single_sample)
 {
     Scene s = scene_make(1, 24.0, 2, 1);
@@ -101,6 +152,8 @@ int main(void)
     RUN(counts_samples_that_fit);
     RUN(keeps_cubics_on_uneven_times);
     RUN(turns_the_shortest_way);
+    RUN(turns_without_a_jerk_at_frames);
+    RUN(who_tumbles_turns_the_shortest_way);
     RUN(copies_a_single_sample);
     RUN(refuses_times_that_stand_still);
     return check_done();
