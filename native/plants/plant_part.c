@@ -145,6 +145,7 @@ static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* grou
     double y = out * oy + (1.0 - near) * print->motion[1];
     if (!(x * x + y * y > 1e-6)) x = edge.i, y = edge.j;  // halfway between two sides: either
     press(lean, tile, ti, tj, pressed, sqrt(pressed * (2.0 - pressed)), x, y);
+    tile->under[t] = lean->step;
 }
 
 static bool make_room(LeanPrint* print)

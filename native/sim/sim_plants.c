@@ -50,6 +50,28 @@ DpLean* dp_sim_lean(const DpSim* sim)
     return sim->meadow.lean;
 }
 
+DpStatus dp_sim_lay(DpSim* sim)
+{
+    Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_BAD_ARGUMENT;
+    return m->laid ? DP_OK : dp_laid_create(&m->laid, m->plants, m->lean);
+}
+
+// where no limb is near, plants still stand and lie on the ground
+static double surface(const void* terrain, double x, double y)
+{
+    return dp_terrain_surface_at(terrain, x, y);
+}
+
+DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position)
+{
+    const Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_BAD_ARGUMENT;
+    if (!m->laid) return dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
+    const DpPlantGround ground = {.cell = sim->cell, .at = surface, .context = sim->terrain};
+    return dp_laid_read(m->laid, &ground, stand, plant, position);
+}
+
 // cells whose centres may lie in a box
 static Cells cells_of(const DpSim* sim, double x0, double y0, double x1, double y1)
 {
@@ -169,7 +191,11 @@ void dp_meadow_drop(DpSim* sim)
     dp_free(m->way), dp_free(m->sole), dp_free(m->bottom), dp_free(m->bottom_room),
         dp_free(m->cover);
     dp_free(m->ground), dp_free(m->height), dp_free(m->height_room);
-    *m = (Meadow){.plants = m->plants, .lean = m->lean, .extent = m->extent, .reach = m->reach};
+    *m = (Meadow){.plants = m->plants,
+                  .lean = m->lean,
+                  .laid = m->laid,
+                  .extent = m->extent,
+                  .reach = m->reach};
 }
 
 static bool make_room(float** grid, size_t* room, size_t cells)
@@ -311,12 +337,6 @@ static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
     return status;
 }
 
-// where no limb is near, plants still stand and lie on the ground
-static double surface(const void* terrain, double x, double y)
-{
-    return dp_terrain_surface_at(terrain, x, y);
-}
-
 // plants move while the lean looks at the same soles: neither reads what the other writes
 typedef struct Moving
 {
@@ -366,5 +386,6 @@ DpStatus dp_meadow_step(DpSim* sim, int sample)
         status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
     }
     if (status == DP_OK) status = dp_lean_step(m->lean, ground, m->sole, m->soles, dt);
+    if (status == DP_OK && m->laid) status = dp_laid_step(m->laid);
     return status;
 }

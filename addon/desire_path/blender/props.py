@@ -133,7 +133,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     plants_index: IntProperty(options={"HIDDEN"})
     plant_mesh: BoolProperty(
         name="Plant Mesh", description="Also bake the simulated plants as a mesh of stems, for close-ups: "
-        "where feet come near, in place of the grass; large files")
+        "where feet come near, in place of the grass, and down as long as that where trodden; large files")
     plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
                                   description="The mesh of the simulated plants")
     vertex_group: BoolProperty(
