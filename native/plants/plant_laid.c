@@ -8,29 +8,17 @@
 // Heights are those of a stem's highest point over its foot and the ground's slope. Near a foot,
 // the lower a stem is, the more is shown of what it does, so that nothing jumps. Shown stems are as
 // long as what they do.
-#include <string.h>
-
 #include "base/alloc.h"
 #include "plants/plant_lean_inside.h"
+#include "plants/plant_stem.h"
 
-#define PIECES_MOST 64   // of a stem
 #define NEARLY 0.85      // under a sole a stem may lie so much less low than the lean
 #define TURNS 0.8        // from this share of it on, what a stem does shows in how it lies
 #define SLIGHT 0.2       // below this it goes over into what the stem does
-#define HALVINGS 24      // of a share that is looked for
-#define FOOT_STIFF 1.5   // a stem bends less at its foot
-#define TIP_SLACK 0.75   // and more at its tip
+#define UNFOLDS 0.8      // how far folds are drawn out once a stem stands up
 #define PASSES 6         // in which a piece finds its place on the ground
 #define LIFT_LEAST 0.3f  // of the radius: lying stems are so high, or up to the whole radius
 #define LIFT_OF 64       // what its chance is called, for the first stem
-
-// A stem from its foot upward.
-typedef struct Stem
-{
-    DpVec3 foot, way[PIECES_MOST];
-    int    pieces;
-    double slope[2];
-} Stem;
 
 // What a block's stems looked like when soles laid them.
 typedef struct LaidBlock
@@ -93,18 +81,6 @@ static Stem stem_of(const PlantStand* stand, const PlantBlock* block, int stem, 
     return own;
 }
 
-// its highest point over its foot and the slope
-static double high(const Stem* stem)
-{
-    double at = 0.0, most = 0.0;
-    for (int k = 0; k < stem->pieces; ++k) {
-        const DpVec3 way = stem->way[k];
-        at += way.z - stem->slope[0] * way.x - stem->slope[1] * way.y;
-        most = at > most ? at : most;
-    }
-    return most;
-}
-
 // the same of a stem at rest on level ground
 static double rest_high(const PlantStand* stand, int stem)
 {
@@ -113,77 +89,6 @@ static double rest_high(const PlantStand* stand, int stem)
     float        most = 0.0f;
     for (int r = 0; r + 1 < rows; ++r) most = fmaxf(most, foot[3 * r + 2] - foot[2]);
     return (double)most;
-}
-
-static DpVec3 between(DpVec3 a, DpVec3 b, double share)
-{
-    return dp_add(dp_scale(a, 1.0 - share), dp_scale(b, share));
-}
-
-// `laid` on its way to `own`, as long as that is
-static Stem risen(const Stem* laid, const Stem* own, double share)
-{
-    Stem out = *own;
-    for (int k = 0; k < own->pieces; ++k) {
-        const DpVec3 up = dp_unit(own->way[k]);
-        const DpVec3 way = between(dp_unit(laid->way[k]), up, share);
-        out.way[k] = dp_scale(dp_length(way) > 1e-6 ? dp_unit(way) : up, dp_length(own->way[k]));
-    }
-    return out;
-}
-
-// `own` bent down to the slope the way of the lean
-static Stem bent(const Stem* own, const double lean[2], double share)
-{
-    Stem         out = *own;
-    const double size = sqrt(lean[0] * lean[0] + lean[1] * lean[1]);
-    const double x = size > 0.0 ? lean[0] / size : 1.0, y = size > 0.0 ? lean[1] / size : 0.0;
-    const DpVec3 flat = dp_unit(dp_vec3(x, y, own->slope[0] * x + own->slope[1] * y));
-    for (int k = 0; k < own->pieces; ++k) {
-        const double along = own->pieces > 1 ? (double)k / (own->pieces - 1) : 1.0;
-        const double here = pow(share, FOOT_STIFF + (TIP_SLACK - FOOT_STIFF) * along);
-        const DpVec3 way = between(dp_unit(own->way[k]), flat, here);
-        out.way[k] = dp_scale(dp_unit(way), dp_length(own->way[k]));
-    }
-    return out;
-}
-
-// a share at which `laid` is so high on its way to `own`, by halving
-static double risen_by(const Stem* laid, const Stem* own, double height)
-{
-    double low = 0.0, top = 1.0;
-    for (int k = 0; k < HALVINGS && high(laid) < height; ++k) {
-        const double share = 0.5 * (low + top);
-        const Stem   stem = risen(laid, own, share);
-        if (high(&stem) > height)
-            top = share;
-        else
-            low = share;
-    }
-    return low;
-}
-
-// a share at which a straight stem that is bent loses so much of its height, by halving
-static double bent_by(const Stem* own, const double lean[2], double lost)
-{
-    Stem   straight = {.pieces = own->pieces};
-    double low = 0.0, top = 1.0;
-    for (int k = 0; k < own->pieces; ++k) straight.way[k].z = 1.0;
-    for (int k = 0; k < HALVINGS; ++k) {
-        const double share = 0.5 * (low + top);
-        const Stem   stem = bent(&straight, lean, share);
-        if (high(&stem) > (1.0 - lost) * own->pieces)
-            low = share;
-        else
-            top = share;
-    }
-    return low;
-}
-
-static double smooth(double from, double to, double at)
-{
-    const double x = dp_clamp((at - from) / (to - from), 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
 }
 
 // ---- what is remembered ------------------------------------------------------------------------
@@ -260,7 +165,7 @@ static bool swings(const PlantStand* stand, const PlantBlock* block, int stem, i
 
 static double low_of(const Stem* stem, double tall)
 {
-    return dp_clamp(1.0 - high(stem) / tall, 0.0, 1.0);
+    return dp_clamp(1.0 - stem_high(stem) / tall, 0.0, 1.0);
 }
 
 static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell, double tall,
@@ -279,15 +184,18 @@ static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell
         return look;
     }
     const double down = look.share * cell->down,
-                 turns = free ? 0.0 : smooth(TURNS, 1.0, share / look.share);
+                 turns = free ? 0.0 : stem_smooth(TURNS, 1.0, share / look.share);
     look.as_it_is = false;
     if (was_laid) {
-        const Stem   laid = recall(kept, own, stem, l);
-        const double up = risen_by(&laid, own, (1.0 - down) * tall);
-        const double more = fmax(turns, 1.0 - smooth(0.0, SLIGHT, down));
-        look.shown = risen(&laid, own, up + (1.0 - up) * more);
+        const Stem was = recall(kept, own, stem, l);
+        const Stem laid =
+            stem_unfolded(&was, UNFOLDS * stem_smooth(0.0, 1.0, 1.0 - share / look.share));
+        const double up = stem_risen_by(&laid, own, (1.0 - down) * tall);
+        const double more = fmax(turns, 1.0 - stem_smooth(0.0, SLIGHT, down));
+        look.shown = stem_risen(&laid, own, up + (1.0 - up) * more);
     } else {
-        look.shown = bent(own, cell->lean, bent_by(own, cell->lean, down) * (1.0 - turns));
+        look.shown =
+            stem_bent(own, cell->lean, stem_bent_by(own, cell->lean, down) * (1.0 - turns));
     }
     return look;
 }
