@@ -5,7 +5,8 @@
                         unbroken (n,) at the end
     folder/plants.pc2   a point cache, sample 0 = the first frame: what Mesh Cache plays on that mesh
 
-World frame, metres. The root, which is in the ground, is left out.
+World frame, metres. The root, which is in the ground, is left out. Under and beside feet stems move as simulated; once
+trodden they are shown down for as long as the grass around them lies (Simulation.plants_shown).
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ def _name(kind):
 
 def _vertices(sim, stand):
     rows, stems, _, _, _ = sim.plants_shape(stand)
-    at = sim.plants_positions(stand)
+    at = sim.plants_shown(stand)
     return at.reshape(len(at), stems, rows, 3)[:, :, _HELD:].reshape(-1, 3)
 
 
@@ -75,6 +76,7 @@ class Writer:
 
     def __init__(self, sim, folder, frame_start, frames):
         self.folder, self.frames = folder, frames
+        sim.lay_plants()
         self.mesh = build(sim)
         count = len(self.mesh["vertices"])
         if 12 * count * frames > MOST_BYTES:

@@ -297,6 +297,18 @@ class Simulation:
         self._core.read_plants(stand, 0, out, None, None)
         return out
 
+    def lay_plants(self):
+        """Remember from now on how soles lay the stems, so that plants_shown() tells more than plants_positions()."""
+        if self.plantings:
+            self._core.lay_plants()
+
+    def plants_shown(self, stand):
+        """Particles of all plants of a stand as they are to be shown, float32 (n, particles, 3) [m]: a stem that was
+        trodden swings up when the foot has left, but is down for as long as the grass of its cell lies (`crushed`)."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
+        self._core.read_shown(stand, 0, out)
+        return out
+
     def plants_strength(self, stand):
         """eps_b of every bend, float64 (n, bends), TRAIL (6); 0 = broken."""
         out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[4]))

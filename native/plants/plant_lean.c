@@ -270,6 +270,22 @@ void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* l
     }
 }
 
+// Of `most`, the share `stays` is that of broken stems, the rest that of whole ones.
+LeanStem lean_stem_at(const DpLean* lean, double x, double y)
+{
+    const long      i = lean_cell(lean, 0, x), j = lean_cell(lean, 1, y);
+    const LeanTile* tile = find(lean, lean_tile(i), lean_tile(j));
+    LeanStem        stem = {0};
+    if (!tile) return stem;
+    const size_t p = (size_t)(j - tile->ty * DP_TILE) * DP_TILE + (size_t)(i - tile->tx * DP_TILE);
+    const double whole = 1.0 - (double)tile->stays[p];
+    const double risen = (double)tile->crushed[p] - (double)tile->stays[p] * (double)tile->most[p];
+    stem.down = whole > 0.0 ? dp_clamp(risen / whole, 0.0, 1.0) : 0.0;
+    stem.lean[0] = (double)tile->lean[0][p], stem.lean[1] = (double)tile->lean[1][p];
+    stem.pressed = tile->under[p] == lean->step && lean->step > 0;
+    return stem;
+}
+
 void dp_lean_changed(DpLean* lean, void (*visit)(void* context, long tx, long ty), void* context)
 {
     for (int t = 0; t < lean->tiles; ++t) {

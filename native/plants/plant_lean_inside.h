@@ -26,6 +26,7 @@ typedef struct LeanTile
     double  waited;        // since slow stems rose [s]
     float   stays[CELLS];  // share of stems that is broken
     int32_t held[CELLS];   // the step in which something held it last
+    int32_t under[CELLS];  // the step in which a sole lay on it last
 } LeanTile;
 
 // A window of the lean's cells around a sole; grids have a border of one cell.
@@ -71,6 +72,14 @@ static inline long lean_tile(long cell)
 LeanTile* lean_touch(DpLean* lean, long tx, long ty);
 // a cell of a tile is not at rest
 void lean_may_move(LeanTile* tile, int i, int j);
+// How the whole stems of a cell lie; those that are broken lie by themselves.
+typedef struct LeanStem
+{
+    double down;     // share of height that is lost; 0 = it stands
+    double lean[2];  // which way
+    bool   pressed;  // a sole lies on it
+} LeanStem;
+LeanStem lean_stem_at(const DpLean* lean, double x, double y);
 // plant_part.c: where a sole can meet grass; what it covers; then the grass under and beside it
 LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* sole);
 DpStatus  lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,

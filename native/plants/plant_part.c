@@ -163,6 +163,7 @@ static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* g
     if (pressed < (double)tile->crushed[t]) return;  // it may rise to the sole
     const double lx = (double)tile->lean[0][t], ly = (double)tile->lean[1][t];
     const double size = sqrt(pressed * (2.0 - pressed));
+    tile->under[t] = lean->step;
     if (size * size <= lx * lx + ly * ly) {  // it leans so far already, whereto is the same
         press(lean, tile, ti, tj, pressed, size, 0.0, 0.0);
         return;

@@ -214,3 +214,19 @@ void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* l
 
 // Tiles of DP_TILE x DP_TILE cells that changed since the last call, in ascending (ty, tx) order.
 void dp_lean_changed(DpLean* lean, void (*visit)(void* context, long tx, long ty), void* context);
+
+// ---- stems as they are shown ------------------------------------------------------------------
+
+// A stem swings up when its foot has left, and wears by that; what was trodden is shown down for as
+// long as its cell's lean says, as it was laid. Plants and lean are borrowed.
+typedef struct DpLaid DpLaid;
+DpStatus              dp_laid_create(DpLaid** laid, const DpPlants* plants, const DpLean* lean);
+void                  dp_laid_destroy(DpLaid* laid);  // before its plants
+
+// After each step of plants and lean: how soles laid the stems is remembered.
+DpStatus dp_laid_step(DpLaid* laid);
+
+// One plant's particles (particles, 3) [m], none that was bent below `ground`; NULL = the plane the
+// plant stands on. Where the lean is 0 those of dp_plants_read, to the bit.
+DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand, int plant,
+                      float* position);

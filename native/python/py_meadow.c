@@ -133,6 +133,43 @@ done:
     return result;
 }
 
+PyObject* dp_py_lay_plants(PyObject* object, PyObject* unused)
+{
+    Simulation* self = (Simulation*)object;
+    (void)unused;
+    if (!enter(self)) return NULL;
+    const DpStatus status = dp_sim_lay(self->sim);
+    self->busy = false;
+    return dp_door_result(status, "laying plants");
+}
+
+PyObject* dp_py_read_shown(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    int         stand, first;
+    PyObject*   o_position;
+    if (!PyArg_ParseTuple(args, "iiO:read_shown", &stand, &first, &o_position)) return NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   places = {3, {-1, -1, 3}};
+    PyObject* result = NULL;
+    float*    position = dp_door_open(&door, o_position, "position", 'f', &places, true);
+    if (position && enter(self)) {
+        const int  particles = dp_plants_shape(self->plants, stand).particles;
+        const bool fits = first >= 0 && places.n[1] == particles &&
+                          places.n[0] <= dp_plants_count(self->plants, stand) - first;
+        DpStatus status = fits ? DP_OK : DP_BAD_ARGUMENT;
+        Py_BEGIN_ALLOW_THREADS
+        for (int k = 0; k < (int)places.n[0] && status == DP_OK; ++k)
+            status = dp_sim_shown(self->sim, stand, first + k,
+                                  position + 3 * (size_t)k * (size_t)particles);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_door_result(status, "reading plants");
+    }
+    dp_door_close(&door);
+    return result;
+}
+
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;

@@ -309,12 +309,18 @@ static PyMethodDef methods[] = {
      "came"
      " up: those on the ground; (-1, 0) if none."},
     {"vary_plants", dp_py_vary_plants, METH_VARARGS,
-     "vary_plants(stand, vigour (n,) f4): reserves are exp(spread * vigour); before anybody treads."},
+     "vary_plants(stand, vigour (n,) f4): reserves are exp(spread * vigour); before anybody "
+     "treads."},
     {"rest_plants", dp_py_rest_plants, METH_VARARGS,
      "rest_plants(seconds): time passes without walkers; plants recover and grow again."},
     {"read_plants", dp_py_read_plants, METH_VARARGS,
      "read_plants(stand, first, position (n, particles, 3) f4 or None, strength (n, bends) f8 or"
      " None, alpha (n,) f8 or None): plants of a stand from `first` on, as they are."},
+    {"lay_plants", dp_py_lay_plants, METH_NOARGS,
+     "lay_plants(): from now on remember how stems are laid, for read_shown."},
+    {"read_shown", dp_py_read_shown, METH_VARARGS,
+     "read_shown(stand, first, position (n, particles, 3) f4): plants of a stand from `first` on, "
+     "trodden ones down for as long as the grass lies."},
     {"read_lean", dp_py_read_lean, METH_VARARGS,
      "read_lean(axis, i0, j0, out (ny, nx) f4): how grass lies; axis 0 lean_x, 1 lean_y, 2 "
      "crushed."},

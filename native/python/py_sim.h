@@ -64,6 +64,8 @@ PyObject* dp_py_plant(PyObject* object, PyObject* args);
 PyObject* dp_py_vary_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_rest_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_read_plants(PyObject* object, PyObject* args);
+PyObject* dp_py_lay_plants(PyObject* object, PyObject* unused);
+PyObject* dp_py_read_shown(PyObject* object, PyObject* args);
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
 // py_frames.c

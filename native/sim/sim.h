@@ -57,6 +57,12 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
 // How the grass lies on the terrain's cells; NULL on bare ground. It belongs to the simulation.
 DpLean* dp_sim_lean(const DpSim* sim);
 
+// From now on remember how stems are laid, for dp_sim_shown; costs time and memory where feet go.
+DpStatus dp_sim_lay(DpSim* sim);
+// One plant's particles (particles, 3) [m] as they are to be shown: trodden stems down for as long
+// as the grass lies, see plants.h. Before dp_sim_lay: as they are.
+DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position);
+
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_rest(DpSim* sim, double seconds);
 

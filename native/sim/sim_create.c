@@ -87,6 +87,7 @@ void dp_sim_destroy(DpSim* sim)
 {
     if (!sim) return;
     if (sim->bench) drop_recording(sim);
+    dp_laid_destroy(sim->meadow.laid);
     dp_lean_destroy(sim->meadow.lean);
     for (int b = 0; sim->bench && b < sim->bench_count; ++b) {
         Bench* bench = &sim->bench[b];

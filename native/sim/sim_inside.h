@@ -65,6 +65,7 @@ typedef struct Meadow
 {
     DpPlants* plants;
     DpLean*   lean;
+    DpLaid*   laid;           // NULL: nobody asked for stems as they are shown
     double    extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording

@@ -49,6 +49,28 @@ DpLean* dp_sim_lean(const DpSim* sim)
     return sim->meadow.lean;
 }
 
+DpStatus dp_sim_lay(DpSim* sim)
+{
+    Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_BAD_ARGUMENT;
+    return m->laid ? DP_OK : dp_laid_create(&m->laid, m->plants, m->lean);
+}
+
+// where no limb is near, plants still stand and lie on the ground
+static double surface(const void* terrain, double x, double y)
+{
+    return dp_terrain_surface_at(terrain, x, y);
+}
+
+DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position)
+{
+    const Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_BAD_ARGUMENT;
+    if (!m->laid) return dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
+    const DpPlantGround ground = {.cell = sim->cell, .at = surface, .context = sim->terrain};
+    return dp_laid_read(m->laid, &ground, stand, plant, position);
+}
+
 Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1)
 {
     const double most = 1e9;
@@ -167,7 +189,11 @@ void dp_meadow_drop(DpSim* sim)
     for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
     dp_free(m->shadow), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
         dp_free(m->height_room);
-    *m = (Meadow){.plants = m->plants, .lean = m->lean, .extent = m->extent, .reach = m->reach};
+    *m = (Meadow){.plants = m->plants,
+                  .lean = m->lean,
+                  .laid = m->laid,
+                  .extent = m->extent,
+                  .reach = m->reach};
 }
 
 static bool make_room(float** grid, size_t* room, size_t cells)
@@ -284,12 +310,6 @@ static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
     return status;
 }
 
-// where no limb is near, plants still stand and lie on the ground
-static double surface(const void* terrain, double x, double y)
-{
-    return dp_terrain_surface_at(terrain, x, y);
-}
-
 // What goes on at once: plants move, the lean meets the same soles; for the next step limbs press
 // ahead and soles are cast. None reads what another writes.
 typedef struct Moving
@@ -348,8 +368,11 @@ DpStatus dp_meadow_step(DpSim* sim, int sample, bool more)
     const DpPlantsTold told = moving.told;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
-    if (!told.changed) return DP_OK;
-    cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
-    dp_ahead_worn(sim, told.x0, told.y0, told.x1, told.y1);
-    return dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
+    if (told.changed) {
+        cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
+        dp_ahead_worn(sim, told.x0, told.y0, told.x1, told.y1);
+        status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
+    }
+    if (status == DP_OK && m->laid) status = dp_laid_step(m->laid);
+    return status;
 }

@@ -11,7 +11,7 @@ from desire_path.errors import DesirePathError
 from desire_path.plants import KINDS
 from scenes import meshes
 from test_bake import refused, scene, state
-from test_plants import everything, grown
+from test_plants import everything, grown, picture, roots
 from test_playback import fresh
 
 
@@ -126,6 +126,24 @@ def test_a_duplicate_of_the_ground_leaves_its_grass_alone(folder):
     assert everything() == have and len(mine.grass.data.vertices) == count
     assert ground.desire_path.plant_object is not None and playback.modifier(ground) is not None
     assert bake.read_index(str(folder / "bake")).complete
+
+
+def test_an_image_says_where_plants_grow_in_a_bake(folder):
+    ground, _ = meadow(folder, size=(3.0, 3.4))
+    each, have = ground.desire_path.plants[0], len(bpy.data.images)
+    value = np.zeros((1, 64), np.float32)
+    value[:, 32:] = 1.0
+    each.density_image = picture(value)
+    at = compat.positions(ground.data)[:, 0]
+    middle = (at.min() + at.max()) / 2
+    assert roots(each)[:, 0].min() > middle - 0.03
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    strength = compat.float_attribute(ground.data, "plant_strength")
+    full = min(1.0, each.density / plants.kind(each.kind).full_density)
+    assert strength[at < middle - 0.3].max() == 0.0
+    np.testing.assert_allclose(np.median(strength[at > middle + 0.3]), full, atol=0.05)
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    assert len(bpy.data.images) == have + 1
 
 
 def test_saved_and_loaded_it_plays_on(folder):

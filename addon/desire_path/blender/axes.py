@@ -82,7 +82,11 @@ def image_axes(world, scale, index):
 
     (0, 0) is the image's lower left corner (index.x0, index.y0), (1, 1) its upper right one.
     """
-    size = np.array((index.nx, index.ny)) * index.cell
-    turn = world[:2, :3] * scale / size[:, None]
-    shift = (world[:2, 3] * scale - np.array((index.x0, index.y0))) / size
+    return rectangle_axes(world, scale, (index.x0, index.y0), np.array((index.nx, index.ny)) * index.cell)
+
+
+def rectangle_axes(world, scale, low, size):
+    """The same for an image that lies over a rectangle of the world: its lower left corner and its sides [m]."""
+    turn = world[:2, :3] * scale / np.asarray(size)[:, None]
+    shift = (world[:2, 3] * scale - np.asarray(low)) / size
     return turn, shift

@@ -29,6 +29,27 @@ def triangles(mesh):
     return out
 
 
+def triangle_corners(mesh):
+    """The corners of those triangles among the mesh's, int32 (m, 3)."""
+    out = np.empty((len(mesh.loop_triangles), 3), np.int32)
+    if len(out):
+        mesh.loop_triangles.foreach_get("loops", out.ravel())
+    return out
+
+
+def uv(mesh, name):
+    """Image coordinates of every corner of a UV map, float64 (corners, 2), or None where there is none."""
+    layer = mesh.uv_layers.get(name)
+    if layer is None or not len(mesh.loops):
+        return None
+    out = np.empty((len(mesh.loops), 2), np.float32)
+    if hasattr(layer, "uv"):
+        layer.uv.foreach_get("vector", out.ravel())
+    else:
+        layer.data.foreach_get("uv", out.ravel())
+    return out.astype(np.float64)
+
+
 def faces(mesh):
     """The faces in 3 or 4 corners each: the vertex of every corner, int32 (c,); where each face's corners
     begin, int32 (f + 1,), or None where each has as many; how many that is."""

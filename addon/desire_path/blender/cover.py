@@ -42,7 +42,7 @@ def fill(obj, surface, index, depth, planes, standing=()):
     if "plant_strength" in value and standing:
         at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
         off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
-        value["plant_strength"] = np.where(off, _grown(obj, standing), value["plant_strength"]).astype(np.float32)
+        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(np.float32)
     warnings = []
     if settings.attributes:
         made = []
@@ -63,10 +63,14 @@ def fill(obj, surface, index, depth, planes, standing=()):
     return warnings
 
 
-def _grown(obj, standing):
-    """Cover of every vertex where nobody walked, from (vertex group or attribute, cover where it is 1)."""
+def _grown(obj, surface, standing):
+    """Cover of every vertex where nobody walked, from (vertex group, attribute or Spread, cover where it is 1)."""
     out = np.zeros(len(obj.data.vertices), np.float32)
     for name, full in standing:
+        if hasattr(name, "at"):
+            at = axes.points(surface.world, compat.positions(obj.data), surface.scale)
+            out += np.float32(full) * name.at(at[:, :2]).astype(np.float32)
+            continue
         weight = compat.float_attribute(obj.data, name) if name else np.float32(1.0)
         group = obj.vertex_groups.get(name) if name else None
         if group is not None:

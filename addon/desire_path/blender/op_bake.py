@@ -157,14 +157,15 @@ def play(obj, surface, baked=None):
     index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
     if index.frames:
+        standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(settings.folder, os.path.basename(index.folder))
         smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
-                        layer_depth=depth, standing=plants.standing(obj))
+                        layer_depth=depth, standing=standing)
         planes = baked or cover.planes(index)
-        warnings = cover.fill(obj, surface, index, depth, planes, plants.standing(obj))
+        warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if index.complete:
             warnings += cover.few_points(obj, surface, index, planes)
     else:

@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
-from . import plants, props
+from . import picture, plants, props
 from .op_walkers import Refusal
 
 DELAY = 0.25  # of the grass behind a number that is dragged [s]
@@ -74,6 +74,10 @@ class _OfGround(Refusal):
         return True
 
 
+def _images(_self, _context, _text):
+    return [image.name for image in bpy.data.images if picture.is_still(None, image)]
+
+
 class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     """Let plants grow on the active ground: they bend under the walkers, wear, and hold the soil"""
 
@@ -88,17 +92,20 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
                            "group is 1; 0 = as dense as the kind usually stands")
     density_group: StringProperty(name="Density Group", description="A vertex group or float attribute that thins "
                                   "the plants out; empty = they grow everywhere")
+    density_image: StringProperty(
+        name="Density Image", search=_images, description="Name of an image that thins the plants out, white = all of "
+        "them; by the active UV map, else stretched over the ground seen from above; empty = none")
     grass: BoolProperty(name="Grass", default=True, description="Make an object that shows the plants")
 
     def work(self, context):
         obj, scene = context.object, context.scene
         context.view_layer.update()
-        its = plants.kind(self.kind)
+        its, image = plants.kind(self.kind), picture.named(self.density_image)
         settings = obj.desire_path
         each = settings.plants.add()
         try:
             with quietly():
-                each.kind, each.density_group = self.kind, self.density_group
+                each.kind, each.density_group, each.density_image = self.kind, self.density_group, image
                 each.density, each.seed = self.density or its.density, len(settings.plants) - 1
             if self.grass:
                 each.grass = plants.grass.make(obj, self.kind)
@@ -141,7 +148,7 @@ class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
 
 
 class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
-    """Put the plants of the active ground anew, after its mesh or a density group was changed"""
+    """Put the plants of the active ground anew, after its mesh, a density group or a density image was changed"""
 
     bl_idname = "object.desire_path_plants_update"
     bl_label = "Update Plants"

@@ -125,6 +125,10 @@ def draw_plants(layout, context, obj):
     column.prop(each, "density")
     column.prop_search(each, "density_group", obj, "vertex_groups")
     column.prop(each, "seed")
+    picked = layout.column(align=True)  # a line of its own: its buttons need the panel's width
+    picked.label(text="Density Image")
+    picked.template_ID(each, "density_image", new="image.new", open="image.open")
+    column = _column(layout)
     if plants.shown(each) is not None:
         column.prop(each, "grass", text="Shown By")
     else:

@@ -1,16 +1,17 @@
 """plants.py - the plants of a ground: kinds, roots where they are painted, grass one can see.
 
-    Object.desire_path.plants --kind, density, group, seed--> roots --> grass (grass.py)
-                                                                  \\--> Planting, for the bake
+    Object.desire_path.plants --kind, density, group, image, seed--> roots --> grass (grass.py)
+                                                                         \\--> Planting, for the bake
 """
 import os
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from .. import tuft
 from ..errors import DesirePathError
-from . import axes, compat, grass, ground, playback, sample
+from . import axes, compat, grass, ground, picture, playback, sample
 
 MOST = 1_000_000  # plants of one planting that are shown
 FINEST = 0.02  # the density is looked up at places this far apart, or farther on wide ground [m]
@@ -34,17 +35,36 @@ def kind(name):
 
 def mark(each):
     """What a planting asks for, in a word, to tell whether its roots are still the right ones."""
-    return f"{each.kind} {each.density!r} {each.density_group} {each.seed}"
+    image = f" {each.density_image.name_full}" if each.density_image is not None else ""
+    return f"{each.kind} {each.density!r} {each.density_group} {each.seed}{image}"
+
+
+@dataclass(frozen=True)
+class Spread:
+    """A number 0..1 for every place of a rectangle of the world."""
+
+    weight: np.ndarray  # (ny, nx), row 0 at the lowest y
+    low: np.ndarray  # corner (x, y) [m]
+    size: np.ndarray  # sides [m]
+
+    def at(self, place):
+        """Its number at places (n, 2) [m], the nearest one off the rectangle."""
+        shape = np.array(self.weight.shape[::-1])
+        i, j = np.clip((place - self.low) / self.size * shape, 0, shape - 1).astype(np.int64).T
+        return self.weight[j, i]
 
 
 class Bed:
     """A ground as it lies before any bake, read once to put plants on it."""
 
-    def __init__(self, scene, obj, groups, frame):
+    def __init__(self, scene, obj, chosen, frame):
+        """chosen: the plantings it is read for"""
         from ..sim import Ground, Simulation
         self.scale = axes.unit_scale(scene)
         copy = obj.copy()
-        groups = [name for name in dict.fromkeys(groups) if name]
+        groups = [name for name in dict.fromkeys(each.density_group for each in chosen) if name]
+        self.light = {each.density_image: picture.brightness(each.density_image)
+                      for each in chosen if each.density_image is not None}
         tree = None
         try:
             copy.hide_viewport = False
@@ -58,6 +78,8 @@ class Bed:
                 world = axes.matrix(found.matrix_world, obj.name)
                 vertices = axes.points(world, compat.positions(found.data), self.scale)
                 triangles = compat.triangles(found.data)
+                if self.light and len(triangles):
+                    self.lay = picture.Lay(obj, found.data, vertices, triangles)
                 painted = {}
                 for k, name in enumerate(groups):
                     value = compat.float_attribute(found.data, ground.WEIGHT.format(k))
@@ -81,6 +103,22 @@ class Bed:
         self.weight = {name: heights(value) for name, value in painted.items()}
         self.low, self.high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
 
+    def spread(self, each):
+        """How dense a planting is over the rectangle around the ground: 1 = as asked for, 0 = off the ground."""
+        size = self.high - self.low
+        step = max(FINEST, float(size.max()) / MOST_PLACES)
+        nx, ny = (max(1, int(np.ceil(side / step))) for side in size)
+        x = self.low[0] + (np.arange(nx) + 0.5) * size[0] / nx
+        y = self.low[1] + (np.arange(ny) + 0.5) * size[1] / ny
+        at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        height, weight = self.height(at), np.ones(len(at))
+        if each.density_group:
+            weight = np.clip(self.weight[each.density_group](at), 0.0, 1.0)
+        if each.density_image is not None:
+            weight = weight * picture.sampled(self.light[each.density_image], self.lay(at, height))
+        weight = np.where(np.isfinite(height) & np.isfinite(weight), weight, 0.0)
+        return Spread(weight.reshape(ny, nx), self.low, size)
+
     def planting(self, each, its, most=np.inf):
         """The core's Planting of these plants, and how many it means on the whole ground.
 
@@ -88,22 +126,15 @@ class Bed:
         there, so that another density takes plants away or adds some and leaves the others alone.
         """
         from ..plants import Planting
+        weight = self.spread(each).weight
         size = self.high - self.low
-        step = max(FINEST, float(size.max()) / MOST_PLACES)
-        nx, ny = (max(1, int(np.ceil(side / step))) for side in size)
-        x = self.low[0] + (np.arange(nx) + 0.5) * size[0] / nx
-        y = self.low[1] + (np.arange(ny) + 0.5) * size[1] / ny
-        at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        group = each.density_group
-        weight = np.clip(self.weight[group](at), 0.0, 1.0) if group else np.ones(len(at))
-        weight = np.where(np.isfinite(self.height(at)) & np.isfinite(weight), weight, 0.0)
         density = axes.typed(each.density)
         wanted = density * float(weight.mean()) * size[0] * size[1]
         density *= min(1.0, most / max(wanted, 1.0))
         base = its.density * 2.0 ** np.ceil(np.log2(density / its.density) - 1e-9)
-        if not group and abs(base - density) < 1e-6 * base:
+        if not each.density_group and each.density_image is None and abs(base - density) < 1e-6 * base:
             return Planting(its, base, each.seed), wanted
-        return Planting(its, base, each.seed, (weight * (density / base)).reshape(ny, nx),
+        return Planting(its, base, each.seed, weight * (density / base),
                         (*self.low, *self.high)), wanted
 
     def roots(self, planting):
@@ -132,7 +163,7 @@ def plant(scene, obj, chosen=None):
     if not chosen:
         return []
     kinds = [kind(each.kind) for each in chosen]
-    bed = Bed(scene, obj, [each.density_group for each in chosen], settings.frame_start)
+    bed = Bed(scene, obj, chosen, settings.frame_start)
     told = []
     for each, its in zip(chosen, kinds):
         planting, wanted = bed.planting(each, its, MOST)
@@ -141,9 +172,10 @@ def plant(scene, obj, chosen=None):
         each.mark = mark(each)
         if wanted > MOST:
             told.append(f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
-                        f"{MOST / 1e6:.0f} million: paint a density group where they are seen.")
+                        f"{MOST / 1e6:.0f} million: paint a density group or image where they are seen.")
         elif not len(root):
-            told.append(f"No {each.kind} grows on '{obj.name}': check its density and its density group.")
+            told.append(f"No {each.kind} grows on '{obj.name}': check its density, and the group and the image "
+                        "that thin it out.")
         if shown(each) is not None:
             look = tuft.look_of(each.kind, its)
             grass.fill(each.grass, obj, root, bed.slope(root), look.sizes, look.tufts, bed.scale)
@@ -173,9 +205,18 @@ def show(obj, index=None):
 
 
 def standing(obj):
-    """(density group, strength where it is 1) of each planting: cover before anybody walks."""
-    return tuple((each.density_group, min(1.0, each.density / kind(each.kind).full_density))
-                 for each in obj.desire_path.plants)
+    """(density group, strength where it is 1) of each planting: cover before anybody walks. A Spread in place of
+    the group tells of all that are thinned by images."""
+    full = {each: min(1.0, each.density / kind(each.kind).full_density) for each in obj.desire_path.plants}
+    plain = tuple((each.density_group, full[each]) for each in full if each.density_image is None)
+    drawn = [each for each in full if each.density_image is not None]
+    if not drawn:
+        return plain
+    scene = bpy.context.scene if obj.name in bpy.context.scene.objects else obj.users_scene[0]
+    bed = Bed(scene, obj, drawn, obj.desire_path.frame_start)
+    spreads = [bed.spread(each) for each in drawn]
+    cover = sum(full[each] * spread.weight for each, spread in zip(drawn, spreads))
+    return (*plain, (Spread(np.minimum(cover, 1.0), bed.low, spreads[0].size), 1.0))
 
 
 def plantings(scene, obj):
@@ -183,7 +224,7 @@ def plantings(scene, obj):
     chosen = list(obj.desire_path.plants)
     if not chosen:
         return []
-    bed = Bed(scene, obj, [each.density_group for each in chosen], obj.desire_path.frame_start)
+    bed = Bed(scene, obj, chosen, obj.desire_path.frame_start)
     return [bed.planting(each, kind(each.kind))[0] for each in chosen]
 
 

@@ -39,7 +39,7 @@ def image_of(tree):
 
 
 def images(tree):
-    """The image sequences a tree plays: {"trail": image, "lean": image}, what there is."""
+    """The images a tree plays, what there is: the sequences "trail" and "lean", and "grown", a still."""
     found = {}
     for node in tree.nodes:
         if node.bl_idname == "GeometryNodeImageTexture":
@@ -60,7 +60,7 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     smooth: interpolate between cells, for meshes whose points are not cell centres
     corners: the local box of the mesh's points (8, 3)
     layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
-    standing: plants off the images, (vertex group or "", their strength where the group is 1) each
+    standing: plants off the images, (vertex group, "" or plants.Spread, their strength where that is 1) each
     """
     old = modifier(obj)
     place = list(obj.modifiers).index(old) if old is not None else -1
@@ -131,6 +131,20 @@ def _image(frames, name):
     return image
 
 
+def _still(spread):
+    """A packed image of a Spread: it needs no file."""
+    ny, nx = spread.weight.shape
+    image = bpy.data.images.new("desire_path grown", nx, ny, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    pixels = np.ones((ny, nx, 4), np.float32)
+    pixels[..., :3] = spread.weight[..., None]
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    image.pack()
+    image[TAG] = "grown"
+    return image
+
+
 def join(folder, *names):
     """Join below a folder that may begin with Blender's `//`."""
     return "/".join((folder.replace("\\", "/").rstrip("/"),) + names)
@@ -173,10 +187,10 @@ class Wiring:
                         **({} if scale is None else {"Scale": scale}))
         return compat.socket(node.outputs, "Vector") or compat.socket(node.outputs, "Value")
 
-    def image(self, image, at, number, smooth):
-        """Sample file `number` of an image sequence; outputs Color and Alpha."""
+    def image(self, image, at, number, smooth, beyond="CLIP"):
+        """Sample file `number` of an image sequence; outputs Color and Alpha. beyond: what lies around it"""
         return self.add("GeometryNodeImageTexture",
-                        {"interpolation": "Linear" if smooth else "Closest", "extension": "CLIP"},
+                        {"interpolation": "Linear" if smooth else "Closest", "extension": beyond},
                         Image=image, Vector=at, Frame=number)
 
     def named(self, name, kind="FLOAT"):
@@ -213,13 +227,7 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
 
     # where in the image
     turn, shift = axes.image_axes(world, scale, index)
-    here = wire.add("GeometryNodeInputPosition").outputs[0]
-    if turn[0, 1] == 0.0 and turn[0, 2] == 0.0 and turn[1, 0] == 0.0 and turn[1, 2] == 0.0:
-        at = wire.vector("MULTIPLY_ADD", here, (turn[0, 0], turn[1, 1], 0.0), (*shift, 0.0))
-    else:
-        u, v = (wire.math("ADD", wire.vector("DOT_PRODUCT", here, tuple(turn[k])), shift[k])
-                for k in (0, 1))
-        at = wire.add("ShaderNodeCombineXYZ", X=u, Y=v).outputs[0]
+    at = _turned(wire, turn, shift)
     inside = None if _covers(corners, turn, shift) else within(wire, at)
 
     # sample once, read everything from it
@@ -240,8 +248,8 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
         some = {}  # what is not stored reads zero
     geometry = stored.outputs[0]
     if "lean" in shown:
-        geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside,
-                         standing)
+        grown = _grown(wire, standing, world, scale) if inside is not None else None
+        geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
     geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset,
                         **some).outputs[0]
 
@@ -266,17 +274,34 @@ def _covers(corners, turn, shift):
     return bool((corners >= 0.0).all() and (corners <= 1.0).all())
 
 
-def _lean(wire, geometry, texture, inside, standing):
+def _turned(wire, turn, shift):
+    """Image coordinates of the points, see axes.image_axes."""
+    here = wire.add("GeometryNodeInputPosition").outputs[0]
+    if turn[0, 1] == 0.0 and turn[0, 2] == 0.0 and turn[1, 0] == 0.0 and turn[1, 2] == 0.0:
+        return wire.vector("MULTIPLY_ADD", here, (turn[0, 0], turn[1, 1], 0.0), (*shift, 0.0))
+    u, v = (wire.math("ADD", wire.vector("DOT_PRODUCT", here, tuple(turn[k])), shift[k]) for k in (0, 1))
+    return wire.add("ShaderNodeCombineXYZ", X=u, Y=v).outputs[0]
+
+
+def _grown(wire, standing, world, scale):
+    """How strong plants are where nobody walked."""
+    grown = 0.0
+    for where, full in standing:
+        share = full
+        if hasattr(where, "weight"):
+            at = _turned(wire, *axes.rectangle_axes(world, scale, where.low, where.size))
+            light = wire.image(_still(where), at, 0, True, "EXTEND").outputs["Color"]
+            share = wire.math("MULTIPLY", wire.split(light)[0], full)
+        elif where:
+            share = wire.math("MULTIPLY", wire.named(where), full)
+        grown = wire.math("ADD", grown, share)
+    return wire.math("MINIMUM", grown, 1.0)
+
+
+def _lean(wire, geometry, texture, inside, grown):
     """Store how plants lie and how strong they are; off the image they stand as they grew."""
     strength = texture.outputs["Alpha"]
     if inside is not None:
-        grown = 0.0
-        for group, full in standing:
-            share = full
-            if group:
-                share = wire.math("MULTIPLY", wire.named(group), full)
-            grown = wire.math("ADD", grown, share)
-        grown = wire.math("MINIMUM", grown, 1.0)
         strength = wire.math("ADD", wire.math("MULTIPLY", strength, inside),
                              wire.math("MULTIPLY", grown, wire.math("SUBTRACT", 1.0, inside)))
         lean = wire.vector("SCALE", texture.outputs["Color"], scale=inside)

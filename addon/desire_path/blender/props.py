@@ -7,7 +7,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        PointerProperty, StringProperty)
 
 from ..soil import SOILS
-from . import compat
+from . import compat, picture
 
 
 def _words(name):
@@ -79,6 +79,12 @@ class DesirePathPlants(bpy.types.PropertyGroup):
     density_group: StringProperty(
         name="Density Group", update=_replant, description="A vertex group or float attribute that thins "
         "the plants out: 1 = all of them, 0 = none. Empty = they grow everywhere")
+    density_image: PointerProperty(
+        name="Density Image", type=bpy.types.Image, poll=picture.is_still, update=_replant,
+        description="An image that thins the plants out, times the group if both are set: white = all of them, black = "
+        "none, by the brightness of its pixels as they are stored. It lies on the ground by the active UV map; where "
+        "there is none, it is stretched over the ground's bounding rectangle seen from above. Update Plants takes over "
+        "what was painted since")
     seed: IntProperty(name="Seed", min=0, update=_replant,
                       description="Another number puts every plant somewhere else")
     count: IntProperty(options={"HIDDEN"}, description="How many plants there are")
@@ -127,7 +133,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     plants_index: IntProperty(options={"HIDDEN"})
     plant_mesh: BoolProperty(
         name="Plant Mesh", description="Also bake the simulated plants as a mesh of stems, for close-ups: "
-        "where feet come near, in place of the grass; large files")
+        "where feet come near, in place of the grass, and down as long as that where trodden; large files")
     plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
                                   description="The mesh of the simulated plants")
     vertex_group: BoolProperty(
