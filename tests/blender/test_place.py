@@ -7,7 +7,7 @@ import numpy as np
 from mathutils import Matrix
 
 from desire_path import maps, rotation, walker
-from desire_path.blender import compat, footing, ground as ground_of, op_place, sample
+from desire_path.blender import compat, ground as ground_of, op_place, posing, sample
 from desire_path.sim import Simulation
 from scenes import meshes, people
 from run import Skip
@@ -45,7 +45,7 @@ def keys(action, obj):
 
 
 def heads(obj, names, frames):
-    bones = footing.look(bpy.context.scene, obj, names, frames)
+    bones = posing.look(bpy.context.scene, obj, names, frames)
     return {name: bones.at(name)[:, :3, 3] for name in names}
 
 
@@ -173,7 +173,7 @@ def follow(obj, name, world, *, place=True):
 def test_quaternions_and_a_turned_object():
     obj = people.walk(people.biped())
     names = [f"{bone}.{side}" for side in "LR" for bone in ("thigh", "shin", "foot", "toe")]
-    seen = footing.look(bpy.context.scene, obj, names, range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, names, range(1, 49))
     for name in names:
         follow(obj, name, seen.at(name), place=False)
     obj.rotation_euler.z = 0.4
@@ -189,7 +189,7 @@ def test_legs_that_follow_ik_targets():
     obj = people.walk(people.biped())
     add_bones(obj, *((f"ik.{side}", None, (x, 0.02, 0.08), (x, 0.2, 0.08))
                      for side, x in (("L", 0.1), ("R", -0.1))))
-    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     for side in "LR":
         target = np.tile(np.eye(4), (48, 1, 1))
         target[:, :3, 3] = seen.at("foot." + side)[:, :3, 3]
@@ -206,7 +206,7 @@ def test_legs_that_follow_ik_targets():
 
 def test_feet_that_hang_on_nothing_are_moved():
     obj = people.walk(people.biped())
-    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     meshes.activate(obj)
     bpy.ops.object.mode_set(mode="EDIT")
     for side in "LR":

@@ -118,3 +118,81 @@ def _known(group, operator):
     except KeyError:
         return False
     return True
+
+
+def rigify(frames=48, period=24, stride=1.0, fk=False):
+    """A generated Rigify person that walks along -Y by its controls from frame 1 on; None without Rigify."""
+    try:
+        bpy.ops.preferences.addon_enable(module="rigify")
+        bpy.ops.object.armature_basic_human_metarig_add()
+    except (AttributeError, RuntimeError):
+        return None
+    metarig = bpy.context.object
+    bpy.ops.pose.rigify_generate()
+    obj = bpy.context.object
+    bpy.data.objects.remove(metarig)
+    bpy.context.view_layer.update()
+    obj.name = "Walker"
+    meshes.activate(obj)
+    lead(obj, "torso", "foot_ik.{}", frames, period, stride, roll="foot_heel_ik.{}")
+    if fk:
+        to_fk(obj, range(1, frames + 1))
+    return obj
+
+
+def lead(obj, body, foot, frames=48, period=24, stride=1.0, roll=None, pitch=0.5):
+    """Key a body bone and two foot bones to a walk along -Y: a foot stands, then swings ahead, lifted and rolled."""
+    from mathutils import Matrix
+    for name in (body, foot.format("L"), foot.format("R")):
+        obj.pose.bones[name].rotation_mode = "QUATERNION"
+    rest = {name: obj.data.bones[name].matrix_local.copy() for name in (body, foot.format("L"), foot.format("R"))}
+
+    def put(name, frame, way, up, pitch):
+        bone, scene = obj.pose.bones[name], bpy.context.scene
+        at = rest[name].translation
+        turn = Matrix.Translation(at) @ Matrix.Rotation(pitch, 4, "X") @ Matrix.Translation(-at)
+        scene.frame_set(frame)
+        bone.matrix = Matrix.Translation((0, -way, up)) @ turn @ rest[name]
+        bpy.context.view_layer.update()
+        bone.keyframe_insert("location", frame=frame)
+        bone.keyframe_insert("rotation_quaternion", frame=frame)
+
+    for frame in range(1, frames + 1):
+        t = (frame - 1) / period
+        put(body, frame, stride * t, -0.06 + 0.015 * math.cos(4 * math.pi * t), 0.03)
+        for side, shift in (("L", 0.0), ("R", 0.5)):
+            step, phase = divmod(t + shift, 1.0)
+            swing = max(phase - 0.6, 0.0) / 0.4
+            ease = swing * swing * (3 - 2 * swing)
+            way = stride * (step + ease - shift + 0.3)  # the foot stands for 0.6 of a stride, the body over its middle
+            put(foot.format(side), frame, way, 0.12 * math.sin(math.pi * swing), pitch * math.sin(2 * math.pi * swing))
+            if roll:
+                bone = obj.pose.bones[roll.format(side)]
+                bone.rotation_mode = "ZXY"
+                bone.rotation_euler = (0.6 * max(phase - 0.45, 0.0) / 0.15 if phase < 0.6 else 0.6 * (1 - ease), 0, 0)
+                bone.keyframe_insert("rotation_euler", index=0, frame=frame)
+    bpy.context.scene.frame_set(1)
+
+
+def to_fk(obj, frames):
+    """Key the FK legs of a Rigify person to where its IK legs are, and switch to them."""
+    scene = bpy.context.scene
+    joints = ("thigh", "shin", "foot", "toe")
+    seen = {}
+    for frame in frames:
+        scene.frame_set(frame)
+        for side in "LR":
+            for joint in joints:
+                seen[frame, joint, side] = obj.pose.bones[f"ORG-{joint}.{side}"].matrix.copy()
+    for side in "LR":
+        obj.pose.bones[f"thigh_parent.{side}"]["IK_FK"] = 1.0
+    for frame in frames:
+        scene.frame_set(frame)
+        for joint in joints:
+            for side in "LR":
+                bone = obj.pose.bones[f"{joint}_fk.{side}"]
+                bone.matrix = seen[frame, joint, side]
+            bpy.context.view_layer.update()
+            for side in "LR":
+                obj.pose.bones[f"{joint}_fk.{side}"].keyframe_insert("rotation_quaternion", frame=frame)
+    scene.frame_set(1)
