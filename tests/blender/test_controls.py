@@ -4,15 +4,15 @@ import numpy as np
 
 from desire_path.blender import compat, controls, sample
 from run import Skip
-from scenes import meshes, people
+from scenes import meshes, people, rigified
 from test_place import check_placed, heads, keys, operator, scene_of
 from test_rig import add_bones, record, refused
 
 SIDES = "LR"
 
 
-def rigify(**more):
-    obj = people.rigify(**more)
+def person(**more):
+    obj = rigified.walker(**more)
     if obj is None:
         raise Skip("there is no Rigify here")
     return obj
@@ -99,7 +99,7 @@ def placed(obj):
 
 
 def test_rigify_feet_are_found():
-    obj = rigify()
+    obj = person()
     operator.desire_path_rig_detect()
     assert [(f.foot, f.toe, f.thigh, f.shank) for f in obj.desire_path.feet] == [
         tuple(f"DEF-{bone}.{side}" for bone in ("foot", "toe", "thigh", "shin")) for side in SIDES]
@@ -107,13 +107,13 @@ def test_rigify_feet_are_found():
     assert leads(obj) == {f"DEF-foot.{side}": {("whole", f"foot_ik.{side}"), ("toe", f"toe_ik.{side}")}
                           for side in SIDES}
     assert stand(obj) == before
-    people.to_fk(obj, range(1, 49))
+    rigified.to_fk(obj, range(1, 49))
     assert leads(obj)["DEF-foot.L"] == {("thigh", "thigh_fk.L"), ("shank", "shin_fk.L"), ("turn", "foot_fk.L"),
                                         ("toe", "toe_fk.L")}
 
 
 def test_rigify_walks_uphill():
-    obj = rigify()
+    obj = person()
     kept, keyed = placed(obj)
     assert 'pose.bones["foot_heel_ik.L"].rotation_euler' in kept  # the roll is the animator's
     assert 'pose.bones["torso"].rotation_quaternion' in kept
@@ -123,7 +123,7 @@ def test_rigify_walks_uphill():
 
 
 def test_rigify_walks_uphill_on_fk_legs():
-    obj = rigify(fk=True)
+    obj = person(fk=True)
     kept, keyed = placed(obj)
     for name in ("thigh_fk", "shin_fk", "foot_fk"):
         assert f'pose.bones["{name}.R"].rotation_quaternion' in keyed - kept
@@ -131,7 +131,7 @@ def test_rigify_walks_uphill_on_fk_legs():
 
 
 def test_rigify_switches_to_fk_on_the_way():
-    obj = rigify(fk=True)
+    obj = person(fk=True)
     for side in SIDES:
         bone = obj.pose.bones[f"thigh_parent.{side}"]
         for frame, value in ((1, 0.0), (29, 0.0), (30, 1.0)):
@@ -142,7 +142,7 @@ def test_rigify_switches_to_fk_on_the_way():
 
 
 def test_rigify_feet_chosen_by_hand():
-    obj = rigify()
+    obj = person()
     operator.desire_path_rig_detect()
     for each in obj.desire_path.feet:
         for slot in ("foot", "toe", "thigh", "shank"):

@@ -6,6 +6,7 @@ import pathlib
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from . import meshes
 
@@ -120,29 +121,8 @@ def _known(group, operator):
     return True
 
 
-def rigify(frames=48, period=24, stride=1.0, fk=False):
-    """A generated Rigify person that walks along -Y by its controls from frame 1 on; None without Rigify."""
-    try:
-        bpy.ops.preferences.addon_enable(module="rigify")
-        bpy.ops.object.armature_basic_human_metarig_add()
-    except (AttributeError, RuntimeError):
-        return None
-    metarig = bpy.context.object
-    bpy.ops.pose.rigify_generate()
-    obj = bpy.context.object
-    bpy.data.objects.remove(metarig)
-    bpy.context.view_layer.update()
-    obj.name = "Walker"
-    meshes.activate(obj)
-    lead(obj, "torso", "foot_ik.{}", frames, period, stride, roll="foot_heel_ik.{}")
-    if fk:
-        to_fk(obj, range(1, frames + 1))
-    return obj
-
-
 def lead(obj, body, foot, frames=48, period=24, stride=1.0, roll=None, pitch=0.5):
     """Key a body bone and two foot bones to a walk along -Y: a foot stands, then swings ahead, lifted and rolled."""
-    from mathutils import Matrix
     for name in (body, foot.format("L"), foot.format("R")):
         obj.pose.bones[name].rotation_mode = "QUATERNION"
     rest = {name: obj.data.bones[name].matrix_local.copy() for name in (body, foot.format("L"), foot.format("R"))}
@@ -172,27 +152,3 @@ def lead(obj, body, foot, frames=48, period=24, stride=1.0, roll=None, pitch=0.5
                 bone.rotation_euler = (0.6 * max(phase - 0.45, 0.0) / 0.15 if phase < 0.6 else 0.6 * (1 - ease), 0, 0)
                 bone.keyframe_insert("rotation_euler", index=0, frame=frame)
     bpy.context.scene.frame_set(1)
-
-
-def to_fk(obj, frames):
-    """Key the FK legs of a Rigify person to where its IK legs are, and switch to them."""
-    scene = bpy.context.scene
-    joints = ("thigh", "shin", "foot", "toe")
-    seen = {}
-    for frame in frames:
-        scene.frame_set(frame)
-        for side in "LR":
-            for joint in joints:
-                seen[frame, joint, side] = obj.pose.bones[f"ORG-{joint}.{side}"].matrix.copy()
-    for side in "LR":
-        obj.pose.bones[f"thigh_parent.{side}"]["IK_FK"] = 1.0
-    for frame in frames:
-        scene.frame_set(frame)
-        for joint in joints:
-            for side in "LR":
-                bone = obj.pose.bones[f"{joint}_fk.{side}"]
-                bone.matrix = seen[frame, joint, side]
-            bpy.context.view_layer.update()
-            for side in "LR":
-                obj.pose.bones[f"{joint}_fk.{side}"].keyframe_insert("rotation_quaternion", frame=frame)
-    scene.frame_set(1)
