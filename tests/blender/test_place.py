@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from desire_path import maps, rotation, walker
+from desire_path import maps, place, rotation, walker
 from desire_path.blender import compat, ground as ground_of, op_place, posing, sample
 from desire_path.sim import Simulation
 from scenes import meshes, people
@@ -422,6 +422,35 @@ def test_a_beast_of_four_legs():
     before = sample.record(bpy.context.scene, obj, 1, 6)
     assert operator.desire_path_place_feet() == {"FINISHED"}
     over, gait, _ = on_hill(obj, 1, 6)
+    check_trunk(obj, np.array((UP, place.ROLL * ASIDE)))
     assert len(gait.limb_walker) == 4
     np.testing.assert_allclose(over, walker.point_places(before)[..., 2], atol=0.02)
     np.testing.assert_allclose(gait.pose[..., :2], before.pose[..., :2], atol=0.03)
+
+
+def check_trunk(obj, lean):
+    """The trunk leans (along -Y, along X), and each leg is as long from hip to ankle as it was, but for what legs do
+    sideways."""
+    seen = posing.look(bpy.context.scene, obj, ["hips", "spine"] + [
+        f"{word}{bone}.{side}" for word in ("", "front_") for bone in ("thigh", "foot") for side in "LR"], [1, 4, 6])
+    rest = {bone.name: np.array(bone.matrix_local) for bone in obj.data.bones}
+    for name in ("hips", "spine"):
+        turn = seen.at(name)[:, :3, :3] @ np.linalg.inv(rest[name][:3, :3])
+        np.testing.assert_allclose(turn[:, :2, 2] / turn[:, 2:, 2], [(-lean[1], lean[0])] * 3, atol=0.03)
+    for word in ("", "front_"):
+        for side in "LR":
+            thigh, foot = f"{word}thigh.{side}", f"{word}foot.{side}"
+            now = np.linalg.norm(seen.at(thigh)[:, :3, 3] - seen.at(foot)[:, :3, 3], axis=1)
+            was = np.linalg.norm(rest[thigh][:3, 3] - rest[foot][:3, 3])
+            assert abs(now / was - 1.0).max() < 0.05, (thigh, now, was)
+
+
+def test_a_beast_whose_trunk_may_not_turn():
+    obj, _, _ = beast()
+    land = scene_of(obj)
+    land.desire_path.frame_start, land.desire_path.frame_end = 1, 6
+    bpy.context.scene.frame_end = 6
+    obj.pose.bones["hips"].lock_rotation = (True, True, True)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    seen = posing.look(bpy.context.scene, obj, ["hips"], [1, 6]).at("hips")
+    np.testing.assert_allclose(seen[:, :3, :3], [np.array(obj.data.bones["hips"].matrix_local)[:3, :3]] * 2, atol=1e-5)

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 
-from .. import leg, rotation
+from .. import leg, place, rotation
 from ..errors import DesirePathError
 from . import controls, posing
 
@@ -118,23 +118,22 @@ class Plan:
                     and under(self.armature, foot.shank, foot.thigh))
 
     def _carry(self, gait, placed):
-        """Roots rise with the body, and come down as far as legs are too short."""
-        rise = (placed.com[0, :, 2] - gait.com[0, :, 2]) / self.bones.scale
-        up = np.array((0.0, 0.0, 1.0))
-        down = np.zeros(len(rise))
+        """Roots rise and lean with the body, and come down as far as legs are too short."""
+        centre = gait.com[0] / self.bones.scale
+        lean = place.tilt(gait, placed)
+        if lean is not None and any(any(self.armature.pose.bones[root].lock_rotation) for root in self.roots):
+            lean = None
+        level = np.tile(np.eye(3), (len(centre), 1, 1))
+        self.body = posing.turned(level if lean is None else lean, centre, placed.com[0] / self.bones.scale)
+        down = np.zeros(len(centre))
         for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
             if not (self.hangs(foot) or foot.foot in self.leads and foot.thigh and foot.shank):
                 continue
-            hip, knee, ankle = (self.heads(n) for n in (foot.thigh, foot.shank, foot.foot))
-            goal = _at(self._foot_move(limb, gait, placed), ankle)
-            lift = rise[:, None] * up
-            down = np.maximum(down, leg.drop(hip + lift, knee + lift, ankle + lift, goal))
-        down = leg.eased(down, round(EASE * gait.frame_rate))
-        carried = np.tile(np.eye(4), (len(rise), 1, 1))
-        carried[:, 2, 3] = rise - down
-        self.body = carried
+            goal = _at(self._foot_move(limb, gait, placed), self.heads(foot.foot))
+            down = np.maximum(down, leg.drop(*(self.carried(n) for n in (foot.thigh, foot.shank, foot.foot)), goal))
+        self.body[:, 2, 3] -= leg.eased(down, round(EASE * gait.frame_rate))
         for root in self.roots:
-            self._key(root, carried, "location")
+            self._key(root, self.body, "location", *(("rotation",) if lean is not None else ()))
 
     def carried(self, name):
         """Where a bone's head comes to be with the body (T, 3)."""
