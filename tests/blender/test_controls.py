@@ -2,10 +2,11 @@
 import bpy
 import numpy as np
 
-from desire_path.blender import compat, controls, sample
+from desire_path import place
+from desire_path.blender import compat, controls, op_place, posing, sample
 from run import Skip
 from scenes import meshes, people, rigified
-from test_place import check_placed, heads, keys, operator, scene_of
+from test_place import ASIDE, UP, check_placed, heads, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused
 
 SIDES = "LR"
@@ -58,7 +59,7 @@ def puppet(apart=False):
     return obj
 
 
-def leads(obj, frames=(1, 24, 48)):
+def leads(obj, frames=tuple(range(1, 49))):
     scene = bpy.context.scene
     with sample.private_scene(scene, obj) as own:
         world = np.array(sample.evaluated(own, obj, 1).matrix_world)
@@ -148,6 +149,29 @@ def test_rigify_feet_chosen_by_hand():
         for slot in ("foot", "toe", "thigh", "shank"):
             setattr(each, slot, getattr(each, slot).replace("DEF", "ORG"))
     placed(obj)
+
+
+def test_rigify_paws_go_uphill_under_a_trunk_that_leans():
+    obj = rigified.body("quadruped")
+    if obj is None:
+        raise Skip("there is no Rigify here")
+    land = scene_of(obj)
+    land.desire_path.frame_start, land.desire_path.frame_end = 1, 6
+    bpy.context.scene.frame_end = 6
+    obj.animation_data_create()
+    led = leads(obj, range(1, 7))
+    assert led["DEF-foot.L"] == {("paw", "foot_ik.L"), ("roll", "foot_heel_ik.L")}
+    assert led["DEF-front_foot.R"] == {("paw", "front_foot_ik.R"), ("roll", "front_foot_heel_ik.R")}
+    flat, wanted, _ = op_place.read(bpy.context.scene, obj, land, list(range(1, 7)), False)
+    assert np.ptp(wanted.pose[:, 0, 2] - flat.pose[:, 0, 2]) > 0.2
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    _, gait, _ = on_hill(obj, 1, 6)
+    np.testing.assert_allclose(gait.pose[..., :3], wanted.pose[..., :3], atol=0.005)
+    assert abs(np.abs(np.sum(gait.pose[..., 3:] * wanted.pose[..., 3:], axis=-1)) - 1.0).max() < 1e-4
+    seen = posing.look(bpy.context.scene, obj, ["DEF-spine.003"], [1, 6]).at("DEF-spine.003")
+    rest = np.array(obj.data.bones["DEF-spine.003"].matrix_local)
+    turn = seen[:, :3, :3] @ np.linalg.inv(rest[:3, :3])
+    np.testing.assert_allclose(turn[:, :2, 2] / turn[:, 2:, 2], [(-place.ROLL * ASIDE, UP)] * 2, atol=0.03)
 
 
 def test_a_control_leads_through_helpers():

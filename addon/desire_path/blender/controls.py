@@ -4,8 +4,8 @@
     Leads + where feet must come to be --look, move, write; again while they are off--> keys
 
 A foot has one lead that takes it along whole (an IK control), or one that places it and one that turns it, or
-one each for thigh, shank and foot (FK); where an animation switches from one to the other, both. A lead of the
-toes goes with any.
+one that takes the toes along and one that rolls the foot over them (a paw), or one each for thigh, shank and foot
+(FK); where an animation switches from one to the other, both. A lead of the toes goes with any but a paw's.
 """
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,8 +20,8 @@ SHIFT, TURN = 0.02, np.radians(4.0)  # a nudge, in leg lengths and [rad]
 SAME = 0.15  # what is led goes where it should but for this share of the nudge
 ROUNDS = 5  # of corrections
 NEAR, NEAR_TURN = 5e-4, np.radians(0.2)  # no more to correct, in leg lengths and [rad]
-STAGES = (("thigh",), ("shank",), ("whole", "place"), ("turn",), ("toe",))
-ENOUGH = ({"whole"}, {"place", "turn"}, {"thigh", "shank", "turn"})
+STAGES = (("thigh",), ("shank",), ("whole", "place", "paw"), ("turn", "roll"), ("toe",))
+ENOUGH = ({"whole"}, {"place", "turn"}, {"paw", "roll"}, {"thigh", "shank", "turn"})
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,10 @@ def trial(scene, armature):
 class Nudges:
     """The pose of one frame, in which bones are moved and what follows is seen."""
 
-    def __init__(self, own, curves, armature, frame, names):
+    def __init__(self, own, curves, armature, frame, names, watched):
         self.own, self.armature, self.frame = own, armature, frame
+        bones = armature.data.bones
+        self.watched = set(names) | set(watched) | {bones[n].parent.name for n in names if bones[n].parent}
         seen = sample.evaluated(own, armature, frame)
         self.rest = self._pose(seen)
         self.keys = {name: [(self._key(curves, name, prop, index, value), value)
@@ -102,7 +104,7 @@ class Nudges:
         return path, index
 
     def _pose(self, seen):
-        return {bone.name: np.array(bone.matrix, np.float64) for bone in seen.pose.bones}
+        return {name: np.array(seen.pose.bones[name].matrix, np.float64) for name in self.watched}
 
     def _set(self, name, values):
         curves = compat.curves(self.armature.animation_data, self.armature)
@@ -112,7 +114,7 @@ class Nudges:
             curve.update()
 
     def pose(self, name, move):
-        """All bones (name -> (4, 4)) with one of them moved thus in the armature's axes."""
+        """The watched bones (name -> (4, 4)) with one of them moved thus in the armature's axes."""
         bone = self.armature.data.bones[name]
         parent = self.rest[bone.parent.name] if bone.parent else None
         basis = posing.basis(bone, move @ self.rest[name], parent)
@@ -171,22 +173,25 @@ class Leg:
         wanted = turn[:3, :3] @ line(self.was)
         return np.linalg.norm(line(now) - wanted) < SAME * TURN * max(np.linalg.norm(wanted), 1e-6)
 
-    def whole(self, name, turn=True):
-        """Does the foot go along with this bone, and its leg bend for it?"""
+    def whole(self, name, job="whole"):
+        """Does the foot go along with this bone, and its leg bend for it? job: "place" without turning, "paw" the
+        toes alone."""
         foot = self.foot
-        move = _turn(self.head(self.was, foot.foot)) if turn else np.eye(4)
+        led = foot.toe if job == "paw" else foot.foot
+        move = _turn(self.head(self.was, led)) if job != "place" else np.eye(4)
         move[:3, 3] += SHIFT * self.size * self.up
         now = self.nudges.pose(name, move)
-        gone = self.head(now, foot.foot) - self.head(self.was, foot.foot) - SHIFT * self.size * self.up
+        gone = self.head(now, led) - self.head(self.was, led) - SHIFT * self.size * self.up
         if np.linalg.norm(gone) > SAME * SHIFT * self.size or not self.stays(now, foot.thigh, *self.others):
             return False
-        if turn and not all(self.turns(now, each, move) for each in (foot.foot, foot.toe) if each):
+        turned = {"whole": (foot.foot, foot.toe), "paw": (foot.toe,), "place": ()}[job]
+        if not all(self.turns(now, each, move) for each in turned if each):
             return False
         bends = lambda each: _apart(self.was[each], now[each]) > 0.1 * SHIFT
         return all(bends(each) for each in (foot.thigh, foot.shank) if each)
 
     def joint(self, name):
-        """Which joint turns with this bone: "thigh", "shank", "turn", "toe" or None."""
+        """What turns with this bone: "thigh", "shank", "turn" (the foot), "roll" (over its toes), "toe" or None."""
         foot = self.foot
         about = self.head(self.was, name)
         now = self.nudges.pose(name, _turn(about))
@@ -200,6 +205,8 @@ class Leg:
             return "toe" if still and foot.toe and self.turns(now, foot.toe, turn) else None
         if self.stays(now, foot.foot):
             return "turn"
+        if foot.toe and self.stays(now, foot.toe) and _apart(self.was[foot.toe], now[foot.toe]) < SAME * TURN:
+            return "roll"
         if not (foot.thigh and foot.shank and self.swings(now, foot.shank, foot.foot, turn)):
             return None
         if self.stays(now, foot.shank):
@@ -213,17 +220,26 @@ class Leg:
 def find(scene, armature, feet, driven, hips, frames):
     """{foot bone: its Leads} of feet that constraints hold; feet nothing leads are left out."""
     names = {foot.foot: candidates(armature, foot) for foot in driven}
-    wanted = list(dict.fromkeys(name for each in names.values() for name in each))
+    nudged = list(dict.fromkeys(name for each in names.values() for name in each))
+    watched = [n for foot in feet for n in (foot.foot, foot.toe, foot.thigh, foot.shank) if n] + ([hips] if hips else [])
     found = {foot.foot: [] for foot in driven}
     for frame in dict.fromkeys((frames[0], frames[len(frames) // 2], frames[-1])):
         with trial(scene, armature) as (own, curves):
-            nudges = Nudges(own, curves, armature, frame, wanted)
+            nudges = Nudges(own, curves, armature, frame, nudged, watched)
             for foot in driven:
                 others = [each.foot for each in feet if each != foot] + ([hips] if hips else [])
                 leads = _leads(armature, Leg(foot, others, nudges), names[foot.foot])
                 if any(each <= {lead.job for lead in leads} for each in ENOUGH):
                     found[foot.foot] += [lead for lead in leads if lead not in found[foot.foot]]
+            if all(found.values()) and not _switches(armature.animation_data, curves):
+                break
     return {name: leads for name, leads in found.items() if leads}
+
+
+def _switches(animation, curves):
+    """May other bones lead later on, since more than bones is animated?"""
+    usual = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+    return bool(animation.nla_tracks) or not all(curve.data_path.endswith(usual) for curve in curves)
 
 
 def _leads(armature, limb, names):
@@ -234,10 +250,16 @@ def _leads(armature, limb, names):
         if job is not None:
             jobs.setdefault(job, []).append(name)
     if jobs["whole"]:
-        jobs = {job: jobs[job] for job in ("whole", "toe") if job in jobs}
-    elif not ("thigh" in jobs and "shank" in jobs):
-        jobs = {job: jobs[job] for job in ("turn", "toe") if job in jobs}
-        jobs["place"] = [name for name in movable if limb.whole(name, turn=False)]
+        wanted = ("whole", "toe")
+    elif "thigh" in jobs and "shank" in jobs:
+        wanted = ("thigh", "shank", "turn", "toe")
+    elif "roll" in jobs:
+        wanted = ("paw", "roll")
+        jobs["paw"] = [name for name in movable if limb.whole(name, "paw")]
+    else:
+        wanted = ("place", "turn", "toe")
+        jobs["place"] = [name for name in movable if limb.whole(name, "place")]
+    jobs = {job: jobs[job] for job in wanted if job in jobs}
     return [Lead(_first(armature, each), job) for job, each in jobs.items() if each]
 
 
@@ -289,7 +311,7 @@ class Solver:
         size = 1.0
         if foot.thigh:
             size = float(np.median(np.linalg.norm(_heads(seen, foot.thigh) - _heads(seen, foot.foot), axis=1)))
-        at = _heads(seen, foot.toe if lead.job == "toe" else foot.foot)
+        at = _heads(seen, foot.toe if lead.job in ("toe", "paw") else foot.foot)
         shift = np.linalg.norm(np.einsum("tij,tj->ti", move[:, :3, :3], at) + move[:, :3, 3] - at, axis=1)
         turn = np.arccos(np.clip((np.trace(move[:, :3, :3], axis1=1, axis2=2) - 1.0) / 2.0, -1.0, 1.0))
         if shift.max() < NEAR * size and turn.max() < NEAR_TURN:
@@ -297,7 +319,8 @@ class Solver:
         bone = self.armature.data.bones[lead.bone]
         parents = seen.pose[bone.parent.name] if bone.parent else None
         wanted = np.linalg.inv(seen.world) @ move @ seen.at(lead.bone)
-        kinds = {"whole": ("location", "rotation"), "place": ("location",)}.get(lead.job, ("rotation",))
+        kinds = {"whole": ("location", "rotation"), "paw": ("location", "rotation"),
+                 "place": ("location",)}.get(lead.job, ("rotation",))
         write(lead.bone, wanted, parents, kinds)
         return True
 
@@ -310,9 +333,10 @@ class Solver:
         if job in ("whole", "turn"):
             turn = between(seen.at(foot.foot), wanted)
             return posing.turned(turn, ankle, goal if job == "whole" else ankle)
-        if job == "toe":
-            head = _heads(seen, foot.toe)
-            return posing.turned(between(seen.at(foot.toe), self.goal[foot.toe]), head, head)
+        if job in ("toe", "paw", "roll"):
+            head, of = _heads(seen, foot.toe), foot.foot if job == "roll" else foot.toe
+            return posing.turned(between(seen.at(of), self.goal[of]), head,
+                                 self.goal[of][:, :3, 3] if job == "paw" else head)
         hip, knee = _heads(seen, foot.thigh), _heads(seen, foot.shank)
         if job == "thigh":
             turn, _, _ = leg.reach(hip, knee, ankle, goal, self.ahead[foot.foot])

@@ -157,6 +157,7 @@ class Plan:
             self.turn[foot.foot] = move @ self.bones.at(foot.foot)
             if foot.toe:
                 self.turn[foot.toe] = (move if toes is None else toes) @ self.bones.at(foot.toe)
+                self.turn[foot.toe][:, :3, 3] = _at(move, self.heads(foot.toe))
             return
         if target is not None:
             self._key(free(self.armature, target), move, "location", "rotation")
