@@ -39,7 +39,7 @@ def read(scene, armature, land, frames, prints):
     cell = axes.typed(land.desire_path.cell_size)
     surface = ground.read(scene, land, cell, frames[0], box=ground.under(gait))
     below = ground.land(surface, cell)
-    if slope.steep(below, gait):
+    if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
