@@ -221,7 +221,8 @@ def find(scene, armature, feet, driven, hips, frames):
     """{foot bone: its Leads} of feet that constraints hold; feet nothing leads are left out."""
     names = {foot.foot: candidates(armature, foot) for foot in driven}
     nudged = list(dict.fromkeys(name for each in names.values() for name in each))
-    watched = [n for foot in feet for n in (foot.foot, foot.toe, foot.thigh, foot.shank) if n] + ([hips] if hips else [])
+    watched = [n for foot in feet for n in (foot.foot, foot.toe, foot.thigh, foot.shank)] + [hips]
+    watched = [name for name in watched if name]
     found = {foot.foot: [] for foot in driven}
     for frame in dict.fromkeys((frames[0], frames[len(frames) // 2], frames[-1])):
         with trial(scene, armature) as (own, curves):
