@@ -8,13 +8,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import walker as walks
+from . import leg, rotation, walker as walks
 from .errors import DesirePathError
 
 REACH = 0.20  # d_max: feet this high over the ground are as recorded [m]
 TOE_SLOPE = math.radians(15.0)  # theta_0: up steeper slopes the heels stay up [rad]
 BODY = 0.5  # the body follows the ground smoothed over this, in heights of the mass centre
 SLOW = 0.25  # points that rest are slower [m/s]
+ROLL = 0.5  # a trunk leans sideways by this share of the slope across it, and along it by all; legs do the rest
+SWAY = 0.25  # it leans as over this long before and after [s]
 CLEARLY = 0.01  # the floor fits a clip better than the ground only by more than this [m]
 
 
@@ -64,6 +66,37 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
             raise DesirePathError(f"{gait.walker_name[row]} walks beside the ground: move the walker or the "
                                   "ground so that one lies over the other.") from None
     return replace(gait, pose=pose, com=com)
+
+
+def tilt(gait, placed, row=0):
+    """How the trunk of one that walks on more than two feet leans with the ground under them: turns (T, 3, 3).
+
+    placed: the same walk with its feet on the ground. None: a trunk on one foot or two stays upright.
+    """
+    limbs = np.flatnonzero(gait.limb_walker == row)
+    if len(limbs) < 3:
+        return None
+    lead = [int(np.flatnonzero(gait.part_limb == limb)[0]) for limb in limbs]
+    at = placed.pose[lead, :, :2] - placed.pose[lead, :, :2].mean(axis=0)
+    rise = placed.pose[lead, :, 2] - gait.pose[lead, :, 2]
+    rise = rise - rise.mean(axis=0)
+    spread = np.einsum("lti,ltj->tij", at, at)
+    size = np.trace(spread, axis1=1, axis2=2)[:, None, None]
+    rate = np.linalg.solve(spread + (1e-4 * size + 1e-12) * np.eye(2), np.einsum("lti,lt->ti", at, rise)[..., None])
+    ahead = rotation.matrix(gait.pose[lead, :, 3:])[..., :2, 0].mean(axis=0)
+    ahead = _calm(ahead, round(SWAY * gait.frame_rate))
+    ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
+    along = np.sum(rate[..., 0] * ahead, axis=1, keepdims=True) * ahead
+    rate = _calm(along + ROLL * (rate[..., 0] - along), round(SWAY * gait.frame_rate))
+    up = np.zeros((len(rate), 3))
+    up[:, 2] = 1.0
+    return leg.turn_between(up, rotation.unit(np.concatenate([-rate, up[:, 2:]], axis=1)))
+
+
+def _calm(values, frames):
+    """The mean of values (T, n) over so many samples before and after, held at the ends."""
+    padded = np.pad(values, ((frames, frames), (0, 0)), mode="edge")
+    return np.lib.stride_tricks.sliding_window_view(padded, 2 * frames + 1, axis=0).mean(axis=-1)
 
 
 def carries(gait, land, row):

@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from desire_path import maps, rotation, walker
-from desire_path.blender import compat, footing, ground as ground_of, op_place, sample
+from desire_path import maps, place, rotation, walker
+from desire_path.blender import compat, ground as ground_of, op_place, posing, sample
 from desire_path.sim import Simulation
 from scenes import meshes, people
 from run import Skip
@@ -45,7 +45,7 @@ def keys(action, obj):
 
 
 def heads(obj, names, frames):
-    bones = footing.look(bpy.context.scene, obj, names, frames)
+    bones = posing.look(bpy.context.scene, obj, names, frames)
     return {name: bones.at(name)[:, :3, 3] for name in names}
 
 
@@ -173,7 +173,7 @@ def follow(obj, name, world, *, place=True):
 def test_quaternions_and_a_turned_object():
     obj = people.walk(people.biped())
     names = [f"{bone}.{side}" for side in "LR" for bone in ("thigh", "shin", "foot", "toe")]
-    seen = footing.look(bpy.context.scene, obj, names, range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, names, range(1, 49))
     for name in names:
         follow(obj, name, seen.at(name), place=False)
     obj.rotation_euler.z = 0.4
@@ -189,7 +189,7 @@ def test_legs_that_follow_ik_targets():
     obj = people.walk(people.biped())
     add_bones(obj, *((f"ik.{side}", None, (x, 0.02, 0.08), (x, 0.2, 0.08))
                      for side, x in (("L", 0.1), ("R", -0.1))))
-    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     for side in "LR":
         target = np.tile(np.eye(4), (48, 1, 1))
         target[:, :3, 3] = seen.at("foot." + side)[:, :3, 3]
@@ -206,7 +206,7 @@ def test_legs_that_follow_ik_targets():
 
 def test_feet_that_hang_on_nothing_are_moved():
     obj = people.walk(people.biped())
-    seen = footing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
+    seen = posing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     meshes.activate(obj)
     bpy.ops.object.mode_set(mode="EDIT")
     for side in "LR":
@@ -422,6 +422,35 @@ def test_a_beast_of_four_legs():
     before = sample.record(bpy.context.scene, obj, 1, 6)
     assert operator.desire_path_place_feet() == {"FINISHED"}
     over, gait, _ = on_hill(obj, 1, 6)
+    check_trunk(obj, np.array((UP, place.ROLL * ASIDE)))
     assert len(gait.limb_walker) == 4
     np.testing.assert_allclose(over, walker.point_places(before)[..., 2], atol=0.02)
     np.testing.assert_allclose(gait.pose[..., :2], before.pose[..., :2], atol=0.03)
+
+
+def check_trunk(obj, lean):
+    """The trunk leans (along -Y, along X), and each leg is as long from hip to ankle as it was, but for what legs do
+    sideways."""
+    seen = posing.look(bpy.context.scene, obj, ["hips", "spine"] + [
+        f"{word}{bone}.{side}" for word in ("", "front_") for bone in ("thigh", "foot") for side in "LR"], [1, 4, 6])
+    rest = {bone.name: np.array(bone.matrix_local) for bone in obj.data.bones}
+    for name in ("hips", "spine"):
+        turn = seen.at(name)[:, :3, :3] @ np.linalg.inv(rest[name][:3, :3])
+        np.testing.assert_allclose(turn[:, :2, 2] / turn[:, 2:, 2], [(-lean[1], lean[0])] * 3, atol=0.03)
+    for word in ("", "front_"):
+        for side in "LR":
+            thigh, foot = f"{word}thigh.{side}", f"{word}foot.{side}"
+            now = np.linalg.norm(seen.at(thigh)[:, :3, 3] - seen.at(foot)[:, :3, 3], axis=1)
+            was = np.linalg.norm(rest[thigh][:3, 3] - rest[foot][:3, 3])
+            assert abs(now / was - 1.0).max() < 0.05, (thigh, now, was)
+
+
+def test_a_beast_whose_trunk_may_not_turn():
+    obj, _, _ = beast()
+    land = scene_of(obj)
+    land.desire_path.frame_start, land.desire_path.frame_end = 1, 6
+    bpy.context.scene.frame_end = 6
+    obj.pose.bones["hips"].lock_rotation = (True, True, True)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    seen = posing.look(bpy.context.scene, obj, ["hips"], [1, 6]).at("hips")
+    np.testing.assert_allclose(seen[:, :3, :3], [np.array(obj.data.bones["hips"].matrix_local)[:3, :3]] * 2, atol=1e-5)

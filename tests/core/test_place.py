@@ -13,7 +13,7 @@ from desire_path.errors import DesirePathError
 from desire_path.gait import BALL, HEEL, TIP, Gait, Sole
 from desire_path.sim import Ground, Simulation
 from reference import place as twin
-from scenes import bvh
+from scenes import beasts, bvh
 
 WALK = Path(__file__).resolve().parents[1] / "scenes" / "walks" / "cmu_12_01_walk.bvh"
 SOLE = Sole([[-0.1, -0.05, 0], [0.1, -0.05, 0], [0.1, 0.05, 0], [-0.1, 0.05, 0]], [[0, 1, 2], [0, 2, 3]])
@@ -133,6 +133,23 @@ def test_on_rough_ground_the_body_goes_smoothly():
     rise = placed.com[0, :, 2] - cmu().com[0, :, 2]
     assert np.ptp(rise) < 0.01
     assert walker.loads(placed, ground=Simulation(rough).rest_height).mean == pytest.approx([1.0], abs=0.03)
+
+
+def test_a_trunk_on_four_feet_leans_along_the_slope():
+    bones = beasts.skeleton()
+    motion = beasts.motion(bones, speed=1.0, stride=1.0, duty=0.6, seconds=2.0, rate=60.0)
+    gait = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=60.0)
+    up, aside = 0.36, 0.2  # along -Y, the way it walks, and along X
+    placed = place.place_feet(gait, plane(aside, -up), carry=True)
+    turn = place.tilt(gait, placed)
+    normal = turn[:, :, 2] / turn[:, 2:, 2]
+    np.testing.assert_allclose(normal[:, 1], up, atol=0.02)
+    np.testing.assert_allclose(normal[:, 0], -place.ROLL * aside, atol=0.02)
+    np.testing.assert_allclose(turn @ np.swapaxes(turn, 1, 2), np.tile(np.eye(3), (len(turn), 1, 1)), atol=1e-9)
+    assert abs(turn[:, 0, 1] - turn[:, 1, 0]).max() < 1e-9  # it does not turn about
+    np.testing.assert_allclose(place.tilt(gait, gait), np.tile(np.eye(3), (len(turn), 1, 1)), atol=1e-12)
+    walk = cmu()
+    assert place.tilt(walk, place.place_feet(walk, plane(0.0, -up), carry=True)) is None  # people stay upright
 
 
 def test_one_of_two_walkers():

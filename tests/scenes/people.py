@@ -6,6 +6,7 @@ import pathlib
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from . import meshes
 
@@ -118,3 +119,36 @@ def _known(group, operator):
     except KeyError:
         return False
     return True
+
+
+def lead(obj, body, foot, frames=48, period=24, stride=1.0, roll=None, pitch=0.5):
+    """Key a body bone and two foot bones to a walk along -Y: a foot stands, then swings ahead, lifted and rolled."""
+    for name in (body, foot.format("L"), foot.format("R")):
+        obj.pose.bones[name].rotation_mode = "QUATERNION"
+    rest = {name: obj.data.bones[name].matrix_local.copy() for name in (body, foot.format("L"), foot.format("R"))}
+
+    def put(name, frame, way, up, pitch):
+        bone, scene = obj.pose.bones[name], bpy.context.scene
+        at = rest[name].translation
+        turn = Matrix.Translation(at) @ Matrix.Rotation(pitch, 4, "X") @ Matrix.Translation(-at)
+        scene.frame_set(frame)
+        bone.matrix = Matrix.Translation((0, -way, up)) @ turn @ rest[name]
+        bpy.context.view_layer.update()
+        bone.keyframe_insert("location", frame=frame)
+        bone.keyframe_insert("rotation_quaternion", frame=frame)
+
+    for frame in range(1, frames + 1):
+        t = (frame - 1) / period
+        put(body, frame, stride * t, -0.06 + 0.015 * math.cos(4 * math.pi * t), 0.03)
+        for side, shift in (("L", 0.0), ("R", 0.5)):
+            step, phase = divmod(t + shift, 1.0)
+            swing = max(phase - 0.6, 0.0) / 0.4
+            ease = swing * swing * (3 - 2 * swing)
+            way = stride * (step + ease - shift + 0.3)  # the foot stands for 0.6 of a stride, the body over its middle
+            put(foot.format(side), frame, way, 0.12 * math.sin(math.pi * swing), pitch * math.sin(2 * math.pi * swing))
+            if roll:
+                bone = obj.pose.bones[roll.format(side)]
+                bone.rotation_mode = "ZXY"
+                bone.rotation_euler = (0.6 * max(phase - 0.45, 0.0) / 0.15 if phase < 0.6 else 0.6 * (1 - ease), 0, 0)
+                bone.keyframe_insert("rotation_euler", index=0, frame=frame)
+    bpy.context.scene.frame_set(1)

@@ -2,67 +2,21 @@
 
     Bones as they are seen + a Gait and where it should be --Plan--> a move of each bone in the world --> keys
 """
-from dataclasses import dataclass
-
 import bpy
 import numpy as np
-from mathutils import Matrix
 
-from .. import leg, rotation
+from .. import leg, place, rotation
 from ..errors import DesirePathError
-from . import axes, sample
+from . import controls, posing
 
 EASE = 0.15  # hips come down over this before and after they must [s]
-LOCKED = 1e-4  # a locked channel may change by rounding only
-ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
-
-
-@dataclass(frozen=True)
-class Bones:
-    """What the bones of an armature do over the frames, in its own axes."""
-
-    frames: list  # scene frames (T)
-    world: np.ndarray  # the object's matrix (T, 4, 4)
-    pose: dict  # bone name -> (T, 4, 4)
-    scale: float  # metres in a unit [m]
-
-    def at(self, name):
-        """A bone in the world (T, 4, 4)."""
-        return self.world @ self.pose[name]
 
 
 # ---- what is there ------------------------------------------------------------------------------------
 
 
-def look(scene, armature, names, frames):
-    """Bones as they are seen at each frame, constraints and all."""
-    world, pose = [], {name: [] for name in names}
-    with sample.still(armature), sample.private_scene(scene, armature) as own:
-        for frame in frames:
-            seen = sample.evaluated(own, armature, frame)
-            world.append(np.array(seen.matrix_world, np.float64))
-            for name in names:
-                pose[name].append(np.array(seen.pose.bones[name].matrix, np.float64))
-    return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()},
-                 axes.unit_scale(scene))
-
-
-def holders(armature, name):
-    """What would not let keys move a bone, as a phrase; None where keys do."""
-    bone = armature.pose.bones[name]
-    for each in bone.constraints:
-        if not each.mute and each.influence > 0.0 and not each.type.startswith("LIMIT"):
-            return f"follows its constraint '{each.name}'"
-    animation = armature.animation_data
-    start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
-    for each in animation.drivers if animation is not None else ():
-        if each.data_path.startswith((start + "location", start + "rotation")):
-            return "is moved by a driver"
-    return None
-
-
 def free(armature, name):
-    held = holders(armature, name)
+    held = posing.holders(armature, name)
     if held is not None:
         raise DesirePathError(
             f"Bone '{name}' of '{armature.name}' {held}, so that keys would not move it: bake the animation to "
@@ -107,14 +61,6 @@ def _moves(old, new, scale):
     return out
 
 
-def _turned(turn, about, to):
-    """Moves (T, 4, 4) that turn about points (T, 3) and bring them to others."""
-    out = np.tile(np.eye(4), (len(turn), 1, 1))
-    out[:, :3, :3] = turn
-    out[:, :3, 3] = to - np.einsum("tij,tj->ti", turn, about)
-    return out
-
-
 def _at(move, points):
     return np.einsum("tij,tj->ti", move[:, :3, :3], points) + move[:, :3, 3]
 
@@ -133,21 +79,27 @@ class Plan:
             for bone in armature.pose.bones}
         self.shapes = {}  # foot bone -> FootShape as a dict
         self.goal = {}  # foot bone -> where its head must come to be (T, 3)
+        self.turn, self.ahead = {}, {}  # led foot or toe bone -> its matrix in the world; where it points
         bones = armature.data.bones
-        self.roots = [b.name for b in bones if b.parent is None and holders(armature, b.name) is None]
+        self.roots = [b.name for b in bones if b.parent is None and posing.holders(armature, b.name) is None]
         chain = bones[found.hips or found.feet[0].thigh or found.feet[0].foot]
         while chain.parent is not None:
             chain = chain.parent
-        free(armature, chain.name)
-        self.feet = found.feet
+        if not set(controls.upstream(armature, [chain.name])) & set(self.roots):
+            free(armature, chain.name)
+        self.feet, self.hips = found.feet, found.hips
         self.targets = [ik_target(armature, foot.foot, foot.thigh) for foot in found.feet]
+        held = [foot for foot, target in zip(self.feet, self.targets) if self._held(foot, target)]
+        self.leads = controls.find(scene, armature, self.feet, held, found.hips, frames) if held else {}
         names = dict.fromkeys(self.roots)
         for foot, target in zip(self.feet, self.targets):
             names.update(dict.fromkeys(filter(None, (foot.thigh, foot.shank, foot.foot, foot.toe, target))))
+        if found.hips:
+            names[found.hips] = None
         for name in list(names):
             if bones[name].parent is not None:
                 names[bones[name].parent.name] = None
-        self.bones = look(scene, armature, list(names), frames)
+        self.bones = posing.look(scene, armature, list(names), frames)
         self._carry(gait, placed)
         for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
             self._foot(limb, foot, target, gait, placed)
@@ -155,28 +107,37 @@ class Plan:
     def heads(self, name):
         return self.bones.at(name)[:, :3, 3]
 
+    def _held(self, foot, target):
+        """Do constraints or drivers hold what would be keyed?"""
+        names = (target, foot.foot) if target is not None else (foot.thigh, foot.shank, foot.foot)
+        return any(posing.holders(self.armature, name) is not None for name in names if name)
+
     def hangs(self, foot):
         """Does a foot hang on a leg of two bones that keys can move?"""
         return bool(foot.thigh and foot.shank and under(self.armature, foot.foot, foot.shank)
                     and under(self.armature, foot.shank, foot.thigh))
 
     def _carry(self, gait, placed):
-        """Roots rise with the body, and come down as far as legs are too short."""
-        rise = (placed.com[0, :, 2] - gait.com[0, :, 2]) / self.bones.scale
-        up = np.array((0.0, 0.0, 1.0))
-        down = np.zeros(len(rise))
+        """Roots rise and lean with the body, and come down as far as legs are too short."""
+        centre = gait.com[0] / self.bones.scale
+        lean = place.tilt(gait, placed)
+        if lean is not None and any(any(self.armature.pose.bones[root].lock_rotation) for root in self.roots):
+            lean = None
+        level = np.tile(np.eye(3), (len(centre), 1, 1))
+        self.body = posing.turned(level if lean is None else lean, centre, placed.com[0] / self.bones.scale)
+        down = np.zeros(len(centre))
         for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
-            if not self.hangs(foot):
+            if not (self.hangs(foot) or foot.foot in self.leads and foot.thigh and foot.shank):
                 continue
-            hip, knee, ankle = (self.heads(n) for n in (foot.thigh, foot.shank, foot.foot))
-            goal = _at(self._foot_move(limb, gait, placed), ankle)
-            lift = rise[:, None] * up
-            down = np.maximum(down, leg.drop(hip + lift, knee + lift, ankle + lift, goal))
-        down = leg.eased(down, round(EASE * gait.frame_rate))
-        carried = np.tile(np.eye(4), (len(rise), 1, 1))
-        carried[:, 2, 3] = rise - down
+            goal = _at(self._foot_move(limb, gait, placed), self.heads(foot.foot))
+            down = np.maximum(down, leg.drop(*(self.carried(n) for n in (foot.thigh, foot.shank, foot.foot)), goal))
+        self.body[:, 2, 3] -= leg.eased(down, round(EASE * gait.frame_rate))
         for root in self.roots:
-            self._key(root, carried, "location")
+            self._key(root, self.body, "location", *(("rotation",) if lean is not None else ()))
+
+    def carried(self, name):
+        """Where a bone's head comes to be with the body (T, 3)."""
+        return _at(self.body, self.heads(name))
 
     def _foot_move(self, limb, gait, placed):
         part = int(np.flatnonzero(gait.part_limb == limb)[0])
@@ -188,9 +149,19 @@ class Plan:
         ankle = self.heads(foot.foot)
         self.goal[foot.foot] = _at(move, ankle)
         self.shapes[foot.foot] = self.shape(foot, parts, gait)
+        toes = None
+        if foot.toe and len(parts) > 1:
+            toes = _moves(gait.pose[parts[1]], placed.pose[parts[1]], self.bones.scale)
+        if foot.foot in self.leads:
+            self.ahead[foot.foot] = rotation.matrix(gait.pose[parts[0], :, 3:])[:, :, 0]
+            self.turn[foot.foot] = move @ self.bones.at(foot.foot)
+            if foot.toe:
+                self.turn[foot.toe] = (move if toes is None else toes) @ self.bones.at(foot.toe)
+                self.turn[foot.toe][:, :3, 3] = _at(move, self.heads(foot.toe))
+            return
         if target is not None:
             self._key(free(self.armature, target), move, "location", "rotation")
-            if holders(self.armature, foot.foot) is None and foot.foot != target:
+            if posing.holders(self.armature, foot.foot) is None and foot.foot != target:
                 self._key(foot.foot, move, "rotation", late=True)
         elif self.hangs(foot):
             for name in (foot.thigh, foot.shank, foot.foot):
@@ -199,8 +170,8 @@ class Plan:
             hip, knee, old = (_at(base, self.heads(n)) for n in (foot.thigh, foot.shank, foot.foot))
             ahead = rotation.matrix(gait.pose[parts[0], :, 3:])[:, :, 0]
             thigh, shank, at = leg.reach(hip, knee, old, self.goal[foot.foot], ahead)
-            self._key(foot.thigh, _turned(thigh, hip, hip) @ base, "rotation")
-            self._key(foot.shank, _turned(shank, knee, at) @ base, "rotation")
+            self._key(foot.thigh, posing.turned(thigh, hip, hip) @ base, "rotation")
+            self._key(foot.shank, posing.turned(shank, knee, at) @ base, "rotation")
             self._key(foot.foot, move, "rotation")
         else:
             bone = self.armature.data.bones[foot.foot]
@@ -209,11 +180,10 @@ class Plan:
                     f"Bone '{foot.foot}' of '{self.armature.name}' is fixed to its parent and no leg of two bones "
                     "was found above it: choose the foot bone of a leg, or disconnect it in Edit Mode.")
             self._key(free(self.armature, foot.foot), move, "location", "rotation")
-        if foot.toe and len(parts) > 1 and holders(self.armature, foot.toe) is None:
-            toes = _moves(gait.pose[parts[1]], placed.pose[parts[1]], self.bones.scale)
+        if toes is not None and posing.holders(self.armature, foot.toe) is None:
             head = self.heads(foot.toe)
             apart = not under(self.armature, foot.toe, foot.foot)
-            self._key(foot.toe, _turned(toes[:, :3, :3], head, _at(move, head)),
+            self._key(foot.toe, posing.turned(toes[:, :3, :3], head, _at(move, head)),
                       *(("location", "rotation") if apart else ("rotation",)), late=target is not None)
 
     def shape(self, foot, parts, gait):
@@ -249,15 +219,9 @@ class Plan:
 
     # ---- keys ---------------------------------------------------------------------------------------
 
-    def basis(self, name, parents):
-        """Basis matrices that put a bone where it goes; parents: theirs, where they are (T, 4, 4) or None."""
-        bone = self.armature.data.bones[name]
-        to_pose = np.linalg.inv(self.bones.world)
-        wanted = to_pose @ self.move[name] @ self.bones.at(name)
-        for t, matrix in enumerate(wanted):
-            more = {} if parents is None else {"parent_matrix": Matrix(parents[t].tolist()),
-                                               "parent_matrix_local": bone.parent.matrix_local}
-            yield bone.convert_local_to_pose(Matrix(matrix.tolist()), bone.matrix_local, invert=True, **more)
+    def wanted(self, name):
+        """Where a bone goes in the armature's axes (T, 4, 4)."""
+        return np.linalg.inv(self.bones.world) @ self.move[name] @ self.bones.at(name)
 
     def parents(self, name):
         bone = self.armature.data.bones[name].parent
@@ -267,67 +231,41 @@ class Plan:
         move = self.inherited(bone.name) if move is None else move
         return np.linalg.inv(self.bones.world) @ move @ self.bones.at(bone.name)
 
-    def channels(self, name, parents):
-        """(property, index, values (T,)) of a bone's keys; refuses to change what is locked."""
-        bone = self.armature.pose.bones[name]
-        mode = bone.rotation_mode
-        turn = ROTATIONS.get(mode, "rotation_euler")
-        rows = {"location": [], turn: []}
-        last = None
-        for basis in self.basis(name, parents):
-            at, quaternion, _ = basis.decompose()
-            rows["location"].append(tuple(at))
-            if mode == "QUATERNION":
-                if last is not None and last.dot(quaternion) < 0.0:
-                    quaternion.negate()
-                last = quaternion
-                rows[turn].append(tuple(quaternion))
-            elif mode == "AXIS_ANGLE":
-                axis, angle = quaternion.to_axis_angle()
-                rows[turn].append((angle, *axis))
-            else:
-                last = quaternion.to_euler(mode, last) if last is not None else quaternion.to_euler(mode)
-                rows[turn].append(tuple(last))
-        for kind, prop in (("location", "location"), ("rotation", turn)):
-            if kind in self.keyed[name]:
-                values = np.array(rows[prop], np.float32)
-                self._unlocked(bone, kind, values)
-                for index in range(values.shape[1]):
-                    yield prop, index, values[:, index]
+    def channels(self, name, wanted, parents, kinds):
+        """(property, index, values (T,)) of a bone's keys; refuses to change what is locked.
 
-    def _unlocked(self, bone, kind, values):
-        if kind == "location" and any(bone.lock_location):
-            moved = values[:, [bool(each) for each in bone.lock_location]]
-        elif kind == "rotation" and any(bone.lock_rotation) and values.shape[1] == 3:
-            moved = values[:, [bool(each) for each in bone.lock_rotation]]
-        elif kind == "rotation" and all(bone.lock_rotation):
-            moved = values
-        else:
-            return
-        if np.ptp(moved, axis=0).max() > LOCKED:
-            raise DesirePathError(
-                f"The {kind} of bone '{bone.name}' is locked and would have to change: unlock it (Item in the "
-                "sidebar of the 3D view), or place the feet of another rig.")
+        wanted, parents: where it and its parent are in the armature's axes (T, 4, 4), None: it has none
+        """
+        bone, data = self.armature.pose.bones[name], self.armature.data.bones[name]
+        rows, last = {}, None
+        for t, matrix in enumerate(wanted):
+            found, last = posing.values(bone, posing.basis(data, matrix, None if parents is None else parents[t]), last)
+            for prop, row in found:
+                rows.setdefault(prop, []).append(row)
+        for prop, row in rows.items():
+            kind = "location" if prop == "location" else "rotation"
+            if kind in kinds:
+                numbers = np.array(row, np.float32)
+                posing.unlocked(bone, kind, numbers)
+                for index in range(numbers.shape[1]):
+                    yield prop, index, numbers[:, index]
 
-    def write(self, curves, names, parents_of):
-        for name in names:
-            start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
-            for prop, index, values in list(self.channels(name, parents_of(name))):
-                if not set_curve(curves, start + prop, index, self.bones.frames, values):
-                    self.fresh.append((start + prop, index, self.stood[name][prop][index]))
+    def write(self, curves, name, wanted, parents, kinds):
+        start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
+        for prop, index, numbers in list(self.channels(name, wanted, parents, kinds)):
+            if not posing.set_curve(curves, start + prop, index, self.bones.frames, numbers):
+                self.fresh.append((start + prop, index, self.stood[name][prop][index]))
 
-
-def set_curve(curves, path, index, frames, values):
-    """One value a frame, straight in between; was it keyed before?"""
-    curve = curves.find(path, index=index)
-    keyed = curve is not None
-    if keyed:
-        curves.remove(curve)
-    curve = curves.new(path, index=index)
-    curve.keyframe_points.add(len(frames))
-    co = np.stack([np.asarray(frames, np.float32), values], axis=1)
-    curve.keyframe_points.foreach_set("co", co.ravel())
-    linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
-    curve.keyframe_points.foreach_set("interpolation", np.full(len(frames), linear, np.int32))
-    curve.update()
-    return keyed
+    def write_all(self, scene, curves):
+        """Key all bones, and lead the feet that others hold to their places."""
+        for name in self.move:
+            if name not in self.late:
+                self.write(curves, name, self.wanted(name), self.parents(name), self.keyed[name])
+        for name in self.late:  # a foot before its toes
+            above = self.armature.data.bones[name].parent.name
+            seen = posing.look(scene, self.armature, [above], self.bones.frames)
+            self.write(curves, name, self.wanted(name), seen.pose[above], self.keyed[name])
+        if self.leads:
+            solver = controls.Solver(scene, self.armature, self.leads, self.feet, self.turn, self.ahead,
+                                     self.bones.frames)
+            solver.run(lambda *each: self.write(curves, *each))

@@ -4,7 +4,8 @@
     new action
 
 The action it had stays, to go back to, and shows what it showed. Roots are carried, legs of two bones reach for
-their feet, feet that hang on no leg are moved, and legs that follow an IK target have the target moved.
+their feet, feet that hang on no leg are moved, and legs that follow an IK target have the target moved; feet that
+constraints hold are led by the control bones found for them.
 """
 import json
 
@@ -14,11 +15,12 @@ from bpy.props import BoolProperty
 
 from .. import place, slope
 from ..errors import DesirePathError
-from . import axes, compat, footing, ground, op_bake, sample
+from . import axes, compat, controls, footing, ground, op_bake, posing, sample
 from .op_walkers import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
 OFF = 0.02  # a foot this far from its place was held back, in leg lengths
+OFF_TURN = np.radians(3.0)  # or a led one turned away from it by this [rad]
 
 
 def frames_of(scene, armature, land):
@@ -37,7 +39,7 @@ def read(scene, armature, land, frames, prints):
     cell = axes.typed(land.desire_path.cell_size)
     surface = ground.read(scene, land, cell, frames[0], box=ground.under(gait))
     below = ground.land(surface, cell)
-    if slope.steep(below, gait):
+    if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
@@ -89,13 +91,7 @@ def bake(scene, armature, land, prints=False):
             action.use_fake_user = True  # to go back to, even after saving
         compat.use_action(animation, made, None)
         curves = compat.curves(animation, armature)
-        early = [name for name in plan.move if name not in plan.late]
-        plan.write(curves, early, plan.parents)
-        if plan.late:
-            above = {name: armature.data.bones[name].parent.name for name in plan.late}
-            for name in plan.late:  # a foot before its toes
-                seen = footing.look(scene, armature, [above[name]], frames)
-                plan.write(curves, [name], lambda n, seen=seen: seen.pose[above[n]])
+        plan.write_all(scene, curves)
         check(scene, armature, plan, frames)
         if action is not None and action.library is None:
             hold(animation, armature, action, slot, plan.fresh, frames[0])
@@ -119,24 +115,40 @@ def hold(animation, armature, action, slot, channels, frame):
     curves = compat.curves(animation, armature)
     for path, index, value in channels:
         if curves.find(path, index=index) is None:
-            footing.set_curve(curves, path, index, [frame], np.array([value], np.float32))
+            posing.set_curve(curves, path, index, [frame], np.array([value], np.float32))
 
 
 def check(scene, armature, plan, frames):
-    """Refuse where feet did not come to their places: something else holds them."""
-    some = sorted({round(k) for k in np.linspace(0, len(frames) - 1, 12)})
-    seen = footing.look(scene, armature, list(plan.goal), [frames[k] for k in some])
+    """Refuse where feet did not come to their places, or the hips did not follow: something else holds them."""
+    some = range(len(frames))
+    if not plan.leads:
+        some = sorted({round(k) for k in np.linspace(0, len(frames) - 1, 12)})
+    names = list(plan.goal) + ([plan.hips] if plan.leads and plan.hips else [])
+    seen = posing.look(scene, armature, names, [frames[k] for k in some])
     for foot in plan.feet:
         goal = plan.goal[foot.foot][some]
-        far = np.linalg.norm(seen.at(foot.foot)[:, :3, 3] - goal, axis=1)
         size = float(np.median(np.linalg.norm(plan.heads(foot.thigh) - plan.heads(foot.foot), axis=1))
                      if foot.thigh else np.ptp(goal, axis=0).max())
-        if far.max() > OFF * max(size, 1e-9):
-            raise DesirePathError(
-                f"Bone '{foot.foot}' of '{armature.name}' stays {far.max() * plan.bones.scale:.2f} m from its place "
-                f"at frame {frames[some[int(far.argmax())]]}, since constraints or limits hold it: bake the "
-                "animation to keys first (Pose > Animation > Bake Action, with Visual Keying and Clear "
-                "Constraints).")
+        checks = [(foot.foot, goal)]
+        if foot.foot in plan.leads and plan.hips:
+            checks.append((plan.hips, plan.carried(plan.hips)[some]))
+        for name, wanted in checks:
+            far = np.linalg.norm(seen.at(name)[:, :3, 3] - wanted, axis=1)
+            if far.max() > OFF * max(size, 1e-9):
+                refuse(armature, name, f"{far.max() * plan.bones.scale:.2f} m from its place",
+                       frames[some[int(far.argmax())]])
+        if foot.foot in plan.leads:
+            turned = controls.between(seen.at(foot.foot), plan.turn[foot.foot][some])
+            far = np.arccos(np.clip((np.trace(turned, axis1=1, axis2=2) - 1.0) / 2.0, -1.0, 1.0))
+            if far.max() > OFF_TURN:
+                refuse(armature, foot.foot, f"turned by {np.degrees(far.max()):.0f} degrees from its place",
+                       frames[some[int(far.argmax())]])
+
+
+def refuse(armature, name, how, frame):
+    raise DesirePathError(
+        f"Bone '{name}' of '{armature.name}' stays {how} at frame {frame}, since constraints or limits hold it: bake "
+        "the animation to keys first (Pose > Animation > Bake Action, with Visual Keying and Clear Constraints).")
 
 
 class OBJECT_OT_desire_path_place_feet(Refusal, bpy.types.Operator):
