@@ -17,7 +17,7 @@ import numpy as np
 
 from . import _native, lane
 from .errors import DesirePathError
-from .plants import YEAR, as_kind
+from .plants import YEAR, as_kind, share_below
 
 TOUGH = 1e6  # a reserve that does not end
 SEEDS = (101, 102)  # of the lanes that are fitted to; use others to judge a fit
@@ -135,14 +135,8 @@ def _most(lost, bends):
 def _model(bent, strength, spread):
     """Cover after each count [per cent] where reserves are strength exp(spread z) seconds of bending: the chance that
     a reserve outlasts its stem's bending, TRAIL (6) and (7), over all bends."""
-    return np.array([100.0 * _below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean()
+    return np.array([100.0 * share_below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean()
                      for each in bent])
-
-
-def _below(z):
-    """Share of plants whose vigour is below z: double-exponential, mean 0, deviation 1."""
-    tail = 0.5 * np.exp(-math.sqrt(2.0) * abs(z))
-    return np.where(z < 0.0, tail, 1.0 - tail)
 
 
 def _solved(optimize, bent, wanted):

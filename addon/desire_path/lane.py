@@ -17,13 +17,15 @@ import numpy as np
 from . import table, walker, whole
 from .errors import DesirePathError
 from .gait import Gait
-from .plants import MOST_PLANTS, Planting, as_kind
+from .plants import MOST_PLANTS, Planting, as_kind, vigour_at
 from .sim import Ground, Simulation
 
 WALK = Path(__file__).parent / "walks" / "walk.npz"
 PASSES = (25, 75, 200, 500)  # counts of Cole's lanes
 BEYOND = 0.4  # people walk on so far past both ends [m]
 SCATTER = 0.32  # standard deviation of their tracks, in widths of the lane
+ENOUGH = 400  # plants that tell a lane's cover to a point or so
+DENSER = 2.0  # a lane with fewer may be planted so many times as densely as the kind is
 EVEN = 1.2207440846057596 ** -np.arange(1.0, 4.0)  # steps that fill a cube evenly, x^4 = x + 1
 DAY = 86400.0  # [s]
 USUAL = {"length": 5.0, "width": 0.5, "mass": 75.0, "seed": 0, "soil": "soil", "cell_size": 0.02, "frame_rate": 60.0,
@@ -41,14 +43,14 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
 
     length, width [m]; mass of the walkers [kg]; seed: of the plants and of the walkers' scatter. rest_days: days
     of growth before every count. frame_rate: of the walk's recording [1/s]. density: plants [1/m^2], None = the
-    kind's own. progress: called with 0..1.
+    kind's own, or up to twice as many if they would be few to measure by. progress: called with 0..1.
     """
     kind, passes = as_kind(kind), _counts(passes)
     for name, value, low, high in (("length", length, 0.5, 1000.0), ("width", width, 0.1, 100.0),
                                    ("mass", mass, 1.0, 1000.0), ("rest", rest_days, 0.0, 1e6)):
         if not low <= value <= high:
             raise DesirePathError(f"A {name} of {value:g} cannot be used for a lane: choose {low:g} to {high:g}.")
-    stand = kind.density if density is None else density
+    stand = _density(kind, length, width, density)
     if not 0.0 < stand * length * width <= MOST_PLANTS:
         raise DesirePathError(f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that "
                               f"makes up to {MOST_PLANTS} plants.")
@@ -88,11 +90,17 @@ def trodden(kind, passes, *, length, width, mass, seed, soil, cell_size, frame_r
 
 def planted(kind, length, width, seed, density=None):
     """The lane's plants: places and vigour fill lane and range evenly, so that few plants tell what many would."""
-    count = max(int(round((kind.density if density is None else density) * length * width)), 1)
+    count = max(int(round(_density(kind, length, width, density) * length * width)), 1)
     even = (np.random.default_rng([int(seed), count]).random(3) + np.arange(count)[:, None] * EVEN) % 1.0
     roots = np.stack([even[:, 0] * length, (even[:, 1] - 0.5) * width], axis=1)
-    tail = np.log(np.maximum(2.0 * np.minimum(even[:, 2], 1.0 - even[:, 2]), 1e-4)) / math.sqrt(2.0)
-    return Planting(kind, seed=seed, roots=roots, vigour=np.where(even[:, 2] < 0.5, tail, -tail))
+    return Planting(kind, seed=seed, roots=roots, vigour=vigour_at(even[:, 2]))
+
+
+def _density(kind, length, width, density):
+    """Plants of a lane [1/m^2]: what was asked for, else the kind's own, or more where that is too few to measure by."""
+    if density is not None:
+        return density
+    return kind.density * min(max(ENOUGH / (kind.density * length * width), 1.0), DENSER)
 
 
 def cover(sim):

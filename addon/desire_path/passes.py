@@ -22,7 +22,8 @@ SWING = (6.0, 14.0)  # walkers weave from side to side over such lengths [m]
 WEAVE = 0.6  # of the lateral scatter is weaving, the rest stays for a pass
 SMOOTH = 0.4  # the body follows the ground smoothed over about this length [m]
 FOOT = 0.12  # the slope under a foot is taken over this much to either side [m]
-EVEN = np.array([0.7548776662466927, 0.5698402909980532])  # steps that fill a square evenly, x^3 = x + 1
+# steps that fill a box of five dimensions evenly, x^6 = x + 1: few passes are spread as well as many
+EVEN = 1.1347241384015194 ** -np.arange(1.0, 6.0)
 GRAVITY = 9.81
 
 
@@ -58,9 +59,9 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
     for number in range(int(passes)):
         way = line.backwards() if back_and_forth and number % 2 else line
         for w, cycle in enumerate(cycles):
-            even = np.random.default_rng([int(seed), w]).random(2) + number * EVEN
+            even = np.random.default_rng([int(seed), w]).random(len(EVEN)) + number * EVEN
             random = np.random.default_rng([int(seed), w, number])
-            scatter = _Scatter(random, even % 1.0, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
+            scatter = _Scatter(even % 1.0, random, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
             turns.append((w, *_one(cycle, way, rate, scatter, ground)))
     return _chained([cycle.gait for cycle in cycles], turns, rate, [pause if n else 0.0 for n in range(len(turns))])
 
@@ -73,25 +74,26 @@ def _is_whole(value, least):
 # ---- one pass ----------------------------------------------------------------------------------------
 
 
-def _normal(random):
-    return float(np.clip(random.normal(), -3.0, 3.0))
+def _normal(share):
+    """The normal number below which a share 0..1 of all is, -3 to 3."""
+    return min(max(NormalDist().inv_cdf(min(max(share, 1e-6), 1.0 - 1e-6)), -3.0), 3.0)
 
 
 class _Scatter:
-    """What one pass does in its own way: pace, strides, where in the cycle it begins, and how it weaves.
+    """What one pass does in its own way: where in the cycle it begins, how far beside the path and how it weaves,
+    its strides and its pace.
 
-    even: two numbers 0..1 that fill their square evenly from pass to pass: few passes are spread as well as many.
+    even: five numbers 0..1 that fill their box evenly from pass to pass.
     """
 
-    def __init__(self, random, even, lateral, timing, stride):
-        self.pace = math.exp(timing * _normal(random))
-        self.scale = math.exp(stride * _normal(random))
+    def __init__(self, even, random, lateral, timing, stride):
         self.start = even[0] if lateral or timing or stride else 0.0
-        side = NormalDist().inv_cdf(min(max(even[1], 1e-3), 1.0 - 1e-3))
-        self.shift = math.sqrt(1.0 - WEAVE ** 2) * lateral * side
-        self.size = math.sqrt(2.0) * WEAVE * lateral * _normal(random)
+        self.shift = math.sqrt(1.0 - WEAVE ** 2) * lateral * _normal(even[1])
+        self.phase = 2.0 * math.pi * even[2]
+        self.size = math.sqrt(2.0) * WEAVE * lateral * _normal(even[3])
+        self.scale = math.exp(stride * _normal(even[4]))
         self.turn = 2.0 * math.pi / random.uniform(*SWING)
-        self.phase = random.uniform(0.0, 2.0 * math.pi)
+        self.pace = math.exp(timing * _normal(random.random()))
 
     def beside(self, s):
         """How far to the left of the path a walker goes [m] at lengths along it."""

@@ -149,6 +149,33 @@ KINDS = {
 }
 
 
+# ---- how they differ ---------------------------------------------------------------------------------------------
+
+# Most plants of a kind are alike, a few give way at once, a few bear nearly anything: the density of their vigour z
+# is as exp(-sqrt(|z| / c)), mean 0, deviation 1. Reserves are exp(spread z) times the kind's.
+_VIGOUR = 120.0 ** -0.5  # c
+MOST_VIGOUR = 8.0  # no plant is farther out
+
+
+def share_below(vigour):
+    """Share of plants, 0..1, whose vigour is below some; an array."""
+    t = np.sqrt(abs(np.asarray(vigour, float)) / _VIGOUR)
+    tail = 0.5 * (1.0 + t) * np.exp(-t)
+    return np.where(np.asarray(vigour) < 0.0, tail, 1.0 - tail)
+
+
+def vigour_at(share):
+    """The vigour below which a share 0..1 of plants is, -8 to 8; an array. The inverse of share_below()."""
+    share = np.asarray(share, float)
+    far = -np.log(np.clip(2.0 * np.minimum(share, 1.0 - share), 1e-30, 1.0))
+    t = far + np.sqrt(2.0 * far) + 1e-12  # beyond the root of t - log(1 + t) = far, from where Newton comes down
+    for _ in range(8):
+        t = t - (t - np.log1p(t) - far) * (1.0 + t) / t
+        t = np.maximum(t, 1e-12)
+    size = np.minimum(t * t * _VIGOUR, MOST_VIGOUR)
+    return np.where(share < 0.5, -size, size)
+
+
 # ---- where they stand ------------------------------------------------------------------------------------------
 
 SQUARE = 2.0  # side of the squares in which ground is planted [m]; the same seed gives each the same roots
@@ -165,7 +192,7 @@ class Planting:
     weight: (ny, nx), 0..1, over the rectangle, row 0 at the lowest y: thins the density; None = 1.
     roots: (n, 2) [m]: exactly these plants, in place of density, rectangle and weight.
     vigour: (n,) one for each of the roots, about -4 to 4: its reserves are exp(spread vigour) times the kind's;
-    None = a number from the seed and the plant's place, double-exponential with mean 0 and deviation 1.
+    None = a number from the seed and the plant's place, as vigour_at() tells.
     """
 
     kind: Kind

@@ -101,7 +101,8 @@ struct DpPlants
 double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
 // what a plant is called by its root, whoever planted it with whatever others
 uint64_t plant_name(float x, float y);
-// a double-exponential number of mean 0 and deviation 1
+// a number of mean 0 and deviation 1 that lies far out more often than a normal one: its density is
+// as exp(-sqrt(|z|)). |z| <= 8
 double plant_vigour(uint64_t seed, uint64_t a, uint64_t b);
 
 // rest position of a particle from the block's origin, at its present root

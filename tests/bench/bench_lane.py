@@ -25,7 +25,7 @@ def main():
     print(f"{passes} passes, {len(gait.time)} samples: made in {made - begun:.2f} s, "
           f"forces in {time.perf_counter() - made:.2f} s")
     for threads in sorted({1, os.cpu_count() or 1}):
-        sim, marks = lane.trodden(KINDS["carex"], passes, **{**lane.USUAL, "cell_size": 0.01}, threads=threads)
+        sim, marks = lane.trodden(KINDS["carex"], passes, **{**lane.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads)
         begun, spent = time.perf_counter(), time.process_time()
         sim.run(marks[-1])
         took, spent = time.perf_counter() - begun, time.process_time() - spent

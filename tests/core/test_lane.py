@@ -13,12 +13,12 @@ import pytest
 
 from desire_path import fit, lane
 from desire_path.errors import DesirePathError
-from desire_path.plants import KINDS, Kind
+from desire_path.plants import KINDS, Kind, share_below, vigour_at
 
 REPO = Path(__file__).resolve().parents[2]
 COLE = REPO / "tests" / "scenes" / "lanes" / "cole.csv"
 SHORT = dict(length=1.0, density=200.0, cell_size=0.04, threads=1)  # enough to see that something works
-JUDGED = dict(length=2.5, density=160.0, threads=1)  # as many plants as a lane of 5 m has, in half the time
+JUDGED = dict(length=2.5, density=160.0, threads=1)  # a lane in half the time
 SEED = 2024  # of a lane that judges: none that a kind was fitted to
 FEW = (10, 30)
 
@@ -43,7 +43,7 @@ def cole():
 @pytest.fixture(scope="module")
 def trodden():
     """Cover of one lane of carex after each of Cole's counts, and after its year."""
-    sim, marks = lane.trodden(KINDS["carex"], 500, **{**lane.USUAL, **JUDGED, "seed": SEED})
+    sim, marks = lane.trodden(KINDS["carex"], 500, **{**lane.USUAL, "seed": SEED})
     cover = lane.read_at(sim, [marks[n - 1] for n in lane.PASSES], marks[-1])
     sim.rest_plants(365 * lane.DAY)
     return np.array(cover), lane.cover(sim)
@@ -80,6 +80,20 @@ def test_what_must_not_matter_does_not():
     assert (lycopodium < by_seed[0] - 0.5).all()
 
 
+def test_vigour_has_mean_0_and_deviation_1_and_the_law_it_says():
+    share = (np.arange(100_000) + 0.5) / 100_000
+    vigour = vigour_at(share)
+    assert abs(vigour.mean()) < 1e-9 and vigour.std() == pytest.approx(1.0, abs=0.03)
+    assert (np.diff(vigour) >= 0.0).all() and abs(vigour).max() <= 8.0
+    within = abs(vigour) < 7.9
+    assert share_below(vigour)[within] == pytest.approx(share[within], abs=1e-9)
+    density = np.histogram(vigour, np.linspace(-4.0, 4.0, 81))[0] / (100_000 * 0.1)
+    middle = np.linspace(-3.95, 3.95, 80)
+    c = 120.0 ** -0.5
+    law = np.exp(-np.sqrt(abs(middle) / c)) / (4.0 * c)
+    assert density[abs(middle) > 0.5] == pytest.approx(law[abs(middle) > 0.5], rel=0.05)
+
+
 # ---- the experiment --------------------------------------------------------------------------------------
 
 
@@ -95,11 +109,14 @@ def test_a_lane_repeats_and_counts_apart():
 
 
 def test_few_plants_are_as_mixed_as_many():
-    planted = lane.planted(KINDS["carex"], 5.0, 0.5, 1)
+    assert len(lane.planted(KINDS["carex"], 5.0, 0.5, 1).roots) == 400  # enough to measure by
+    assert len(lane.planted(KINDS["carex"], 20.0, 0.5, 1).roots) == 800
+    assert len(lane.planted(KINDS["fern"], 5.0, 0.5, 1).roots) == 40
+    planted = lane.planted(KINDS["carex"], 5.0, 0.5, 1, density=80.0)
     assert len(planted.roots) == 200
     low, high = planted.roots.min(axis=0), planted.roots.max(axis=0)
     assert (low > (-1e-3, -0.2501)).all() and (high < (5.001, 0.2501)).all()
-    assert abs(planted.vigour.mean()) < 0.05 and planted.vigour.std() == pytest.approx(1.0, abs=0.12)
+    assert np.sort(share_below(planted.vigour)) == pytest.approx((np.arange(200) + 0.5) / 200, abs=0.02)
     assert abs(np.corrcoef(planted.vigour, abs(planted.roots[:, 1]))[0, 1]) < 0.1
 
 
