@@ -25,7 +25,7 @@ ROUNDS = 3  # of measuring and fitting again, at most
 NEAR = 0.25  # measured and modelled agree [points]
 RECOVER_DAYS = 14.0  # a stem that did not break has all its reserve again after so long
 WORST = 8.0  # power of the mean error that is made small: high, so that the worst count tells
-STRENGTH, SPREAD = (0.01, 1000.0), (0.05, 3.5)  # what is looked at: reserves [s of bending], spreads
+STRENGTH, SPREAD = (0.01, 1000.0), (0.05, 4.0)  # what is looked at: reserves [s of bending], spreads
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     rows: (passes, cover [per cent], days of rest) of lane.read(), of which those with the same passes count by their
     mean; rows with days of rest tell how fast it grows
     again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
-    options: as for lane.measure. Found are strength and spread, and regrow_rate from rows with days; stems break
+    options: as for lane.measure. Found are strength and spread, and regrow_rate and seed_share from rows with days; stems break
     by wear alone, and what did not break recovers in two weeks.
     """
     try:
@@ -87,7 +87,8 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
             break
     later = [(count, cover, days) for count, cover, days in rows if days]
     if later:
-        found = replace(found, regrow_rate=_regrowth(optimize, found, dict(zip(passes, reached)), later))
+        rate, share = _regrowth(optimize, found, dict(zip(passes, reached)), later)
+        found = replace(found, regrow_rate=rate, seed_share=share)
     return Fitted(found, passes, tuple(wanted.tolist()), tuple(reached.tolist()))
 
 
@@ -153,13 +154,19 @@ def _solved(optimize, bent, wanted):
 
 
 def _regrowth(optimize, kind, reached, later):
-    """Rate [1/s] at which cover comes back as rows with days of rest say."""
+    """(rate [1/s], share of seeds) with which cover comes back as rows with days of rest say; by the rate alone
+    where they are one or two."""
     known = [(reached[count] / 100.0, cover / 100.0, days) for count, cover, days in later if count in reached]
     if not known:
         raise DesirePathError("Rows with days of rest have counts of passes that no row without has: add those.")
 
-    def error(rate):
-        grown = replace(kind, regrow_rate=rate / YEAR).numbers()
-        return sum((_native.plants_regrow(grown, min(alpha, 1.0), days * lane.DAY) - cover) ** 2
-                   for alpha, cover, days in known)
-    return float(optimize.minimize_scalar(error, bounds=(0.0, 50.0), method="bounded").x) / YEAR
+    def error(rate, share):
+        grown = replace(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
+        return sum(abs(_native.plants_regrow(grown, min(alpha, 1.0), days * lane.DAY) - cover) ** WORST
+                   for alpha, cover, days in known) ** (1.0 / WORST)
+
+    def best(share):
+        return optimize.minimize_scalar(lambda rate: error(rate, share), bounds=(0.0, 50.0), method="bounded")
+    shares = np.linspace(0.0, 1.0, 101) if len(known) > 2 else [0.0]
+    found = min(((best(share), share) for share in shares), key=lambda each: each[0].fun)
+    return float(found[0].x) / YEAR, float(found[1])

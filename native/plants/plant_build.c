@@ -37,6 +37,7 @@ DpPlantKind dp_plant_kind_default(void)
         .recover_rate = 0.1f,
         .spread = 0.0f,
         .regrow_rate = (float)(1.02 / (365.25 * 86400.0)),
+        .seed_share = 0.0f,
         .reach = 0.15f,
         .full_density = 40.0f,
         .modulus = 10e6f,
@@ -59,11 +60,12 @@ DpStatus dp_plant_kind_check(const DpPlantKind* kind)
                       within(kind->radius, 0.0, 1.0);
     const bool swing = within(kind->curl, 0.0, 0.5 * PI + 1e-6) && within(kind->sway, 1e-3, 1e3) &&
                        within(kind->across, 1e-3, 1e4) && within(kind->damping, 0.0, 1e4);
-    const bool wear =
-        within(kind->strength, 1e-9, 1e9) && within(kind->degrade_angle, 0.0, PI + 1e-6) &&
-        within(kind->break_angle, kind->degrade_angle, 1e3) &&
-        within(kind->degrade_rate, 0.0, 1e9) && within(kind->recover_rate, 0.0, 1e9) &&
-        within(kind->spread, 0.0, 4.0) && within(kind->regrow_rate, 0.0, 1e3);
+    const bool wear = within(kind->strength, 1e-9, 1e9) &&
+                      within(kind->degrade_angle, 0.0, PI + 1e-6) &&
+                      within(kind->break_angle, kind->degrade_angle, 1e3) &&
+                      within(kind->degrade_rate, 0.0, 1e9) &&
+                      within(kind->recover_rate, 0.0, 1e9) && within(kind->spread, 0.0, 4.0) &&
+                      within(kind->regrow_rate, 0.0, 1e3) && within(kind->seed_share, 0.0, 1.0);
     const bool roots = within(kind->reach, 1e-3, 100.0) && within(kind->full_density, 1e-6, 1e9) &&
                        within(kind->modulus, 0.0, 1e12);
     if (!form || !size || !swing || !wear || !roots) return DP_BAD_ARGUMENT;

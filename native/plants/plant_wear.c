@@ -6,8 +6,9 @@
 //   once.
 //   A bend above a broken one is held by nothing: it neither wears nor recovers, and
 //   TRAIL (7) does not count it, so that half the stems broken at their feet is half the cover.
-//   Regrowth (ours): d alpha/dt = r alpha (1 - alpha), alpha the cover around a plant as far as
-//   seeds and runners come, four times its roots' reach: a lane grows again from its borders, too.
+//   Regrowth (ours): d alpha/dt = r (w + (1 - w) alpha) (1 - alpha), alpha the cover around a plant
+//   as far as runners and heavy seeds come, four times its roots' reach: a lane grows again from its
+//   borders, too. A share w comes from seeds that lie in the soil or fly in, wherever it is bare.
 //   Strength is a double: a day's recovery in steps of a frame is below what a float can hold.
 #include "base/wide.h"
 
@@ -31,9 +32,12 @@ double dp_plant_wear(const DpPlantKind* kind, double reserve, double strength, d
 
 double dp_plant_regrow(const DpPlantKind* kind, double alpha, double seconds)
 {
-    const double share = dp_clamp(alpha, 0.0, 1.0);
-    const double bare = (1.0 - share) * exp(-(double)kind->regrow_rate * seconds);
-    return share > 0.0 ? share / (share + bare) : 0.0;  // of d alpha/dt = r alpha (1 - alpha)
+    const double share = dp_clamp(alpha, 0.0, 1.0), w = (double)kind->seed_share;
+    const double source = w + (1.0 - w) * share;
+    if (!(source > 0.0)) return 0.0;
+    // of d alpha/dt = r (w + (1 - w) alpha) (1 - alpha): what is bare, by what it grows from, decays
+    const double bare = (1.0 - share) / source * exp(-(double)kind->regrow_rate * seconds);
+    return (1.0 - w * bare) / (1.0 + (1.0 - w) * bare);
 }
 
 // cosines of the angles at which a bend wears and breaks; -2 = it never does

@@ -47,6 +47,7 @@ typedef struct DpPlantKind
     float recover_rate;   // mu_rec                                          [1/s]   >= 0
     float spread;         // s, reserves differ by exp(s z) from plant to plant [-]  0..4
     float regrow_rate;    // r, TRAIL has none                               [1/s]   >= 0
+    float seed_share;     // w, of regrowth from seeds that need no neighbours [-]   0..1
 
     float reach;         // R, of a plant's roots                           [m]     > 0
     float full_density;  // plants from which on the ground is fully covered [1/m^2] > 0
@@ -155,7 +156,8 @@ double dp_plants_alpha(const DpPlants* plants, int stand, int plant);
 // Strength of one bend held at `angle` (phi, from its rest angle) for dt seconds. TRAIL (6)
 double dp_plant_wear(const DpPlantKind* kind, double reserve, double strength, double angle,
                      double dt);
-// Share of cover after so many seconds of regrowth, d alpha/dt = r alpha (1 - alpha).
+// Share of cover after so many seconds of regrowth, from `alpha` around:
+// d alpha/dt = r (w + (1 - w) alpha) (1 - alpha).
 double dp_plant_regrow(const DpPlantKind* kind, double alpha, double seconds);
 
 typedef enum DpCoverLaw

@@ -1,6 +1,6 @@
 // python/py_plants.c - the plants' kernels, one by one, for tests and for fitting kinds.
 //
-//   plants_default() -> 21 numbers of DpPlantKind;  plants_shape(kind) -> (rows, stems, stems of a
+//   plants_default() -> 22 numbers of DpPlantKind;  plants_shape(kind) -> (rows, stems, stems of a
 //   sheet, particles, bends);  plants_wear(kind, reserve, strength, angle, dt) -> strength
 //   plants_regrow(kind, alpha, seconds) -> alpha
 //   plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given) -> count
@@ -8,7 +8,7 @@
 //               colliders, dt, steps, workers) -> dict of DpPlantsTold
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
 //
-// kind: float64 (21) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
+// kind: float64 (22) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
 // (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness,
 // velocity, friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "base/alloc.h"
 #include "python/py_sim.h"
 
-#define KIND_NUMBERS 21
+#define KIND_NUMBERS 22
 #define COLLIDERS_MOST 16
 
 int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
@@ -45,7 +45,8 @@ int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
                           f[17],
                           f[18],
                           f[19],
-                          f[20]};
+                          f[20],
+                          f[21]};
     if (dp_plant_kind_check(kind) == DP_OK) return 0;
     PyErr_SetString(PyExc_ValueError, "kind: holds a number out of its range");
     return -1;
@@ -55,10 +56,10 @@ static PyObject* plants_default(PyObject* module, PyObject* none)
 {
     (void)module, (void)none;
     const DpPlantKind k = dp_plant_kind_default();
-    return Py_BuildValue("(iifffffffffffffffffff)", k.form, k.sheets, k.height, k.width, k.depth,
+    return Py_BuildValue("(iiffffffffffffffffffff)", k.form, k.sheets, k.height, k.width, k.depth,
                          k.spacing, k.radius, k.curl, k.sway, k.across, k.damping, k.strength,
                          k.degrade_angle, k.break_angle, k.degrade_rate, k.recover_rate, k.spread,
-                         k.regrow_rate, k.reach, k.full_density, k.modulus);
+                         k.regrow_rate, k.seed_share, k.reach, k.full_density, k.modulus);
 }
 
 static PyObject* plants_shape(PyObject* module, PyObject* object)

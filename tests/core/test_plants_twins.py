@@ -109,11 +109,13 @@ def test_cover_trail_7_8(law):
     assert 0 < alpha.max() <= 1 and alpha.min() == 0
 
 
-def test_regrowth_is_logistic():
+def test_regrowth_follows_its_twin():
     carex = PAPER["carex"]
-    for alpha in (0.863, 0.704, 0.398, 0.2):
-        told = _native.plants_regrow(carex.numbers(), alpha, YEAR)
-        assert told == pytest.approx(twin.regrow(asdict(carex), alpha, YEAR), abs=1e-4)
+    for share in (0.0, 0.3, 1.0):
+        kind = replace(carex, seed_share=share)
+        for alpha in (0.863, 0.704, 0.398, 0.2, 0.0):
+            told = _native.plants_regrow(kind.numbers(), alpha, YEAR)
+            assert told == pytest.approx(twin.regrow(asdict(kind), alpha, YEAR), abs=1e-4)
     # Cole 1995, one year: within 4.6 points by one rate
     for two_weeks, year in ((0.863, 0.962), (0.704, 0.838), (0.398, 0.602), (0.2, 0.455)):
         assert _native.plants_regrow(carex.numbers(), two_weeks, YEAR) == pytest.approx(year, abs=0.047)

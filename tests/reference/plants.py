@@ -185,5 +185,6 @@ def cover(kind, root, alpha, x0, y0, cell, nx, ny, paper):
 
 def regrow(kind, alpha, seconds, steps=20000):
     for _ in range(steps):
-        alpha += kind["regrow_rate"] * alpha * (1 - alpha) * seconds / steps
+        source = kind["seed_share"] + (1 - kind["seed_share"]) * alpha
+        alpha += kind["regrow_rate"] * source * (1 - alpha) * seconds / steps
     return alpha

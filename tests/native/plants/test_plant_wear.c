@@ -129,6 +129,13 @@ TEST(regrowth_is_logistic)
                dp_plant_regrow(&kind, 0.4, year), 1e-9);
     CHECK_NEAR(dp_plant_regrow(&kind, 0.0, year), 0.0, 0.0);
     CHECK_NEAR(dp_plant_regrow(&kind, 1.0, year), 1.0, 0.0);
+    kind.seed_share = 0.3f;  // seeds come to bare ground, too: r (w + (1 - w) alpha) (1 - alpha)
+    CHECK_NEAR(dp_plant_regrow(&kind, 0.0, 1e-3 * year), 0.3 * 1.02e-3, 1e-6);
+    CHECK_NEAR(dp_plant_regrow(&kind, 0.5, 1e-3 * year), 0.5 + 0.65 * 0.5 * 1.02e-3, 1e-6);
+    CHECK_NEAR(dp_plant_regrow(&kind, dp_plant_regrow(&kind, 0.0, 0.3 * year), 0.7 * year),
+               dp_plant_regrow(&kind, 0.0, year), 1e-9);
+    CHECK_NEAR(dp_plant_regrow(&kind, 1.0, year), 1.0, 0.0);
+    kind.seed_share = 0.0f;
 
     // a stand does it stem by stem
     kind.reach = 0.3f, kind.full_density = 50.0f;
