@@ -274,7 +274,8 @@ def test_waypoints_of_curves_meshes_and_empties():
         line.data.splines.new("POLY").points[0].co = (*at, 0.0, 1.0)
     line.data.splines[1].points.add(1)
     line.data.splines[1].points[1].co = (1.0, 6.0, 0.0, 1.0)
-    for odd, words in ((bare, "no length"), (line, "not one line")):
+    net = meshes.grid(4, 4, 0.5, name="net")  # one way leads through all of it, but no line is meant
+    for odd, words in ((bare, "no length"), (line, "not one line"), (net, "not one line")):
         try:
             way.waypoints(here, odd)
         except DesirePathError as problem:
