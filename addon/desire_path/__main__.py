@@ -174,7 +174,7 @@ def _parser():
     bake.add_argument("--seed", type=int, default=0, help="of the scatter and the plants (0)")
     bake.add_argument("--film", choices=FILMS, help="a playback frame for every scene frame, or for every pass; "
                       "passes, if there are several")
-    bake.add_argument("--plants", nargs="+", default=[], metavar="KIND[:DENSITY]",
+    bake.add_argument("--plants", nargs="+", action="extend", default=[], metavar="KIND[:DENSITY]",
                       help=f"what grows here: {', '.join(KINDS)}, or a kind's file (.json); plants for each m^2")
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")

@@ -42,10 +42,10 @@ typedef struct PlantBlock
     bool        awake, touched, wearing, changed;
     bool        touched_lane[DP_LANES];
     bool        told_lane[DP_LANES];  // a grid tells of the ground around it: it may have changed
-    int         broke;         // bends, in the last step
-    double      quiet;         // time without motion [s]
-    double      asleep_since;  // [s]
-    double      origin[3];     // of the state's positions, so that floats are small [m]
+    int         broke;                // bends, in the last step
+    double      quiet;                // time without motion [s]
+    double      asleep_since;         // [s]
+    double      origin[3];            // of the state's positions, so that floats are small [m]
     float       root[3][DP_LANES];
     float       foot[3][DP_LANES];   // root - origin
     float       turn[2][DP_LANES];   // cos, sin of the heading

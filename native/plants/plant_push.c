@@ -398,15 +398,15 @@ static void look_at_row(const PlantStand* stand, const PlantBlock* block, int fi
         for (int l = 0; l < DP_LANES; ++l) {
             const float dx = x[l] - x[l - DP_LANES], dy = y[l] - y[l - DP_LANES];
             const float dz = z[l] - z[l - DP_LANES];
-            due[l] |= (dx * dx + dy * dy + dz * dz > most * most) | (z[l] <= low[l]) ? bit : 0;
+            const int   far = dx * dx + dy * dy + dz * dz > most * most;
+            due[l] |= (far | (z[l] <= low[l])) ? bit : 0;
         }
         for (int n = 0; n < count; ++n) {
             const Swept at = swept[n];
-            for (int l = 0; l < DP_LANES; ++l)
-                due[l] |= (x[l] >= at.x0) & (x[l] <= at.x1) & (y[l] >= at.y0) & (y[l] <= at.y1) &
-                                  (z[l] <= at.z1)
-                              ? bit
-                              : 0;
+            for (int l = 0; l < DP_LANES; ++l) {
+                const int aside = (x[l] >= at.x0) & (x[l] <= at.x1) & (y[l] >= at.y0);
+                due[l] |= (aside & (y[l] <= at.y1) & (z[l] <= at.z1)) ? bit : 0;
+            }
         }
         if (c == 0) continue;
         const float *bx = block->state->at[0] + beside, *by = block->state->at[1] + beside;

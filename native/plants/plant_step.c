@@ -227,6 +227,16 @@ static bool add_task(DpPlants* plants, int* tasks, PlantStand* stand, PlantBlock
     return true;
 }
 
+// can any of the colliders, which may be far apart, meet a block whose roots lie within the box?
+static bool meets_any(const float box[4], const PlantPush* push, int count, double reach)
+{
+    for (int k = 0; k < count; ++k)
+        if ((double)box[0] < push[k].x1 + reach && (double)box[2] > push[k].x0 - reach &&
+            (double)box[1] < push[k].y1 + reach && (double)box[3] > push[k].y0 - reach)
+            return true;
+    return false;
+}
+
 // blocks that live through this step; -1 without memory
 static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt)
 {
@@ -245,7 +255,8 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt
         const float y0 = (float)all.y0 - reach, y1 = (float)all.y1 + reach;
         for (int b = 0; b < stand->blocks; ++b) {
             const float* box = stand->box + 4 * b;
-            const bool near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 && box[3] > y0;
+            const bool   near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 &&
+                              box[3] > y0 && meets_any(box, push, count, (double)reach);
             if (!near && !stand->up[b]) continue;
             PlantBlock* block = &stand->block[b];
             if (!near)
@@ -287,6 +298,24 @@ static bool prepare_sides(DpPlants* plants, PlantPush* push, int count)
     return true;
 }
 
+// one more box where cover may have changed: those that meet become one, and some if there are many
+static void tell_change(DpPlantsTold* told, DpPlantBox box)
+{
+    for (int k = 0; k < told->changes;) {
+        const DpPlantBox at = told->box[k];
+        const bool meet = at.x0 <= box.x1 && box.x0 <= at.x1 && at.y0 <= box.y1 && box.y0 <= at.y1;
+        if (!meet && told->changes < DP_PLANT_BOXES) {
+            ++k;
+            continue;
+        }
+        box = (DpPlantBox){fmin(at.x0, box.x0), fmin(at.y0, box.y0), fmax(at.x1, box.x1),
+                           fmax(at.y1, box.y1)};
+        told->box[k] = told->box[--told->changes];
+        k = 0;
+    }
+    told->box[told->changes++] = box;
+}
+
 // what happened, and who may sleep; in the order of the blocks
 static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
 {
@@ -299,13 +328,8 @@ static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
         if (block->changed) {
             const float* box = stand->box + 4 * b;
             const double reach = (double)stand->kind.reach;
-            const double x0 = (double)box[0] - reach, x1 = (double)box[2] + reach;
-            const double y0 = (double)box[1] - reach, y1 = (double)box[3] + reach;
-            told->x0 = told->changed ? fmin(told->x0, x0) : x0;
-            told->y0 = told->changed ? fmin(told->y0, y0) : y0;
-            told->x1 = told->changed ? fmax(told->x1, x1) : x1;
-            told->y1 = told->changed ? fmax(told->y1, y1) : y1;
-            told->changed = true;
+            tell_change(told, (DpPlantBox){(double)box[0] - reach, (double)box[1] - reach,
+                                           (double)box[2] + reach, (double)box[3] + reach});
         }
         if (block->quiet * (double)stand->kind.sway < QUIET) continue;
         put_to_sleep(plants, stand, block);

@@ -176,35 +176,55 @@ static void regrow_plant(const PlantStand* stand, PlantBlock* block, int lane, d
     }
 }
 
+// the cover around every plant, stand by stand: as it is before any of them grows
+static float* cover_before(const DpPlants* plants)
+{
+    size_t slots = 0;
+    for (int s = 0; s < plants->stands; ++s) slots += (size_t)plants->stand[s].blocks * DP_LANES;
+    float* cover = dp_alloc(slots + 1, sizeof *cover);
+    size_t at = 0;
+    for (int s = 0; s < plants->stands && cover; ++s) {
+        const PlantStand* stand = &plants->stand[s];
+        for (int slot = 0; slot < stand->count; ++slot) {
+            const PlantBlock* block = &stand->block[slot / DP_LANES];
+            cover[at + (size_t)slot] = plant_cover_around(plants, block->root[0][slot % DP_LANES],
+                                                          block->root[1][slot % DP_LANES]);
+        }
+        at += (size_t)stand->blocks * DP_LANES;
+    }
+    return cover;
+}
+
+static void rest_block(DpPlants* plants, const PlantStand* stand, PlantBlock* block,
+                       const float* cover, double seconds)
+{
+    if (!block->state) return;
+    if (block->awake) plant_catch_up(stand, block, seconds);
+    for (int l = 0; l < block->count; ++l) {
+        const double alpha = (double)cover[l];
+        if (!(alpha < 1.0) || !(block->alpha[l] < 1.0f)) continue;
+        const double   grown = dp_plant_regrow(&stand->kind, alpha, seconds);
+        const double   chance = (grown - alpha) / (1.0 - alpha);
+        const uint64_t name = plant_name(block->root[0][l], block->root[1][l]);
+        regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->rests, name);
+    }
+    plant_count_broken(stand, block);
+    block->broke = 0;
+}
+
 DpStatus dp_plants_rest(DpPlants* plants, double seconds)
 {
     if (!plants || !(seconds >= 0.0) || !(seconds < 1e12)) return DP_BAD_ARGUMENT;
+    float* cover = cover_before(plants);
+    if (!cover) return DP_NO_MEMORY;
+    const float* here = cover;
     ++plants->rests;
     for (int s = 0; s < plants->stands; ++s) {
         PlantStand* stand = &plants->stand[s];
-        float*      cover = dp_alloc((size_t)stand->blocks * DP_LANES, sizeof(float));
-        if (!cover) return DP_NO_MEMORY;
-        for (int slot = 0; slot < stand->count; ++slot)
-            cover[slot] =
-                plant_cover_around(plants, stand->block[slot / DP_LANES].root[0][slot % DP_LANES],
-                                   stand->block[slot / DP_LANES].root[1][slot % DP_LANES]);
-        for (int b = 0; b < stand->blocks; ++b) {
-            PlantBlock* block = &stand->block[b];
-            if (!block->state) continue;
-            if (block->awake) plant_catch_up(stand, block, seconds);
-            for (int l = 0; l < block->count; ++l) {
-                const double alpha = (double)cover[b * DP_LANES + l];
-                if (!(alpha < 1.0) || !(block->alpha[l] < 1.0f)) continue;
-                const double   grown = dp_plant_regrow(&stand->kind, alpha, seconds);
-                const double   chance = (grown - alpha) / (1.0 - alpha);
-                const uint64_t name = plant_name(block->root[0][l], block->root[1][l]);
-                regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->rests, name);
-            }
-            plant_count_broken(stand, block);
-            block->broke = 0;
-        }
-        dp_free(cover);
+        for (int b = 0; b < stand->blocks; ++b, here += DP_LANES)
+            rest_block(plants, stand, &stand->block[b], here, seconds);
     }
     plants->now += seconds;
+    dp_free(cover);
     return DP_OK;
 }

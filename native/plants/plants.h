@@ -115,13 +115,20 @@ typedef struct DpPlantCollider
     double friction;  // [-] >= 0
 } DpPlantCollider;
 
+// A rectangle seen from above [m].
+typedef struct DpPlantBox
+{
+    double x0, y0, x1, y1;
+} DpPlantBox;
+
 // What a step did.
+#define DP_PLANT_BOXES 16
 typedef struct DpPlantsTold
 {
-    int    awake;           // plants that were moved
-    int    broke;           // bends that broke, and those above them
-    bool   changed;         // cover may have changed within x0..x1, y0..y1
-    double x0, y0, x1, y1;  // [m]
+    int        awake;                // plants that were moved
+    int        broke;                // bends that broke, and those above them
+    int        changes;              // cover may have changed ..
+    DpPlantBox box[DP_PLANT_BOXES];  // .. within these: walkers far apart have boxes of their own
 } DpPlantsTold;
 
 // Let plants live for dt seconds: wake those near a collider, solve (5), wear (6), let those at

@@ -81,6 +81,7 @@ DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
 void dp_sim_reach(const DpSim* sim, long reach[4]);
 
 // Step over samples up to but not including `sample` (0..T). Steps already taken are not repeated.
+// One that fails leaves its step half made: what can be done then is to load anew or to destroy.
 DpStatus dp_sim_run(DpSim* sim, int sample);
 
 // Let everything that is still loose come to rest.

@@ -368,10 +368,11 @@ DpStatus dp_meadow_step(DpSim* sim, int sample, bool more)
     const DpPlantsTold told = moving.told;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
-    if (told.changed) {
-        cover_anew(sim, told.x0, told.y0, told.x1, told.y1);  // TRAIL (9), in the next step
-        dp_ahead_worn(sim, told.x0, told.y0, told.x1, told.y1);
-        status = dp_lean_worn(m->lean, told.x0, told.y0, told.x1, told.y1);
+    for (int k = 0; k < told.changes && status == DP_OK; ++k) {
+        const DpPlantBox box = told.box[k];
+        cover_anew(sim, box.x0, box.y0, box.x1, box.y1);  // TRAIL (9), in the next step
+        dp_ahead_worn(sim, box.x0, box.y0, box.x1, box.y1);
+        status = dp_lean_worn(m->lean, box.x0, box.y0, box.x1, box.y1);
     }
     if (status == DP_OK && m->laid) status = dp_laid_step(m->laid);
     return status;

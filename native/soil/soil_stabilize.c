@@ -195,8 +195,8 @@ static void fill_row(const Row* to, const float* restrict rest, const float* res
                      const int32_t* restrict ring, int count, double cell, double level,
                      double tan_slack)
 {
-    float *restrict  firm = to->firm, *restrict height = to->height, *restrict heap = to->heap;
-    float *restrict  fall = to->fall, *restrict slack = to->slack;
+    float* restrict firm = to->firm, * restrict height = to->height, * restrict heap = to->heap;
+    float* restrict fall = to->fall, * restrict slack = to->slack;
     double* restrict sum = to->sum;
     for (int i = 0; i < count; ++i) {
         const int    open = (rest[i] == rest[i]) & (ring[i] != 0);
@@ -412,15 +412,15 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     settled->at_rest = true;
     if (look.i0 >= look.i1 || look.j0 >= look.j1) return DP_OK;
 
-    const Box    asked = look;
+    const Box asked = look;
     look = loose_in(patch, look);
     if (look.i0 >= look.i1) return DP_OK;
     const double tan_slack = tan(tolerance), level = level_of(patch, asked);
-    const float film = (float)(0.1 * tan_slack * patch->cell);
-    int         margin = FIRST_MARGIN;
-    DpStatus    status = DP_OK;
-    Window      window;
-    Box         changed = {0, 0, 0, 0};
+    const float  film = (float)(0.1 * tan_slack * patch->cell);
+    int          margin = FIRST_MARGIN;
+    DpStatus     status = DP_OK;
+    Window       window;
+    Box          changed = {0, 0, 0, 0};
     if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
                      scratch))
         return DP_NO_MEMORY;

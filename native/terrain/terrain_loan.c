@@ -300,7 +300,7 @@ static void read_row(const View* view, DpField field, size_t at, int count, floa
     } else if (field == DP_FIELD_MODULUS) {
         const bool painted = terrain->soil_count > 1;  // else all of it is soil 0
         for (int i = 0; i < count; ++i)
-            out[i] = terrain->soils[painted ? kind[i] : 0].young_modulus;  // TRAIL (9), E_g
+            out[i] = terrain->soils[painted ? kind[i] : 0].young_modulus;          // TRAIL (9), E_g
         for (int i = 0; plant && i < count; ++i) out[i] += plant[TILE_CELLS + i];  // E_v
     } else {
         memset(out, 0, (size_t)count * sizeof *out);

@@ -173,7 +173,7 @@ typedef struct Binning
         size_t facing;
         bool   bad;
         bool   level;  // its points are as high as the first of all
-    } * share;  // what every chunk found
+    } * share;         // what every chunk found
 } Binning;
 
 static int chunks_of(size_t count)

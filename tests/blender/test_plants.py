@@ -126,6 +126,15 @@ def test_a_float_attribute_thins_as_well():
     assert roots(each)[:, 1].min() > 0.56 and each.count > 20
 
 
+def test_an_attribute_that_is_no_number_is_named():
+    ground = bed()
+    value = np.ones(len(ground.data.vertices), np.float32)
+    value[7], value[9] = np.nan, np.inf
+    ground.data.attributes.new("wet", "FLOAT", "POINT").data.foreach_set("value", value)
+    refused(bpy.ops.object.desire_path_plants_add, "'wet'", "point 7", density_group="wet")
+    assert not ground.desire_path.plants
+
+
 # ---- thinned by an image -----------------------------------------------------------------------------
 
 

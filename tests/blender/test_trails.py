@@ -207,6 +207,31 @@ def test_simulated_plants_play_as_a_mesh(folder):
     assert ground.desire_path.plant_object is None and "Ground Plants" not in bpy.data.objects
 
 
+def test_blades_taper_and_no_two_lie_in_one_place(folder):
+    ground, _ = meadow(folder, "meadow")  # the middle stems of its three sheets are one
+    ground.desire_path.plant_mesh = True
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    bpy.context.scene.frame_set(1)
+    mesh = ground.desire_path.plant_object.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    at = compat.positions(mesh)
+    quad = np.array([face.vertices[:] for face in mesh.polygons])
+    look = np.empty((len(at), 3), np.float32)
+    mesh.attributes["tuft_look"].data.foreach_get("vector", look.ravel())
+    ends = np.array([edge.vertices[:] for edge in mesh.edges])
+    ends = ends[look[ends[:, 0], 0] == look[ends[:, 1], 0]]  # across a blade
+    wide = np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)
+    along = look[ends[:, 0], 0]
+    assert abs(wide[along == 0.0] / stems.WIDTH - 1.02).max() < 0.01
+    assert wide[along == 1.0].max() < 0.1 * stems.WIDTH
+    foot = quad[look[quad, 0].min(axis=1) == 0.0]
+    middle, normal = at[foot].mean(axis=1), np.cross(at[foot[:, 1]] - at[foot[:, 0]], at[foot[:, 3]] - at[foot[:, 0]])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    order = np.lexsort(np.round(middle, 5).T)
+    same = np.linalg.norm(np.diff(middle[order], axis=0), axis=1) < 1e-4
+    turned = abs((normal[order][1:] * normal[order][:-1]).sum(axis=1))
+    assert same.any() and turned[same].max() < 0.95, (same.sum(), turned[same].max())
+
+
 # ---- passes ------------------------------------------------------------------------------------------
 
 
@@ -249,7 +274,8 @@ def test_waypoints_of_curves_meshes_and_empties():
         line.data.splines.new("POLY").points[0].co = (*at, 0.0, 1.0)
     line.data.splines[1].points.add(1)
     line.data.splines[1].points[1].co = (1.0, 6.0, 0.0, 1.0)
-    for odd, words in ((bare, "no length"), (line, "not one line")):
+    net = meshes.grid(4, 4, 0.5, name="net")  # one way leads through all of it, but no line is meant
+    for odd, words in ((bare, "no length"), (line, "not one line"), (net, "not one line")):
         try:
             way.waypoints(here, odd)
         except DesirePathError as problem:

@@ -40,6 +40,15 @@ def test_bake_on_flat_ground(tmp_path, walk):
     assert (tmp_path / "folder" / "maps_final.exr").exists()
 
 
+def test_kinds_add_up_however_they_are_listed(tmp_path, walk):
+    told = []
+    for words in (("--plants", "carex:20", "moss:40"), ("--plants", "carex:20", "--plants", "moss:40")):
+        done = run("bake", walk, *words, "--cell", "0.02", "--out", tmp_path / "folder")
+        assert done.returncode == 0, done.stderr
+        told.append(json.loads((tmp_path / "folder" / "report.json").read_text())["plants"])
+    assert told[0] == told[1] > 0
+
+
 def test_feet_are_placed_on_a_hill(tmp_path, walk):
     step = np.arange(-2.0, 2.01, 0.1)
     hill = 3.0 + 0.3 * np.broadcast_to(step, (len(step), len(step)))

@@ -65,3 +65,12 @@ def test_kinds_of_users_look_by_their_names_and_sizes():
     plain = tuft.look_of("//heath.json", Kind(height=0.2))
     assert tuft.tuft(Kind(height=0.2), plain, 0).vertices[:, 2].max() < 0.35
     assert np.isfinite(tuft.tuft(Kind(height=0.0, width=0.0), plain, 0).vertices).all()
+
+
+def test_moss_is_leafy_shoots():
+    """Seen from above its leaves would cover more than half of the ground, if none lay over another."""
+    kind, look = KINDS["moss"], tuft.LOOKS["moss"]
+    made = tuft.tuft(kind, look, 0)
+    corners = (made.vertices[list(face), :2].astype(float).T for face in made.faces)
+    seen = sum(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) for x, y in corners)
+    assert seen * kind.density > 0.5, seen * kind.density

@@ -86,6 +86,10 @@ class Bed:
                     if value is None or name not in obj.vertex_groups and name not in found.data.attributes:
                         raise DesirePathError(f"'{obj.name}' has no vertex group or attribute '{name}' for "
                                               "the density of its plants: choose another one.")
+                    odd = np.flatnonzero(~np.isfinite(value))
+                    if len(odd):
+                        raise DesirePathError(f"'{name}' of '{obj.name}' is no number at point {odd[0]}: give it one "
+                                              "from 0 to 1.")
                     painted[name] = value
         finally:
             bpy.data.objects.remove(copy)

@@ -2,6 +2,7 @@
 
     plants.npz, plants.pc2 --edges, Mesh Cache--> stems in motion --native nodes--> blades of some width
 """
+import math
 import os
 
 import bpy
@@ -63,12 +64,16 @@ def _blades(name, kinds):
     tree[playback.TAG] = 1
     wire = playback.Wiring(tree)
     line = wire.add("GeometryNodeMeshToCurve", Mesh=wire.add("NodeGroupInput").outputs[0]).outputs[0]
-    along = wire.split(wire.named(tufts.LOOK, "FLOAT_VECTOR"))[0]
+    along, own, _ = wire.split(wire.named(tufts.LOOK, "FLOAT_VECTOR"))
     thin = wire.math("SUBTRACT", 1.02, wire.math("POWER", along, 2.0))
     line = wire.add("GeometryNodeSetCurveRadius", Curve=line, Radius=thin).outputs[0]
+    # sheets that cross may share a stem: blades in one place and one plane would shade each other black
+    turn = wire.math("MULTIPLY", own, math.pi)
+    line = wire.add("GeometryNodeSetCurveTilt", Curve=line, Tilt=turn).outputs[0]
     half = (0.5 * WIDTH, 0.0, 0.0)
     across = wire.add("GeometryNodeCurvePrimitiveLine", Start=tuple(-x for x in half), End=half).outputs[0]
-    blades = wire.add("GeometryNodeCurveToMesh", Curve=line, **{"Profile Curve": across}).outputs[0]
+    # from 4.5 on the node takes the radius only where it is told to
+    blades = wire.add("GeometryNodeCurveToMesh", Curve=line, Scale=thin, **{"Profile Curve": across}).outputs[0]
     for number, kind in enumerate(kinds):
         its = wire.add("FunctionNodeCompare", {"data_type": "INT", "operation": "EQUAL"}, A=wire.named(KIND, "INT"),
                        B=number).outputs[0]

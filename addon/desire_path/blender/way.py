@@ -49,7 +49,8 @@ def waypoints(scene, obj):
     order = _chain(len(local), edges)
     if len(order) < 2:
         raise DesirePathError(f"The path '{obj.name}' has no length: give it two or more points.")
-    if len(set(order)) < len({v for edge in edges for v in edge}):
+    ways = np.bincount(np.array(edges, int).ravel(), minlength=1)  # from each vertex
+    if len(set(order)) < np.count_nonzero(ways) or ways.max() > 2:
         raise DesirePathError(f"The path '{obj.name}' is not one line: join its pieces, or take off branches.")
     return axes.points(world, local[order], scale)
 

@@ -12,7 +12,7 @@ static void walk(DpPlants* plants, int workers, int frames, DpPlantsTold* sum)
         CHECK(dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, workers, &told) == DP_OK);
         sum->awake = told.awake > sum->awake ? told.awake : sum->awake;
         sum->broke += told.broke;
-        sum->changed = sum->changed || told.changed;
+        sum->changes += told.changes;
     }
 }
 
@@ -26,7 +26,7 @@ TEST(any_number_of_workers_gives_the_same_bits)
         DpPlants*    plants = lawn(&kind, 60, 15, 0.05, 1);
         DpPlantsTold sum = {0};
         walk(plants, workers[w], 60, &sum);
-        CHECK(sum.awake > 200 && sum.broke > 0 && sum.changed);
+        CHECK(sum.awake > 200 && sum.broke > 0 && sum.changes > 0);
         int differ = 0;
         for (int k = 0; k < 900; ++k) {
             float at[84], speed[84];
@@ -49,7 +49,7 @@ TEST(the_meadow_sleeps_and_the_walker_wakes_few)
     const size_t      asleep = dp_bytes_live();
     for (int f = 0; f < 5; ++f)
         CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
-    CHECK(told.awake == 0 && !told.changed);
+    CHECK(told.awake == 0 && told.changes == 0);
     CHECK(dp_bytes_live() - asleep < 65536);
     walk(plants, 1, 60, &sum);
     CHECK(sum.awake > 8 && sum.awake < 400);
@@ -92,12 +92,71 @@ TEST(what_broke_is_told_and_where)
         DpPlantsTold          told;
         dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, 1, &told);
         broke += told.broke;
-        if (told.changed) CHECK(told.x0 < 2.0 && told.x1 > 2.0 && told.y0 < 0.4 && told.y1 > 0.4);
-        if (told.changed) CHECK(told.x1 - told.x0 < 2.0);
+        CHECK(told.changes <= 1);
+        const DpPlantBox at = told.box[0];
+        if (told.changes) CHECK(at.x0 < 2.0 && at.x1 > 2.0 && at.y0 < 0.4 && at.y1 > 0.4);
+        if (told.changes) CHECK(at.x1 - at.x0 < 2.0);
     }
     for (int k = 0; k < 400; ++k) lost += 20.0 * (1.0 - dp_plants_alpha(plants, 0, k));
     CHECK(broke > 0);
     CHECK_NEAR(lost, broke, 1e-3);
+    dp_plants_destroy(plants);
+}
+
+// walkers that are far apart change the ground at both places, and not between
+TEST(changes_far_apart_have_boxes_of_their_own)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.strength = 0.01f;
+    DpPlants*       plants = lawn(&kind, 200, 10, 0.1, 1);
+    float           bottom[2][SOLE_SIDE * SOLE_SIDE];
+    double          wide = 0.0;
+    int             most = 0;
+    DpPlantCollider c[2];
+    for (int k = 0; k < 2; ++k)
+        c[k] = sole(bottom[k], 0.01, 2.0 + 15.0 * k, 0.4, 0.0, 0.28, 0.10, 0.0);
+    for (int f = 0; f < 30; ++f) {
+        DpPlantsTold told;
+        CHECK(dp_plants_step(plants, NULL, c, 2, 1.0 / 60, 1, &told) == DP_OK);
+        most = told.changes > most ? told.changes : most;
+        for (int k = 0; k < told.changes; ++k) wide = fmax(wide, told.box[k].x1 - told.box[k].x0);
+    }
+    CHECK(most == 2);
+    CHECK(wide > 0.3 && wide < 2.0);
+    dp_plants_destroy(plants);
+}
+
+// however many they are, each change lies in one of the boxes
+TEST(many_changes_share_boxes)
+{
+    enum
+    {
+        MANY = 40
+    };
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.strength = 0.01f;
+    DpPlants*       plants = lawn(&kind, MANY, 2, 3.0, 1);
+    float           bottom[SOLE_SIDE * SOLE_SIDE];
+    DpPlantCollider c[MANY];
+    DpPlantsTold    told;
+    int             broken = 0;
+    double          alpha[MANY];
+    for (int k = 0; k < MANY; ++k)
+        c[k] = sole(bottom, 0.01, 3.0 * k + 0.03, 0.0, 0.0, 0.28, 0.10, 0.0), alpha[k] = 1.0;
+    for (int f = 0; f < 30; ++f) {
+        CHECK(dp_plants_step(plants, NULL, c, MANY, 1.0 / 60, 1, &told) == DP_OK);
+        CHECK(told.changes >= 0 && told.changes <= DP_PLANT_BOXES);
+        for (int k = 0; k < MANY; ++k) {
+            const double now = dp_plants_alpha(plants, 0, k);
+            bool         told_of = !(now < alpha[k]);
+            broken += now < alpha[k];
+            alpha[k] = now;
+            for (int n = 0; n < told.changes; ++n)
+                told_of = told_of || (told.box[n].x0 < 3.0 * k && told.box[n].x1 > 3.0 * k);
+            CHECK(told_of);
+        }
+    }
+    CHECK(broken > MANY / 2);
     dp_plants_destroy(plants);
 }
 
@@ -150,6 +209,8 @@ int main(void)
     RUN(the_meadow_sleeps_and_the_walker_wakes_few);
     RUN(far_from_the_origin_plants_come_to_rest_too);
     RUN(what_broke_is_told_and_where);
+    RUN(changes_far_apart_have_boxes_of_their_own);
+    RUN(many_changes_share_boxes);
     RUN(several_kinds_stand_on_one_ground);
     RUN(bad_steps_are_refused);
     return check_done();

@@ -173,6 +173,30 @@ TEST(bare_ground_grows_again_from_around)
     }
 }
 
+// kinds that share a ground grow at once: none finds the others grown already
+TEST(stands_grow_again_side_by_side)
+{
+    const double year = 365.25 * 86400, none[20] = {0};
+    DpPlantKind  kind = dp_plant_kind_default();
+    kind.regrow_rate = (float)(1.02 / year), kind.reach = 0.3f, kind.full_density = 50.0f;
+    DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
+    float*    root = dp_alloc(1600, 3 * sizeof(float));
+    double    after[2] = {0.0, 0.0};
+    int       stand = -1;
+    for (int k = 0; k < 1600; ++k)
+        root[3 * k] = 0.1f * (float)(k % 40) + 0.05f,
+                 root[3 * k + 1] = 0.1f * (float)(k / 40) + 0.05f;
+    CHECK(dp_plants_add(plants, &kind, root, NULL, 1600, &stand) == DP_OK);
+    for (int k = 0; k < 3200; ++k)
+        if (k % 1600 * 7 % 10 < 6) dp_plants_write(plants, k / 1600, k % 1600, NULL, NULL, none);
+    CHECK(dp_plants_rest(plants, year) == DP_OK);
+    for (int k = 0; k < 3200; ++k) after[k / 1600] += dp_plants_alpha(plants, k / 1600, k % 1600);
+    CHECK_NEAR(after[0] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);
+    CHECK_NEAR(after[1] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);
+    dp_free(root);
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(a_stem_held_at_30_degrees_loses_mu_t_and_breaks_at_nothing);
@@ -182,5 +206,6 @@ int main(void)
     RUN(frames_a_second_do_not_matter);
     RUN(regrowth_is_logistic);
     RUN(bare_ground_grows_again_from_around);
+    RUN(stands_grow_again_side_by_side);
     return check_done();
 }

@@ -143,7 +143,8 @@ TEST(rolling_leaves_no_ridges)
     float heap[44], pressed[44];
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, 0, 20, 44, 1, heap) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, 0, 20, 44, 1, pressed) == DP_OK);
-    double ridges = 0.0;  // all that the surface rises on the way, but for the way out of the deepest
+    double ridges =
+        0.0;  // all that the surface rises on the way, but for the way out of the deepest
     double lowest = 1.0, last = (double)(heap[0] - pressed[0]);
     for (int k = 0; k < 44; ++k) {
         const double at = (double)(heap[k] - pressed[k]);
