@@ -54,8 +54,8 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     rows: (passes, cover [per cent], days of rest) of lane.read(), of which those with the same passes count by their
     mean; rows with days of rest tell how fast it grows
     again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
-    options: as for lane.measure. Found are strength and spread, and regrow_rate and seed_share from rows with days; stems break
-    by wear alone, and what did not break recovers in two weeks.
+    options: as for lane.measure. Found are strength and spread, and regrow_rate and seed_share from rows with days;
+    stems break by wear alone, and what did not break recovers in two weeks.
     """
     try:
         from scipy import optimize

@@ -97,7 +97,7 @@ def planted(kind, length, width, seed, density=None):
 
 
 def _density(kind, length, width, density):
-    """Plants of a lane [1/m^2]: what was asked for, else the kind's own, or more where that is too few to measure by."""
+    """Plants of a lane [1/m^2]: what was asked for, else the kind's own, or more where those are few to measure by."""
     if density is not None:
         return density
     return kind.density * min(max(ENOUGH / (kind.density * length * width), 1.0), DENSER)

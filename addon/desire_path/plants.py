@@ -52,7 +52,7 @@ class Kind:
     degrade_rate: float = 0.1  # mu_deg [1/s]
     recover_rate: float = 0.1  # mu_rec [1/s]
     spread: float = 0.0  # s, reserves differ by exp(s z) from plant to plant, z of mean 0 and deviation 1
-    regrow_rate: float = 1.02 / YEAR  # r of d alpha/dt = r (w + (1 - w) alpha) (1 - alpha), alpha the cover around [1/s]
+    regrow_rate: float = 1.02 / YEAR  # r of d alpha/dt = r (w + (1 - w) alpha) (1 - alpha), alpha around [1/s]
     seed_share: float = 0.0  # w, of regrowth from seeds that need no neighbours
     reach: float = 0.15  # R, of a plant's roots, TRAIL (7) [m]
     full_density: float = 40.0  # plants from which on the ground is fully covered [1/m^2]
