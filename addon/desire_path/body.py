@@ -161,9 +161,11 @@ def _knee(bones, leg, hip, ankle, ahead):
 
 
 def rest_up(bones, rig):
-    """The axis of rest space that points up: the one nearest to feet-to-hips."""
+    """The axis of rest space that points up: the one nearest to feet-to-hips, of many feet that of their legs."""
     feet = np.mean([bones.rest_point(f.foot) for f in rig.feet], axis=0)
     high = bones.rest_point(rig.hips) - feet if rig.hips else np.array([0.0, 0.0, 1.0])
+    if len(rig.feet) > 2 and all(f.thigh for f in rig.feet):  # their hips lie at one end of the body
+        high = np.mean([bones.rest_point(f.thigh) for f in rig.feet], axis=0) - feet
     up = np.zeros(3)
     axis = int(np.argmax(abs(high))) if np.linalg.norm(high) > 0 else 2
     up[axis] = np.sign(high[axis]) or 1.0
