@@ -195,7 +195,7 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         bones.rest_point(rig.hips) @ up_rest if rig.hips else ankles.mean(axis=0) @ up_rest + 0.9)
     person = len(rig.feet) == 2 and bool(rig.hips)
     shapes = shapes or {}
-    feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot)) for f in rig.feet]
+    feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
     ahead_rest = _ahead(bones, rig, feet, up_rest)
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis
@@ -215,7 +215,7 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         hill = hills[limb]
         if hill is not None:
             flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
-            foot = feet_of.Foot(flat, foot.slots, leg, person, foot.known)
+            foot = feet_of.Foot(flat, foot.slots, leg, person, foot.known, foot.beast)
         pose, sole_pair, marks = feet_of.parts(foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
                                                skeleton, laid, warnings)
         if hill is not None:
