@@ -21,6 +21,7 @@ class Skeleton:
     parents: np.ndarray  # (B,) i4, -1 for roots
     rest: np.ndarray  # bone to armature, +Y along the bone (B, 4, 4) [m]
     length: np.ndarray  # (B,) [m]
+    mirrored: bool = False  # its left is on its right, by a negative scale
 
 
 @dataclass(frozen=True)
@@ -196,7 +197,7 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     person = len(rig.feet) == 2 and bool(rig.hips)
     shapes = shapes or {}
     feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
-    square = _square(bones, feet, up_rest)
+    square = _square(bones, feet, up_rest, -1.0 if skeleton.mirrored else 1.0)
     if person and square is not None:
         for foot in feet:
             foot.face(square, up_rest)
@@ -240,14 +241,14 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         frame_start=frame_start, warnings=warnings).check()
 
 
-def _square(bones, feet, up):
+def _square(bones, feet, up, sign):
     """The way a body faces whose left feet are to its left, as they are named; None where they are not."""
     lefts = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("left")]
     rights = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("right")]
     if not lefts or not rights:
         return None
     ahead = np.cross(np.mean(lefts, axis=0) - np.mean(rights, axis=0), up)
-    return rotation.unit(ahead) if np.linalg.norm(ahead) > 1e-9 else None
+    return sign * rotation.unit(ahead) if np.linalg.norm(ahead) > 1e-9 else None
 
 
 def _ahead(feet, up, square):

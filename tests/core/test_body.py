@@ -236,6 +236,18 @@ def test_tails_of_bones_may_point_anywhere(toes, parts, tail, length):
         assert size[0] == pytest.approx(size[1], rel=0.02 if toes else 0.15)
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_upright_feet_of_a_mirrored_body_point_ahead(mirrored):
+    """Foot bones that stand tell no direction: left and right do, the other way round in a mirrored body."""
+    bones, motion = retailed(person(toes=False), walk(person(toes=False)), ("foot",), (0, 0, 1), 0.1)
+    if mirrored:
+        bones.rest[:, 0, 3] *= -1
+        motion.matrix[..., 0, 3] *= -1
+        bones = replace(bones, mirrored=True)
+    g = gait(bones, motion)
+    assert (rotation.matrix(g.pose[:, flat_sample(g), 3:])[:, 1, 0] < -0.9).all()
+
+
 @pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
 def test_any_scale(scale):
     bones = person(scale=scale)
