@@ -39,7 +39,8 @@ CONTROL_WORDS = {
     "spin", "tweak", "mch", "vis", "gizmo", "handle", "socket", "snap", "wgt", "widget", "goal",
     "dummy", "helper", "ref", "parent", "effector", "twist", "share", "bend", "pin", "ｉｋ", "親"}
 NEVER_WORDS = {"end", "nub", "site", "effector", "tweak", "mch", "wgt"}
-SIDE_WORDS = {"l": "L", "left": "L", "lft": "L", "r": "R", "right": "R", "rgt": "R", "左": "L",
+LAST_WORDS = {"jnt", "joint", "bone", "bn"}  # behind a name they say nothing: `foot_L_jnt`
+SIDE_WORDS = {"l": "L", "left": "L", "lft": "L", "lt": "L", "r": "R", "right": "R", "rgt": "R", "rt": "R", "左": "L",
               "右": "R"}
 PLACE_WORDS = {"front": "front", "fore": "front", "hind": "", "rear": "", "back": "",
                "mid": "mid", "middle": "mid"}  # of a foot among many
@@ -67,10 +68,12 @@ class Name:
     size: int = 0  # how many words there were besides side and layer
 
 
-def read(name):
-    """Words, side, layer and place of a bone's name."""
+def read(name, lf_is_left=False):
+    """Words, side, layer and place of a bone's name. lf_is_left: `lf` means left, as where `rt` is right."""
     bare = name.rsplit(":", 1)[-1]
     raw = _WORD.findall(bare)
+    if lf_is_left:
+        raw = ["left" if word.lower() == "lf" else word for word in raw]
     at = _side_at([word.lower() for word in raw])
     words, side, layer, place = [], "" if at is None else SIDE_WORDS[raw[at].lower()], 2, ""
     for k, word in enumerate(raw):
@@ -85,6 +88,8 @@ def read(name):
             if ahead:  # it is told from the limb's words below
                 words.append(ahead)
         words.append(word)
+    if len(words) > 1 and words[-1] in LAST_WORDS:
+        words.pop()
     if words and words[0] in LAYERS and len(words) > 1:
         layer = LAYERS[words.pop(0)]
     if CONTROL_WORDS & set(words) or bare.startswith("c_"):

@@ -1,6 +1,6 @@
 """Which bones are feet, toes, heels, hips and body segments. Names first (rig_names.py), then structure.
 
-    Skeleton --rig_feet.find_feet--> feet, toes, heels --rig_feet.find_legs--> thighs, shanks --build--> Rig
+    Skeleton --rig_feet.find_feet--> feet, toes, heels --rig_bones.find_legs--> thighs, shanks --build--> Rig
 """
 
 from dataclasses import dataclass
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import DesirePathError
-from .rig_feet import Bones, find_feet, find_legs
+from .rig_bones import Bones, find_legs
+from .rig_feet import find_feet
 from .rig_names import CHEST, HEAD, HIPS, NECK
 
 # Winter, Biomechanics and Motor Control of Human Movement, 4th ed., table 4.1: share of the body's

@@ -113,7 +113,7 @@ def test_hands_of_people_stay_hands():
             bones.parents[chain[:-1]] = chain[1:]
         return bones
 
-    for extra in (arms(1.4, 0.1), arms(0.75, 0.19), arms(0.5, 0.2),  # along the body, and a gorilla's
+    for extra in (arms(1.35, 0.1), arms(0.75, 0.19), arms(0.5, 0.2),  # along the body, and a gorilla's
                   arms(0.75, 0.75), arms(0.7, 0.7, -0.6),  # a bone that an importer made as long as it liked
                   arms(0.75, 0.19) + (("sword.{}", (0.3, 0, 0.6), (0.3, 0, 0.0)),)):
         assert len(rigs.detect(make(extra)).feet) == 2
