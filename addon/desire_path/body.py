@@ -21,6 +21,7 @@ class Skeleton:
     parents: np.ndarray  # (B,) i4, -1 for roots
     rest: np.ndarray  # bone to armature, +Y along the bone (B, 4, 4) [m]
     length: np.ndarray  # (B,) [m]
+    mirrored: bool = False  # its left is on its right, by a negative scale
 
 
 @dataclass(frozen=True)
@@ -161,9 +162,11 @@ def _knee(bones, leg, hip, ankle, ahead):
 
 
 def rest_up(bones, rig):
-    """The axis of rest space that points up: the one nearest to feet-to-hips."""
+    """The axis of rest space that points up: the one nearest to feet-to-hips, of many feet that of their legs."""
     feet = np.mean([bones.rest_point(f.foot) for f in rig.feet], axis=0)
     high = bones.rest_point(rig.hips) - feet if rig.hips else np.array([0.0, 0.0, 1.0])
+    if len(rig.feet) > 2 and all(f.thigh for f in rig.feet):  # their hips lie at one end of the body
+        high = np.mean([bones.rest_point(f.thigh) for f in rig.feet], axis=0) - feet
     up = np.zeros(3)
     axis = int(np.argmax(abs(high))) if np.linalg.norm(high) > 0 else 2
     up[axis] = np.sign(high[axis]) or 1.0
@@ -193,8 +196,12 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         bones.rest_point(rig.hips) @ up_rest if rig.hips else ankles.mean(axis=0) @ up_rest + 0.9)
     person = len(rig.feet) == 2 and bool(rig.hips)
     shapes = shapes or {}
-    feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot)) for f in rig.feet]
-    ahead_rest = _ahead(bones, rig, feet, up_rest)
+    feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
+    square = _square(bones, feet, up_rest, -1.0 if skeleton.mirrored else 1.0)
+    if person and square is not None:
+        for foot in feet:
+            foot.face(square, up_rest)
+    ahead_rest = _ahead(feet, up_rest, square)
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis
     to_left = ankles @ left_axis - middle
@@ -213,7 +220,7 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         hill = hills[limb]
         if hill is not None:
             flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
-            foot = feet_of.Foot(flat, foot.slots, leg, person, foot.known)
+            foot = foot.over(flat)
         pose, sole_pair, marks = feet_of.parts(foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
                                                skeleton, laid, warnings)
         if hill is not None:
@@ -234,7 +241,17 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         frame_start=frame_start, warnings=warnings).check()
 
 
-def _ahead(bones, rig, feet, up):
+def _square(bones, feet, up, sign):
+    """The way a body faces whose left feet are to its left, as they are named; None where they are not."""
+    lefts = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("left")]
+    rights = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("right")]
+    if not lefts or not rights:
+        return None
+    ahead = np.cross(np.mean(lefts, axis=0) - np.mean(rights, axis=0), up)
+    return sign * rotation.unit(ahead) if np.linalg.norm(ahead) > 1e-9 else None
+
+
+def _ahead(feet, up, square):
     """The way the rest pose faces: where its feet point, else square to left-right."""
     way = np.zeros(3)
     for foot in feet:
@@ -244,11 +261,6 @@ def _ahead(bones, rig, feet, up):
     if np.linalg.norm(way) > 0.3 * sum(np.linalg.norm(np.subtract(*f.joints(rest=True)[::2]))
                                        for f in feet):
         return rotation.unit(way)
-    lefts = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("left")]
-    rights = [bones.rest_point(f.slots.foot) for f in feet if f.slots.limb.startswith("right")]
-    if lefts and rights:
-        across = np.mean(lefts, axis=0) - np.mean(rights, axis=0)
-        ahead = np.cross(across, up)
-        if np.linalg.norm(ahead) > 1e-9:
-            return rotation.unit(ahead)
+    if square is not None:
+        return square
     return np.array([0.0, -1.0, 0.0]) if abs(up[2]) > 0.5 else np.array([0.0, 0.0, 1.0])

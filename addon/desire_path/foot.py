@@ -3,6 +3,7 @@
     bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
 """
 
+import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +20,14 @@ TOE_GUESS = 0.42
 FOOT_OF_LEG = 0.285  # foot length in shares of hips bone to ankle: 0.152 of 0.53 statures, Winter, Fig. 4.1
 SHORT_FOOT = 0.85  # a person's foot is no shorter than this share of that; toe bones that end early are
 FOOT_TO_LEG = 0.22  # a foot bone longer than this share of the leg ends at the tip, not at the ball
+ASTRAY = np.radians(75.0)  # a toe bone that points this far off ankle-to-ball says nothing of where toes end
+LONG = 2.0  # nor does one longer than this many times ankle-to-ball
+SIDEWAYS = np.cos(np.radians(70.0))  # a last bone that points so far off the way the body faces tells no foot
+FAR_TAIL = 0.6  # nor does one longer than this share of the leg
+GUESS = (0.17, 0.06)  # ankle to ball where nothing tells: ahead and down, in shares of the leg
+PAW = 0.6  # a beast's foot that goes down by this share of ankle-to-ball stands on its toes alone
+PAW_PAD = 0.3  # such a foot presses this share of the toes' length behind the ball
+PAW_SKIN = 0.06  # the paw's sole lies this share of its length under its lowest joint
 BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
 STIFF = np.radians(3.0)  # a toe bone that turns less than this against its foot never bends
 FLAT_SPEED = 0.25  # a flat foot moves slower than this [m/s]
@@ -43,8 +52,9 @@ class FootShape:
 class Foot:
     """The bones of one foot over the clip."""
 
-    def __init__(self, bones, foot, leg, person, known=None):
+    def __init__(self, bones, foot, leg, person, known=None, beast=False):
         self.bones, self.slots = bones, foot
+        self.beast = beast  # walks on more than two legs
         self.known = known  # its FootShape, where the clip need not tell
         length = bones.length[bones.row[foot.foot]]
         self.toe = foot.toe
@@ -57,10 +67,40 @@ class Foot:
                                       "another toe bone or none.")
         self.leg = leg
         self.person = person  # walks on two legs below its hips
+        self.made = None  # ball and tip seen from the ankle in the foot bone's axes, where the bone tells nothing
+        self.ahead = None if beast or not self.toe else self._ahead()
         self.tip = None  # a far "toe" bone: its head is the tip
-        if self.toe and self._far():
+        if self.toe and not beast and self._far():
             self.tip, self.toe = self.toe, None
         self.ends_at_tip = not self.toe and (self.tip or length > FOOT_TO_LEG * leg > 0)
+
+    def over(self, bones):
+        """The same foot, of bones that were moved."""
+        other = copy.copy(self)
+        other.bones = bones
+        return other
+
+    def face(self, ahead, up):
+        """Make up a foot that points ahead where its only bone points to one side, or far away."""
+        bones, name = self.bones, self.slots.foot
+        way = bones.rest_point(name, 1.0) - bones.rest_point(name)
+        length, level = np.linalg.norm(way), way - (way @ up) * up
+        aside = abs(level @ ahead) < SIDEWAYS * np.linalg.norm(level) and np.linalg.norm(level) > 0.3 * length
+        if self.slots.toe or not (aside or length > FAR_TAIL * self.leg):
+            return
+        ball = self.leg * (GUESS[0] * ahead - GUESS[1] * up)
+        tip = ball + self.leg * TOE_GUESS * GUESS[0] * ahead
+        self.made = np.stack([ball, tip]) @ rotation.square(bones.rest[bones.row[name], :3, :3])
+        self.ends_at_tip = False
+
+    def _ahead(self):
+        """Where the toes end, from the ball in the toe bone's axes, where its tail does not tell; else None."""
+        ankle, ball = (self.bones.rest_point(name) for name in (self.slots.foot, self.toe))
+        run, toe = ball - ankle, self.bones.rest_point(self.toe, 1.0) - ball
+        reach, length = np.linalg.norm(run), np.linalg.norm(toe)
+        if length < LONG * reach and run @ toe > np.cos(ASTRAY) * reach * length:
+            return None
+        return rotation.square(self.bones.rest[self.bones.row[self.toe], :3, :3]).T @ (TOE_GUESS * run)
 
     def _far(self):
         """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
@@ -74,6 +114,12 @@ class Foot:
         at = self.bones.rest_point if rest else self.bones.point
         foot, toe = self.slots.foot, self.toe
         ankle, tail = at(foot), at(foot, 1.0)
+        if self.made is not None:
+            turn = rotation.square(self.bones.rest[self.bones.row[foot], :3, :3]) if rest else self.bones.turn(foot)
+            return ankle, ankle + turn @ self.made[0], ankle + turn @ self.made[1]
+        if toe and self.ahead is not None:
+            turn = rotation.square(self.bones.rest[self.bones.row[toe], :3, :3]) if rest else self.bones.turn(toe)
+            return ankle, at(toe), at(toe) + turn @ self.ahead
         if toe:
             return ankle, at(toe), at(toe, 1.0)
         if self.ends_at_tip:
@@ -157,6 +203,10 @@ class Foot:
         frame = rotation.frame(across, up)
         inside = lambda p: np.median(np.einsum("tji,tj->ti", frame, p - ankle), axis=0)
         ball_in, tip_in = inside(ball), inside(tip)
+        turns = (rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame),
+                 None if toe_turn is None else rotation.mean_turn(np.swapaxes(toe_turn, 1, 2) @ frame))
+        if self.beast and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
+            return self._paw(ball_in, tip_in, turns), flat
         reach = ball_in[0]
         if reach < 0.02 * self.leg:  # an upright foot bone tells nothing of the foot's length
             reach = 0.17 * self.leg
@@ -174,10 +224,14 @@ class Foot:
             heel_x = self._heel(foot_turn, frame, heel_x, tip_x)
         # the sole lies under the lowest joint, the ankle no lower over it than in people
         ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
-        return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2],
-                          rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame),
-                          None if toe_turn is None
-                          else rotation.mean_turn(np.swapaxes(toe_turn, 1, 2) @ frame), ball_in[1]), flat
+        return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2], *turns, ball_in[1]), flat
+
+    def _paw(self, ball, tip, turns):
+        """The shape of a foot on its toes: its heel is in the air, what presses lies around the ball and ahead."""
+        toes = max(tip[0] - ball[0], 0.03 * self.leg)
+        heel, end = ball[0] - PAW_PAD * toes, ball[0] + toes
+        height = -min(ball[2], tip[2]) + PAW_SKIN * (end - heel)
+        return FootShape(ball[0], end, heel, height, height + ball[2], *turns, ball[1])
 
 
 def _level_toe(turn, ball, low):

@@ -18,6 +18,7 @@ SLOW = 0.25  # points that rest are slower [m/s]
 ROLL = 0.5  # a trunk leans sideways by this share of the slope across it, and along it by all; legs do the rest
 SWAY = 0.25  # it leans as over this long before and after [s]
 CLEARLY = 0.01  # the floor fits a clip better than the ground only by more than this [m]
+GROWN = 0.2  # shorter feet rest slower and fit better, in proportion [m]
 
 
 def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, carry=None, floor=None,
@@ -105,8 +106,9 @@ def carries(gait, land, row):
     places = walks.point_places(gait)[own]
     flat = places[..., 2]
     over = flat - land.rest_height(places[..., :2].reshape(-1, 2)).reshape(flat.shape)
+    small = min(1.0, _foot_length(gait, row) / GROWN)
     if len(gait.time) > 1:
-        rests = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2) < SLOW
+        rests = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2) < SLOW * small
     else:
         rests = np.ones(flat.shape, bool)
     rests &= np.isfinite(over)
@@ -114,7 +116,7 @@ def carries(gait, land, row):
         return True
     if abs(float(np.median(over[rests]))) > walks.HOVER:
         return True
-    return _spread(over, rests) > _spread(flat, rests) + CLEARLY
+    return _spread(over, rests) > _spread(flat, rests) + CLEARLY * small
 
 
 def lies(gait, land, row):

@@ -12,6 +12,7 @@ from . import leg, rotation
 
 RADIUS = 0.25  # the ground is smoothed over this, about a foot's length [m]
 STEEP = 2e-4  # ground whose normal leaves the vertical less than this is level: 1 - cosine of 1.1 degrees
+FITS = 0.8  # many feet stand on the slope when their heights over it are apart by less than this share of theirs
 NEARER = 1e-3  # feet lie on a slope when their soles' normal is nearer to the ground's by this [-]
 
 
@@ -53,11 +54,12 @@ def below(land, feet, time, up_rest, lie=None):
     """The Slope each foot lies on (F), None where the ground is level or the feet do not lie on it.
 
     land: a Simulation of the ground; lie: whether feet lie on it; None: as the rest pose's soles tell where they
-    stand. It is asked of all feet together, since rest poses splay them.
+    stand. It is asked of all feet together, since rest poses splay them. More than two feet must stand on it, too:
+    the feet of beasts roll as they stand, so that their soles tell little.
     """
     found = [_under(land, foot.joints()[0]) for foot in feet]
     if lie is None:
-        lie = _lie(feet, found, time, up_rest)
+        lie = _lie(feet, found, time, up_rest) and (len(feet) <= 2 or _stand(land, feet, time, up_rest))
     return found if lie else [None] * len(feet)
 
 
@@ -67,7 +69,7 @@ def _lie(feet, hills, time, up_rest):
         stands = foot.flat(time) if hill is not None else ()
         if not np.any(stands):
             continue
-        name = foot.slots.foot
+        name = foot.toe if foot.beast and foot.toe else foot.slots.foot  # what lies of a paw
         rest = rotation.square(foot.bones.rest[foot.bones.row[name], :3, :3])
         ups.append((foot.bones.turn(name)[stands] @ (rest.T @ up_rest)).mean(axis=0))
         normals.append(hill.turn[stands, :, 2].mean(axis=0))
@@ -75,6 +77,24 @@ def _lie(feet, hills, time, up_rest):
         return False
     up, normal = (rotation.unit(np.mean(each, axis=0)) for each in (ups, normals))
     return up @ normal - up[2] > NEARER
+
+
+def _stand(land, feet, time, up_rest):
+    """Are the places where feet stand apart in height as the ground is, rather than level?"""
+    levels, overs = [], []
+    for foot in feet:
+        ankle, ball, _ = foot.joints()
+        low = ball if foot.toe else ankle
+        stands = foot.flat(time)
+        ground = land.rest_height(low[:, :2])
+        stands = stands & np.isfinite(ground)
+        if stands.any():
+            level = low[stands, 2] - foot.joints(rest=True)[1 if foot.toe else 0] @ up_rest
+            levels.append(level)
+            overs.append(level - ground[stands])
+    if not levels:
+        return False
+    return np.std(np.concatenate(overs)) < FITS * np.std(np.concatenate(levels))
 
 
 def _under(land, ankle):

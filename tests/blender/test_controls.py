@@ -2,11 +2,12 @@
 import bpy
 import numpy as np
 
-from desire_path import place
-from desire_path.blender import compat, controls, op_place, posing, sample
+from desire_path import place, walker
+from desire_path.blender import compat, controls, ground as ground_of, op_place, posing, sample
+from desire_path.sim import Simulation
 from run import Skip
 from scenes import meshes, people, rigified
-from test_place import ASIDE, UP, check_placed, heads, keys, on_hill, operator, scene_of
+from test_place import ASIDE, UP, check_placed, heads, hill, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused
 
 SIDES = "LR"
@@ -172,6 +173,38 @@ def test_rigify_paws_go_uphill_under_a_trunk_that_leans():
     rest = np.array(obj.data.bones["DEF-spine.003"].matrix_local)
     turn = seen[:, :3, :3] @ np.linalg.inv(rest[:3, :3])
     np.testing.assert_allclose(turn[:, :2, 2] / turn[:, 2:, 2], [(-place.ROLL * ASIDE, UP)] * 2, atol=0.03)
+
+
+def test_rigify_horses_and_cats_walk_uphill():
+    for kind, size, thigh, shank, feet in (
+            ("horse", 1.0, ("thigh", "upper_arm"), ("lower_leg", "forearm"), (("r_hoof", ""), ("f_hoof", ""))),
+            ("cat", 0.15, ("thigh", "upper_arm"), ("shin", "forearm"), (("foot", "DEF-r_toe"), ("hand", "DEF-f_toe")))):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = rigified.beast(kind)
+        if obj is None:
+            raise Skip("there is no Rigify here")
+        operator.desire_path_rig_detect()
+        assert [(f.foot, f.toe, f.thigh, f.shank) for f in obj.desire_path.feet] == [
+            (f"DEF-{foot}.{side}", toe and f"{toe}.{side}", f"DEF-{top}.{side}", f"DEF-{low}.{side}")
+            for (foot, toe), top, low in zip(feet, thigh, shank) for side in SIDES]
+        obj.desire_path.mass = 300.0 * size
+        flat = record(obj, 36)
+        scene_of(obj, size=size)
+        land = sample_land(obj, size)
+        np.testing.assert_array_equal(  # plain baking leaves level feet level
+            sample.record(bpy.context.scene, obj, 1, 36, land=land).pose,
+            sample.record(bpy.context.scene, obj, 1, 36).pose)
+        assert operator.desire_path_place_feet() == {"FINISHED"}
+        gait = sample.record(bpy.context.scene, obj, 1, 36, land=land)
+        places, before = walker.point_places(gait), walker.point_places(flat)[..., 2]
+        over = places[..., 2] - size * hill(places[..., 0] / size, places[..., 1] / size)
+        low = before - before.min(axis=1, keepdims=True) < 0.01 * size
+        assert low.mean() > 0.5
+        assert np.abs(over - before)[low].max() < 0.03 * size, np.abs(over - before)[low].max()
+
+
+def sample_land(obj, size):
+    return Simulation(ground_of.read(bpy.context.scene, obj.desire_path.ground, 0.02 * size, 1).ground)
 
 
 def test_a_control_leads_through_helpers():

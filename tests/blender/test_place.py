@@ -157,6 +157,16 @@ def test_centimetres_and_a_scaled_object():
     check_placed(obj, flat)
 
 
+def test_a_mirrored_object():
+    obj = people.walk(people.biped())
+    obj.scale = (-1, 1, 1)
+    bpy.context.view_layer.update()
+    flat = sample.record(bpy.context.scene, obj, 1, 48)
+    scene_of(obj)
+    assert operator.desire_path_place_feet() == {"FINISHED"}
+    check_placed(obj, flat)
+
+
 def follow(obj, name, world, *, place=True):
     """Key a bone so that it takes these world matrices from frame 1 on."""
     bone, scene = obj.pose.bones[name], bpy.context.scene

@@ -4,7 +4,7 @@ import json
 import bpy
 import numpy as np
 
-from desire_path.blender import panels, sample
+from desire_path.blender import op_walkers, panels, sample
 from desire_path.errors import DesirePathError
 from scenes import beasts, meshes, people
 
@@ -158,6 +158,43 @@ def test_slots_that_name_no_bone():
     refused(lambda: record(obj), "'nowhere'")
     settings.hips = "hips"
     assert record(obj).limb_name == ("foot.L", "foot.R")
+
+
+def overridden(file):
+    """The library override of a walker in a file, on a ground of this one."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(file, link=True) as (_, wanted):
+        wanted.objects = ["Walker"]
+    linked = wanted.objects[0]
+    bpy.context.scene.collection.objects.link(linked)
+    obj = linked.override_create(remap_local_usages=True)
+    meshes.grid(20, 20, 0.1, -1, -1)
+    operator.desire_path_ground_add()
+    meshes.activate(obj)
+    assert operator.desire_path_walker_add() == {"FINISHED"}
+    return obj
+
+
+def test_a_library_override_keeps_what_it_was_told(folder):
+    people.walk(people.biped())
+    file = str(folder / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    obj = overridden(file)
+    assert len(op_walkers.forgotten(obj)) == (bpy.app.version >= (5, 0))
+    bpy.ops.wm.open_mainfile(filepath=file)
+    meshes.activate(bpy.data.objects["Walker"])
+    operator.desire_path_rig_detect()
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    obj = overridden(file)
+    assert op_walkers.forgotten(obj) == ()
+    assert operator.desire_path_rig_detect() == {"FINISHED"}
+    assert [foot[1] for foot in slots(obj)] == ["foot.L", "foot.R"]  # found anew, none twice
+    obj.desire_path.mass, obj.desire_path.feet[1].toe = 50.0, ""
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "shot.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "shot.blend"))
+    obj = next(each for each in bpy.context.scene.objects if each.override_library)
+    assert obj.desire_path.is_walker and obj.desire_path.mass == 50.0 and obj.desire_path.ground.name == "Ground"
+    assert slots(obj) == [("left", "foot.L", "toe.L", ""), ("right", "foot.R", "", "")]
 
 
 def test_no_rig_to_speak_of():

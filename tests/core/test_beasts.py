@@ -90,3 +90,27 @@ def test_a_walk_on_four_legs():
     assert (force >= -1e-12).all() and force.max() < 0.95
     jump = abs(np.diff(force, axis=1)).max()
     assert jump < 0.2  # no load jumps
+
+
+def test_a_paw_presses_where_the_toes_are():
+    """Hocks in the air leave no heels: the sole lies around the ball and ahead, at the height of the lowest joint."""
+    bones = beasts.skeleton()
+    row = {name: k for k, name in enumerate(bones.names)}
+    for k, name in enumerate(bones.names):
+        if "foot" in name:
+            bones.rest[k, 2, 3] = 0.25  # a metatarsus, upright
+            bones.length[k] = 0.24
+        if "toe" in name:
+            bones.length[k] = 0.10
+            bones.rest[k, :3, 1] = (0.0, -1.0, 0.0)
+    g = gait(bones, beasts.motion(bones, speed=1.0, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25)))
+    for limb in range(4):
+        heel, toe = np.flatnonzero(g.part_limb == limb)
+        pad = [np.ptp(g.soles[part].vertices[:, 0]) for part in (heel, toe)]
+        assert pad[0] < 0.04 and 0.10 <= pad[1] < 0.125
+        foot, ball = bones.rest[row[g.limb_name[limb]]], bones.rest[row[g.limb_name[limb].replace("foot", "toe")]]
+        assert 0.0 < ball[2, 3] - g.pose[toe, :, 2].min() < 0.012
+        assert g.pose[toe, 0, 1] - g.pose[heel, 0, 1] == pytest.approx(ball[1, 3] - foot[1, 3], abs=1e-6)
+    # a person's foot of the same bones has its heel
+    person = rigs.build(bones, rigs.detect(bones).feet[:2])
+    assert np.ptp(gait(bones, beasts.motion(bones), person).soles[0].vertices[:, 0]) > 0.07

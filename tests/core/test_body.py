@@ -204,6 +204,50 @@ def test_any_rest_orientation(turn):
         assert places(b, part)[40] == pytest.approx(places(a, part)[40], abs=2e-3)
 
 
+def retailed(bones, motion, parts, tail, length):
+    """The same joints and motion with the tails of some bones elsewhere."""
+    y = np.array(tail, float) / np.linalg.norm(tail)
+    x = np.cross(y, [0.3, 0.5, 0.81])
+    x /= np.linalg.norm(x)
+    turn = np.stack([x, y, np.cross(x, y)], axis=1)
+    rest, matrix, lengths = bones.rest.copy(), motion.matrix.copy(), bones.length.copy()
+    for k, name in enumerate(bones.names):
+        if name.startswith(parts):
+            own = rest[k, :3, :3].T @ turn
+            rest[k, :3, :3], matrix[:, k, :3, :3] = rest[k, :3, :3] @ own, matrix[:, k, :3, :3] @ own
+            lengths[k] = length
+    return replace(bones, rest=rest, length=lengths), Motion(motion.time, motion.bones, matrix)
+
+
+@pytest.mark.parametrize("toes, parts", [(True, ("foot", "toe")), (True, ("toe",)), (True, ("foot",)), (False, ("foot",))])
+@pytest.mark.parametrize("tail, length", [((0, 0, 1), 0.1), ((0, 0, -1), 0.1), ((0, 0, 1), 5.0), ((1, 0, 0), 0.1),
+                                          ((-1, 0.2, 0.1), 0.2), ((0, -1, 0), 5.0), ((0, 1, 0), 0.1), ((1, 1, 1), 0.2)])
+def test_tails_of_bones_may_point_anywhere(toes, parts, tail, length):
+    bones = person(toes=toes)
+    want = gait(bones, walk(bones))
+    if not toes and tail[1] > 0.9:
+        return  # a foot of one bone that points back may be of a mirrored body
+    g = gait(*retailed(bones, walk(bones), parts, tail, length))
+    for part in range(4):
+        ahead = [rotation.matrix(each.pose[part, :, 3:])[..., 0] for each in (g, want)]
+        assert np.degrees(np.arccos(np.clip((ahead[0] * ahead[1]).sum(axis=1), -1, 1))).max() < (1 if toes else 10)
+        assert abs(g.pose[part, :, :3] - want.pose[part, :, :3]).max() < (1e-3 if toes else 0.045)
+        size = [np.ptp(each.soles[part].vertices[:, 0]) for each in (g, want)]
+        assert size[0] == pytest.approx(size[1], rel=0.02 if toes else 0.15)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_upright_feet_of_a_mirrored_body_point_ahead(mirrored):
+    """Foot bones that stand tell no direction: left and right do, the other way round in a mirrored body."""
+    bones, motion = retailed(person(toes=False), walk(person(toes=False)), ("foot",), (0, 0, 1), 0.1)
+    if mirrored:
+        bones.rest[:, 0, 3] *= -1
+        motion.matrix[..., 0, 3] *= -1
+        bones = replace(bones, mirrored=True)
+    g = gait(bones, motion)
+    assert (rotation.matrix(g.pose[:, flat_sample(g), 3:])[:, 1, 0] < -0.9).all()
+
+
 @pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
 def test_any_scale(scale):
     bones = person(scale=scale)

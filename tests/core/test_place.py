@@ -110,6 +110,20 @@ def test_a_walk_of_the_hill_is_not_carried_twice():
     assert aligned[0] < 0.96 < 0.99 < aligned[1]
 
 
+@pytest.mark.parametrize("size", [1.0, 0.1])
+def test_a_small_walk_is_told_from_one_of_the_hill(size):
+    """A bird's steps differ by millimetres where a person's differ by centimetres."""
+    bones = beasts.skeleton()
+    moved = beasts.motion(bones, speed=0.3, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25), seconds=3.0)
+    bones.rest[:, :3, 3] *= size
+    moved.matrix[..., :3, 3] *= size
+    bones = replace(bones, length=bones.length * size)
+    land = Simulation(plane(0.05, 0.15))
+    level = body.gait_from_bones(bones, moved, mass=1.0, frame_rate=120.0)
+    assert place.carries(level, land, 0)
+    assert not place.carries(place.place_feet(level, land, carry=True), land, 0)
+
+
 def test_it_stands_and_weighs_as_on_the_floor():
     gait = cmu()
     land = Simulation(plane(0.1, -0.25, 3.0))

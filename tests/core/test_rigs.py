@@ -135,6 +135,10 @@ RIGS = {  # sides, hips, thigh, shank, foot, toe, heel, neck, decoys
                "neck.001", ()),
     "copied mixamo": (("Left", "Right"), "mixamorig:Hips.002", "mixamorig:{}UpLeg.002", "mixamorig:{}Leg.002",
                       "mixamorig:{}Foot.002", "mixamorig:{}ToeBase.002", None, "mixamorig:Neck.002", ()),
+    "maya joints": (("lf", "rt"), "char:ct_hips_jnt", "char:{}_thigh_jnt", "char:{}_shin_jnt", "char:{}_foot_jnt",
+                    "char:{}_toe_jnt", None, "char:ct_neck_jnt", ()),
+    "joints": (("L", "R"), "hips_joint", "thigh_{}_joint", "shin_{}_joint", "foot_{}_joint", "toe_{}_joint", None,
+               "neck_joint", ()),
     "no toes": (("L", "R"), "hips", "thigh.{}", "shin.{}", "foot.{}", None, None, "neck", ()),
     "upper case": (("LEFT", "RIGHT"), "HIPS", "{}_THIGH", "{}_SHIN", "{}_FOOT", "{}_TOE", None, "NECK", ()),
 }
@@ -165,6 +169,17 @@ def test_heels_lie_at_the_heel():
     SIDES, hips, thigh, shank, foot, toe, heel, neck, decoys = RIGS["rigify generated"]
     found = rigs.detect(person(hips, thigh, shank, foot, toe, heel, neck, decoys))
     assert found.feet[0].heel == "ORG-heel.02.L"
+
+
+def test_the_middle_one_of_single_toes():
+    sides = [(f"toe{k}_01.{{}}", (0.1 + 0.02 * (k - 2), -0.11, 0.02), (0.1 + 0.02 * (k - 2), -0.17, 0.02)) for k in range(5)]
+    global SIDES
+    SIDES = ("L", "R")
+    bones = person("hips", "thigh.{}", "shin.{}", "foot.{}", extra=sides)
+    for k, name in enumerate(bones.names):
+        if name.startswith("toe"):
+            bones.parents[k] = bones.names.index("foot." + name[-1])
+    assert [f.toe for f in rigs.detect(bones).feet] == ["toe2_01.L", "toe2_01.R"]
 
 
 def test_feet_detached_from_legs():

@@ -1,12 +1,15 @@
 """Feet that lie on a slope have soles that do: a walk on a tilted floor is the walk, tilted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from desire_path import body, rotation, slope
+from desire_path import body, rigs, rotation, slope
 from desire_path.body import Motion
 from desire_path.foot import FootShape
 from desire_path.sim import Ground, Simulation
+from scenes import beasts
 from tests.core.test_body import person, walk
 from tests.core.test_place import plane
 
@@ -90,3 +93,46 @@ def test_back_undoes_flattened():
     on = hill.at + np.einsum("tij,j->ti", turn, (0.3, -0.2, 0.0))
     Bones.matrix[:, 0, :3, 3] = on
     np.testing.assert_allclose(hill.flattened(Bones(), ("foot",)).matrix[:, 0, 2, 3], 0.0, atol=1e-12)
+
+
+def trot(roll):
+    """A beast's bones and a walk of a level floor, in which feet roll over their toes by so much while they stand."""
+    bones = beasts.skeleton()
+    moved = beasts.motion(bones, speed=0.8, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25))
+    matrix = moved.matrix.copy()
+    for k, name in enumerate(bones.names):
+        if "foot" not in name:
+            continue
+        toe = matrix[:, bones.names.index(name.replace("foot", "toe")), :3, 3]
+        phase = moved.time / 0.9 + {"front_foot.L": 0.0, "front_foot.R": 0.5, "foot.L": 0.75, "foot.R": 0.25}[name]
+        turn = np.array([turn_about((1, 0, 0), roll * min(u / 0.65, 1.0)) for u in phase % 1.0])
+        matrix[:, k, :3, 3] = toe + np.einsum("tij,tj->ti", turn, matrix[:, k, :3, 3] - toe)
+        matrix[:, k, :3, :3] = turn @ matrix[:, k, :3, :3]
+    return bones, Motion(moved.time, moved.bones, matrix)
+
+
+@pytest.mark.parametrize("toes", [True, False])
+@pytest.mark.parametrize("roll", [0.3, -0.3, 0.0])
+@pytest.mark.parametrize("along, across", [(0.25, 0.0), (-0.25, 0.0), (0.2, 0.15)])
+def test_a_beast_of_a_level_floor_stays_level(toes, roll, along, across):
+    """Feet that roll ahead while they stand turn towards one slope or the other; where they stand tells the truth."""
+    bones, motion = trot(roll)
+    rig = rigs.detect(bones)
+    if not toes:
+        rig = rigs.build(bones, [replace(foot, toe=None) for foot in rig.feet])
+    flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0, rig=rig)
+    same = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0, rig=rig,
+                                land=Simulation(plane(across, along)))
+    np.testing.assert_array_equal(same.pose, flat.pose)
+
+
+@pytest.mark.parametrize("roll", [0.3, -0.3, 0.0])
+@pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (1, 2, 0)])
+def test_a_beast_of_a_hill_lies_on_it(roll, axis):
+    bones, motion = trot(roll)
+    turn = turn_about(axis, TILT)
+    normal = turn[:, 2]
+    land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
+    flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0)
+    tilted = body.gait_from_bones(bones, on_hill(motion, turn), mass=30.0, frame_rate=120.0, land=land)
+    np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=5e-3)

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import leg, place, rotation
 from ..errors import DesirePathError
-from . import controls, posing
+from . import axes, controls, posing
 
 EASE = 0.15  # hips come down over this before and after they must [s]
 
@@ -188,7 +188,7 @@ class Plan:
 
     def shape(self, foot, parts, gait):
         """How a foot lies under its bones, as FootShape has it, read off a recording."""
-        inside = lambda name: rotation.square(self.bones.at(name)[0, :3, :3]).T
+        inside = lambda name: axes.rigid(self.bones.at(name)[0], 1.0)[:3, :3].T  # as recorded, mirrored or not
         turns = [rotation.matrix(gait.pose[part, :, 3:]) for part in (parts[0], parts[-1])]
         within = lambda at: np.einsum("tji,tj->ti", turns[0], at - gait.pose[parts[0], :, :3])
         ankle = within(self.heads(foot.foot) * self.bones.scale)[0]

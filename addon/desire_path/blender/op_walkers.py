@@ -91,12 +91,22 @@ def detect(scene, obj, keep=False):
             pass  # they are of another rig
     found = rigs.detect(shape)
     settings.feet.clear()
-    for foot in found.feet:
-        each = settings.feet.add()
+    for number, foot in enumerate(found.feet):  # a library override cannot remove what its library has
+        each = settings.feet[number] if number < len(settings.feet) else settings.feet.add()
+        each.name = foot.limb  # by which a library override knows it again
         for name in ("limb", "foot", "toe", "heel", "thigh", "shank"):
             setattr(each, name, getattr(foot, name, None) or "")
     settings.hips = found.hips or ""
     return found
+
+
+def forgotten(obj):
+    """Sentences about what a library override will not keep."""
+    own = obj.override_library
+    if own is None or own.reference is None or bpy.app.version < (5, 0) or own.reference.is_property_set("desire_path"):
+        return ()
+    return (f"'{obj.name}' is a library override: Blender forgets its feet and ground when this file is read again, "
+            "until Find Feet was pressed once in the file it is linked from.",)
 
 
 class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
@@ -113,7 +123,7 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
     def work(self, context):
         obj = context.object
         found = detect(context.scene, obj)
-        for each in found.warnings:
+        for each in found.warnings + forgotten(obj):
             self.report({"WARNING"}, each)
         feet = "; ".join(
             f"{foot.limb}: " + ", ".join(name for name in (foot.foot, foot.toe, foot.heel) if name)
@@ -140,7 +150,7 @@ class OBJECT_OT_desire_path_foot_add(bpy.types.Operator):
         bone = obj.data.bones.active
         taken = {each.foot for each in feet}
         each = feet.add()
-        each.limb = f"foot {len(feet)}"
+        each.name = each.limb = f"foot {len(feet)}"
         if bone is not None and bone.name not in taken:
             each.foot = bone.name
         return {"FINISHED"}
@@ -186,7 +196,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         found = detect(scene, obj, keep=not settings.is_walker)
         settings.is_walker = True
         settings.ground = ground
-        for each in found.warnings:
+        for each in found.warnings + forgotten(obj):
             self.report({"WARNING"}, each)
         self.follow(scene, ground)
         feet = ", ".join(foot.foot for foot in found.feet)

@@ -49,6 +49,15 @@ def _foot_by_hand(self, _context):
     self.thigh = self.shank = ""  # the leg above another foot is another leg
 
 
+def overridable(group):
+    """Let a library override of an object change what it remembers, and keep it."""
+    for each in group.__annotations__.values():
+        inserts = {"USE_INSERTION"} if each.function is CollectionProperty else set()
+        each.keywords["override"] = {"LIBRARY_OVERRIDABLE"} | inserts
+    return group
+
+
+@overridable
 class DesirePathPaint(bpy.types.PropertyGroup):
     """A soil painted by a vertex group."""
 
@@ -67,6 +76,7 @@ def _replant(self, context):
     op_plants.changed(self.id_data)
 
 
+@overridable
 class DesirePathPlants(bpy.types.PropertyGroup):
     """Plants of one kind that grow on a ground."""
 
@@ -93,6 +103,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
                            "these plants; empty = they are not shown")
 
 
+@overridable
 class DesirePathFoot(bpy.types.PropertyGroup):
     """The bones of one foot."""
 
@@ -107,6 +118,7 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
 
 
+@overridable
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
     is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
@@ -223,7 +235,8 @@ CLASSES = (DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings
 def register():
     for each in CLASSES:
         bpy.utils.register_class(each)
-    bpy.types.Object.desire_path = PointerProperty(name="Desire Path", type=DesirePathSettings)
+    bpy.types.Object.desire_path = PointerProperty(name="Desire Path", type=DesirePathSettings,
+                                                 override={"LIBRARY_OVERRIDABLE"})
 
 
 def unregister():
