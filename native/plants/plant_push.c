@@ -10,172 +10,11 @@
 // ground is asked for in the last sub-step; until then the one of the step before holds.
 #include "base/wide.h"
 
-#include <string.h>
-
-#include "plants/plant_inside.h"
+#include "plants/plant_clear.h"
 
 #define ROW_PASSES 4
 #define SWEPT_MOST 16    // soles; where more are near, every particle is looked at
-#define CERTAIN 1e-6     // this far out of a sole's swept box it is not met [m]
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
-
-// distances to the nearest cell without sole, by the two-pass chamfer metric; a border of none
-void plant_side_field(const DpPlantCollider* c, float* out)
-{
-    const float     one = (float)c->cell, two = (float)(c->cell * 1.4142135623730951);
-    const ptrdiff_t row = c->nx + 2;
-    memset(out, 0, PLANT_SIDE_CELLS(c) * sizeof *out);
-    for (int pass = 0; pass < 2; ++pass) {
-        const ptrdiff_t step = pass ? 1 : -1;  // towards the neighbours that were seen before
-        for (int jj = 0; jj < c->ny; ++jj) {
-            const int    j = pass ? c->ny - 1 - jj : jj;
-            const float* bottom = c->bottom + (size_t)j * (size_t)c->row;
-            float*       here = out + (j + 1) * row + (pass ? c->nx : 1);
-            for (int ii = 0; ii < c->nx; ++ii, here -= step) {
-                if (!(bottom[pass ? c->nx - 1 - ii : ii] < INFINITY)) continue;  // 0 it is
-                const float* beyond = here + step * row;
-                float        far = pass ? *here : INFINITY;
-                far = beyond[0] + one < far ? beyond[0] + one : far;
-                far = beyond[-1] + two < far ? beyond[-1] + two : far;
-                far = beyond[1] + two < far ? beyond[1] + two : far;
-                *here = here[step] + one < far ? here[step] + one : far;
-            }
-        }
-    }
-}
-
-typedef struct Probe
-{
-    const PlantPush*     push;
-    int                  count;
-    const DpPlantGround* ground;
-    const PlantBlock*    block;
-    int                  lane;
-    double               radius, left;
-    bool                 only_down;  // no leaving by the side
-} Probe;
-
-// the ground below a point
-static double ground_below(const Probe* probe, double x, double y)
-{
-    return plant_floor_at(probe->block, probe->ground, probe->lane, x, y);
-}
-
-// cell of a sole over (x, y), -1 where there is none
-static ptrdiff_t cell_under(const DpPlantCollider* c, double left, double x, double y)
-{
-    const double u = (x - c->x0 + c->velocity.x * left) / c->cell + 0.5;
-    const double v = (y - c->y0 + c->velocity.y * left) / c->cell + 0.5;
-    if (!(u >= 0.0 && v >= 0.0 && u < c->nx && v < c->ny)) return -1;
-    const ptrdiff_t at = (ptrdiff_t)(int)v * c->row + (int)u;
-    return isfinite(c->bottom[at]) ? at : -1;
-}
-
-// is a point surely outside of what a sole goes through in this step? Cheaper than to find its cell
-static bool is_clear(const PlantPush* push, const DpVec3* p)
-{
-    return p->x < push->x0 - CERTAIN || p->x > push->x1 + CERTAIN || p->y < push->y0 - CERTAIN ||
-           p->y > push->y1 + CERTAIN || p->z > push->z1 + CERTAIN;
-}
-
-// underside of the lowest sole whose column holds (x, y, z): +inf if none
-static double sole_over(const Probe* probe, const DpVec3* p, const PlantPush** which)
-{
-    double lowest = INFINITY;
-    for (int k = 0; k < probe->count; ++k) {
-        const PlantPush*       push = &probe->push[k];
-        const DpPlantCollider* c = push->collider;
-        if (!c->bottom || is_clear(push, p)) continue;
-        const ptrdiff_t at = cell_under(c, probe->left, p->x, p->y);
-        if (at < 0) continue;
-        const double bottom = (double)c->bottom[at] - c->velocity.z * probe->left;
-        if (p->z >= bottom + c->thickness || bottom >= lowest) continue;
-        lowest = bottom;
-        if (which) *which = push;
-    }
-    return lowest;
-}
-
-// distance to the side at a cell, 0 off the sole
-static double side_at(const PlantPush* push, int i, int j)
-{
-    const DpPlantCollider* c = push->collider;
-    const bool             inside = i >= 0 && j >= 0 && i < c->nx && j < c->ny;
-    return inside ? (double)push->out[(ptrdiff_t)(j + 1) * (c->nx + 2) + i + 1] : 0.0;
-}
-
-// out of a sole by its side, if that is shorter than `down`
-static bool leave_by_side(const Probe* probe, const PlantPush* push, DpVec3* p, double down)
-{
-    const DpPlantCollider* c = push->collider;
-    const int              i = (int)((p->x - c->x0 + c->velocity.x * probe->left) / c->cell + 0.5);
-    const int              j = (int)((p->y - c->y0 + c->velocity.y * probe->left) / c->cell + 0.5);
-    const double           way = side_at(push, i, j) + probe->radius;
-    if (!(way < down)) return false;
-    const double gx = side_at(push, i - 1, j) - side_at(push, i + 1, j);
-    const double gy = side_at(push, i, j - 1) - side_at(push, i, j + 1);
-    const double size = sqrt(gx * gx + gy * gy);
-    if (!(size > 0.0)) return false;
-    const DpVec3 aside = {p->x + way * gx / size, p->y + way * gy / size, p->z};
-    if (isfinite(sole_over(probe, &aside, NULL))) return false;
-    *p = aside;
-    return true;
-}
-
-static bool leave_capsule(const DpPlantCollider* c, double left, double radius, DpVec3* p)
-{
-    const DpVec3 back = dp_scale(c->velocity, -left);
-    const DpVec3 from = dp_add(c->from, back), axis = dp_sub(c->to, c->from);
-    const double length2 = dp_dot(axis, axis);
-    const double t =
-        length2 > 0.0 ? dp_clamp(dp_dot(dp_sub(*p, from), axis) / length2, 0.0, 1.0) : 0;
-    const DpVec3 away = dp_sub(*p, dp_add(from, dp_scale(axis, t)));
-    const double far = dp_length(away), most = c->radius + radius;
-    if (far >= most) return false;
-    DpVec3 out = dp_unit(away);
-    if (!(far > 1e-9)) out = dp_unit(dp_vec3(c->velocity.x, c->velocity.y, 1e-6));
-    *p = dp_add(*p, dp_scale(out, most - far));
-    return true;
-}
-
-// bring a particle out of everything; returns how far it was pushed, and by what
-static double clear(const Probe* probe, DpVec3* p, const DpPlantCollider** by)
-{
-    const DpVec3 was = *p;
-    double       pushed = 0.0;
-    for (int k = 0; k < probe->count; ++k) {
-        const DpPlantCollider* c = probe->push[k].collider;
-        if (c->bottom || !leave_capsule(c, probe->left, probe->radius, p)) continue;
-        pushed = dp_length(dp_sub(*p, was));
-        *by = c;
-    }
-    const double high = (double)probe->block->ceiling[probe->lane];
-    double       ground = -INFINITY;  // not asked for yet
-    for (int pass = 0; pass < 3; ++pass) {
-        const PlantPush* push = NULL;
-        const double     bottom = sole_over(probe, p, &push);
-        if (!push && p->z > high) return pushed;  // in the open, over all ground around
-        if (!(ground > -INFINITY)) ground = ground_below(probe, p->x, p->y);
-        if (!push) break;
-        const double floor_here = fmin(ground, bottom);
-        const double room = dp_clamp(0.5 * (bottom - floor_here), 0.0, probe->radius);
-        const double most = bottom - room;
-        if (p->z <= most) {
-            ground = floor_here;
-            break;
-        }
-        *by = push->collider;
-        pushed = fmax(pushed, p->z - most);
-        if (!probe->only_down && leave_by_side(probe, push, p, p->z - most)) {
-            ground = ground_below(probe, p->x, p->y);
-            continue;
-        }
-        p->z = most;
-        ground = floor_here;
-    }
-    if (p->z < ground) p->z = ground;
-    return pushed;
-}
 
 static DpVec3 world(const PlantBlock* block, double x, double y, double z)
 {
@@ -206,7 +45,7 @@ static void rub(const DpPlantCollider* c, DpVec3* p, DpVec3 before, double pushe
 }
 
 // a place no farther than `most` from the particle below, clear of everything
-static DpVec3 settle(const Probe* probe, DpVec3 p, DpVec3 below, double most)
+static DpVec3 settle(const PlantProbe* probe, DpVec3 p, DpVec3 below, double most)
 {
     const DpPlantCollider* by = NULL;
     for (int pass = 0; pass < 4; ++pass) {
@@ -214,30 +53,31 @@ static DpVec3 settle(const Probe* probe, DpVec3 p, DpVec3 below, double most)
         const double length = dp_length(arm);
         if (length > most) p = dp_add(below, dp_scale(arm, most / length));
         const DpVec3 was = p;
-        clear(probe, &p, &by);
+        plant_clear(probe, &p, &by);
         if (dp_length(dp_sub(p, was)) <= 0.0) return p;
         if (dp_length(dp_sub(p, below)) <= most * (double)(DP_STRETCH_MOST / LAST_WORD)) return p;
     }
     // halfway, and again: beside the particle below there is room
     for (double share = 0.5; share > 0.01; share *= 0.5) {
         DpVec3 q = dp_add(below, dp_scale(dp_sub(p, below), share));
-        clear(probe, &q, &by);
+        plant_clear(probe, &q, &by);
         if (dp_length(dp_sub(q, below)) <= most) return q;
     }
     return below;
 }
 
 // one particle out of everything, taken along, near the one below
-static void push_one(const Probe* probe, int k, DpVec3 before, DpVec3 below, double most, double h)
+static void push_one(const PlantProbe* probe, int k, DpVec3 before, DpVec3 below, double most,
+                     double h)
 {
     const DpPlantCollider* by = NULL;
     DpVec3                 p = get(probe->block, k);
-    const double           pushed = clear(probe, &p, &by);
+    const double           pushed = plant_clear(probe, &p, &by);
     if (by) {
-        Probe down = *probe;
+        PlantProbe down = *probe;
         down.only_down = true;
         rub(by, &p, before, pushed, h);
-        clear(&down, &p, &by);  // where it was taken to, the sole may be lower
+        plant_clear(&down, &p, &by);  // where it was taken to, the sole may be lower
     }
     const DpVec3 arm = dp_sub(p, below);
     if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
@@ -246,7 +86,7 @@ static void push_one(const Probe* probe, int k, DpVec3 before, DpVec3 below, dou
 
 // a particle goes with its neighbour in the row when it would be torn from it: the more it leans
 // like that one, the nearer they are
-static bool keep_up(const Probe* probe, int own, int other, double apart, double most)
+static bool keep_up(const PlantProbe* probe, int own, int other, double apart, double most)
 {
     const PlantBlock* block = probe->block;
     const DpVec3      p = get(block, own), to = get(block, other), gap = dp_sub(p, to);
@@ -263,7 +103,7 @@ static bool keep_up(const Probe* probe, int own, int other, double apart, double
             low = t;
     }
     const DpVec3 q = dp_add(dp_scale(p, 1.0 - high), dp_scale(like, high));
-    Probe        down = *probe;
+    PlantProbe   down = *probe;
     down.only_down = true;
     put(block, own, settle(&down, q, below, most));
     return dp_length(dp_sub(get(block, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
@@ -283,7 +123,7 @@ static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a
 }
 
 // a row of a sheet: from the stem that lies lowest to both sides; true if it is still torn
-static bool keep_row(const PlantStand* stand, const Probe* probe, int first, double most)
+static bool keep_row(const PlantStand* stand, const PlantProbe* probe, int first, double most)
 {
     const int    rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
     const float* z = probe->block->state->at[2];
@@ -307,7 +147,7 @@ static bool keep_row(const PlantStand* stand, const Probe* probe, int first, dou
 }
 
 // are two neighbours of a row too far apart?
-static bool row_is_torn(const PlantStand* stand, const Probe* probe, int first)
+static bool row_is_torn(const PlantStand* stand, const PlantProbe* probe, int first)
 {
     const int rows = stand->shape.rows, l = probe->lane;
     for (int c = 0; c + 1 < stand->shape.stems_a_sheet; ++c) {
@@ -323,7 +163,7 @@ static bool row_is_torn(const PlantStand* stand, const Probe* probe, int first)
 }
 
 // nowhere to go together: the row stays close to the row below, which holds together and is clear
-static void shrink_row(const PlantStand* stand, const Probe* probe, int first)
+static void shrink_row(const PlantStand* stand, const PlantProbe* probe, int first)
 {
     const int              rows = stand->shape.rows, l = probe->lane;
     const DpPlantCollider* by = NULL;
@@ -334,7 +174,7 @@ static void shrink_row(const PlantStand* stand, const Probe* probe, int first)
             const DpVec3 below = get(probe->block, k - DP_LANES);
             const DpVec3 arm = dp_sub(get(probe->block, k), below);
             DpVec3       p = dp_add(below, dp_scale(arm, share));
-            if (share > 0.0) clear(probe, &p, &by);
+            if (share > 0.0) plant_clear(probe, &p, &by);
             put(probe->block, k, p);
         }
         if (!(share > 0.0)) return;
@@ -419,7 +259,7 @@ static void look_at_row(const PlantStand* stand, const PlantBlock* block, int fi
 }
 
 // one row of one sheet in one lane: out of everything, near the row below and one another
-static void push_row(const PlantStand* stand, PlantBlock* block, const Probe* probe, int first,
+static void push_row(const PlantStand* stand, PlantBlock* block, const PlantProbe* probe, int first,
                      int32_t due, const float* before, double h)
 {
     const DpPlantShape shape = stand->shape;
@@ -449,6 +289,7 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
     int32_t            due[DP_LANES];
     const bool         few = count <= SWEPT_MOST;
     const int          ways = few ? sweep_block(stand, block, push, count, swept) : 0;
+    if (few && ways == 0 && !last) return;  // nothing to meet until the ground is asked for
     for (int l = 0; l < DP_LANES; ++l) {
         low[l] = !few ? INFINITY : -INFINITY;
         if (few && last) low[l] = (float)((double)block->ceiling[l] - block->origin[2]) + 1e-5f;
@@ -459,8 +300,8 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
             look_at_row(stand, block, first, swept, ways, low, due);
             for (int l = 0; l < block->count; ++l) {
                 if (!due[l] || !block->touched_lane[l]) continue;
-                const Probe probe = {push, count, ground, block, l, (double)stand->kind.radius,
-                                     left, false};
+                const PlantProbe probe = {push, count, ground, block, l, (double)stand->kind.radius,
+                                          left, false};
                 push_row(stand, block, &probe, first, due[l], before, h);
             }
         }
@@ -475,13 +316,13 @@ void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPus
         plant_ask_ceiling(stand, block, ground, l);
         block->told_lane[l] = known;
         if (!known && !block->touched_lane[l]) continue;  // it stands as it stood
-        const Probe probe = {push, count, ground, block, l, 0.0, 0.0, false};
+        const PlantProbe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int root = stem * shape.rows;
             DpVec3    foot = plant_rest_at(stand, block, root + 1, l);
             foot = world(block, foot.x, foot.y, foot.z);
-            foot.z = ground_below(&probe, foot.x, foot.y);
-            if (block->touched_lane[l]) foot.z = fmin(foot.z, sole_over(&probe, &foot, NULL));
+            foot.z = plant_ground_below(&probe, foot.x, foot.y);
+            if (block->touched_lane[l]) foot.z = fmin(foot.z, plant_sole_over(&probe, &foot, NULL));
             put(block, (root + 1) * DP_LANES + l, foot);
             foot.z -= (double)stand->gap;
             put(block, root * DP_LANES + l, foot);
