@@ -322,9 +322,12 @@ def test_walkers_with_and_without_paths_go_in_turn(folder):
     bpy.ops.object.desire_path_walker_add()
     other.desire_path.path = curve(PLACES)
     other.desire_path.passes = 2
+    walker.desire_path.passes = 7  # along no path
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert bake.read_index(str(folder / "bake")).frames == 3
+    told = [each for each in json.loads(ground.desire_path.summary)["warnings"] if "no path" in each]
+    assert len(told) == 1 and f"'{walker.name}' has 7 passes" in told[0]
     assert op_bake.folder(ground) == str(folder / "bake") and not plants.stale(ground)
 
 

@@ -88,7 +88,7 @@ class Job:
             yield
             self.surface = ground.read(scene, obj, cell, first, last, box=ground.under(gait))
             gait = ground.walked(scene, there, gait, self.surface, cell, first, last)
-        self.warnings += self.surface.warnings
+        self.warnings += [*self.surface.warnings, *way.warnings(there)]
         self.recorded = time.perf_counter() - self.begun
         yield
         self.warnings += op_plants.refresh(scene, obj)

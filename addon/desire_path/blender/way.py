@@ -81,6 +81,12 @@ def goes(walkers):
     return any(each.desire_path.path is not None for each in walkers)
 
 
+def warnings(walkers):
+    """Sentences about walkers whose passes go nowhere."""
+    return [f"'{each.name}' has {each.desire_path.passes} passes and no path to go along: it walks once as keyed; set "
+            "its Path." for each in walkers if each.desire_path.path is None and each.desire_path.passes > 1]
+
+
 def carried(scene, obj, walkers, cell, first, last):
     """Recording of walkers along their paths, and the Surface they walk on.
 
