@@ -200,7 +200,7 @@ def stepping(kind, seconds=2.0, *, threads=1, newtons=735.0, lay=True):
 
 
 WINDOW = (-128, -128, 256, 256)
-WHOLE = {name: replace(KINDS[name], strength=100.0, recover_rate=100.0 * KINDS[name].recover_rate
+WHOLE = {name: replace(KINDS[name], strength=100.0, spread=0.0, recover_rate=100.0 * KINDS[name].recover_rate
                        / KINDS[name].strength, break_angle=10.0) for name in ("carex", "lawn", "meadow")}
 
 

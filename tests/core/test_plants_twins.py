@@ -180,7 +180,7 @@ def test_the_door_checks_what_comes_in():
     numbers = stand.kind.numbers()
     with pytest.raises(ValueError, match="kind"):
         _native.plants_shape(0 * numbers)
-    with pytest.raises(ValueError, match="kind: expected 21"):
+    with pytest.raises(ValueError, match="kind: expected 22"):
         _native.plants_shape(numbers[1:])
     with pytest.raises(ValueError, match="strength"):
         stand.strength *= 2
