@@ -4,21 +4,40 @@
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 
+// no particle of a sleeper stays below the surface
+static void lift_out(const PlantStand* stand, const PlantBlock* block, const DpPlantGround* ground,
+                     int l)
+{
+    for (int p = 0; p < stand->shape.particles; ++p) {
+        const int    k = p * DP_LANES + l;
+        const double own = block->origin[2] + (double)block->state->at[2][k];
+        if (p % stand->shape.rows < DP_PLANT_HELD || own > (double)block->ceiling[l]) continue;
+        const double height =
+            plant_ground_at(ground, block->origin[0] + (double)block->state->at[0][k],
+                            block->origin[1] + (double)block->state->at[1][k]);
+        if (own < height) block->state->at[2][k] = (float)(height - block->origin[2]);
+    }
+}
+
 // plants within one piece of the ground
 static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantGround* piece)
 {
     const double x0 = piece->x0 - piece->cell, x1 = piece->x0 + piece->nx * piece->cell;
     const double y0 = piece->y0 - piece->cell, y1 = piece->y0 + piece->ny * piece->cell;
     for (int s = 0; s < plants->stands; ++s) {
-        PlantStand* stand = &plants->stand[s];
+        PlantStand*  stand = &plants->stand[s];
+        const double lies = piece->rose ? (double)stand->extent : 0.0;  // how far from its root
         for (int b = 0; b < stand->blocks; ++b) {
             const float* box = stand->box + 4 * b;
-            if ((double)box[0] > x1 || (double)box[2] < x0 || (double)box[1] > y1 ||
-                (double)box[3] < y0)
+            if ((double)box[0] > x1 + lies || (double)box[2] < x0 - lies ||
+                (double)box[1] > y1 + lies || (double)box[3] < y0 - lies)
                 continue;
             PlantBlock* block = &stand->block[b];
-            if (block->awake) continue;  // the step sees to it
             for (int l = 0; l < DP_LANES; ++l) {
+                if (block->awake) {  // the step sees to its roots
+                    if (piece->rose) lift_out(stand, block, ground, l);
+                    continue;
+                }
                 PlantBlock was = *block;
                 plant_ground_lane(stand, block, ground, l);
                 if (!block->state) continue;
@@ -26,6 +45,7 @@ static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantG
                     block->state->at[2][p * DP_LANES + l] +=
                         (float)(plant_rest_at(stand, block, p, l).z -
                                 plant_rest_at(stand, &was, p, l).z);
+                if (piece->rose) lift_out(stand, block, ground, l);
             }
         }
     }

@@ -97,6 +97,8 @@ typedef struct DpPlantGround
 
     double (*at)(const void* context, double x, double y);  // in place of nx..height [m]
     const void* context;
+
+    bool rose;  // soil has come to rest, and may have risen over what lies there
 } DpPlantGround;
 
 // What pushes plants: the underside of a part, or a capsule when bottom is NULL. Where it stands is
@@ -138,7 +140,8 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
                         DpPlantsTold* told);
 
-// Roots follow the ground: every plant within its grids is set on its surface, asleep or not.
+// Roots follow the ground: every plant asleep within its grids is set on its surface, those awake in
+// their step. Where `rose` says so, no particle stays below it.
 DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground);
 
 // Time passes without walkers [s]: strength comes back linearly, broken stems logistically.

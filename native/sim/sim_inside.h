@@ -166,6 +166,7 @@ void     dp_shadow_ahead(DpSim* sim, int part, int sample, DpImprintScratch* scr
 // sim_plants.c: room for a recording's soles; what plants do in a step, after the soil
 DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs);
 void     dp_meadow_drop(DpSim* sim);
+DpStatus dp_meadow_settled(DpSim* sim, Limb* limb);
 DpStatus dp_meadow_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
 double   dp_meadow_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
 

@@ -231,7 +231,8 @@ static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
                                    .cell = sim->cell,
                                    .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
                                    .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell,
-                                   .height = m->height[l]};
+                                   .height = m->height[l],
+                                   .rose = limb->lifts};
     ++m->grounds;
     return DP_OK;
 }
@@ -338,6 +339,21 @@ static void move(void* context, int index, int worker)
     else
         dp_shadow_ahead(sim, index - 2 - moving->ahead, moving->sample + 1,
                         sim->bench[worker].imprint_scratch);
+}
+
+// soil has come to rest where limbs had trodden, and nothing moves any more
+DpStatus dp_meadow_settled(DpSim* sim, Limb* limb)
+{
+    Meadow* m = &sim->meadow;
+    if (!m->plants) return DP_OK;
+    const DpPlantGround elsewhere = {.cell = sim->cell, .at = surface, .context = sim->terrain};
+    m->grounds = 0;
+    limb->patch = limb->trodden, limb->active = limb->lifts = true;
+    const DpStatus status = take_ground(sim, limb, (Cells){0, 0, 0, 0});
+    limb->active = limb->lifts = false;
+    if (status != DP_OK || m->grounds == 0) return status;
+    m->ground[0].next = &elsewhere;
+    return dp_plants_follow(m->plants, m->ground);
 }
 
 DpStatus dp_meadow_step(DpSim* sim, int sample, bool more)

@@ -194,7 +194,8 @@ DpStatus dp_sim_settle(DpSim* sim)
         Limb* limb = &sim->limb[l];
         if (!limb->stands) continue;
         limb->stands = false;
-        const DpStatus status = dp_limb_settle(sim, limb, &sim->bench[0]);
+        DpStatus status = dp_limb_settle(sim, limb, &sim->bench[0]);
+        if (status == DP_OK) status = dp_meadow_settled(sim, limb);
         if (status != DP_OK) return status;
     }
     return DP_OK;

@@ -133,8 +133,9 @@ TEST(roots_follow_the_ground)
     const DpPlantKind kind = dp_plant_kind_default();
     DpPlants*         plants = lawn(&kind, 6, 6, 0.1, 3);
     float             height[30 * 30], at[84];
-    DpPlantGround     ground = {30, 30, 30, 0.03, -0.2, -0.2, height, NULL, NULL, NULL};
-    DpPlantsTold      told;
+    DpPlantGround     ground = {
+            .nx = 30, .ny = 30, .row = 30, .cell = 0.03, .x0 = -0.2, .y0 = -0.2, .height = height};
+    DpPlantsTold told;
     for (int j = 0; j < 30; ++j)
         for (int i = 0; i < 30; ++i) height[j * 30 + i] = (float)(0.3 * (-0.2 + 0.03 * i) - 0.1);
     CHECK(dp_plants_follow(plants, &ground) == DP_OK);

@@ -180,6 +180,38 @@ TEST(cost_follows_the_feet)
 }
 
 // grass that was trodden into prints with rims lies still there
+// once all has come to rest nothing that lies there is in the ground, though its rims slid
+TEST(rims_come_to_rest_under_what_lies_there)
+{
+    DpPlantKind kind = tough();
+    kind.height = 0.3f, kind.spacing = 0.04f, kind.sway = 0.5f, kind.damping = 30.0f;
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    Stride             s = stride_make(1, 2, 80.0, 60.0);
+    World              world;
+    CHECK(world_make(&world, &kind, -0.5, -0.5, 1.6, 0.05, 0.01, 2) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_sim_run(world.sim, s.gait.times / 2) == DP_OK);  // with a foot down
+    CHECK(dp_sim_settle(world.sim) == DP_OK);
+    float* at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+    double lowest = 1.0;
+    int    lying = 0;
+    for (int k = 0; k < world.grown; ++k) {
+        dp_plants_read(world.plants, world.stand, k, at, NULL, NULL);
+        for (int p = 0; p < shape.particles; ++p) {
+            if (p % shape.rows < 2) continue;
+            const float* x = at + 3 * p;
+            const double over =
+                (double)x[2] - dp_terrain_surface_at(world.terrain, (double)x[0], (double)x[1]);
+            lowest = fmin(lowest, over), lying += over < 0.01;
+        }
+    }
+    printf("  lowest %.3f mm over the surface, %d lie\n", 1e3 * lowest, lying);
+    CHECK(lowest > -2e-5 && lying > 50);
+    dp_free(at);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 TEST(trodden_grass_comes_to_rest)
 {
     DpPlantKind kind = dp_plant_kind_default();
@@ -288,6 +320,7 @@ int main(void)
     RUN(feet_that_jump_touch_nothing_between);
     RUN(odd_plants_and_long_steps_stay_numbers);
     RUN(cost_follows_the_feet);
+    RUN(rims_come_to_rest_under_what_lies_there);
     RUN(trodden_grass_comes_to_rest);
     RUN(rest_grows_what_broke);
     RUN(roots_need_ground);
