@@ -123,7 +123,7 @@ PAPER = {
 }
 
 # Wear of carex is what `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex` finds from the cover of
-# Cole's lanes, to three digits; tests/core/test_lane.py holds it to lanes of other seeds. Stems break by wear alone
+# Cole's lanes on cells of 2 cm, to three digits; tests/core/test_lane.py holds it to lanes of other seeds. Stems break by wear alone
 # and have their reserve again after two weeks. Lycopodium's is carex's by what tells the two apart in TRAIL Table 1:
 # 0.8 of the reserve, wear from 5 degrees on.
 RESERVE, SPREAD = 3.94, 2.98
