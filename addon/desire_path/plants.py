@@ -123,9 +123,10 @@ PAPER = {
 }
 
 # Wear of carex is what `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex` finds from the cover of
-# Cole's lanes on cells of 2 cm, to three digits, and its growth to two; tests/core/test_lane.py holds it to lanes of
-# other seeds. Stems break by wear alone and have their reserve again after two weeks. Lycopodium's is carex's by what
-# tells the two apart in TRAIL Table 1: 0.8 of the reserve, wear from 5 degrees on.
+# Cole's lanes on cells of 2 cm, to three digits; how it grows again is fitted in the same way to the mean cover of
+# eight lanes with that wear. tests/core/test_lane.py holds it to a lane of another seed. Stems break by
+# wear alone and have their reserve again after two weeks. Lycopodium's is carex's by what tells the two apart in
+# TRAIL Table 1: 0.8 of the reserve, wear from 5 degrees on.
 RESERVE, SPREAD = 3.94, 2.98
 REGROWTH = {"regrow_rate": 0.77 / YEAR, "seed_share": 0.18}
 TWO_WEEKS = 14 * 24.0  # [h]
