@@ -1,7 +1,9 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), design 4.2 and 4.3."""
 
 import csv
+import os
 import re
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -241,14 +243,23 @@ def _middle(clearance):
     return np.nanmedian(clearance, axis=0)
 
 
+def _side_by_side(pieces, find, ground):
+    """(piece, what find() tells of it) in their order; a ground that has to be asked is asked by one at a time."""
+    pieces = list(pieces)
+    if callable(ground):
+        yield from ((piece, find(*piece[3:])) for piece in pieces)
+        return
+    with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
+        yield from zip(pieces, workers.map(lambda piece: find(*piece[3:]), pieces))
+
+
 def _loads_by_piece(gait, ground, find):
     """FootForce of the whole recording; find(piece, ground) gives that of a piece."""
     shape = (len(gait.part_limb), len(gait.time))
     touching, force, point = np.zeros(shape, "u1"), np.zeros(shape + (3,)), np.full(shape + (3,), np.nan)
     clearance, told = [], []
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
-    for samples, parts, points, piece, heights in _pieces(gait, ground):
-        found = find(piece, heights)
+    for (samples, parts, points, piece, _), found in _side_by_side(_pieces(gait, ground), find, ground):
         touching[parts, samples] = found.touching
         force[parts, samples], point[parts, samples] = found.force, found.point
         clearance.append(_known(gait, points, touching[gait.point_part[points], samples], found.clearance))
