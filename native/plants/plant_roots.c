@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 
-// no particle of a sleeper stays below the surface
+// no particle of a plant stays below the surface
 static void lift_out(const PlantStand* stand, const PlantBlock* block, const DpPlantGround* ground,
                      int l)
 {
