@@ -30,7 +30,8 @@ import numpy as np
 
 from . import _native, maps, plant_mesh, walker
 from .errors import DesirePathError
-from .folder import FORMAT, FRAMES, MAPS, OURS, delete, frame_path, frames_there, publish, write_json
+from .folder import FORMAT, FRAMES, MAPS, OURS, OWNER, check_owner, delete, frame_path, frames_there
+from .folder import publish, write_json
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .passes import turns_of
 from .plants import as_plantings
@@ -65,12 +66,13 @@ class Bake:
     plant_mesh: write the plants themselves as a mesh and its point cache, for close-ups.
     resume: go on where the same bake was stopped. map_seconds: write maps after every second, or pass.
     film: "frames", or "passes": frame n is the ground after pass n of Gait.along; None = "passes" if there are several.
+    owner: id of the ground the folder belongs to; run() refuses a folder with the bake of another. Empty: anybody's.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False, film=None):
+                 plants=(), plant_mesh=False, film=None, owner=""):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -88,6 +90,7 @@ class Bake:
         if self.plant_mesh and not self.plants:
             raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
         self.folder = os.path.abspath(os.fspath(folder))
+        self.owner = str(owner)
         self.frame_rate = float(gait.frame_rate)
         frames = (len(self.passes) - 1 if self.film == "passes"
                   else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
@@ -218,6 +221,7 @@ class Bake:
     def _run(self):
         seconds = {"total": time.perf_counter()}
         check_cell(self.cell_size)
+        check_owner(self.folder, self.owner)
         self._check_soles()
         sim = self._simulation()
         tiles = self._rectangle(sim)
@@ -297,7 +301,7 @@ class Bake:
             "cell": self.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
             "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
             "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
-            **({"lean": True} if self.plants else {}),
+            **({"lean": True} if self.plants else {}), **({OWNER: self.owner} if self.owner else {}),
         }
 
     def _prepare(self, fresh, index):
@@ -319,8 +323,8 @@ class Bake:
                     old = json.load(file)
             except (OSError, ValueError):
                 continue
-            same = (self.resume and isinstance(old, dict) and old.get("signature") == index["signature"]
-                    and not old.get("complete"))
+            same = (self.resume and isinstance(old, dict) and not old.get("complete")
+                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER)))
             there = frames_there(place, bool(self.plants)) if same else -1
             if there >= 0:
                 done = there

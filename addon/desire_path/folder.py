@@ -18,6 +18,7 @@ from pathlib import Path
 from .errors import DesirePathError
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
+OWNER = "bake_folder_owner"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
 MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
@@ -42,6 +43,7 @@ class FrameIndex:
     frames: int  # files that are there and whole, counted from trail_0001.exr on
     complete: bool
     lean: bool = False  # with lean_0000.exr .., how the grass lies
+    owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
 
     @property
     def missing(self):
@@ -127,14 +129,37 @@ def read_index(folder, just_baked=False):
                 frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
                 int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
                 float(data["frame_rate"]), there, there == count, lean,
+                owner if isinstance(owner := data.get(OWNER, ""), str) else "",
             )
         except (KeyError, TypeError, ValueError):
             raise DesirePathError(f"{path} is damaged: bake again.") from None
     raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
 
 
-def free(folder):
-    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched."""
+def owner_of(folder):
+    """Id of the ground whose bake, whole or not, lies in a folder; empty: nobody's, or there is none."""
+    for name in ("frames", "frames.new"):
+        with contextlib.suppress(OSError, ValueError, RecursionError, AttributeError):
+            with open(os.path.join(folder, name, "index.json"), encoding="utf-8") as file:
+                found = json.load(file).get(OWNER, "")
+            if found and isinstance(found, str):
+                return found
+    return ""
+
+
+def check_owner(folder, owner):
+    """Refuse a folder with the bake of another ground; who says no owner may have any."""
+    other = owner_of(folder)
+    if owner and other and owner != other:
+        raise DesirePathError(f"The folder {folder} holds the bake of another ground ({other}): choose another folder.")
+
+
+def free(folder, owner=""):
+    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched.
+
+    owner: id of the ground that frees; another one's bake is refused
+    """
+    check_owner(folder, owner)
     try:
         for place, patterns in OURS.items():
             delete(os.path.join(folder, place), patterns)

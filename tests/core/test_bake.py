@@ -228,6 +228,39 @@ def test_an_earlier_bake_plays_until_the_new_one_is_whole(tmp_path):
     assert {path.name for path in tmp_path.iterdir() if path.is_dir()} == {"frames", "maps"}
 
 
+def test_a_bake_belongs_to_its_ground(tmp_path):
+    baked(tmp_path, owner="the meadow")
+    assert read_index(tmp_path).owner == json.loads((tmp_path / "frames/index.json").read_text())["bake_folder_owner"] \
+        == "the meadow"
+    before = content(tmp_path)
+    with pytest.raises(DesirePathError, match="another ground.*the meadow.*choose another folder"):
+        baked(tmp_path, owner="the lane", cell_size=0.02)
+    with pytest.raises(DesirePathError, match="another ground"):
+        bakes.free(tmp_path, "the lane")
+    assert content(tmp_path) == before and not (tmp_path / "frames.new").exists()
+    baked(tmp_path, owner="the meadow", cell_size=0.02)
+    assert content(tmp_path) != before
+    bakes.free(tmp_path, "the meadow")
+    assert not tmp_path.exists()
+
+
+@pytest.mark.parametrize("owner", ["the lane", ""])
+def test_a_stopped_bake_of_another_ground_is_not_gone_on_with(tmp_path, owner):
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1, owner="the meadow").run()
+    for _ in range(5):
+        next(run)
+    run.close()
+    again = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1, owner=owner)
+    if owner:
+        with pytest.raises(DesirePathError, match="another ground"):
+            next(again.run())
+        assert read_index(tmp_path).frames == 5
+    else:
+        next(run := again.run())
+        run.close()
+        assert read_index(tmp_path).frames == 1 and read_index(tmp_path).owner == ""
+
+
 def test_free_deletes_what_was_baked_and_nothing_else(tmp_path):
     baked(tmp_path)
     mine = tmp_path / "notes.txt"
