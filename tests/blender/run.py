@@ -81,7 +81,7 @@ def main():
     version = ".".join(map(str, bpy.app.version))
     print(f"Blender {version}: {passed} passed, {failed} failed"
           + (f", {skipped} skipped" if skipped else ""))
-    print(f"{passed} passed, {failed} failed")
+    print(f"{passed} passed, {failed} failed, {skipped} skipped")
     sys.stdout.flush()
     return 1 if failed or not passed else 0
 

@@ -10,18 +10,10 @@ import numpy as np
 from desire_path import bake, maps, sim, walker
 from desire_path.blender import sample
 from desire_path.gait import Gait
-from run import Skip
 from scenes import meshes, people
 from test_playback import shown
 
 CMU = 2.54 / 0.45 / 100.0  # metres in a unit of the mocap clips
-
-
-def data(*names):
-    place = people.data()
-    if place is None:
-        raise Skip("the reference data are not here (DESIRE_PATH_DATA)")
-    return place.joinpath(*names)
 
 
 def ground_under(walker, height, margin=0.6, spacing=0.05, name="Ground"):
@@ -64,7 +56,7 @@ def check(report, ground, folder, contacts, deepest=(0.004, 0.12)):
 
 
 def clip(name, folder, contacts, lift=0.0, **more):
-    person = people.bvh(data("mocap", name + ".bvh"), global_scale=CMU)
+    person = people.bvh(people.SCENES.joinpath("walks", name + ".bvh"), global_scale=CMU)
     ground, gait = ground_under(person, lift)
     first, last = sample.frame_range(bpy.context.scene, person)
     assert gait.frame_start == first and len(gait.time) == last - first + 1
@@ -91,7 +83,7 @@ def test_cmu_uneven(folder):
 
 
 def character(name, action, folder, speed):
-    walker = people.glb(data("characters", name + ".glb"))
+    walker = people.glb(people.SCENES.joinpath("characters", name + ".glb"))
     walker.animation_data_create()
     for track in walker.animation_data.nla_tracks:
         track.mute = True
@@ -132,7 +124,7 @@ def test_character_with_rigify_names(folder):
 
 def test_character_in_place(folder):
     # as imported: it walks on the spot, and into the ground
-    walker = people.glb(data("characters", "human_mixamo_names_inplace.glb"))
+    walker = people.glb(people.SCENES.joinpath("characters", "human_mixamo_names_inplace.glb"))
     ground = meshes.grid(41, 41, 0.05, -1.0, -1.0)
     report = walk_over(walker, ground, folder)
     assert report["contacts"] >= 2 and 0.002 < report["deepest_m"] < 0.1, report
@@ -143,7 +135,7 @@ PLATES = (("gait_bmc_walk1", 77.3, (0.31, 2.42)), ("gait_opensim_walk", 72.6, (0
 
 def test_measured_walks_agree_with_force_plates(folder):
     for name, mass, window in PLATES:
-        place = data(name)
+        place = people.SCENES / "measured" / name
         walker_object = people.bvh(place / "armature.bvh")
         walker_object.desire_path.mass = mass
         path = str(folder / f"{name}.npz")
@@ -187,18 +179,14 @@ def late(on, down, time, inside):
     return out
 
 
-def test_recordings_agree_in_every_blender():
+def test_recordings_agree_in_every_blender(folder):
     # the Blenders of one run meet in the folder DESIRE_PATH_COMPARE
-    walker = people.bvh(data("mocap", "cmu_12_01_walk.bvh"), global_scale=CMU)
+    walker = people.bvh(people.SCENES.joinpath("walks", "cmu_12_01_walk.bvh"), global_scale=CMU)
     first, last = sample.frame_range(bpy.context.scene, walker)
     gait = sample.record(bpy.context.scene, walker, first, last)
-    place = os.environ.get("DESIRE_PATH_COMPARE")
-    if not place:
-        raise Skip("only one Blender runs (DESIRE_PATH_COMPARE)")
-    path = os.path.join(place, "recording.npz")
+    path = os.path.join(os.environ.get("DESIRE_PATH_COMPARE") or folder, "recording.npz")
     if not os.path.exists(path):
         gait.save(path)
-        return
     other = Gait.load(path)
     apart = max(np.abs(other.pose[..., :3] - gait.pose[..., :3]).max(),
                 np.abs(other.com - gait.com).max())
@@ -211,7 +199,7 @@ def test_one_recording_gives_the_same_bits(folder):
     place = os.environ.get("DESIRE_PATH_COMPARE")
     path = os.path.join(place, "recording.npz") if place else str(folder / "walk.npz")
     if not os.path.exists(path):
-        walker = people.bvh(data("mocap", "cmu_12_01_walk.bvh"), global_scale=CMU)
+        walker = people.bvh(people.SCENES.joinpath("walks", "cmu_12_01_walk.bvh"), global_scale=CMU)
         first, last = sample.frame_range(bpy.context.scene, walker)
         sample.record(bpy.context.scene, walker, first, last).save(path)
     gait = Gait.load(path)

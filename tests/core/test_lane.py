@@ -177,7 +177,6 @@ def test_tables_are_read(tmp_path):
 
 
 def test_a_fit_finds_the_kind_a_lane_was_planted_with():
-    pytest.importorskip("scipy")
     kind = replace(KINDS["carex"], strength=0.3, spread=1.2)
     few = (3, 8, 18, 45)  # the last tells how long the strong ones bear
     rows = [(count, cover, 0.0) for count, cover in lane.measure(kind, passes=few, seed=5, **SHORT)]
@@ -191,14 +190,12 @@ def test_a_fit_finds_the_kind_a_lane_was_planted_with():
 
 
 def test_a_count_that_was_taken_twice_counts_by_its_mean():
-    pytest.importorskip("scipy")
     rows = [(3, 95.0, 0.0), (8, 90.0, 0.0), (3, 97.0, 0.0), (8, 80.0, 0.0)]
     found = fit.fit(rows, seeds=(5,), rounds=1, **SHORT)
     assert found.passes == (3, 8) and found.wanted == (96.0, 85.0)
 
 
 def test_a_fit_needs_a_table_it_can_work_with():
-    pytest.importorskip("scipy")
     for rows, words in (([(10, 90.0, 0.0)], "at least two"), ([(10, 0.9, 0.0), (20, 0.8, 0.0)], "per cent")):
         with pytest.raises(DesirePathError, match=words):
             fit.fit(rows)

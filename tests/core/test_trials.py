@@ -118,11 +118,9 @@ def moves(name):
     if name in trials.TRIALS:
         trial = trials.make(name, 240.0)
         return body.gait_from_bones(trial.skeleton, trial.motion, mass=trial.mass, frame_rate=240.0)
-    if not plates.here():
-        pytest.skip("reference data not found: set DESIRE_PATH_DATA")
     if name in plates.TRIALS:
         return plates.trial(name)
-    skeleton, motion, rate = bvh.load(plates.DATA / "mocap" / f"{name}.bvh", scale=0.056444)
+    skeleton, motion, rate = bvh.load(bvh.WALKS / f"{name}.bvh", scale=0.056444)
     return body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=rate)
 
 

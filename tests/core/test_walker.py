@@ -13,7 +13,6 @@ from desire_path.gait import Gait, Sole
 from reference import walker as twin
 from scenes import bvh, gaits, plates
 
-measured = pytest.mark.skipif(not plates.here(), reason="reference data not found: set DESIRE_PATH_DATA")
 SOLE = Sole([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]], [[0, 2, 1]])
 
 
@@ -155,7 +154,6 @@ def errors(name, model="inertia", gait=None, window=None, **more):
     return plates.errors(name, walker.loads(gait, model, **more), gait, window)
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_forces_hold_up_against_plates(name):
     """Oracle 12."""
@@ -170,7 +168,6 @@ def test_forces_hold_up_against_plates(name):
     assert max(papers.rmse) <= 0.20 and min(papers.r) >= 0.90
 
 
-@measured
 def test_the_last_plate_of_bmc_misses_weight():
     """From 2.1 s on its plates add up to a body that falls; the recorded one does not."""
     gait = plates.trial("gait_bmc_walk1")
@@ -181,13 +178,11 @@ def test_the_last_plate_of_bmc_misses_weight():
     assert gained < -0.7 and speed[-1] - speed[0] > -0.25  # [m/s]
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_feet_push_and_brake_as_on_plates(name):
     assert max(errors(name).drive) <= 0.045
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_contact_times_hold_up_against_plates(name):
     found = errors(name)
@@ -197,7 +192,6 @@ def test_contact_times_hold_up_against_plates(name):
     assert max(len(twin.stances(row)) for row in on) <= 3  # no stance is broken
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_centre_of_pressure_holds_up_against_plates(name):
     apart = errors(name).apart
@@ -205,7 +199,6 @@ def test_centre_of_pressure_holds_up_against_plates(name):
     assert max(apart) < 0.03
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_no_constant_carries_the_result(name):
     """Each constant moved by 30 % either way moves the errors by 0.03 at most."""
@@ -218,7 +211,6 @@ def test_no_constant_carries_the_result(name):
                 assert abs(moved - base).max() < 0.03, constant
 
 
-@measured
 @pytest.mark.parametrize("name", TRIALS)
 def test_a_trial_seen_otherwise_weighs_the_same(name):
     """Fewer frames, noise, another floor, mirrored, fewer bones."""
@@ -237,7 +229,6 @@ def test_a_trial_seen_otherwise_weighs_the_same(name):
         assert max(abs(found.late)) <= 0.055 and max(found.apart) <= 0.03, what
 
 
-@measured
 def test_frame_rate_does_not_matter():
     name = TRIALS[0]
     base = errors(name).rmse
@@ -256,10 +247,9 @@ CLIPS = (("cmu_12_01_walk", (3, 5), 0.1), ("cmu_02_03_run", (1, 3), 0.8), ("cmu_
          ("cmu_03_02_uneven", (2, 4), 0.5))
 
 
-@measured
 @pytest.mark.parametrize("name,stances,air", CLIPS)
 def test_clips_without_plates(name, stances, air):
-    skeleton, motion, rate = bvh.load(plates.DATA / "mocap" / f"{name}.bvh", scale=0.056444)
+    skeleton, motion, rate = bvh.load(bvh.WALKS / f"{name}.bvh", scale=0.056444)
     gait = body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=rate)
     loads = walker.loads(gait)
     force, on, _ = plates.by_foot(gait, loads)

@@ -1,7 +1,6 @@
 """people.py - walkers for Blender tests: a small biped built here, and the recordings in the data."""
 import builtins
 import math
-import os
 import pathlib
 
 import bpy
@@ -10,16 +9,7 @@ from mathutils import Matrix
 
 from . import meshes
 
-MOCAP = ("cmu_12_01_walk", "cmu_02_03_run", "cmu_02_04_jump", "cmu_03_02_uneven")
-CHARACTERS = ("human_mixamo_names_inplace", "human_defrig_inplace")
-
-
-def data():
-    """The folder of reference data: DESIRE_PATH_DATA, else ../shared/data; None if it is not here."""
-    root = pathlib.Path(__file__).resolve().parents[2]
-    place = os.environ.get("DESIRE_PATH_DATA") or root.parent / "shared" / "data"
-    place = pathlib.Path(place)
-    return place if place.is_dir() else None
+SCENES = pathlib.Path(__file__).resolve().parent  # walks/, measured/ and characters/, each with its README
 
 
 # name, parent, head, tail [m]; the biped faces -Y as Blender's do

@@ -13,8 +13,7 @@ import numpy as np
 from desire_path import body
 from scenes import bvh
 
-REPO = Path(__file__).resolve().parents[2]
-DATA = Path(os.environ.get("DESIRE_PATH_DATA", REPO.parent / "shared" / "data"))
+DATA = Path(os.environ.get("DESIRE_PATH_DATA") or Path(__file__).parent / "measured")  # of TRIALS, or of others
 FEET = "LR"
 CARRIES = 20.0  # a plate is stepped on above this [N]
 
@@ -26,10 +25,6 @@ class Trial:
 
 
 TRIALS = {"gait_bmc_walk1": Trial(77.3, (0.31, 2.42)), "gait_opensim_walk": Trial(72.6, (0.05, 2.45))}
-
-
-def here():
-    return all((DATA / name).is_dir() for name in TRIALS)
 
 
 def trial(name, every=1, without=()):

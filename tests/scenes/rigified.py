@@ -17,17 +17,13 @@ import tempfile
 import bpy
 from mathutils import Matrix
 
-NONE = 3  # exit code where this Blender has no Rigify
-_files = {}  # kind -> the file of it, made once a run; None without Rigify
+_files = {}  # kind -> the file of it, made once a run
 
 
 def body(kind):
-    """A "human", "quadruped", "bird", "cat", "horse" or "wolf" at rest; None without Rigify."""
+    """A "human", "quadruped", "bird", "cat", "horse" or "wolf" at rest."""
     from . import meshes
-    place = _generated(kind)
-    if place is None:
-        return None
-    with bpy.data.libraries.load(place, link=False) as (_, wanted):
+    with bpy.data.libraries.load(_generated(kind), link=False) as (_, wanted):
         wanted.objects = ["Walker"]
     obj = meshes.link(wanted.objects[0])
     meshes.activate(obj)
@@ -35,11 +31,9 @@ def body(kind):
 
 
 def walker(fk=False):
-    """A person that walks along -Y from frame 1 on, on IK or FK legs; None without Rigify."""
+    """A person that walks along -Y from frame 1 on, on IK or FK legs."""
     from . import people
     obj = body("human")
-    if obj is None:
-        return None
     people.lead(obj, "torso", "foot_ik.{}", roll="foot_heel_ik.{}")
     if fk:
         to_fk(obj, range(1, 49))
@@ -52,10 +46,8 @@ BEASTS = {  # controls of the feet, hind left and right, fore left and right; a 
 
 
 def beast(kind, frames=36, period=24, stands=0.7):
-    """A horse or cat that walks along -Y from frame 1 on, one foot after the other; None without Rigify."""
+    """A horse or cat that walks along -Y from frame 1 on, one foot after the other."""
     obj = body(kind)
-    if obj is None:
-        return None
     scene, (feet, stride) = bpy.context.scene, BEASTS[kind]
     rest = {name: obj.data.bones[name].matrix_local.copy() for name in ("torso",) + feet}
     for name in rest:
@@ -109,17 +101,14 @@ def _generated(kind):
         start = ([blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python"] if blender
                  else [sys.executable])
         done = subprocess.run(start + [__file__, "--", kind, place], capture_output=True, text=True, timeout=300)
-        if done.returncode not in (0, NONE):
+        if done.returncode:
             raise RuntimeError(f"Rigify made no {kind}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-        _files[kind] = None if done.returncode == NONE else place
+        _files[kind] = place
     return _files[kind]
 
 
 def generate(kind, place):
-    import addon_utils  # known once bpy is
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    if not any(each.__name__ == "rigify" for each in addon_utils.modules()):
-        return NONE
     bpy.ops.preferences.addon_enable(module="rigify")
     name = f"basic_{kind}" if kind in ("human", "quadruped") else kind
     getattr(bpy.ops.object, f"armature_{name}_metarig_add")()
