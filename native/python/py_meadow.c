@@ -11,14 +11,15 @@ PyObject* dp_py_open_plants(PyObject* object, PyObject* args)
         PyErr_SetString(PyExc_ValueError, "open_plants: plants grow here already");
         return NULL;
     }
+    if (!dp_py_enter(self)) return NULL;
     DpPlants* plants = dp_plants_create(seed);
-    if (!plants) return PyErr_NoMemory();
-    const DpStatus status = dp_sim_plant(self->sim, plants);
+    DpStatus  status = plants ? dp_sim_plant(self->sim, plants) : DP_NO_MEMORY;
     if (status == DP_OK)
         self->plants = plants;
     else
         dp_plants_destroy(plants);
-    return dp_door_result(status, "planting trodden ground");
+    self->busy = false;
+    return dp_door_result(status, "open_plants after a recording was loaded or ground was trodden");
 }
 
 // Plants are there to be talked about, and nobody else is at them.

@@ -46,7 +46,8 @@ typedef struct DpSimReport
 DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
 void     dp_sim_destroy(DpSim* sim);
 
-// Plants on this ground; borrowed like the terrain, on which nobody has walked yet.
+// Plants on this ground; borrowed like the terrain, on which nobody has walked yet. Once a recording is
+// loaded: DP_BAD_ARGUMENT.
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
 
 // Plant roots at xy (count, 2) [m] as one more stand, at any time; those without ground are left

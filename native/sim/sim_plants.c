@@ -31,7 +31,7 @@ static void measure(Meadow* meadow)
 
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
 {
-    if (!sim || !plants || sim->meadow.plants) return DP_BAD_ARGUMENT;
+    if (!sim || !plants || sim->meadow.plants || sim->limb) return DP_BAD_ARGUMENT;
     DpLean*  lean = NULL;
     DpStatus status = dp_lean_create(&lean, plants, sim->cell, sim->origin_x, sim->origin_y);
     if (status == DP_OK) status = dp_terrain_plant(sim->terrain, cover_of, plants);
