@@ -24,8 +24,9 @@
 #define CHUNKS 40            // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
-#define FLOOR_CELLS 4.0      // least contact area: so many cells
-#define FLOOR_SHARE 0.05     // .. or this share of the sole
+#define MOST_ROUNDS 100
+#define FLOOR_CELLS 4.0   // least contact area: so many cells
+#define FLOOR_SHARE 0.05  // .. or this share of the sole
 #define PRESS_GRID \
     ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
@@ -59,7 +60,8 @@ typedef struct Balance
     double load;                    // N                                        [N]
     double force_grid, slope_grid;  // for soil_on_grid
     double highest;                 // largest gap                              [m]
-    double guess;                   // sink if all columns carried              [m]
+    double springs;                 // of all columns                           [N/m]
+    double hanging;                 // their forces if the sole hung at its highest gap [N]
     double sole;                    // area of the sole over ground             [m^2]
 } Balance;
 
@@ -163,7 +165,7 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
         const double x = spring_length(columns->gap[k] + s, columns->rigid[k]);
         const double push = columns->spring[k] * x;
         const double stiff = (x > columns->rigid[k] ? RIGID_STIFFER : 1.0) * columns->spring[k];
-        force[k] += soil_on_grid(push < load ? push : load, force_grid);
+        force[k] += soil_on_grid(push < load ? push : load, force_grid);  // more only by rounding
         slope[k] += soil_on_grid(x > 0.0 ? stiff : 0.0, slope_grid);
         share[k] += soil_on_grid(x > 0.0 ? columns->share[k] : 0.0, share_grid);
     }
@@ -210,6 +212,24 @@ static void add_up(const Columns* columns, double highest, double slope_grid,
     }
 }
 
+// how far a column's target may lie below h0 before it alone carries the load
+static inline double lone_target(double load, double spring, double rigid)
+{
+    const double x = load / spring;
+    return x > rigid ? rigid + (x - rigid) / RIGID_STIFFER : x;
+}
+
+// the least sink at which some column carries the load alone
+static double lone_sink(const Columns* columns, double load)
+{
+    double least = INFINITY;
+    for (int k = 0; k < columns->count; ++k) {
+        const double target = lone_target(load, columns->spring[k], columns->rigid[k]);
+        least = soil_least(least, target - columns->gap[k]);
+    }
+    return least;
+}
+
 // look at all columns: scales of the sums, and a first guess; false if there are none
 static bool weigh(Balance* balance, Sole* sole, double load)
 {
@@ -232,38 +252,34 @@ static bool weigh(Balance* balance, Sole* sole, double load)
         springs[0] += springs[k];
         hanging[0] += hanging[k];
     }
-    balance->load = load;
-    balance->force_grid = soil_grid(load);
     balance->slope_grid = slope_grid;
     balance->highest = highest[0];
-    balance->guess = (load + hanging[0]) / springs[0] - highest[0];
+    balance->springs = springs[0];
+    balance->hanging = hanging[0];
     balance->sole = share[0] * sole->patch->cell * sole->patch->cell;
+    balance->load = load;
     return true;
 }
 
-// the sink s at which the columns carry the load: Newton, kept inside a bracket
-static double sink_of(Sole* sole, const Balance* balance, Answer* found)
+// The sink s at which the columns carry the load, by Newton. Their force is convex in s, so from above
+// every step stays above. Above the sink at which one column alone carries it s cannot lie, and up to
+// there no column pushes back by more than the load, as the grid of their sum wants it.
+static double sink_of(Sole* sole, Balance* balance, Answer* found)
 {
-    double low = -balance->highest, high = INFINITY;  // nothing carries at low
-    double s = soil_most(balance->guess, low), step = 0.01;
-    for (int round = 0; round < 100; ++round) {
+    const double load = balance->load;
+    double       most = INFINITY;
+    for (from_the_start(sole); next_columns(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            most = soil_least(most, lone_sink(&sole->chunk[c], load));
+    balance->force_grid = soil_grid(load);
+    // if all columns carried
+    double s = soil_least((load + balance->hanging) / balance->springs - balance->highest, most);
+    for (int round = 0; round < MOST_ROUNDS; ++round) {
         *found = answer(sole, balance, s);
-        const double missing = balance->load - found->force;
-        if (fabs(missing) <= 2e-9 * balance->load) break;
-        if (missing > 0.0)
-            low = s;
-        else
-            high = s;
-        if (high - low < 1e-12) break;
-        double next = found->slope > 0.0 ? s + missing / found->slope : low + step;
-        if (!(next > low)) next = isinf(high) ? low + step : 0.5 * (low + high);
-        if (isinf(high)) {
-            next =
-                soil_least(next, low + 64.0 * step);  // far out a single stiff column could mislead
-            step *= 2.0;
-        } else if (!(next < high) || found->force > 4.0 * balance->load) {
-            next = 0.5 * (low + high);
-        }
+        const double missing = load - found->force;
+        if (fabs(missing) <= 2e-9 * load || !(found->slope > 0.0)) break;
+        const double next = soil_least(s + missing / found->slope, most);
+        if (fabs(next - s) < 1e-15 * fabs(s)) break;
         s = next;
     }
     return s;
@@ -318,10 +334,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
     Answer       found;
     double       s = sink_of(sole, balance, &found);
     if (found.area > 0.0 && found.area < least) {
-        const double share = found.area / least;
-        balance->guess = -balance->highest + (balance->guess + balance->highest) * share;
-        balance->load *= share;
-        balance->force_grid = soil_grid(balance->load);
+        balance->load *= found.area / least;
         s = sink_of(sole, balance, &found);
     }
     pressed->sink = s;

@@ -1,6 +1,7 @@
 """What must hold of the ground whoever walks on it: design 11, oracles 1 to 7 and 11."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -45,6 +46,29 @@ def test_single_support_at_rest_sinks_by_stress_over_stiffness(law):
     assert report["deepest_m"] == pytest.approx(want, rel=0.01)
 
 
+def rolled(soil, mass, law, heap):
+    """The report of one foot that rolls from heel to toe under its whole weight."""
+    gait, loads = gaits.pressed([FOOT], [AT_ORIGIN], [[0, 0, -mass * G]], mass=mass)
+    tilt = np.linspace(0.15, -0.15, len(gait.time)) / 2
+    gait.pose[0, :, 2] += 0.125 * np.abs(np.sin(2 * tilt))
+    gait.pose[0, :, 3], gait.pose[0, :, 5] = np.cos(tilt), np.sin(tilt)
+    sim = Simulation(Ground.flat(), soil, 0.01, law=law, heap=heap)
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    return sim.report()
+
+
+@pytest.mark.parametrize("heap", ["rest", "paper"])
+@pytest.mark.parametrize("law", ["sole", "uniform"])
+def test_firmer_ground_and_lighter_bodies_leave_less_down_to_nothing(law, heap):
+    firm = [rolled(replace(FIRM, young_modulus=e), 75.0, law, heap)["pressed_m3"]
+            for e in (0.3e6, 3e6, 30e6, 300e6, 3e9, 1e12)]
+    light = [rolled(FIRM, m, law, heap)["pressed_m3"] for m in (75.0, 7.5, 0.75, 0.075, 0.0075, 7.5e-6, 1e-300)]
+    for volume in (firm, light):
+        assert all(more > less for more, less in zip(volume, volume[1:]))
+    assert firm[-1] < 1e-4 * firm[0] and light[-1] < 1e-9 * light[0]
+
+
 @pytest.mark.parametrize("law", ["sole", "uniform"])
 def test_two_feet_share_the_depth(law):
     places = [[0, 0.3, 0, 1, 0, 0, 0], [0, -0.3, 0, 1, 0, 0, 0]]
@@ -56,7 +80,6 @@ def test_two_feet_share_the_depth(law):
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_depth_is_proportional_to_load_and_layer_and_softness(factor):
     _, base = press([FOOT], [AT_ORIGIN], [[0, 0, -40 * G]])
-    from dataclasses import replace
     for soil, load in [(FIRM, 40 * factor),
                        (replace(FIRM, layer_depth=0.3 * factor), 40),
                        (replace(FIRM, young_modulus=0.35e6 / factor), 40)]:
