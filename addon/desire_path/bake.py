@@ -6,8 +6,8 @@
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps/pass_0001.exr      or after a pass, where a frame is a pass
-    folder/maps_start.exr          plant_strength_in, young_modulus_in, plant_strength
-    folder/maps_final.exr          compression, heap, pressure_time, plant_strength; lean_x, lean_y, crushed
+    folder/maps_start.exr          plant_strength_in, young_modulus_in, plant_strength, rest
+    folder/maps_final.exr          compression, heap, pressure_time, plant_strength, rest; lean_x, lean_y, crushed
     folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
     folder/report.json             what happened, in numbers
 
@@ -366,7 +366,7 @@ class Bake:
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 
     def _fields(self):
-        return maps.MAPS + (maps.LEAN if self.plants else ())
+        return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
 
     def _second(self, sim, frame):
         """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
@@ -386,8 +386,9 @@ class Bake:
         tx, ty, nx, ny = tiles
         window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
         strength = sim.read("plant_strength", *window)
-        planes = {"plant_strength_in": strength, "plant_strength": strength,
-                  "young_modulus_in": sim.read("young_modulus", *window)}
+        modulus = sim.read("young_modulus", *window)
+        planes = {maps.PICTURE: modulus, "young_modulus_in": modulus, "plant_strength_in": strength,
+                  "plant_strength": strength, "rest": sim.read("rest", *window)}
         if self.plants:
             planes.update({entry.name: sim.read(entry.name, *window) for entry in maps.LEAN})
         return planes

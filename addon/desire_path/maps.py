@@ -4,6 +4,10 @@
     picture = maps.read("bake/maps_final.exr")
     picture.planes["compression"]      # (ny, nx) float32, [m]
     picture.notes["cell"]              # side of a cell [m]
+
+In the file a map is a layer of one channel, `compression.V`: Blender opens layers as they are, and takes
+channels of other names for colours. Here it is called by its layer, so that bare names of other writers
+read alike. `Y` repeats a file's first map for programs that know no layers, as ffmpeg.
 """
 
 from __future__ import annotations
@@ -27,17 +31,27 @@ class Map(NamedTuple):
     meaning: str
 
 
+LAYER = ".V"  # the one channel of a layer, as Blender calls a value
 MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
     Map("compression", "m", "TRAIL (10)", "pressed below the first height, >= 0"),
     Map("heap", "m", "TRAIL (12)", "loose soil piled above it, >= 0"),
     Map("pressure_time", "Pa s", "TRAIL (17)", "stress summed over the walk"),
     Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
 )
+PICTURE = "Y"  # the channel that every program shows, grey
+GROUND = (  # beside them, so that another bake can go on from here
+    Map("rest", "m", "", "height before anybody walked; NaN = no ground"),
+)
 LEAN = (  # beside them where plants grow
     Map("lean_x", "-", "", "how far grass leans along x, by its height, -1..1"),
     Map("lean_y", "-", "", "how far it leans along y"),
     Map("crushed", "-", "", "share of its height that is pressed down, 0..1"),
 )
+
+
+def channel(name):
+    """What a map is called in a file; letters (R, Y ..) and names with a layer are channels already."""
+    return name if len(name) < 2 or "." in name else name + LAYER
 
 
 @dataclass(frozen=True)
@@ -77,7 +91,7 @@ def write(path, planes, notes=()):
     pairs = list(notes.items() if isinstance(notes, dict) else notes)
     pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
     try:
-        _native.maps_write(path, list(grids), list(grids.values()), pairs)
+        _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs)
     except OSError as problem:
         raise DesirePathError(
             f"{path} cannot be written ({_clause(problem)}): make room or choose another folder."
@@ -85,7 +99,7 @@ def write(path, planes, notes=()):
     except ValueError as problem:
         raise DesirePathError(
             f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28"
-            " cells, and maps and notes with different names of 1 to 31 characters that OpenEXR"
+            " cells, and maps and notes with different names of 1 to 29 characters that OpenEXR"
             " does not use itself."
         ) from None
 
@@ -104,7 +118,7 @@ def read(path):
             f"{path} is damaged or no flat OpenEXR image: write it again, or choose another file."
         ) from None
     grids = np.frombuffer(data, np.float32).reshape(len(names), ny, nx)
-    return Picture(dict(zip(names, grids)), dict(notes))
+    return Picture({name.removesuffix(LAYER): grid for name, grid in zip(names, grids)}, dict(notes))
 
 
 def _clause(problem):

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _native
+from . import _native, maps
 from .errors import DesirePathError
 from .plants import as_plantings, seed_of
 from .soil import SOILS, Soil
@@ -350,9 +350,11 @@ class Simulation:
         self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}")
 
     def open_maps(self, names, notes):
-        """Maps written from now on have these fields, as in read(), and notes (name, text or number)."""
+        """Maps written from now on have these fields, as in read(), the first of them as maps.PICTURE, too, and notes
+        (name, text or number)."""
         fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
-        self._core.open_maps(tuple((name, fields[name]) for name in names), tuple(notes))
+        shown = (maps.PICTURE, fields[names[0]])
+        self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
 
     def write_frame(self, path, time):
         """Write the ground as it is to one EXR, whole or not at all; path None: only take it in.

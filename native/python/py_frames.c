@@ -37,8 +37,8 @@ static void fill_tile(const Simulation* self, const Film* film, int index, float
     }
 }
 
-// Planted ground shows before anybody walks on it, and so does trodden ground: pictures of either
-// begin with every tile.
+// Planted ground shows before anybody walks on it, and so do trodden ground and its height:
+// pictures of these begin with every tile.
 typedef struct Rest
 {
     const Simulation* self;
@@ -55,7 +55,7 @@ static void pack_rest(void* context, int index, int worker)
     bool              any = false;
     DpStatus          status = value ? DP_OK : DP_NO_MEMORY;
     if (value) fill_tile(self, rest->film, index, value);
-    for (size_t k = 0; value && !any && k < size; ++k) any = value[k] > 0.0f || value[k] < 0.0f;
+    for (size_t k = 0; value && !any && k < size; ++k) any = !(value[k] >= 0.0f && value[k] <= 0.0f);
     if (any)
         status = dp_frames_set_tile(rest->film->frames, index % self->tiles_x,
                                     index / self->tiles_x, value, worker);
@@ -75,7 +75,9 @@ static DpStatus open_film(Simulation* self, Film* film, const char* const* chann
     if (status != DP_OK) return status;
     fresh.changed = dp_alloc((size_t)tiles, 1);
     if (!fresh.changed) status = DP_NO_MEMORY;
-    if (status == DP_OK && (self->plants || dp_terrain_tile_count(self->terrain) > 0)) {
+    bool shows = self->plants || dp_terrain_tile_count(self->terrain) > 0;
+    for (int f = 0; f < fields; ++f) shows |= field[f] == DP_FIELD_REST;
+    if (status == DP_OK && shows) {
         Rest rest = {self, &fresh, DP_OK};
         dp_parallel_for(tiles, self->workers, pack_rest, &rest);
         status = (DpStatus)atomic_load(&rest.failed);
