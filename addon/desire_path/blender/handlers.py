@@ -10,7 +10,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, op_bake, op_forces, op_plants, playback
+from . import ground, op_forces, op_plants, playback, show
 
 
 def refresh(scene, obj):
@@ -22,7 +22,7 @@ def refresh(scene, obj):
     if not settings.folder or settings.folder.startswith("//") and not bpy.data.filepath:
         return
     try:
-        index = read_index(op_bake.folder(obj))
+        index = read_index(show.folder(obj))
     except DesirePathError as problem:
         ours = playback.modifier(obj)
         if ours is not None and not _plays_from_elsewhere(obj, ours):
@@ -31,13 +31,13 @@ def refresh(scene, obj):
     ours = playback.modifier(obj)
     mark = playback.mark(index.folder, index, index.frames)
     if ours is not None and ours.node_group[playback.TAG] == mark:
-        settings.missing = op_bake.missing(index)
+        settings.missing = show.missing(index)
         return
     try:
         box = (index.x0, index.y0, index.x0 + index.nx * index.cell,
                index.y0 + index.ny * index.cell)
         surface = ground.read(scene, obj, index.cell, index.frame_start, box=box)
-        op_bake.play(obj, surface)
+        show.play(obj, surface)
     except DesirePathError as problem:
         settings.missing = str(problem)
 
@@ -47,7 +47,7 @@ def _plays_from_elsewhere(obj, ours):
     place, and Blender keeps the way to its images."""
     image = playback.image_of(ours.node_group)
     path = os.path.abspath(bpy.path.abspath(image.filepath)) if image is not None else ""
-    return os.path.exists(path) and not path.startswith(op_bake.folder(obj) + os.sep)
+    return os.path.exists(path) and not path.startswith(show.folder(obj) + os.sep)
 
 
 @persistent

@@ -7,15 +7,15 @@ The mesh is touched once, at the end. `execute` does all of it in one go (this i
 runs); with a window the same steps run in slices, so that Blender stays awake and ESC stops them.
 """
 import json
-import os
 import time
 from contextlib import closing
 
 import bpy
 
 from ..errors import DesirePathError
-from . import axes, cover, ground, op_plants, playback, plants, props, sample, stems, way
-from .op_walkers import Refusal, active, grounds, sentence, walkers
+from . import inputs, op_plants, props, way
+from .op_walkers import Refusal, active, sentence, walkers
+from .show import folder, free, play, sharing
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
@@ -45,7 +45,6 @@ class Job:
         if len(models) > 1:
             raise DesirePathError("The walkers of one ground need the same load model: choose one "
                                   "for all of them.")
-        self.model = models.pop()
         first, last = settings.frame_start, settings.frame_end
         if last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
@@ -71,33 +70,19 @@ class Job:
     def run(self):
         """Steps; between two of them the user may do something else."""
         yield
-        from ..bake import Bake  # the core is loaded when it is first needed
         scene, obj = bpy.data.scenes[self.scene_name], self.object()
-        settings = obj.desire_path
         there = [bpy.data.objects.get(name) for name in self.walkers]
         if None in there:
             raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake "
                                   "again.")
-        first, last = settings.frame_start, settings.frame_end
-        cell = axes.typed(settings.cell_size)
-        if way.goes(there):
-            gait, self.surface = way.carried(scene, obj, there, cell, first, last)
-            last = None  # every pass is shown
-        else:
-            gait = sample.gaits(scene, there, first, last)
-            yield
-            self.surface = ground.read(scene, obj, cell, first, last, box=ground.under(gait))
-            gait = ground.walked(scene, there, gait, self.surface, cell, first, last)
+        settings = obj.desire_path
+        made, self.surface = yield from inputs.taken(scene, obj, there, settings.frame_start, settings.frame_end,
+                                                     folder=self.path)
         self.warnings += [*self.surface.warnings, *way.warnings(there)]
         self.recorded = time.perf_counter() - self.begun
-        yield
         self.warnings += op_plants.refresh(scene, obj)
-        grown = plants.plantings(scene, obj)
         yield
-        self.bake = Bake(gait, self.surface.ground, ground.soils(obj), self.path, cell_size=cell, frame_start=first,
-                         frame_end=last, load_model=self.model, law=settings.law, heap=settings.heap,
-                         threads=settings.threads, origin=self.surface.origin, plants=grown,
-                         plant_mesh=settings.plant_mesh and bool(grown))
+        self.bake = made
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
             for progress in frames:
@@ -128,92 +113,10 @@ class Job:
                 f"{1000 * report['deepest_m']:.0f} mm; files in {self.path}.")
 
 
-def folder(obj):
-    """The bake folder of a ground as the system knows it."""
-    return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
-
-
-def sharing(obj):
-    """Other grounds of the file with the same bake folder."""
-    own = folder(obj)
-    return [other for scene in bpy.data.scenes for other in grounds(scene)
-            if other != obj and other.desire_path.folder and folder(other) == own]
-
-
 def _fits(obj):
     """Whether a folder nobody chose may stay: beside the file once that is saved, and not shared."""
     return (obj.desire_path.folder.startswith("//") == bool(bpy.data.filepath)
             and not sharing(obj))
-
-
-def play(obj, surface, baked=None):
-    """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
-    sentences about what could not be written.
-
-    baked: the final maps by name, where the bake was made just now and is whole
-    """
-    from ..bake import read_index
-    settings = obj.desire_path
-    index = read_index(folder(obj), just_baked=baked is not None)
-    cover.remove(obj)
-    if index.frames:
-        standing = plants.standing(obj)
-        depth = cover.make_groups(obj) if settings.vertex_group else 0.0
-        frames = playback.join(settings.folder, os.path.basename(index.folder))
-        smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
-        playback.attach(obj, frames, index, count=index.frames, world=surface.world,
-                        scale=surface.scale, smooth=smooth, corners=surface.corners,
-                        layer_depth=depth, standing=standing)
-        planes = baked or cover.planes(index)
-        warnings = cover.fill(obj, surface, index, depth, planes, standing)
-        if index.complete:
-            warnings += cover.few_points(obj, surface, index, planes)
-    else:
-        playback.detach(obj)
-        warnings = []
-    plants.show(obj, index)
-    stems.remove(plants.grass.of(settings.plant_object, obj))
-    settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
-                                       surface.scale) if index.complete else None
-    settings.missing = missing(index)
-    return index, warnings
-
-
-def show_plants(obj):
-    """Let the grass of a ground follow what it plays."""
-    from ..bake import read_index
-    plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
-
-
-def missing(index):
-    """What a stopped bake lacks, in one sentence; empty for a whole one."""
-    if index.complete:
-        return ""
-    if not index.frames:
-        return "The last bake was stopped before its first frame, or has lost it since: bake again."
-    last = index.frame_start + index.frames - 1
-    return (f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
-            f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on.")
-
-
-def free(obj):
-    """Give the mesh back as it was and delete the files of its bake."""
-    from .. import bake
-    settings = obj.desire_path
-    playback.detach(obj)
-    plants.show(obj)
-    stems.remove(plants.grass.of(settings.plant_object, obj))
-    cover.remove(obj)
-    if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
-        shared = sharing(obj)
-        if not shared:
-            bake.free(folder(obj))
-        if settings.folder_auto and not shared:
-            try:
-                os.rmdir(os.path.dirname(folder(obj)))  # `desire_path`, when no other ground is in it
-            except OSError:
-                pass
-    settings.summary = settings.missing = ""
 
 
 def idle_ground(operator, context):

@@ -57,8 +57,8 @@ def refresh(scene, obj):
     if not late:
         return []
     told = plants.plant(scene, obj, late)
-    from . import op_bake
-    op_bake.show_plants(obj)
+    from . import show
+    show.show_plants(obj)
     return told
 
 
@@ -142,8 +142,8 @@ class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
         plants.forget(each)
         each.grass = plants.grass.make(obj, each.kind)
         plants.plant(context.scene, obj, [each])
-        from . import op_bake
-        op_bake.show_plants(obj)
+        from . import show
+        show.show_plants(obj)
         return {"FINISHED"}
 
 
@@ -155,12 +155,12 @@ class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def work(self, context):
-        from . import op_bake
+        from . import show
         obj = context.object
         context.view_layer.update()
         for sentence in plants.plant(context.scene, obj):
             self.report({"WARNING"}, sentence)
-        op_bake.show_plants(obj)
+        show.show_plants(obj)
         return {"FINISHED"}
 
 

@@ -1,0 +1,89 @@
+"""show.py - what a ground plays of the bake in its folder, and how it is given back as it was."""
+import os
+
+import bpy
+
+from . import cover, ground, playback, plants, stems
+from .op_walkers import grounds
+
+
+def folder(obj):
+    """The bake folder of a ground as the system knows it."""
+    return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
+
+
+def sharing(obj):
+    """Other grounds of the file with the same bake folder."""
+    own = folder(obj)
+    return [other for scene in bpy.data.scenes for other in grounds(scene)
+            if other != obj and other.desire_path.folder and folder(other) == own]
+
+
+def play(obj, surface, baked=None):
+    """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
+    sentences about what could not be written.
+
+    baked: the final maps by name, where the bake was made just now and is whole
+    """
+    from ..bake import read_index
+    settings = obj.desire_path
+    index = read_index(folder(obj), just_baked=baked is not None)
+    cover.remove(obj)
+    if index.frames:
+        standing = plants.standing(obj)
+        depth = cover.make_groups(obj) if settings.vertex_group else 0.0
+        frames = playback.join(settings.folder, os.path.basename(index.folder))
+        smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
+        playback.attach(obj, frames, index, count=index.frames, world=surface.world,
+                        scale=surface.scale, smooth=smooth, corners=surface.corners,
+                        layer_depth=depth, standing=standing)
+        planes = baked or cover.planes(index)
+        warnings = cover.fill(obj, surface, index, depth, planes, standing)
+        if index.complete:
+            warnings += cover.few_points(obj, surface, index, planes)
+    else:
+        playback.detach(obj)
+        warnings = []
+    plants.show(obj, index)
+    stems.remove(plants.grass.of(settings.plant_object, obj))
+    settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
+                                       surface.scale) if index.complete else None
+    settings.missing = missing(index)
+    return index, warnings
+
+
+def show_plants(obj):
+    """Let the grass of a ground follow what it plays."""
+    from ..bake import read_index
+    plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
+
+
+def missing(index):
+    """What a stopped bake lacks, in one sentence; empty for a whole one."""
+    if index.complete:
+        return ""
+    if not index.frames:
+        return "The last bake was stopped before its first frame, or has lost it since: bake again."
+    last = index.frame_start + index.frames - 1
+    return (f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
+            f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on.")
+
+
+def free(obj):
+    """Give the mesh back as it was and delete the files of its bake."""
+    from .. import bake
+    settings = obj.desire_path
+    playback.detach(obj)
+    plants.show(obj)
+    stems.remove(plants.grass.of(settings.plant_object, obj))
+    cover.remove(obj)
+    if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
+        shared = sharing(obj)
+        if not shared:
+            bake.free(folder(obj))
+        if settings.folder_auto and not shared:
+            try:
+                os.rmdir(os.path.dirname(folder(obj)))  # `desire_path`, when no other ground is in it
+            except OSError:
+                pass
+    settings.summary = settings.missing = ""
