@@ -225,8 +225,8 @@ class Bake:
         self._check_soles()
         sim = self._simulation()
         tiles = self._rectangle(sim)
-        sim.open_frames(*tiles)
-        sim.open_maps([entry.name for entry in self._fields()], self._notes(tiles))
+        picture = sim.open_frames(*tiles)
+        picture.open_maps([entry.name for entry in self._fields()], self._notes(tiles))
         start = self._start_maps(sim, tiles)
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
@@ -238,17 +238,17 @@ class Bake:
         mesh = plant_mesh.Writer(sim, self.folder, self.frame_start, count) if self.plant_mesh else None
         try:
             if done < 0:
-                self._write(sim, fresh, 0, 0.0)
+                self._write(picture, fresh, 0, 0.0)
             for number in range(1, count + 1):
                 frame = self.frame_start + number - 1
                 begun = time.perf_counter()
                 sim.run(self._sample(frame))
                 stepped = time.perf_counter()
-                self._write(sim, fresh if number > done else None, number, self._time(frame))
+                self._write(picture, fresh if number > done else None, number, self._time(frame))
                 if mesh:
                     mesh.add(sim)
                 if self.map_seconds:
-                    self._second(sim, frame)
+                    self._second(picture, frame)
                 spent_step += stepped - begun
                 spent_write += time.perf_counter() - stepped
                 yield Progress(frame, number / count)
@@ -264,7 +264,7 @@ class Bake:
             raise
 
         seconds["step"], seconds["write"] = spent_step, spent_write
-        sim.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
+        picture.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
         maps.write(os.path.join(self.folder, "maps_start.exr"), start,
                    [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(tiles))
         tx, ty, nx, ny = tiles
@@ -279,11 +279,11 @@ class Bake:
         if not self.plant_mesh:
             delete(self.folder, plant_mesh.FILES)  # of a bake before
 
-    def _write(self, sim, fresh, number, seconds):
+    def _write(self, picture, fresh, number, seconds):
         """One frame of every film into the folder `fresh`; None: it is there already."""
-        sim.write_frame(fresh and frame_path(fresh, number), seconds)
+        picture.write_frame(fresh and frame_path(fresh, number), seconds)
         if self.plants:
-            sim.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
+            picture.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
 
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
@@ -368,19 +368,19 @@ class Bake:
     def _fields(self):
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
 
-    def _second(self, sim, frame):
+    def _second(self, picture, frame):
         """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
         if self.film == "passes":
             number = frame - self.gait.frame_start + 1
             if number % -(-len(self.passes) // MOST_PASS_MAPS) == 0:
                 name = f"pass_{number:04d}.exr"
-                sim.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
+                picture.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
             return
         elapsed = frame - self.frame_start
         before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
         if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
             name = f"second_{math.floor(now + 1e-9):04d}.exr"
-            sim.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
+            picture.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
 
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles

@@ -346,21 +346,32 @@ class Simulation:
         return out
 
     def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
-        """Frames and maps written from now on cover these tiles (TILE cells a side)."""
-        self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}")
+        """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""
+        return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"))
+
+    def flush(self):
+        """Wait until all frames and maps are written; OSError when one could not be."""
+        self._core.flush()
+
+
+class Film:
+    """Frames and maps of a rectangle of tiles of a Simulation, as it changes: Simulation.open_frames() opens one.
+
+    Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
+    """
+
+    def __init__(self, core):
+        self._core = core
 
     def open_maps(self, names, notes):
-        """Maps written from now on have these fields, as in read(), the first of them as maps.PICTURE, too, and notes
+        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too, and notes
         (name, text or number)."""
         fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
         shown = (maps.PICTURE, fields[names[0]])
         self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
 
     def write_frame(self, path, time):
-        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in.
-
-        Files are written while the next steps run: OSError tells of one before, see flush().
-        """
+        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
         self._core.write_frame(None if path is None else str(path), float(time))
 
     def write_lean(self, path, time):
@@ -370,7 +381,3 @@ class Simulation:
     def write_maps(self, path, time):
         """Write the maps as they are, in the background like frames."""
         self._core.write_maps(str(path), float(time))
-
-    def flush(self):
-        """Wait until all frames and maps are written; OSError when one could not be."""
-        self._core.flush()

@@ -58,6 +58,9 @@ DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, doub
 // Let tiles go that cannot be filled.
 void dp_writer_drop(DpWriter* writer, DpTiles* tiles);
 
+// Wait until all that was given is written.
+void dp_writer_wait(DpWriter* writer);
+
 // How things went since the last call; path: where it failed ("" = encoding), valid until the next
 // call to the writer. wait: first wait until all that was given is written.
 DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path);

@@ -246,10 +246,17 @@ void dp_writer_drop(DpWriter* writer, DpTiles* tiles)
     pthread_mutex_unlock(&writer->lock);
 }
 
-DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path)
+void dp_writer_wait(DpWriter* writer)
 {
     pthread_mutex_lock(&writer->lock);
-    while (wait && writer->on_the_way > 0) pthread_cond_wait(&writer->written, &writer->lock);
+    while (writer->on_the_way > 0) pthread_cond_wait(&writer->written, &writer->lock);
+    pthread_mutex_unlock(&writer->lock);
+}
+
+DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path)
+{
+    if (wait) dp_writer_wait(writer);
+    pthread_mutex_lock(&writer->lock);
     const DpStatus status = writer->status;
     writer->status = DP_OK;
     if (status != DP_OK) {

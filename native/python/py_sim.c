@@ -11,7 +11,7 @@ static void simulation_dealloc(PyObject* object)
 {
     Simulation*   self = (Simulation*)object;
     PyTypeObject* type = Py_TYPE(object);
-    dp_py_drop_frames(self);
+    dp_reel_destroy(self->reel);
     dp_sim_destroy(self->sim);
     dp_plants_destroy(self->plants);
     dp_terrain_destroy(self->terrain);
@@ -325,14 +325,9 @@ static PyMethodDef methods[] = {
      "read_lean(axis, i0, j0, out (ny, nx) f4): how grass lies; axis 0 lean_x, 1 lean_y, 2 "
      "crushed."},
     {"open_frames", dp_py_open_frames, METH_VARARGS,
-     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software): frames and maps cover these tiles."},
-    {"open_maps", dp_py_open_maps, METH_VARARGS,
-     "open_maps(((name, field), ..), ((name, str or float), ..)): channels and notes of the maps."},
-    {"write_frame", dp_py_write_frame, METH_VARARGS,
-     "write_frame(path or None, time, lean=False): take in the tiles that changed and write the "
-     "frame, in the background; tells how those before went."},
-    {"write_maps", dp_py_write_maps, METH_VARARGS,
-     "write_maps(path, time): write the maps as they are now, in the background, as write_frame."},
+     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software) -> Film of these tiles; several may "
+     "be"
+     " open."},
     {"flush", dp_py_flush, METH_NOARGS,
      "flush(): wait until all frames and maps are written; tells how it went."},
     {NULL, NULL, 0, NULL}};
@@ -390,5 +385,6 @@ int dp_py_sim_types(PyObject* module)
     if (!type) return -1;
     const int added = PyModule_AddObjectRef(module, "Simulation", type);
     Py_DECREF(type);
-    return added < 0 ? -1 : PyModule_AddFunctions(module, memory_methods);
+    if (added < 0 || dp_py_film_type(module) < 0) return -1;
+    return PyModule_AddFunctions(module, memory_methods);
 }

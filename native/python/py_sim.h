@@ -1,28 +1,8 @@
 // python/py_sim.h - the simulation as Python holds it; for py_sim.c, py_ground.c, py_frames.c
 // and py_meadow.c only.
 #pragma once
-#include "maps/maps.h"
 #include "python/door.h"
 #include "sim/sim.h"
-
-// One picture of the ground that is written again and again, file by file.
-#define MOST_FIELDS 16
-#define DP_FIELD_LEAN 64  // lean_x, lean_y, crushed: beyond the terrain's own fields
-typedef struct Film
-{
-    DpFrames* frames;  // NULL: not opened
-    int       field[MOST_FIELDS];
-    int       fields;
-    uint8_t*  changed;  // tiles that are not what was written last (tiles_y, tiles_x)
-} Film;
-
-enum
-{
-    DP_FILM_TRAIL = 0,
-    DP_FILM_LEAN = 1,  // on planted ground only
-    DP_FILM_MAPS = 2,
-    DP_FILMS = 3
-};
 
 typedef struct Simulation
 {
@@ -30,10 +10,7 @@ typedef struct Simulation
     DpTerrain* terrain;
     DpSim*     sim;
     DpPlants*  plants;  // NULL: bare ground
-    DpWriter*  writer;
-    Film       film[DP_FILMS];
-    long       tile_x, tile_y;    // lowest tile of the frames
-    int        tiles_x, tiles_y;  // 0 = no frames opened
+    DpReel*    reel;    // NULL: nothing is filmed yet
     int        workers;
     bool       busy;  // a call without the GIL is under way
 } Simulation;
@@ -68,13 +45,10 @@ PyObject* dp_py_lay_plants(PyObject* object, PyObject* unused);
 PyObject* dp_py_read_shown(PyObject* object, PyObject* args);
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
-// py_frames.c
-void      dp_py_drop_frames(Simulation* self);
+// py_frames.c; the type adds itself to the module, 0 or -1 with an exception
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
-PyObject* dp_py_open_maps(PyObject* object, PyObject* args);
-PyObject* dp_py_write_frame(PyObject* object, PyObject* args);
-PyObject* dp_py_write_maps(PyObject* object, PyObject* args);
 PyObject* dp_py_flush(PyObject* object, PyObject* unused);
+int       dp_py_film_type(PyObject* module);
 
 // py_maps.c: notes[k] from a tuple of (name, str or number), or NULL with an exception. The caller
 // frees the array; what it points to lives as long as `items`.

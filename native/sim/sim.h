@@ -9,6 +9,7 @@
 // worked on at once; the result is the same for any number of workers.
 #pragma once
 #include "plants/plants.h"
+#include "sim/sim_film.h"
 #include "soil/soil.h"
 #include "terrain/terrain.h"
 #include "walker/walker.h"

@@ -10,7 +10,7 @@ import time
 import bpy
 import numpy as np
 
-from desire_path import bake, maps
+from desire_path import bake, maps, sim
 from desire_path.blender import compat, op_bake, op_forces, playback
 from desire_path.gait import Gait
 from desire_path.soil import SOILS
@@ -525,18 +525,18 @@ def test_bad_input(folder):
 
 def test_full_disk_keeps_what_was_baked(folder):
     ground, _ = scene(folder, frames=12)
-    real = bake.Simulation.write_frame
+    real = sim.Film.write_frame
 
     def full(self, path, moment):
         if path is not None and path.endswith("trail_0007.exr"):
             raise OSError(28, "No space left on device", path)
         real(self, path, moment)
 
-    bake.Simulation.write_frame = full
+    sim.Film.write_frame = full
     try:
         refused(bpy.ops.object.desire_path_bake, "No space left", "room")
     finally:
-        bake.Simulation.write_frame = real
+        sim.Film.write_frame = real
     assert "frames 1 to 6 play" in ground.desire_path.missing
     sixth, _ = shown(ground, 6)
     later, _ = shown(ground, 12)
@@ -554,12 +554,12 @@ import desire_path
 desire_path.register()
 bpy.ops.wm.open_mainfile(filepath=sys.argv[-1])
 import time
-from desire_path import bake
-real = bake.Simulation.write_frame
+from desire_path import bake, sim
+real = sim.Film.write_frame
 def slow(self, path, moment):
     real(self, path, moment)
     time.sleep(0.05)
-bake.Simulation.write_frame = slow
+sim.Film.write_frame = slow
 bpy.context.view_layer.objects.active = bpy.data.objects["Ground"]
 bpy.ops.object.desire_path_bake()
 """

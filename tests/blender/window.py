@@ -12,12 +12,12 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 desire_path.register()
-from desire_path import bake  # noqa: E402
+from desire_path import bake, sim  # noqa: E402
 from desire_path.blender import op_bake, op_forces, playback  # noqa: E402
 from scenes import meshes, people  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
-write_frame = bake.Simulation.write_frame
+write_frame = sim.Film.write_frame
 
 
 def slowly(self, path, moment):
@@ -85,7 +85,7 @@ def story():
     yield 0.5
 
     # ESC: what was baked stays and plays
-    bake.Simulation.write_frame = slowly
+    sim.Film.write_frame = slowly
     press_bake()
     yield from until(lambda: op_bake.running() is None or op_bake.running().fraction > 0.3)
     job = op_bake.running()
@@ -108,7 +108,7 @@ def story():
     yield from until(lambda: op_bake.running() is None)
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 36, index
-    bake.Simulation.write_frame = write_frame
+    sim.Film.write_frame = write_frame
     yield 0.3
     press_bake()
     yield from until(lambda: op_bake.running() is None)

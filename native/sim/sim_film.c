@@ -1,0 +1,254 @@
+// sim/sim_film.c - films of the ground: which tiles are new in each, and what they show.
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "sim/sim_inside.h"
+
+#define TILE_CELLS (DP_TILE * DP_TILE)
+
+struct DpFilm
+{
+    DpReel*   reel;
+    DpFilm*   next;  // of the reel's
+    long      tile_x, tile_y;
+    int       tiles_x, tiles_y;
+    int       field[DP_FILM_FIELDS];
+    int       fields;
+    bool      of_ground, of_grass;  // whose changes it shows
+    DpFrames* frames;
+    uint8_t*  changed;  // tiles that are not what was written last (tiles_y, tiles_x)
+};
+
+struct DpReel
+{
+    DpSim*          sim;
+    DpWriter*       writer;
+    DpFilm*         first;
+    int             workers;
+    pthread_mutex_t lock;  // of the list, and of what its films hold
+};
+
+// ---- what a film shows -------------------------------------------------------------------------
+
+// A tile by its place in the film; value (DP_TILE, DP_TILE, fields).
+static void fill_tile(const DpFilm* film, int index, float* value)
+{
+    const DpSim* sim = film->reel->sim;
+    const long   tx = film->tile_x + index % film->tiles_x;
+    const long   ty = film->tile_y + index / film->tiles_x;
+    for (int f = 0; f < film->fields; ++f) {
+        const int axis = film->field[f] - DP_FIELD_LEAN;
+        if (axis < 0) {
+            dp_terrain_tile(sim->terrain, tx, ty, (DpField)film->field[f], value + f, film->fields);
+            continue;
+        }
+        float lies[TILE_CELLS];
+        dp_lean_read(dp_sim_lean(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
+                     axis == 0 ? lies : NULL, axis == 1 ? lies : NULL, axis == 2 ? lies : NULL);
+        for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = lies[n];
+    }
+}
+
+// Planted ground shows before anybody walks on it, and so do trodden ground and its height: films of
+// these begin with every tile.
+typedef struct Rest
+{
+    const DpFilm* film;
+    atomic_int    failed;
+} Rest;
+
+static void pack_rest(void* context, int index, int worker)
+{
+    Rest*         rest = context;
+    const DpFilm* film = rest->film;
+    const size_t  size = (size_t)TILE_CELLS * (size_t)film->fields;
+    float*        value = dp_alloc(size, sizeof *value);
+    bool          any = false;
+    DpStatus      status = value ? DP_OK : DP_NO_MEMORY;
+    if (value) fill_tile(film, index, value);
+    for (size_t k = 0; value && !any && k < size; ++k)
+        any = !(value[k] >= 0.0f && value[k] <= 0.0f);
+    if (any)
+        status = dp_frames_set_tile(film->frames, index % film->tiles_x, index / film->tiles_x,
+                                    value, worker);
+    if (status != DP_OK) atomic_store(&rest->failed, (int)status);
+    dp_free(value);
+}
+
+// ---- what changed ------------------------------------------------------------------------------
+
+static void mark(const DpFilm* film, long tx, long ty)
+{
+    const long i = tx - film->tile_x, j = ty - film->tile_y;
+    if (i >= 0 && j >= 0 && i < film->tiles_x && j < film->tiles_y)
+        film->changed[j * film->tiles_x + i] = 1;
+}
+
+static void mark_ground(void* context, long tx, long ty)
+{
+    const DpReel* reel = context;
+    for (const DpFilm* film = reel->first; film; film = film->next)
+        if (film->of_ground) mark(film, tx, ty);
+}
+
+static void mark_grass(void* context, long tx, long ty)
+{
+    const DpReel* reel = context;
+    for (const DpFilm* film = reel->first; film; film = film->next)
+        if (film->of_grass) mark(film, tx, ty);
+}
+
+static DpStatus write_changed(DpFilm* film, const char* path, double time, const char** failed)
+{
+    DpReel*        reel = film->reel;
+    const DpSim*   sim = reel->sim;
+    const DpStatus status = dp_writer_told(reel->writer, false, failed);
+    if (status != DP_OK) return status;
+    dp_terrain_changed(sim->terrain, mark_ground, reel);
+    if (dp_sim_lean(sim)) dp_lean_changed(dp_sim_lean(sim), mark_grass, reel);
+    DpTiles* tiles = dp_writer_tiles(reel->writer, film->frames);
+    if (!tiles) return DP_NO_MEMORY;
+    const int count = film->tiles_x * film->tiles_y;
+    for (int k = 0; k < count; ++k) {
+        if (!film->changed[k]) continue;
+        float* value = dp_tiles_add(tiles, k % film->tiles_x, k / film->tiles_x);
+        if (!value) {
+            dp_writer_drop(reel->writer, tiles);
+            return DP_NO_MEMORY;
+        }
+        fill_tile(film, k, value);
+    }
+    memset(film->changed, 0, (size_t)count);
+    return dp_writer_give(reel->writer, tiles, path, time);
+}
+
+DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed)
+{
+    pthread_mutex_lock(&film->reel->lock);
+    const DpStatus status = write_changed(film, path, time, failed);
+    pthread_mutex_unlock(&film->reel->lock);
+    return status;
+}
+
+// ---- a life ------------------------------------------------------------------------------------
+
+DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers)
+{
+    DpReel* made = dp_alloc(1, sizeof *made);
+    if (!made) return DP_NO_MEMORY;
+    made->sim = sim;
+    made->workers = workers;
+    const DpStatus status = dp_writer_create(&made->writer, workers);
+    if (status != DP_OK) {
+        dp_free(made);
+        return status;
+    }
+    pthread_mutex_init(&made->lock, NULL);
+    *reel = made;
+    return DP_OK;
+}
+
+static void drop(DpFilm* film)
+{
+    dp_frames_destroy(film->frames);
+    dp_free(film->changed);
+    dp_free(film);
+}
+
+void dp_reel_destroy(DpReel* reel)
+{
+    if (!reel) return;
+    dp_writer_destroy(reel->writer);
+    while (reel->first) {
+        DpFilm* film = reel->first;
+        reel->first = film->next;
+        drop(film);
+    }
+    pthread_mutex_destroy(&reel->lock);
+    dp_free(reel);
+}
+
+DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path)
+{
+    return dp_writer_told(reel->writer, wait, path);
+}
+
+static bool are_known(const DpSim* sim, const DpFilmOptions* options)
+{
+    if (options->tiles_x < 1 || options->tiles_y < 1 ||
+        options->tiles_x > INT32_MAX / options->tiles_y || options->fields < 1 ||
+        options->fields > DP_FILM_FIELDS)
+        return false;
+    for (int f = 0; f < options->fields; ++f) {
+        const int  field = options->field[f];
+        const bool lies = field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3;
+        if (!(lies && dp_sim_lean(sim)) &&
+            (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE))
+            return false;
+    }
+    return true;
+}
+
+static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
+{
+    const DpReel* reel = film->reel;
+    const int     tiles = film->tiles_x * film->tiles_y;
+    DpStatus      status =
+        dp_frames_create(&film->frames, film->tiles_x, film->tiles_y, options->channel,
+                         film->fields, options->notes, options->note_count);
+    if (status != DP_OK) return status;
+    film->changed = dp_alloc((size_t)tiles, 1);
+    if (!film->changed) return DP_NO_MEMORY;
+    bool shows = dp_sim_lean(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
+    for (int f = 0; f < film->fields; ++f) shows |= film->field[f] == DP_FIELD_REST;
+    if (shows) {
+        Rest rest = {film, DP_OK};
+        dp_parallel_for(tiles, reel->workers, pack_rest, &rest);
+        status = (DpStatus)atomic_load(&rest.failed);
+    }
+    return status;
+}
+
+DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
+{
+    if (!are_known(reel->sim, options)) return DP_BAD_ARGUMENT;
+    DpFilm* made = dp_alloc(1, sizeof *made);
+    if (!made) return DP_NO_MEMORY;
+    made->reel = reel;
+    made->tile_x = options->tile_x, made->tile_y = options->tile_y;
+    made->tiles_x = options->tiles_x, made->tiles_y = options->tiles_y;
+    made->fields = options->fields;
+    for (int f = 0; f < options->fields; ++f) {
+        const int field = made->field[f] = options->field[f];
+        made->of_grass = made->of_grass || field >= DP_FIELD_LEAN;
+        made->of_ground =
+            made->of_ground || (field < DP_FIELD_LEAN && field != DP_FIELD_PLANT_STRENGTH);
+    }
+    const DpStatus status = begin(made, options);
+    if (status != DP_OK) {
+        drop(made);
+        return status;
+    }
+    pthread_mutex_lock(&reel->lock);
+    made->next = reel->first;
+    reel->first = made;
+    pthread_mutex_unlock(&reel->lock);
+    *film = made;
+    return DP_OK;
+}
+
+void dp_film_close(DpFilm* film)
+{
+    if (!film) return;
+    DpReel* reel = film->reel;
+    pthread_mutex_lock(&reel->lock);
+    DpFilm** at = &reel->first;
+    while (*at != film) at = &(*at)->next;
+    *at = film->next;
+    pthread_mutex_unlock(&reel->lock);
+    dp_writer_wait(reel->writer);
+    drop(film);
+}

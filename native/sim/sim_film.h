@@ -1,0 +1,45 @@
+// sim/sim_film.h - pictures of a simulation's ground as it changes, written in the background.
+//
+//   ground ---what changed---> reel ---> films (a rectangle of tiles, some fields) ---> files
+//
+// Many films may be open at once, of the same ground or of different ones: each is told of every
+// change within its rectangle. Comes in with sim/sim.h.
+#pragma once
+#include "maps/maps.h"
+#include "terrain/terrain.h"
+
+#define DP_FILM_FIELDS 16
+#define DP_FIELD_LEAN 64  // lean_x, lean_y, crushed: beyond the terrain's own fields
+
+typedef struct DpSim  DpSim;
+typedef struct DpReel DpReel;  // all films of one simulation, and the thread that writes them
+typedef struct DpFilm DpFilm;
+
+typedef struct DpFilmOptions
+{
+    long tile_x, tile_y;    // lowest tile
+    int  tiles_x, tiles_y;  // >= 1
+
+    int         fields;                   // 1..DP_FILM_FIELDS
+    int         field[DP_FILM_FIELDS];    // a DpField, or DP_FIELD_LEAN + 0, 1, 2 on planted ground
+    const char* channel[DP_FILM_FIELDS];  // the name of each in the files
+
+    const DpNote* notes;  // of every file's header
+    int           note_count;
+} DpFilmOptions;
+
+// The simulation is borrowed and must outlive the reel.
+DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers);
+void     dp_reel_destroy(DpReel* reel);  // with its films, when all that was given is written
+
+// How the files of all films went since the last call; path: where it failed ("" = encoding), valid
+// until the next call. wait: first wait until all that was given is written.
+DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path);
+
+// Begin a film with the ground as it is now.
+DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film);
+void     dp_film_close(DpFilm* film);  // when what it was given is written
+
+// Take in what changed since the film's last file, to be packed and, unless path is NULL, written as
+// a file of that `time` [s]. Tells first of files that failed before: *failed as dp_reel_told's path.
+DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed);
