@@ -160,10 +160,11 @@ class Simulation:
     threads: 0 = as many as the machine has; the result is the same for any number.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.
+    areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.
     """
 
     def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
-                 heap="rest", rim_width=0.04, threads=0, plants=()):
+                 heap="rest", rim_width=0.04, threads=0, plants=(), areas=None):
         check_cell(cell_size)
         if law not in LAWS:
             raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
@@ -179,6 +180,7 @@ class Simulation:
         self.origin = (float(origin[0]), float(origin[1]))
         self.soils = as_soils(soils)
         self.plantings = as_plantings(plants)
+        self._areas = areas or [None] * len(self.plantings)
         self.stands = []  # (stand, number of the planting, plants), in the order they were planted
         self._planted = [set() for _ in self.plantings]  # squares
         try:
@@ -200,6 +202,9 @@ class Simulation:
 
     def _plant(self, number, roots, vigour=None):
         """Plant roots (n, 2) of a planting where there is ground."""
+        if self._areas[number] is not None:
+            there = self._areas[number](roots)
+            roots, vigour = roots[there], vigour if vigour is None else vigour[there]
         stand, count = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(roots))
         if count:
             self.stands.append((stand, number, count))
