@@ -6,7 +6,7 @@ import numpy as np
 
 import desire_path
 from desire_path import report, walker
-from desire_path.blender import force_graph, op_forces, sample
+from desire_path.blender import force_graph, moves, op_forces, sample
 from scenes import meshes, people
 
 operator = bpy.ops.object
@@ -51,7 +51,7 @@ def test_arrows_are_what_the_loads_say():
     obj = people.walk(people.biped())
     obj.desire_path.subframes = 2
     forces, _ = read(scene, obj)
-    gait = sample.record(scene, obj, *sample.frame_range(scene, obj))
+    gait = sample.record(scene, obj, *moves.frame_range(scene, obj))
     loads = walker.loads(gait)
     counts = set()
     for frame in range(1, 49):

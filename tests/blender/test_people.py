@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from desire_path import bake, maps, sim, walker
-from desire_path.blender import sample
+from desire_path.blender import clock, moves, sample
 from desire_path.gait import Gait
 from scenes import meshes, people
 from test_playback import shown
@@ -18,7 +18,7 @@ CMU = 2.54 / 0.45 / 100.0  # metres in a unit of the mocap clips
 
 def ground_under(walker, height, margin=0.6, spacing=0.05, name="Ground"):
     """A grid under all the feet do, at a height."""
-    first, last = sample.frame_range(bpy.context.scene, walker)
+    first, last = moves.frame_range(bpy.context.scene, walker)
     gait = sample.record(bpy.context.scene, walker, first, last)
     low = gait.pose[..., :2].min(axis=(0, 1)) - margin
     high = gait.pose[..., :2].max(axis=(0, 1)) + margin
@@ -58,7 +58,7 @@ def check(report, ground, folder, contacts, deepest=(0.004, 0.12)):
 def clip(name, folder, contacts, lift=0.0, **more):
     person = people.bvh(people.SCENES.joinpath("walks", name + ".bvh"), global_scale=CMU)
     ground, gait = ground_under(person, lift)
-    first, last = sample.frame_range(bpy.context.scene, person)
+    first, last = moves.frame_range(bpy.context.scene, person)
     assert gait.frame_start == first and len(gait.time) == last - first + 1
     report = walk_over(person, ground, folder)
     settings = ground.desire_path
@@ -93,9 +93,9 @@ def character(name, action, folder, speed):
         walker.animation_data.action_slot = found.slots[0]
     # the clips walk on the spot: carry the character along
     carrier = meshes.link(bpy.data.objects.new("Carrier", None))
-    first, last = sample.frame_range(bpy.context.scene, walker)
+    first, last = moves.frame_range(bpy.context.scene, walker)
     for frame in (first, last):
-        carrier.location.y = -speed * (frame - first) / sample.frame_rate(bpy.context.scene)
+        carrier.location.y = -speed * (frame - first) / clock.frame_rate(bpy.context.scene)
         carrier.keyframe_insert("location", index=1, frame=frame)
     for curve in carrier_curves(carrier):
         for key in curve.keyframe_points:
@@ -141,7 +141,7 @@ def test_measured_walks_agree_with_force_plates(folder):
         path = str(folder / f"{name}.npz")
         assert bpy.ops.object.desire_path_record(filepath=path) == {"FINISHED"}
         gait = Gait.load(path)
-        first, last = sample.frame_range(bpy.context.scene, walker_object)
+        first, last = moves.frame_range(bpy.context.scene, walker_object)
         assert len(gait.time) == last - first + 1 and gait.time[0] == 0.0
         table = np.genfromtxt(place / "grf.csv", delimiter=",", names=True)
         for model in ("inertia", "impulse"):
@@ -182,7 +182,7 @@ def late(on, down, time, inside):
 def test_recordings_agree_in_every_blender(folder):
     # the Blenders of one run meet in the folder DESIRE_PATH_COMPARE
     walker = people.bvh(people.SCENES.joinpath("walks", "cmu_12_01_walk.bvh"), global_scale=CMU)
-    first, last = sample.frame_range(bpy.context.scene, walker)
+    first, last = moves.frame_range(bpy.context.scene, walker)
     gait = sample.record(bpy.context.scene, walker, first, last)
     path = os.path.join(os.environ.get("DESIRE_PATH_COMPARE") or folder, "recording.npz")
     if not os.path.exists(path):
@@ -200,7 +200,7 @@ def test_one_recording_gives_the_same_bits(folder):
     path = os.path.join(place, "recording.npz") if place else str(folder / "walk.npz")
     if not os.path.exists(path):
         walker = people.bvh(people.SCENES.joinpath("walks", "cmu_12_01_walk.bvh"), global_scale=CMU)
-        first, last = sample.frame_range(bpy.context.scene, walker)
+        first, last = moves.frame_range(bpy.context.scene, walker)
         sample.record(bpy.context.scene, walker, first, last).save(path)
     gait = Gait.load(path)
     found = set()

@@ -7,7 +7,7 @@ import numpy as np
 from mathutils import Matrix
 
 from desire_path import maps, place, rotation, walker
-from desire_path.blender import compat, ground as ground_of, op_place, posing, sample
+from desire_path.blender import compat, ground as ground_of, moves, op_place, posing, sample
 from desire_path.sim import Simulation
 from scenes import meshes, people
 from test_rig import add_bones, beast, refused
@@ -291,7 +291,7 @@ def test_undone_it_is_as_before():
 
 def test_motion_capture_on_rough_ground():
     obj = people.bvh(WALKS / "cmu_12_01_walk.bvh", global_scale=0.056444)
-    first, last = sample.frame_range(bpy.context.scene, obj)
+    first, last = moves.frame_range(bpy.context.scene, obj)
     flat = sample.record(bpy.context.scene, obj, first, last)
 
     def rough(x, y):
@@ -321,7 +321,7 @@ def test_feet_go_down_into_their_prints(folder):
     meshes.activate(land)
     operator.desire_path_bake()
     meshes.activate(obj)
-    first, last = sample.frame_range(bpy.context.scene, obj)
+    first, last = moves.frame_range(bpy.context.scene, obj)
     frames = list(range(first, last + 1, 3))
     names = ["LeftFoot", "RightFoot", "Hips"]
     before = heads(obj, names, frames)

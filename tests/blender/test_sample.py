@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from desire_path import rigs
-from desire_path.blender import axes, sample
+from desire_path.blender import axes, moves, sample
 from desire_path.errors import DesirePathError
 from scenes import meshes, people
 
@@ -224,15 +224,15 @@ def test_frames_are_those_of_all_that_moves_the_walker():
     scene = bpy.context.scene
     scene.frame_start, scene.frame_end = 3, 7
     obj = people.biped()
-    assert sample.frame_range(scene, obj) == (3, 7)  # nothing moves: the scene's own
+    assert moves.frame_range(scene, obj) == (3, 7)  # nothing moves: the scene's own
     carrier = meshes.link(bpy.data.objects.new("Carrier", None))
     obj.parent = carrier
     for frame in (5, 20):
         carrier.keyframe_insert("location", frame=frame)
-    assert sample.frame_range(scene, obj) == (5, 20)
+    assert moves.frame_range(scene, obj) == (5, 20)
     for frame in (-2, 9):
         obj.keyframe_insert("location", frame=frame)
-    assert sample.frame_range(scene, obj) == (-2, 20)
+    assert moves.frame_range(scene, obj) == (-2, 20)
 
 
 def test_recording_leaves_nothing_behind():

@@ -132,18 +132,17 @@ def socket(sockets, name):
     return None
 
 
-def action_range(animation):
-    """First and last frame of an object's own action or strips, or None."""
-    if animation is None:
-        return None
-    if animation.action is not None:
-        first, last = animation.action.frame_range
-        return float(first), float(last)
-    strips = [s for track in animation.nla_tracks if not track.mute for s in track.strips
-              if not s.mute]
-    if not strips:
-        return None
-    return float(min(s.frame_start for s in strips)), float(max(s.frame_end for s in strips))
+def curves_played(animation):
+    """The F-curves of the action an ID plays, of the slot it plays of it."""
+    action = animation.action
+    if not hasattr(action, "layers"):
+        return list(action.fcurves)
+    slot, found = animation.action_slot, []
+    for layer in action.layers if slot is not None else ():
+        for strip in layer.strips:
+            bag = strip.channelbag(slot)
+            found += bag.fcurves if bag is not None else []
+    return found
 
 
 def curves(animation, owner):

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import leg, place, rotation
 from ..errors import DesirePathError
-from . import axes, controls, posing
+from . import axes, clock, controls, posing
 
 EASE = 0.15  # hips come down over this before and after they must [s]
 
@@ -73,6 +73,7 @@ class Plan:
         self.move = {}  # bone -> (T, 4, 4), in the order in which they are keyed
         self.keyed = {}  # bone -> "location", "rotation" or both
         self.late = []  # bones whose parents are moved by a solver
+        self.keyed_at = [frame / clock.stretch(scene) for frame in frames]
         self.fresh = []  # (path, index, value) of channels that had no keys
         self.stood = {bone.name: {prop: tuple(getattr(bone, prop)) for prop in (
             "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle")}
@@ -253,7 +254,7 @@ class Plan:
     def write(self, curves, name, wanted, parents, kinds):
         start = f'pose.bones["{bpy.utils.escape_identifier(name)}"].'
         for prop, index, numbers in list(self.channels(name, wanted, parents, kinds)):
-            if not posing.set_curve(curves, start + prop, index, self.bones.frames, numbers):
+            if not posing.set_curve(curves, start + prop, index, self.keyed_at, numbers):
                 self.fresh.append((start + prop, index, self.stood[name][prop][index]))
 
     def write_all(self, scene, curves):

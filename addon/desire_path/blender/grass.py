@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .. import tuft
-from . import compat, playback, tufts
+from . import clock, compat, playback, tufts
 from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 
 TAG = playback.TAG
@@ -141,7 +141,7 @@ def show(obj, name, kind, index=None, images=None, count=0):
         mark, height = f"{name} {kind!r}", kind.height
     if chosen is None or kind is not None and TAG in chosen and chosen[TAG] != mark:  # the user's own stay
         chosen = tufts.collection(name, kind)
-    tree = _tree(obj.name, chosen, height, index, images, count)
+    tree = _tree(obj, chosen, height, index, images, count)
     tree[TAG] = mark
     for each in obj.modifiers:
         if each.type == "NODES" and (each.node_group is None or each.node_group == old):
@@ -162,8 +162,8 @@ def use_tree(modifier, tree):
 # ---- the nodes -------------------------------------------------------------------------------------
 
 
-def _tree(name, collection, height, index, images, count):
-    tree = compat.geometry_tree(f"{MODIFIER} {name}", bpy.data.node_groups.new)
+def _tree(obj, collection, height, index, images, count):
+    tree = compat.geometry_tree(f"{MODIFIER} {obj.name}", bpy.data.node_groups.new)
     wire = playback.Wiring(tree)
     points = wire.add("NodeGroupInput").outputs[0]
     points = wire.store(points, STRENGTH, 1.0)
@@ -173,7 +173,7 @@ def _tree(name, collection, height, index, images, count):
     if images is None or "lean" not in images:
         grown = _instances(wire, points, info)
     else:
-        field = _Field(wire, index, images, count)
+        field = _Field(wire, index, images, count, clock.stretch_of(obj))
         here = wire.add("GeometryNodeInputPosition").outputs[0]
         beside = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=points,
                           Selection=playback.within(wire, field.where(here)))
@@ -204,9 +204,9 @@ def _instances(wire, points, info):
 class _Field:
     """What a bake's images say at places of the world."""
 
-    def __init__(self, wire, index, images, count):
+    def __init__(self, wire, index, images, count, stretch):
         self.wire, self.images = wire, images
-        self.number = playback.file_number(wire, index, count)
+        self.number = playback.file_number(wire, index, count, stretch)
         self.size = (index.nx * index.cell, index.ny * index.cell)
         self.corner = (index.x0, index.y0)
 

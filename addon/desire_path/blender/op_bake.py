@@ -13,7 +13,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import inputs, op_plants, props, way
+from . import inputs, moves, op_plants, props, way
 from .op_walkers import Refusal, active, sentence, walkers
 from .show import folder, free, play, sharing
 
@@ -45,7 +45,7 @@ class Job:
         if len(models) > 1:
             raise DesirePathError("The walkers of one ground need the same load model: choose one "
                                   "for all of them.")
-        first, last = settings.frame_start, settings.frame_end
+        first, last = moves.follow(scene, obj, there)
         if last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
@@ -107,8 +107,8 @@ class Job:
         self.warnings += [each for each in report["warnings"] if each not in self.warnings]
         settings.summary = json.dumps({name: report[name] for name in (
             "contacts", "deepest_m", "pressed_m3", "heaped_m3", "seconds_in_all")}
-            | {"warnings": self.warnings})
-        return (f"Baked {index.frames} frames in {report['seconds_in_all']:.1f} s: "
+            | {"frames": [index.frame_start, index.frame_end], "warnings": self.warnings})
+        return (f"Baked frames {index.frame_start} to {index.frame_end} in {report['seconds_in_all']:.1f} s: "
                 f"{report['contacts']} contacts, deepest print "
                 f"{1000 * report['deepest_m']:.0f} mm; files in {self.path}.")
 

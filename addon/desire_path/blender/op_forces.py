@@ -14,8 +14,8 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from . import axes, force_graph, ground, sample
-from .op_walkers import Refusal, active
+from . import axes, force_graph, ground, moves, sample
+from .op_walkers import Refusal, active, walkers
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
 WIDTH = 3.0  # of a line [pixel]
@@ -70,8 +70,8 @@ def read(scene, armature):
     from ..soil import SOILS
     settings = armature.desire_path
     land = settings.ground
-    first, last = ((land.desire_path.frame_start, land.desire_path.frame_end) if land is not None
-                   else sample.frame_range(scene, armature))
+    first, last = (moves.frames(scene, land, walkers(scene, land)) if land is not None
+                   else moves.frame_range(scene, armature))
     gait = sample.record(scene, armature, first, last)
     below, yields = None, {}
     if land is not None:

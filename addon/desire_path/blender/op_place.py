@@ -15,7 +15,7 @@ from bpy.props import BoolProperty
 
 from .. import place, slope
 from ..errors import DesirePathError
-from . import axes, compat, controls, footing, ground, op_bake, posing, sample
+from . import axes, compat, controls, footing, ground, moves, op_bake, posing, sample
 from .op_walkers import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
@@ -25,7 +25,7 @@ OFF_TURN = np.radians(3.0)  # or a led one turned away from it by this [rad]
 
 def frames_of(scene, armature, land):
     """Scene frames of the armature's animation and of its ground's bake."""
-    first, last = sample.frame_range(scene, armature)
+    first, last = moves.frame_range(scene, armature)
     if not land.desire_path.frames_auto:
         first = min(first, land.desire_path.frame_start)
         last = max(last, land.desire_path.frame_end)
@@ -94,7 +94,7 @@ def bake(scene, armature, land, prints=False):
         plan.write_all(scene, curves)
         check(scene, armature, plan, frames)
         if action is not None and action.library is None:
-            hold(animation, armature, action, slot, plan.fresh, frames[0])
+            hold(animation, armature, action, slot, plan.fresh, plan.keyed_at[0])
             compat.use_action(animation, made, None)
     except BaseException:
         if before is not None:

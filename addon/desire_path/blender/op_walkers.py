@@ -4,7 +4,7 @@ from bpy.props import IntProperty, StringProperty
 
 from .. import rigs
 from ..errors import DesirePathError
-from . import axes, plants, props, sample
+from . import axes, moves, plants, props, sample
 
 
 class Refusal:
@@ -198,7 +198,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         settings.ground = ground
         for each in found.warnings + forgotten(obj):
             self.report({"WARNING"}, each)
-        self.follow(scene, ground)
+        moves.follow(scene, ground, walkers(scene, ground))
         feet = ", ".join(foot.foot for foot in found.feet)
         self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' with {feet}.")
         return {"FINISHED"}
@@ -219,15 +219,6 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
             raise DesirePathError("There are several grounds: select the one to walk on together "
                                   "with the armature, the armature last.")
         return there[0]
-
-    @staticmethod
-    def follow(scene, ground):
-        """Let the ground's frames cover its walkers until they are set by hand."""
-        settings = ground.desire_path
-        if settings.frames_auto:
-            ranges = [sample.frame_range(scene, each) for each in walkers(scene, ground)]
-            props.set_auto(settings, frame_start=min(each[0] for each in ranges),
-                           frame_end=max(each[1] for each in ranges))
 
 
 class OBJECT_OT_desire_path_remove(Refusal, bpy.types.Operator):
@@ -282,9 +273,9 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
         context.view_layer.update()
         ground = obj.desire_path.ground
         if ground is not None:
-            first, last = ground.desire_path.frame_start, ground.desire_path.frame_end
+            first, last = moves.frames(scene, ground, walkers(scene, ground))
         else:
-            first, last = sample.frame_range(scene, obj)
+            first, last = moves.frame_range(scene, obj)
         gait = sample.record(scene, obj, first, last)
         path = bpy.path.abspath(self.filepath)
         gait.save(path)

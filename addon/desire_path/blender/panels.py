@@ -74,7 +74,8 @@ def draw_result(layout, context, settings):
         return
     found = json.loads(settings.summary)
     column = layout.column(align=True)
-    _lines(column, f"{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
+    baked = "Frames {} to {}: ".format(*found["frames"]) if "frames" in found else ""  # not in older files
+    _lines(column, f"{baked}{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
                    f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
                    f"rims, baked in {found['seconds_in_all']:.1f} s", "CHECKMARK", width)
     for each in found["warnings"]:

@@ -14,12 +14,13 @@ import os
 import bpy
 import numpy as np
 
-from . import axes, compat
+from . import axes, clock, compat
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
+ROUNDED = 0.01  # of a frame is lost where time is stretched
 GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 LEAN = "desire_path_lean"  # vector attribute where plants grew: lean x, lean y, crushed
 STRENGTH = "plant_strength"  # float attribute where plants grew
@@ -211,10 +212,16 @@ class Wiring:
         return self.add("ShaderNodeSeparateXYZ", Vector=vector).outputs
 
 
-def file_number(wire, index, count):
-    """Which file shows the frame: n = frame - frame_start + 1, file 0 before, the last one after."""
+def file_number(wire, index, count, stretch=1.0):
+    """Which file shows the frame: n = frame - frame_start + 1, file 0 before, the last one after.
+
+    stretch: scene frames in one of the time that nodes know, see clock.py
+    """
     now = wire.add("GeometryNodeInputSceneTime").outputs["Frame"]
-    now = wire.math("FLOOR", wire.math("ADD", now, 1.0 - index.frame_start))
+    start = 1.0 - index.frame_start
+    if stretch != 1.0:
+        now, start = wire.math("MULTIPLY", now, stretch), start + ROUNDED
+    now = wire.math("FLOOR", wire.math("ADD", now, start))
     return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
 
 
@@ -223,7 +230,7 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
     leave = tree.nodes.new("NodeGroupOutput")
-    number = file_number(wire, index, count)
+    number = file_number(wire, index, count, clock.stretch_of(obj))
 
     # where in the image
     turn, shift = axes.image_axes(world, scale, index)

@@ -18,7 +18,7 @@ from ..errors import DesirePathError
 from ..foot import FootShape
 from ..gait import Gait
 from ..tread import Tread
-from . import axes, compat, playback
+from . import axes, clock, compat, playback
 
 PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
 
@@ -62,26 +62,6 @@ def still(armature):
     finally:
         for each in ours:
             each.show_viewport = True
-
-
-def frame_rate(scene):
-    """Frames in a second [1/s]."""
-    return scene.render.fps / scene.render.fps_base
-
-
-def frame_range(scene, obj):
-    """First and last frame of what an armature does: its own animation, else the scene's range."""
-    found = []
-    while obj is not None:
-        found.append(compat.action_range(obj.animation_data))
-        obj = obj.parent
-    found = [each for each in found if each is not None]
-    if found:
-        first = math.ceil(min(each[0] for each in found) - 1e-3)
-        last = math.floor(max(each[1] for each in found) + 1e-3)
-        if last > first:
-            return first, last
-    return scene.frame_start, scene.frame_end
 
 
 # ---- the armature ----------------------------------------------------------------------------------
@@ -309,6 +289,11 @@ def placed(armature):
                                for name, value in shape.items()}) for bone, shape in json.loads(kept).items()}
 
 
+def samples_of(scene, walkers):
+    """How often walkers are looked at in a scene frame, so that no frame of a sped-up animation is left out."""
+    return max(each.desire_path.subframes for each in walkers) * math.ceil(1.0 / clock.stretch(scene) - 1e-6)
+
+
 # ---- all of it --------------------------------------------------------------------------------------
 
 
@@ -323,8 +308,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
                               "after the start.")
     settings = armature.desire_path
-    samples = samples or settings.subframes
-    scale, rate = axes.unit_scale(scene), frame_rate(scene)
+    samples = samples or samples_of(scene, [armature])
+    scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     with still(armature), private_scene(scene, armature) as own:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
@@ -348,5 +333,5 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
 
 def gaits(scene, walkers, frame_start, frame_end, land=None):
     """All walkers of a ground as one recording; land: a Simulation of it, for feet that lie on slopes."""
-    samples = max(each.desire_path.subframes for each in walkers)
+    samples = samples_of(scene, walkers)
     return Gait.join([record(scene, each, frame_start, frame_end, samples, land) for each in walkers])

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import tuft
 from ..errors import DesirePathError
-from . import compat, grass, playback, tufts
+from . import clock, compat, grass, playback, tufts
 
 MODIFIER, BLADES = "Desire Path Plants", "Desire Path Blades"
 KIND = "kind"  # attribute: which of the kinds a point belongs to
@@ -53,7 +53,8 @@ def show(ground, folder, path, frame_start, scale):
     grass.stand_on(obj, ground, scale)
     cache = obj.modifiers.new(MODIFIER, "MESH_CACHE")
     cache.cache_format, cache.filepath = "PC2", playback.join(folder, "plants.pc2")
-    cache.frame_start, cache.forward_axis, cache.up_axis = float(frame_start), "POS_Y", "POS_Z"
+    cache.forward_axis, cache.up_axis = "POS_Y", "POS_Z"
+    cache.frame_start, cache.frame_scale = float(frame_start), clock.stretch_of(ground)
     grass.use_tree(obj.modifiers.new(BLADES, "NODES"), _blades(obj.name, found["kinds"]))
     return obj
 

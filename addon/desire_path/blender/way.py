@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
-from . import axes, ground, sample
+from . import axes, clock, ground, sample
 
 BESIDE = 1.0  # ground this far beside the path is read, and five times the scatter [m]
 
@@ -116,4 +116,4 @@ def carried(scene, obj, walkers, cell, first, last):
         walked.append(gait)
     rate = max(gait.rate() or gait.frame_rate for gait in walked)
     walked = [gait if gait.rate() == rate else gait.resample(rate) for gait in walked]
-    return replace(in_turn(walked), frame_start=first, frame_rate=sample.frame_rate(scene)), surface
+    return replace(in_turn(walked), frame_start=first, frame_rate=clock.frame_rate(scene)), surface

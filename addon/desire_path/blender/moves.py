@@ -1,0 +1,180 @@
+"""moves.py - what moves an object, and from which scene frame to which.
+
+    the object, its parents and their data --keys, strips--> from the first to the last of them
+    what constraints and drivers tie them to, modifiers of curves, simulations --> the scene's range besides
+
+Keys and strips say themselves when they begin and end. Anything else may go on for ever.
+"""
+import builtins
+import math
+import re
+
+import bpy
+
+from . import clock, compat, playback, props
+
+# modifiers that change a mesh with time, and nodes that do
+BY_TIME = {"BUILD", "CLOTH", "DYNAMIC_PAINT", "EXPLODE", "FLUID", "MESH_CACHE", "MESH_SEQUENCE_CACHE", "OCEAN",
+           "PARTICLE_INSTANCE", "PARTICLE_SYSTEM", "SOFT_BODY", "WAVE"}
+NODES_BY_TIME = {"GeometryNodeInputSceneTime", "GeometryNodeSimulationInput"}
+# words of a driver's expression that know no time
+TIMELESS = {*dir(math), *dir(builtins), "and", "or", "not", "if", "else", "in", "is", "self", "lerp", "clamp",
+            "smoothstep"}
+
+
+def frame_range(scene, obj):
+    """First and last scene frame of what moves an object; the scene's range where nothing does."""
+    found = _Movers(obj)
+    spans = [(first * clock.stretch(scene), last * clock.stretch(scene)) for first, last in found.spans]
+    if found.goes_on:
+        spans.append((scene.frame_start, scene.frame_end))
+    if spans:
+        first = math.ceil(min(span[0] for span in spans) - 1e-3)
+        last = math.floor(max(span[1] for span in spans) + 1e-3)
+        if last > first:
+            return first, last
+    return scene.frame_start, scene.frame_end
+
+
+def frames(scene, ground, walkers):
+    """First and last frame a ground is baked over: those of all its walkers, until they are set by hand."""
+    settings = ground.desire_path
+    if not settings.frames_auto or not walkers:
+        return settings.frame_start, settings.frame_end
+    ranges = [frame_range(scene, each) for each in walkers]
+    return min(each[0] for each in ranges), max(each[1] for each in ranges)
+
+
+def follow(scene, ground, walkers):
+    """The same, shown in the panel from now on."""
+    first, last = frames(scene, ground, walkers)
+    if ground.desire_path.frames_auto:
+        props.set_auto(ground.desire_path, frame_start=first, frame_end=last)
+    return first, last
+
+
+class _Movers:
+    """Everything that moves an object.
+
+    spans: first and last frame of keys and strips, in the animation's time; goes_on: does anything else move it?
+    """
+
+    def __init__(self, obj):
+        self.spans, self.goes_on, self.tied = [], False, []
+        own = _chain(obj)
+        for each in own:
+            self._look(each)
+        seen = set(own)
+        while self.tied:
+            each = self.tied.pop()
+            for other in _chain(each) if isinstance(each, bpy.types.Object) else [each]:
+                if other not in seen:
+                    seen.add(other)
+                    before = len(self.spans)
+                    self._look(other)
+                    self.goes_on |= len(self.spans) > before
+
+    def _look(self, each):
+        """How an ID moves by itself, and to what it is tied."""
+        if isinstance(each, bpy.types.CacheFile):
+            self.goes_on = True
+        animation = getattr(each, "animation_data", None)
+        if animation is not None:
+            self._animation(animation)
+        if not isinstance(each, bpy.types.Object):
+            keys = getattr(each, "shape_keys", None)
+            self.tied += [keys] if keys is not None else []
+            return
+        body = each.rigid_body
+        self.goes_on |= body is not None and body.type == "ACTIVE" and not body.kinematic
+        held = list(each.constraints)
+        for bone in each.pose.bones if each.pose is not None else ():
+            held += bone.constraints
+        for constraint in held:
+            if not constraint.mute or _is_keyed(animation, constraint):
+                self.tied += _tied(constraint)
+                for target in getattr(constraint, "targets", ()):
+                    self.tied += _tied(target)
+        for modifier in each.modifiers:
+            self._modifier(modifier)
+
+    def _modifier(self, modifier):
+        tree = getattr(modifier, "node_group", None)
+        if tree is not None and playback.TAG in tree:
+            return  # a bake of ours
+        self.tied += _tied(modifier)
+        self.goes_on |= modifier.type in BY_TIME
+        if tree is not None:
+            self.tied.append(tree)
+            self.goes_on |= any(node.bl_idname in NODES_BY_TIME for node in tree.nodes)
+
+    def _animation(self, animation):
+        tracks = list(animation.nla_tracks) if animation.use_nla else []
+        solo = [track for track in tracks if track.is_solo]
+        for track in solo or tracks:
+            if not track.mute or solo:
+                self.spans += [(strip.frame_start, strip.frame_end) for strip in track.strips if not strip.mute]
+        if animation.use_tweak_mode:
+            self.goes_on = True  # a strip's action is edited, which may have outgrown its strip
+        elif animation.action is not None and not solo:
+            self._action(animation)
+        for curve in animation.drivers:
+            if not curve.mute:
+                self._driver(curve.driver)
+
+    def _action(self, animation):
+        curves = [curve for curve in compat.curves_played(animation) if not curve.mute
+                  and (len(curve.keyframe_points) or len(curve.modifiers) or len(curve.sampled_points))]
+        if not curves:
+            return
+        action = animation.action
+        if action.use_frame_range:  # set by hand
+            self.spans.append((action.frame_start, action.frame_end))
+        else:
+            self.spans += [tuple(curve.range()) for curve in curves
+                           if len(curve.keyframe_points) or len(curve.sampled_points)]
+        self.goes_on |= any(_goes_on(curve) for curve in curves)
+
+    def _driver(self, driver):
+        names = {variable.name for variable in driver.variables}
+        if driver.type == "SCRIPTED":
+            words = re.findall(r"(?<![.\w])[A-Za-z_]\w*", driver.expression)
+            self.goes_on |= any(word not in names and word not in TIMELESS for word in words)
+        for variable in driver.variables:
+            self.goes_on |= variable.type == "CONTEXT_PROP"
+            for target in variable.targets if variable.type != "CONTEXT_PROP" else ():
+                if isinstance(target.id, bpy.types.Scene):
+                    self.goes_on = True
+                elif target.id is not None:
+                    self.tied.append(target.id)
+
+
+def _chain(obj):
+    """An object and its parents, with their data."""
+    found = []
+    while obj is not None:
+        found += [obj] + ([obj.data] if obj.data is not None else [])
+        obj = obj.parent
+    return found
+
+
+def _tied(thing):
+    """Objects, and files of motion, that a constraint, one of its targets or a modifier points at."""
+    found = [getattr(thing, each.identifier) for each in thing.bl_rna.properties if each.type == "POINTER"]
+    return [each for each in found if isinstance(each, (bpy.types.Object, bpy.types.CacheFile))]
+
+
+def _is_keyed(animation, constraint):
+    """Is a constraint switched on and off by keys or a driver?"""
+    if animation is None:
+        return False
+    end = f'constraints["{bpy.utils.escape_identifier(constraint.name)}"].mute'
+    curves = [*animation.drivers, *(compat.curves_played(animation) if animation.action is not None else ())]
+    return any(curve.data_path.endswith(end) for curve in curves)
+
+
+def _goes_on(curve):
+    """Does a curve go on before or after its keys?"""
+    if any(not each.mute for each in curve.modifiers):
+        return True
+    return curve.extrapolation == "LINEAR" and len(curve.keyframe_points) > 1
