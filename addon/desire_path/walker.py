@@ -11,8 +11,7 @@ import numpy as np
 from . import whole
 from .errors import DesirePathError
 
-RATE = 240.0  # loads are found at this rate [1/s] ..
-RATE_KEPT = 100.0  # .. unless the recording is even and at least this fine
+RATE = 240.0  # loads are found at this rate at least, the least multiple of the recording's own [1/s]
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
@@ -25,7 +24,7 @@ LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.
           "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
           "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5,
           "frame_time": 0.0}
-OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "cutoff_level": 2.0 / 3.0,
+OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "cutoff_flight": 8.0, "cutoff_level": 2.0 / 3.0,
            "overlap_most": 0.3, "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25,
            "reach": 0.3}
 
@@ -82,11 +81,14 @@ def ground_below(gait, ground):
 
 
 def _even(gait):
-    """(gait at a rate fit for filters, is it the recording itself)."""
+    """(gait at a rate fit for filters, each how many samples of which are the recording's; 0: they lie elsewhere)."""
     rate = gait.rate()
-    if len(gait.time) == 1 or (rate is not None and rate >= RATE_KEPT):
-        return gait, True
-    return gait.resample(RATE), False
+    if len(gait.time) == 1:
+        return gait, 1
+    if rate is None:
+        return gait.resample(RATE), 0
+    finer = int(np.ceil(RATE / rate - 1e-6))
+    return (gait.resample(rate * finer), finer) if finer > 1 else (gait, 1)
 
 
 def _frames(gait):
@@ -110,19 +112,19 @@ def contacts(gait, ground_height=None, *, limits=None):
     gait.check()
     if len(gait.cut):
         return _contacts_by_piece(gait, ground_height, limits)
-    even, same = _even(gait)
-    below = _on_even(gait, even, same, ground_height)
+    even, every = _even(gait)
+    below = _on_even(gait, even, ground_height)
     touching, clearance = _find_contacts(even, _carried_on(even, below), limits, _frames(gait))
     touching[_beside(even, below)] = 0
-    return (touching if same else touching[:, _nearest(even.time, gait.time)]), clearance
+    pick = slice(None, None, every) if every else _nearest(even.time, gait.time)
+    return np.ascontiguousarray(touching[:, pick]), clearance
 
 
-def _on_even(gait, even, same, ground):
+def _on_even(gait, even, ground):
     """Ground heights for the even recording; heights given for the recording itself are carried over."""
-    below = ground_below(gait if not (same or callable(ground)) else even, ground)
-    if same or callable(ground) or np.ndim(ground) == 0:
+    if even is gait or callable(ground) or np.ndim(ground) == 0:
         return ground_below(even, ground)
-    return np.stack([np.interp(even.time, gait.time, row) for row in below])
+    return np.stack([np.interp(even.time, gait.time, row) for row in ground_below(gait, ground)])
 
 
 def _carried_on(gait, below):
@@ -178,8 +180,8 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     if len(gait.cut):
         return _loads_by_piece(gait, ground, lambda piece, heights: loads(
             piece, model, heights, settle_time=settle_time, half_sine=half_sine, limits=limits, options=options))
-    even, same = _even(gait)
-    below = _on_even(gait, even, same, ground)
+    even, every = _even(gait)
+    below = _on_even(gait, even, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
     touching, clearance = _find_contacts(even, below, limits, _frames(gait))
     force = np.zeros(touching.shape + (3,))
@@ -192,7 +194,9 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
-    if not same:
+    if every > 1:
+        touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
+    elif not every:
         touching, force, point = _at(gait.time, even.time, touching, force, point)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
 

@@ -160,8 +160,8 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpDoor        door = {0};
     DpGait        gait = {0};
     DpLoadOptions o = dp_load_options_default();
-    double    n[9] = {o.cutoff_share,  o.cutoff_low, o.cutoff_high, o.cutoff_level, o.overlap_most,
-                      o.ramp_standing, o.ramp_alone, o.ramp_trust,  o.reach};
+    double n[10] = {o.cutoff_share, o.cutoff_low,    o.cutoff_high, o.cutoff_flight, o.cutoff_level,
+                    o.overlap_most, o.ramp_standing, o.ramp_alone,  o.ramp_trust,    o.reach};
     PyObject* result = NULL;
     double *  out_force = NULL, *out_point = NULL;
     if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
@@ -174,7 +174,7 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpShape shape = {3, {gait.parts, gait.times, 3}};
     if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
     if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
-    if (read_numbers(&door, numbers, "options", n, 9) < 0) goto done;
+    if (read_numbers(&door, numbers, "options", n, 10) < 0) goto done;
     o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA,
                         settle_time,
                         half_sine != 0,
@@ -186,7 +186,8 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
                         n[5],
                         n[6],
                         n[7],
-                        n[8]};
+                        n[8],
+                        n[9]};
     if (model != 0 && model != 1) {
         PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
         goto done;

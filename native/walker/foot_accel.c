@@ -134,20 +134,23 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
     }
     const double step = step_time(limb_on, limbs, times, rate, line);
     bool         flies = in_air(limb_on, limbs, times, air);
-    const double up = step > 0.0 ? dp_clamp(options->cutoff_share / step, options->cutoff_low,
-                                            options->cutoff_high)
+    if (flies) {
+        read_line(gait, walker, 2, line);
+        flies = walker_falls(air, line, times, rate);
+    }
+    const double steps = options->cutoff_share / step;  // infinite where no step is known
+    // what falls is caught by knocks, however seldom it steps
+    const double least = flies ? options->cutoff_flight : options->cutoff_low;
+    const double up = step > 0.0 ? dp_clamp(steps, least, options->cutoff_high)
                       : flies    ? options->cutoff_high
                                  : options->cutoff_low;
     // quick steps may need all of the upper bound over the ground too
-    const double level =
-        step > 0.0
-            ? fmin(options->cutoff_level * fmax(options->cutoff_share / step, options->cutoff_low),
-                   options->cutoff_high)
-            : options->cutoff_level * up;
+    const double level = step > 0.0 ? fmin(options->cutoff_level * fmax(steps, options->cutoff_low),
+                                           options->cutoff_high)
+                                    : options->cutoff_level * up;
     for (int c = 2; c >= 0; --c) {
         const double cutoff = c < 2 ? level : up;
         read_line(gait, walker, c, line);
-        if (c == 2 && flies) flies = walker_falls(air, line, times, rate);
         if (flies)
             walker_fly(line, air, times, rate, cutoff, c == 2 ? -DP_GRAVITY : 0.0, scratch);
         else

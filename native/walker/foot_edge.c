@@ -60,15 +60,17 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
     }
 }
 
-// Mean upward speed, or acceleration, of a limb's balls; of all its points if it has none.
-static double lift(const DpGait* gait, int limb, const double* rise, int t, double rate, bool speed)
+// Mean of a row of each point at a sample, or of its growth, over a limb's balls; over all its points
+// if it has none.
+static double of_balls(const DpGait* gait, int limb, const double* rows, int t, double rate,
+                       bool growth)
 {
     double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
     for (int k = 0; k < gait->points; ++k) {
         if (gait->part_limb[gait->point_part[k]] != limb) continue;
         const int     ball = gait->point_role[k] == DP_POINT_BALL;
-        const double* row = rise + (size_t)k * (size_t)gait->times;
-        sum[ball] += speed ? row[t] : walker_velocity(row, gait->times, t, rate);
+        const double* row = rows + (size_t)k * (size_t)gait->times;
+        sum[ball] += growth ? walker_velocity(row, gait->times, t, rate) : row[t];
         count[ball] += 1.0;
     }
     const int ball = count[1] > 0.0;
@@ -103,14 +105,15 @@ static void leave(const DpGait* gait, int limb, const double* rise, const double
     for (int t = 1; t <= times; ++t) {
         if (!limb_on(gait, limb, on, t - 1)) continue;
         // a clip that ends while the ball is pulled up ends after the contact
-        if (t == times ? lift(gait, limb, rise, t - 1, rate, true) < moves
+        if (t == times ? of_balls(gait, limb, rise, t - 1, rate, false) < moves
                        : limb_on(gait, limb, on, t))
             continue;
         int    hardest = t;
         double most = 0.0;
         for (int k = t < times ? t : times - 1;
              k > 0 && t - k < reach && limb_on(gait, limb, on, k - 1); --k) {
-            const double now = lift(gait, limb, rise, k, rate, false);
+            const double now = of_balls(gait, limb, rise, k, rate, true) +
+                               of_balls(gait, limb, speed, k, rate, true);
             if (now > most) most = now, hardest = k;
         }
         // no limb has left while a point of it still rests

