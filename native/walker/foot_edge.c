@@ -2,9 +2,9 @@
 //
 // Limits on height and speed tell that a foot stands and that it swings; between the two lie some
 // hundredths of a second. The ground itself marks the moments: it stops a foot that comes down, so
-// that its fall is fastest as it arrives, and it lets a foot go that is being pulled up, so that
-// the ball is lifted hardest as it leaves (Hreljac and Marshall 2000 time both by the peaks of the
-// foot's acceleration; O'Connor et al. 2007 by its vertical velocity).
+// that its fall is fastest as it arrives, and it lets a foot go that is being pulled up and ahead, so
+// that the ball is lifted and sped up hardest as it leaves (Hreljac and Marshall 2000 time both by
+// the peaks of the foot's acceleration; O'Connor et al. 2007 by its vertical velocity).
 //
 // Speeds are low-passed, which turns a sudden stop into a slope of at least a quarter of the
 // cut-off's period to either side and moves the fastest fall ahead of the stop. Lengths of slopes
@@ -97,7 +97,7 @@ static bool rests(const DpGait* gait, int limb, const double* speed, double move
     return false;
 }
 
-// A limb that has let go did so when its ball was lifted hardest.
+// A limb that has let go did so when its ball was lifted and sped up hardest.
 static void leave(const DpGait* gait, int limb, const double* rise, const double* speed,
                   uint8_t* on, double rate, double moves)
 {

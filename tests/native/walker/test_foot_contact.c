@@ -294,6 +294,35 @@ TEST(the_ground_marks_the_edges)
     scene_free(&s);
 }
 
+TEST(a_foot_that_is_drawn_ahead_leaves_as_it_is_sped_up)
+{
+    // the ball is lifted a little as the foot rolls over its toes, and drawn ahead 50 ms later
+    enum
+    {
+        N = 480
+    };
+    Scene  s = scene_make(N, 2.0 * RATE, 2, 1);
+    double x = 0.0, speed = 0.0, z = 0.0, rise = 0.0;
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / (2.0 * RATE);
+        const double roll = (now - 1.34) / 0.04, draw = (now - 1.39) / 0.04;
+        if (roll > 0.0 && roll < 1.0) rise += 8.0 * sin(3.14159265 * roll) / (2.0 * RATE);
+        if (draw > 0.0 && draw < 1.0) speed += 60.0 * sin(3.14159265 * draw) / (2.0 * RATE);
+        x += speed / (2.0 * RATE), z += rise / (2.0 * RATE);
+        scene_com(&s, t, now, 0.0, 1.0);
+        scene_put(&s, N, 0, t, x, 0.1, z);
+        scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    int last = N - 1;
+    while (!on[last]) --last;
+    CHECK_NEAR((double)last / (2.0 * RATE), 1.41, 0.015);
+    scene_free(&s);
+}
+
 TEST(a_sudden_stop_out_of_a_flight_is_timed)
 {
     // a low-pass makes a slope of the stop and moves the fastest fall 17 ms ahead of it
@@ -378,6 +407,7 @@ int main(void)
     RUN(who_hangs_presses_nothing);
     RUN(two_feet_on_a_box_both_carry);
     RUN(the_ground_marks_the_edges);
+    RUN(a_foot_that_is_drawn_ahead_leaves_as_it_is_sped_up);
     RUN(a_sudden_stop_out_of_a_flight_is_timed);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
