@@ -230,9 +230,9 @@ def test_plays_in_a_fresh_process_without_the_addon(folder):
     (folder / "here").mkdir()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "a.blend"))
     ground, _ = scene(frames=24)
-    assert ground.desire_path.folder == "//desire_path/Ground"
+    assert ground.desire_path.folder == "//desire_path/a/Ground"
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    assert (folder / "here" / "desire_path" / "Ground" / "frames" / "trail_0024.exr").exists()
+    assert (folder / "here" / "desire_path" / "a" / "Ground" / "frames" / "trail_0024.exr").exists()
     wanted, _ = shown(ground, 20)
     rest = compat.positions(ground.data)
     assert np.abs(wanted - rest).max() > 0.003
@@ -282,7 +282,7 @@ def test_frames_that_went_back_to_the_making_play(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     wanted, _ = shown(ground, 12)
     bpy.ops.wm.save_mainfile()
-    place = folder / "here" / "desire_path" / "Ground"
+    place = folder / "here" / "desire_path" / "a" / "Ground"
     (place / "frames").rename(place / "frames.new")
     bpy.ops.wm.open_mainfile(filepath=file)
     assert shown(bpy.data.objects["Ground"], 12)[0].tobytes() == wanted.tobytes()
@@ -406,14 +406,14 @@ def test_copies_and_names_do_not_mix_bakes(folder):
     meshes.activate(copy)
     assert bpy.ops.object.desire_path_free() == {"FINISHED"}
     assert shown(ground, 8)[0].tobytes() == first.tobytes()
-    assert (folder / "here" / "desire_path" / "Ground" / "frames" / "trail_0008.exr").exists()
+    assert (folder / "here" / "desire_path" / "a" / "Ground" / "frames" / "trail_0008.exr").exists()
     walker.desire_path.ground = copy
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    assert copy.desire_path.folder == "//desire_path/Ground_001"
+    assert copy.desire_path.folder == "//desire_path/a/Ground_001"
     assert shown(copy, 8)[0].tobytes() == first.tobytes()
     copy.name = "Renamed"
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    assert copy.desire_path.folder == "//desire_path/Ground_001"
+    assert copy.desire_path.folder == "//desire_path/a/Ground_001"
 
 
 def test_user_frame_and_selection_stay(folder):
@@ -581,7 +581,7 @@ def test_killed_in_the_middle(folder):
         command = [sys.executable, "-c", KILLED, str(addon), file]
     child = subprocess.Popen(command, env={**os.environ, "PATH": path}, stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT)
-    place = folder / "here" / "desire_path" / "Ground"
+    place = folder / "here" / "desire_path" / "a" / "Ground"
     until = time.monotonic() + 60
     while not list(place.glob("frames*/trail_0006.exr")) and time.monotonic() < until:
         assert child.poll() is None, child.stdout.read().decode()
@@ -612,7 +612,7 @@ def test_lost_and_foreign_files_are_said(folder):
     ground, _ = scene(frames=6)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     bpy.ops.wm.save_mainfile()
-    place = folder / "here" / "desire_path" / "Ground" / "frames"
+    place = folder / "here" / "desire_path" / "a" / "Ground" / "frames"
     text = (place / "index.json").read_text()
     (place / "index.json").write_text(text.replace('"format": 1', '"format": 99'))
     bpy.ops.wm.open_mainfile(filepath=file)

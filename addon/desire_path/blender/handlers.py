@@ -1,4 +1,4 @@
-"""handlers.py - after loading and undoing, grounds play what is whole of their bake.
+"""handlers.py - after loading, undoing and the first save, grounds play what is whole of their bake.
 
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
@@ -10,7 +10,10 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, op_forces, op_plants, playback, show
+from . import ground, home, op_forces, op_plants, playback, show
+
+
+_unsaved = False  # whether the file that is being saved never was before
 
 
 def refresh(scene, obj):
@@ -19,15 +22,18 @@ def refresh(scene, obj):
     settings = obj.desire_path
     if obj.library is not None:  # its own file looks after it
         return
-    if not settings.folder or settings.folder.startswith("//") and not bpy.data.filepath:
+    home.find(obj)
+    if not settings.folder or home.lost(obj):
         return
     try:
-        index = read_index(show.folder(obj))
+        index = read_index(home.folder(obj))
     except DesirePathError as problem:
         ours = playback.modifier(obj)
         if ours is not None and not _plays_from_elsewhere(obj, ours):
             settings.missing = str(problem)
         return
+    if index.owner and settings.bake_id and index.owner != settings.bake_id:
+        return  # of another ground, whose folder it is now
     ours = playback.modifier(obj)
     mark = playback.mark(index.folder, index, index.frames)
     if ours is not None and ours.node_group[playback.TAG] == mark:
@@ -47,12 +53,13 @@ def _plays_from_elsewhere(obj, ours):
     place, and Blender keeps the way to its images."""
     image = playback.image_of(ours.node_group)
     path = os.path.abspath(bpy.path.abspath(image.filepath)) if image is not None else ""
-    return os.path.exists(path) and not path.startswith(show.folder(obj) + os.sep)
+    return os.path.exists(path) and not path.startswith(home.folder(obj) + os.sep)
 
 
 @persistent
 def after_load(*_):
     op_forces.hide()  # of the file before
+    home.forget()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:
@@ -71,8 +78,34 @@ def after_undo(*_):
                     op_plants.refresh(scene, obj)
 
 
+@persistent
+def before_save(*_):
+    global _unsaved
+    _unsaved = not bpy.data.filepath
+    for obj in bpy.data.objects:
+        if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground and home.is_own(obj):
+            home.sign(obj)
+
+
+@persistent
+def after_save(*_):
+    """A file saved for the first time: what was baked before moves beside it, and the file is to say so."""
+    global _unsaved
+    first, _unsaved = _unsaved and bool(bpy.data.filepath), False
+    there = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground
+             and obj.desire_path.bake_id and not obj.desire_path.bake_file] if first else []
+    for obj in there:
+        with suppress(OSError):  # then it stays where it is
+            home.move_in(obj)
+    if there:
+        with suppress(RuntimeError):  # Blender has said why
+            bpy.ops.wm.save_mainfile()
+
+
 def register():
     bpy.app.handlers.load_post.append(after_load)
+    bpy.app.handlers.save_pre.append(before_save)
+    bpy.app.handlers.save_post.append(after_save)
     bpy.app.handlers.undo_post.append(after_undo)
     bpy.app.handlers.redo_post.append(after_undo)
     if hasattr(bpy.data, "scenes"):  # not while Blender itself starts
@@ -82,4 +115,6 @@ def register():
 def unregister():
     bpy.app.handlers.redo_post.remove(after_undo)
     bpy.app.handlers.undo_post.remove(after_undo)
+    bpy.app.handlers.save_post.remove(after_save)
+    bpy.app.handlers.save_pre.remove(before_save)
     bpy.app.handlers.load_post.remove(after_load)

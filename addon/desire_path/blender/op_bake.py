@@ -13,9 +13,10 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
-from . import inputs, moves, op_plants, props, way
+from . import home, inputs, moves, op_plants, way
+from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import Refusal, active, sentence, walkers
-from .show import folder, free, play, sharing
+from .show import free, play
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
@@ -49,15 +50,7 @@ class Job:
         if last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
-        if not settings.folder or settings.folder_auto and not _fits(obj):
-            props.set_auto(settings, folder=props.default_folder(obj))
-        if settings.folder.startswith("//") and not bpy.data.filepath:
-            raise DesirePathError("The folder lies beside a file that was never saved: save the file "
-                                  "or choose another folder.")
-        self.path = folder(obj)
-        for other in sharing(obj):
-            raise DesirePathError(f"'{other.name}' bakes into the same folder: choose another one for "
-                                  "either.")
+        self.path = home.claim(obj)
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]
 
@@ -77,7 +70,7 @@ class Job:
                                   "again.")
         settings = obj.desire_path
         made, self.surface = yield from inputs.taken(scene, obj, there, settings.frame_start, settings.frame_end,
-                                                     folder=self.path)
+                                                     folder=self.path, owner=settings.bake_id)
         self.warnings += [*self.surface.warnings, *way.warnings(there)]
         self.recorded = time.perf_counter() - self.begun
         self.warnings += op_plants.refresh(scene, obj)
@@ -111,12 +104,6 @@ class Job:
         return (f"Baked frames {index.frame_start} to {index.frame_end} in {report['seconds_in_all']:.1f} s: "
                 f"{report['contacts']} contacts, deepest print "
                 f"{1000 * report['deepest_m']:.0f} mm; files in {self.path}.")
-
-
-def _fits(obj):
-    """Whether a folder nobody chose may stay: beside the file once that is saved, and not shared."""
-    return (obj.desire_path.folder.startswith("//") == bool(bpy.data.filepath)
-            and not sharing(obj))
 
 
 def idle_ground(operator, context):

@@ -15,7 +15,7 @@ from bpy.props import BoolProperty
 
 from .. import place, slope
 from ..errors import DesirePathError
-from . import axes, compat, controls, footing, ground, moves, op_bake, posing, sample
+from . import axes, compat, controls, footing, ground, home, moves, posing, sample
 from .op_walkers import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
@@ -43,7 +43,7 @@ def read(scene, armature, land, frames, prints):
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
-        film = sink.Film(baking.read_index(op_bake.folder(land)))
+        film = sink.Film(baking.read_index(home.folder(land)))
         loads = walker.loads(placed, armature.desire_path.load_model, ground=below.rest_height)
         placed = sink.into_prints(placed, loads, film, below.rest_height)
     return gait, placed, surface.warnings

@@ -63,13 +63,13 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
         return active(cls, context, "MESH", "the mesh that is walked on")
 
     def work(self, context):
+        from . import home
         obj, scene = context.object, context.scene
         if not len(obj.data.polygons) and not obj.modifiers:
             raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
         settings = obj.desire_path
         settings.is_ground = True
-        if settings.folder_auto:
-            props.set_auto(settings, folder=props.default_folder(obj))
+        home.settle(obj)
         if settings.frames_auto:
             props.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
         text = f"'{obj.name}' is a ground"

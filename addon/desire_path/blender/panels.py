@@ -37,7 +37,7 @@ def draw_ground(layout, context, obj):
     frames.prop(settings, "frame_end")
     column.prop(settings, "folder")
     if settings.folder_auto and not bpy.data.filepath:
-        _lines(column, "Temporary: save the file, then bake, to keep it", "INFO", _letters(context))
+        _lines(column, "Temporary: save the file to keep it", "INFO", _letters(context))
 
     layout.label(text="Walkers")
     box = layout.box().column(align=True)

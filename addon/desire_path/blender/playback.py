@@ -104,6 +104,18 @@ def discard(tree):
             bpy.data.images.remove(image)
 
 
+def repoint(old, new):
+    """Let what plays from a folder play from another one, to which the files were moved.
+
+    old: as the system writes paths; new: as Blender does
+    """
+    stems = [each for obj in bpy.data.objects for each in obj.modifiers if each.type == "MESH_CACHE"]
+    for each in [image for image in bpy.data.images if TAG in image] + stems:
+        path = os.path.abspath(bpy.path.abspath(each.filepath))
+        if each.id_data.library is None and path.startswith(old + os.sep):
+            each.filepath = join(new, *path[len(old) + 1:].split(os.sep))
+
+
 def has_lean(index):
     """Whether a bake says how plants lie."""
     return bool(getattr(index, "lean", False))

@@ -1,7 +1,4 @@
 """props.py - what a ground and a walker remember: Object.desire_path."""
-import os
-import tempfile
-
 import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
@@ -164,6 +161,10 @@ class DesirePathSettings(bpy.types.PropertyGroup):
                ("paper", "Falling off", "On the rim, falling off over its width, then sliding")))
     threads: IntProperty(name="Threads", min=0, max=64, default=0,
                          description="Processors to bake with, 0 = all; the result is the same")
+    bake_id: StringProperty(options={"HIDDEN"}, description="Whose a bake is, see home.py")
+    bake_file: StringProperty(options={"HIDDEN"}, description="The file the id was given in")
+    bake_seen: StringProperty(options={"HIDDEN"}, description="The same, seen from the folder")
+    bake_name: StringProperty(options={"HIDDEN"}, description="The object it was given to")
     made_groups: StringProperty(options={"HIDDEN"})
     made_attributes: StringProperty(options={"HIDDEN"})
     summary: StringProperty(options={"HIDDEN"}, description="What the last bake did")
@@ -211,14 +212,6 @@ class DesirePathSettings(bpy.types.PropertyGroup):
                              description="The bones of the walker's feet, found by Add Walker or Find Feet")
     forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
-
-
-def default_folder(obj):
-    """Where an object's bake goes when nobody chose: beside the .blend, else a temporary place."""
-    name = bpy.path.clean_name(obj.name)
-    if bpy.data.filepath:
-        return f"//desire_path/{name}"
-    return os.path.join(tempfile.gettempdir(), f"desire_path_{os.getpid()}", name)
 
 
 def set_auto(settings, **values):

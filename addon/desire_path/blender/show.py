@@ -3,20 +3,8 @@ import os
 
 import bpy
 
-from . import cover, ground, playback, plants, stems
-from .op_walkers import grounds
-
-
-def folder(obj):
-    """The bake folder of a ground as the system knows it."""
-    return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
-
-
-def sharing(obj):
-    """Other grounds of the file with the same bake folder."""
-    own = folder(obj)
-    return [other for scene in bpy.data.scenes for other in grounds(scene)
-            if other != obj and other.desire_path.folder and folder(other) == own]
+from . import cover, ground, home, playback, plants, stems
+from .home import folder
 
 
 def play(obj, surface, baked=None):
@@ -70,20 +58,15 @@ def missing(index):
 
 
 def free(obj):
-    """Give the mesh back as it was and delete the files of its bake."""
+    """Give the mesh back as it was and delete the files of its bake; those of another ground or file stay."""
     from .. import bake
     settings = obj.desire_path
     playback.detach(obj)
     plants.show(obj)
     stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
-    if settings.folder and not (settings.folder.startswith("//") and not bpy.data.filepath):
-        shared = sharing(obj)
-        if not shared:
-            bake.free(folder(obj))
-        if settings.folder_auto and not shared:
-            try:
-                os.rmdir(os.path.dirname(folder(obj)))  # `desire_path`, when no other ground is in it
-            except OSError:
-                pass
+    if settings.folder and home.may_free(obj):
+        bake.free(folder(obj), settings.bake_id)
+        if settings.folder_auto:
+            home.leave(folder(obj))
     settings.summary = settings.missing = ""
