@@ -103,7 +103,7 @@ def test_a_mesh_without_points_in_the_prints_is_told(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert "subdivide it there, to about 0.01 m" in ground.desire_path.summary
     finer = ground.modifiers.new("Finer", "SUBSURF")
-    finer.subdivision_type, finer.levels = "SIMPLE", 5
+    finer.subdivision_type, finer.levels, finer.render_levels = "SIMPLE", 5, 5
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert "subdivide" not in ground.desire_path.summary
 

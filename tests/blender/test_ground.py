@@ -64,6 +64,7 @@ def test_cells_meet_a_regular_mesh():
 def test_painted_soils_through_modifiers():
     obj = meshes.grid(11, 11, 0.1)
     obj.modifiers.new("Fine", "SUBSURF").levels = 1
+    obj.modifiers["Fine"].render_levels = 1
     obj.modifiers["Fine"].subdivision_type = "SIMPLE"
     for name, low in (("snow", 0.35), ("mud", 0.75)):
         group = obj.vertex_groups.new(name=name)

@@ -121,6 +121,30 @@ def geometry_tree(name, new_tree):
     return tree
 
 
+def nodes_modifier(obj, name, tree):
+    """A new modifier of an object that runs a tree; older Blenders fill in a tree of their own."""
+    modifier = obj.modifiers.new(name, "NODES")
+    made = modifier.node_group
+    modifier.node_group = tree
+    if made is not None and made != tree and made.users == 0:
+        bpy.data.node_groups.remove(made)
+    return modifier
+
+
+def move_modifier(obj, modifier, index):
+    """Put a modifier at a place of its stack, as far as Blender lets it."""
+    first = list(obj.modifiers).index(modifier)
+    pinned = [k for k, each in enumerate(obj.modifiers) if getattr(each, "use_pin_to_last", False)]
+    index = min([index, len(obj.modifiers) - 1] + [k - (first < k) for k in pinned])
+    if index == first:
+        return
+    if hasattr(obj.modifiers, "move"):
+        obj.modifiers.move(first, index)
+    else:
+        with bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=index)
+
+
 def socket(sockets, name):
     """The socket of that name in use; None where this Blender's node has none (or hides it).
 

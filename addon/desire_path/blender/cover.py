@@ -11,7 +11,8 @@ from ..soil import SOILS
 from . import axes, compat, playback
 
 LEVELS = 1024  # of a weight in a vertex group
-COARSE = 0.05  # points farther apart than this do not show a foot [m]
+WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
+COARSE = 4.0  # nor does what is farther apart than this show what was baked [cells]
 
 
 def make_groups(obj):
@@ -98,15 +99,37 @@ def remove(obj):
 
 
 def few_points(obj, surface, index, planes):
-    """Sentences: one where the mesh has too few points in the prints to show them."""
-    from .. import mesh as meshes
+    """Sentences: one where the mesh has too few points in the prints to show them, in renders or in the viewport."""
     printed = planes["compression"] > 0.0
-    there = meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), surface.vertices,
-                             still=1.0)["printed"]
-    if np.count_nonzero(there) * COARSE ** 2 >= np.count_nonzero(printed) * index.cell ** 2:
+    cells = np.count_nonzero(printed)
+    if not cells:
         return []
-    return [f"'{obj.name}' has hardly a point where the prints are, so that they cannot be seen: "
-            f"subdivide it there, to about {index.cell:g} m."]
+    edges = sum(np.count_nonzero(np.diff(printed, axis=axis, prepend=False, append=False)) for axis in (0, 1))
+    render, drawn = (_apart(points, index, printed) for points in (surface.vertices, surface.drawn))
+    render /= np.sqrt(surface.finer)
+    wide = WIDE * cells / edges  # in cells
+    metres = lambda apart: f"{apart * index.cell:.2g} m" if np.isfinite(apart) else "farther than the prints are long"
+    if min(render, drawn) > wide:
+        return [f"'{obj.name}' has hardly a point where the prints are, so that they cannot be seen: "
+                f"subdivide it there, to about {index.cell:g} m."]
+    if render > wide:
+        return [f"The viewport shows the prints in '{obj.name}', renders do not, where its points lie {metres(render)} "
+                "apart: let its modifiers make it as fine in renders."]
+    if drawn > wide:
+        return [f"Renders show the prints in '{obj.name}', the viewport does not, where its points lie {metres(drawn)} "
+                "apart: let its modifiers make it as fine in the viewport if you want to see them there."]
+    if render > COARSE:
+        return [f"The points of '{obj.name}' lie {metres(render)} apart where the prints are, which are baked in cells "
+                f"of {index.cell:g} m: make it as fine as those there to see prints as they are."]
+    return []
+
+
+def _apart(points, index, printed):
+    """How far points lie apart where the prints are, infinite where there is none [cells]."""
+    from .. import mesh as meshes
+    there = np.count_nonzero(meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), points,
+                                              still=1.0)["printed"])
+    return np.sqrt(np.count_nonzero(printed) / there) if there else np.inf
 
 
 def planes(index):

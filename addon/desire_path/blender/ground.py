@@ -1,7 +1,7 @@
 """ground.py - any mesh, with its modifiers, as ground for the core.
 
-The mesh is taken as it stands at the first frame, with every modifier but the one that plays our own
-bake: a subdivided or displaced ground is walked on as it looks.
+The mesh is taken as renders have it at the first frame, with the modifiers that come before the one that plays
+our own bake: a subdivided or displaced ground is walked on as it looks, without the hair that grows on it.
 """
 from dataclasses import dataclass
 from itertools import product
@@ -10,12 +10,13 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
-from . import axes, compat, playback, sample
+from . import axes, compat, playback, sample, stack
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
 NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
 LEVEL = 0.01  # ground that rises less than this is level [m]
 FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
+SOON = 0.38  # the shape is looked at after this share of the frames, too: what comes and goes is seen
 BLOCK = 1 << 16  # faces looked at in one go, at most
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
@@ -31,6 +32,9 @@ class Surface:
     corners: np.ndarray  # the local box of the points (8, 3)
     origin: tuple  # corner of cell (0, 0): puts a regular mesh on cell centres if that can be [m]
     warnings: tuple
+    place: stack.Place  # of our modifier
+    drawn: np.ndarray  # the points the viewport has, in the world (m, 3) [m]
+    finer: int = 1  # times as many points as were read are in renders
 
 
 def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
@@ -40,8 +44,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     """
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
-    from .. import mesh as meshes  # the core is loaded when it is first needed
-    from ..sim import Ground
+    from ..sim import Ground  # the core is loaded when it is first needed
     scale = axes.unit_scale(scene)
     warnings = []
     groups = [each.vertex_group for each in obj.desire_path.painted]
@@ -49,33 +52,34 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         if name not in obj.vertex_groups:
             raise DesirePathError(f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
                                   "choose another group or remove the soil from the list.")
-    copy = obj.copy()
-    tree = None
-    try:
-        copy.hide_viewport = False
-        ours = playback.modifier(copy)
-        if ours is not None:
-            copy.modifiers.remove(ours)
-        if groups:
-            tree = write_weights(copy, groups)
-        with sample.private_scene(scene, copy) as own:
-            if frame_end is not None:
-                last = np.array(sample.evaluated(own, copy, frame_end).matrix_world)
-            found = sample.evaluated(own, copy, frame_start)
-            world = axes.matrix(found.matrix_world, obj.name)
-            if frame_end is not None and np.isfinite(last).all() and not np.allclose(last, world):
-                warnings.append(f"'{obj.name}' moves between the frames: it is walked on as it lies "
-                                f"at frame {frame_start}.")
-            if not len(found.data.polygons):
-                raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
-            near = meshes.near(compat.positions(found.data), *compat.faces(found.data),
-                               world[:3] * scale, box)
-            weights = [compat.float_attribute(found.data, WEIGHT.format(k))
-                       for k in range(len(groups))]
-    finally:
-        bpy.data.objects.remove(copy)
-        if tree is not None:
-            bpy.data.node_groups.remove(tree)
+    place = stack.find(scene, obj, frame_start)
+    trees = [stack.realised()] if place.realise else []
+    trees += [weights_tree(groups)] if groups else []
+    with stack.shaped(scene, obj, place.before, trees) as (own, copy):
+        later = []
+        if frame_end is not None:
+            for frame in (frame_start + round(SOON * (frame_end - frame_start)), frame_end):
+                found = sample.evaluated(own, copy, frame)
+                later.append(compat.positions(found.data))
+            last = np.array(found.matrix_world)
+        finer = stack.show(scene, copy, obj)
+        found = sample.evaluated(own, copy, frame_start)
+        world = axes.matrix(found.matrix_world, obj.name)
+        if frame_end is not None and np.isfinite(last).all() and not np.allclose(last, world):
+            warnings.append(f"'{obj.name}' moves between the frames: it is walked on as it lies "
+                            f"at frame {frame_start}.")
+        if not len(found.data.polygons):
+            raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
+        if any(not _same(each, compat.positions(found.data)) for each in later):
+            warnings.append(f"The shape of '{obj.name}' changes between the frames, by keys, drivers or a modifier: "
+                            f"it is walked on as it is at frame {frame_start}.")
+        del later
+        near = _near(found.data, world * scale, box)
+        weights = [compat.float_attribute(found.data, WEIGHT.format(k)) for k in range(len(groups))]
+        drawn = None
+        if stack.differs(scene, obj, place.before):
+            stack.show(scene, copy, obj, render=False)
+            drawn = _near(sample.evaluated(own, copy, frame_start).data, world * scale, box).vertices
     if near.bad >= 0:
         raise DesirePathError(f"Vertex {near.bad} of '{obj.name}' is NaN or infinite: move or remove "
                               "it in Edit Mode.")
@@ -88,7 +92,22 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
                    len(vertices)) if groups else None
     return Surface(Ground(("mesh", vertices, triangles, kinds), "mesh"), world, scale, vertices,
                    np.array(list(product(*zip(near.low, near.high))), np.float64),
-                   _cell_corner(vertices, cell), tuple(warnings))
+                   _cell_corner(vertices, cell), (*warnings, *place.warnings), place,
+                   vertices if drawn is None else drawn, finer)
+
+
+def _same(one, other):
+    """Whether points are where others are, but for rounding."""
+    if one.shape != other.shape:
+        return False
+    size = float(np.abs(other).max(initial=0.0))
+    return bool(np.isfinite(size)) and bool(np.allclose(one, other, rtol=0.0, atol=1e-5 * size)) or not np.isfinite(size)
+
+
+def _near(mesh, place, box):
+    """The faces of a mesh that reach into a box; place: from its own space to the world (4, 4) [m]."""
+    from .. import mesh as meshes
+    return meshes.near(compat.positions(mesh), *compat.faces(mesh), place[:3], box)
 
 
 def under(gait):
@@ -161,8 +180,8 @@ def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
 # ---- painted soils ---------------------------------------------------------------------------------
 
 
-def write_weights(copy, groups):
-    """Have the copy's vertex groups written as attributes behind all its modifiers."""
+def weights_tree(groups):
+    """A tree that writes vertex groups as attributes."""
     tree = compat.geometry_tree("desire_path weights", bpy.data.node_groups.new)
     wire = playback.Wiring(tree)
     geometry = wire.add("NodeGroupInput").outputs[0]
@@ -174,11 +193,6 @@ def write_weights(copy, groups):
                             Value=compat.socket(weight.outputs, "Attribute")).outputs[0]
     leave = tree.nodes.new("NodeGroupOutput")
     tree.links.new(geometry, leave.inputs[0])
-    modifier = copy.modifiers.new("weights", "NODES")
-    made = modifier.node_group
-    modifier.node_group = tree
-    if made is not None and made.users == 0:
-        bpy.data.node_groups.remove(made)
     return tree
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import tuft
 from ..errors import DesirePathError
-from . import axes, compat, grass, ground, picture, playback, sample
+from . import axes, compat, grass, ground, picture, playback, sample, stack
 
 MOST = 1_000_000  # plants of one planting that are shown
 FINEST = 0.02  # the density is looked up at places this far apart, or farther on wide ground [m]
@@ -61,40 +61,30 @@ class Bed:
         """chosen: the plantings it is read for"""
         from ..sim import Ground, Simulation
         self.scale = axes.unit_scale(scene)
-        copy = obj.copy()
         groups = [name for name in dict.fromkeys(each.density_group for each in chosen) if name]
         self.light = {each.density_image: picture.brightness(each.density_image)
                       for each in chosen if each.density_image is not None}
-        tree = None
-        try:
-            copy.hide_viewport = False
-            ours = playback.modifier(copy)
-            if ours is not None:
-                copy.modifiers.remove(ours)
-            if groups:
-                tree = ground.write_weights(copy, groups)
-            with sample.private_scene(scene, copy) as own:
-                found = sample.evaluated(own, copy, frame)
-                world = axes.matrix(found.matrix_world, obj.name)
-                vertices = axes.points(world, compat.positions(found.data), self.scale)
-                triangles = compat.triangles(found.data)
-                if self.light and len(triangles):
-                    self.lay = picture.Lay(obj, found.data, vertices, triangles)
-                painted = {}
-                for k, name in enumerate(groups):
-                    value = compat.float_attribute(found.data, ground.WEIGHT.format(k))
-                    if value is None or name not in obj.vertex_groups and name not in found.data.attributes:
-                        raise DesirePathError(f"'{obj.name}' has no vertex group or attribute '{name}' for "
-                                              "the density of its plants: choose another one.")
-                    odd = np.flatnonzero(~np.isfinite(value))
-                    if len(odd):
-                        raise DesirePathError(f"'{name}' of '{obj.name}' is no number at point {odd[0]}: give it one "
-                                              "from 0 to 1.")
-                    painted[name] = value
-        finally:
-            bpy.data.objects.remove(copy)
-            if tree is not None:
-                bpy.data.node_groups.remove(tree)
+        place = stack.find(scene, obj, frame)
+        trees = [stack.realised()] if place.realise else []
+        trees += [ground.weights_tree(groups)] if groups else []
+        with stack.shaped(scene, obj, place.before, trees) as (own, copy):
+            found = sample.evaluated(own, copy, frame)
+            world = axes.matrix(found.matrix_world, obj.name)
+            vertices = axes.points(world, compat.positions(found.data), self.scale)
+            triangles = compat.triangles(found.data)
+            if self.light and len(triangles):
+                self.lay = picture.Lay(obj, found.data, vertices, triangles)
+            painted = {}
+            for k, name in enumerate(groups):
+                value = compat.float_attribute(found.data, ground.WEIGHT.format(k))
+                if value is None or name not in obj.vertex_groups and name not in found.data.attributes:
+                    raise DesirePathError(f"'{obj.name}' has no vertex group or attribute '{name}' for "
+                                          "the density of its plants: choose another one.")
+                odd = np.flatnonzero(~np.isfinite(value))
+                if len(odd):
+                    raise DesirePathError(f"'{name}' of '{obj.name}' is no number at point {odd[0]}: give it one "
+                                          "from 0 to 1.")
+                painted[name] = value
         if not len(triangles):
             raise DesirePathError(f"'{obj.name}' has no faces: give it some for plants to grow on.")
 

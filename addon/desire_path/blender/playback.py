@@ -51,7 +51,7 @@ def images(tree):
 
 
 def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0,
-           standing=()):
+           standing=(), place=None):
     """Play the frames of a bake on the object; replaces what it played before.
 
     frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
@@ -62,23 +62,18 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     corners: the local box of the mesh's points (8, 3)
     layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
     standing: plants off the images, (vertex group, "" or plants.Spread, their strength where that is 1) each
+    place: where our modifier goes (stack.Place); None: where it was, or after all others
     """
     old = modifier(obj)
-    place = list(obj.modifiers).index(old) if old is not None else -1
+    before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
     detach(obj)
     shown = {name: _image(frames, name) for name in ("trail", "lean")[:1 + has_lean(index)]}
-    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing)
+    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing,
+                 place)
     tree[TAG] = mark(frames, index, count)
-    ours = obj.modifiers.new(MODIFIER, "NODES")
-    made = ours.node_group
-    ours.node_group = tree
-    if made is not None and made is not tree and made.users == 0:
-        bpy.data.node_groups.remove(made)  # older Blenders fill in a tree of their own
+    ours = compat.nodes_modifier(obj, MODIFIER, tree)
     ours.show_expanded = False
-    if place >= 0 and obj.modifiers[-1] is not None:
-        with _active(obj):
-            for _ in range(len(obj.modifiers) - 1 - place):
-                bpy.ops.object.modifier_move_up(modifier=ours.name)
+    compat.move_modifier(obj, ours, place.before if place is not None else before)
     return ours
 
 
@@ -125,10 +120,6 @@ def mark(frames, index, count):
     """What a tree plays, in a word, to tell whether the files are still the same."""
     return (f"{os.path.basename(frames)} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
             f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean")
-
-
-def _active(obj):
-    return bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj])
 
 
 def _image(frames, name):
@@ -237,10 +228,12 @@ def file_number(wire, index, count, stretch=1.0):
     return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
 
 
-def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing):
+def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
     wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
+    if place is not None and place.realise:  # the ground is made of instances, which cannot be pressed
+        entry = wire.add("GeometryNodeRealizeInstances", Geometry=entry.outputs[0])
     leave = tree.nodes.new("NodeGroupOutput")
     number = file_number(wire, index, count, clock.stretch_of(obj))
 
@@ -252,10 +245,11 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     # sample once, read everything from it
     texture = wire.image(shown["trail"], at, number, smooth)
     some = {} if inside is None else {"Selection": inside}
-    stored = wire.add("GeometryNodeStoreNamedAttribute",
-                      {"data_type": "FLOAT_COLOR", "domain": "POINT"},
-                      Geometry=entry.outputs[0], Name=ATTRIBUTE, Value=texture.outputs["Color"],
-                      **some)
+    stored = entry
+    scattered = place is not None and place.scattered  # before us: it goes down with the ground
+    for domain in ("INSTANCE", "POINT")[not scattered:]:
+        stored = wire.add("GeometryNodeStoreNamedAttribute", {"data_type": "FLOAT_COLOR", "domain": domain},
+                          Geometry=stored.outputs[0], Name=ATTRIBUTE, Value=texture.outputs["Color"], **some)
     split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"},
                      Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
     up = axes.lift(world, scale)

@@ -24,7 +24,7 @@ def play(obj, surface, baked=None):
         smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
-                        layer_depth=depth, standing=standing)
+                        layer_depth=depth, standing=standing, place=surface.place)
         planes = baked or cover.planes(index)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if index.complete:
