@@ -11,9 +11,9 @@
     folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
     folder/report.json             what happened, in numbers
 
-A bake grows in folder/frames.new and folder/maps.new and takes the place of an earlier one, which plays
-until then, when it is whole. One that was stopped stays there: the same bake started again goes on
-from its last whole frame. Files of others in these folders are left alone.
+A bake grows in folder/bake.new and takes the place of an earlier one, which is shown until then, when it is
+whole: output.py says how. One that was stopped stays: the same bake started again goes on from its last
+whole frame. Files of others in these folders are left alone.
 """
 
 from __future__ import annotations
@@ -23,16 +23,17 @@ import hashlib
 import json
 import math
 import os
+import shutil
 import time
 from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import _native, maps, plant_mesh, walker
+from . import _native, maps, plant_mesh, walker, whole
 from .errors import DesirePathError
-from .folder import FORMAT, FRAMES, MAPS, OURS, OWNER, check_owner, delete, frame_path, frames_there
-from .folder import publish, write_json
+from .folder import FORMAT, OWNER, Sums, frame_path, frames_sound, told
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
+from .output import Output
 from .passes import turns_of
 from .plants import as_plantings
 from .sim import LOAD_MODELS, TILE, Simulation, as_soils, check_cell
@@ -219,9 +220,16 @@ class Bake:
                 )
 
     def _run(self):
-        seconds = {"total": time.perf_counter()}
         check_cell(self.cell_size)
-        check_owner(self.folder, self.owner)
+        out = Output(self.folder, self.owner)
+        out.open()
+        try:
+            yield from self._into(out)
+        finally:
+            out.release()
+
+    def _into(self, out):
+        seconds = {"total": time.perf_counter()}
         self._check_soles()
         sim = self._simulation()
         tiles = self._rectangle(sim)
@@ -230,60 +238,73 @@ class Bake:
         start = self._start_maps(sim, tiles)
         seconds["loads"] = time.perf_counter() - seconds["total"]
 
-        fresh = os.path.join(self.folder, "frames.new")
         index = self._index(tiles, self._signature())
-        done = self._prepare(fresh, index)
-        spent_step = spent_write = 0.0
-        count = self.frame_end - self.frame_start + 1
-        mesh = plant_mesh.Writer(sim, self.folder, self.frame_start, count) if self.plant_mesh else None
+        done, sums = self._prepare(out, index)
+        seconds["step"] = seconds["write"] = 0.0
+        mesh = None
         try:
-            if done < 0:
-                self._write(picture, fresh, 0, 0.0)
-            for number in range(1, count + 1):
-                frame = self.frame_start + number - 1
-                begun = time.perf_counter()
-                sim.run(self._sample(frame))
-                stepped = time.perf_counter()
-                self._write(picture, fresh if number > done else None, number, self._time(frame))
-                if mesh:
-                    mesh.add(sim)
-                if self.map_seconds:
-                    self._second(picture, frame)
-                spent_step += stepped - begun
-                spent_write += time.perf_counter() - stepped
-                yield Progress(frame, number / count)
-            sim.flush()
+            if self.plant_mesh:
+                mesh = plant_mesh.Writer(sim, out.new, self.frame_start, self.frame_end - self.frame_start + 1)
+            yield from self._frames(sim, picture, out, done, sums, mesh, seconds)
             if mesh:
                 mesh.finish(sim)
-        except (GeneratorExit, OSError, DesirePathError):
+            self._end(sim, picture, out, tiles, start)
+            seconds["total"] = time.perf_counter() - seconds["total"]
+            self.report = self._report(sim, seconds)
+            whole.write_json(out.path("report.json"), self.report, "The report")
+            whole.write_json(out.path("frames", "index.json"), {**index, "complete": True}, "The index of the frames")
+        except BaseException:
             with contextlib.suppress(OSError):
                 sim.flush()
+            sums.close()
             if mesh:
-                mesh.drop()
-            publish(self.folder, only_if_free=True)
+                mesh.close()
+            self.report = self.final = None
+            out.publish_stopped()
             raise
+        sums.close()
+        out.publish()
 
-        seconds["step"], seconds["write"] = spent_step, spent_write
-        picture.write_maps(os.path.join(self.folder, "maps_final.exr"), self._time(frame))
-        maps.write(os.path.join(self.folder, "maps_start.exr"), start,
-                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(tiles))
+    def _frames(self, sim, picture, out, done, sums, mesh, seconds):
+        """Simulate and write; the first `done` frames are there already."""
+        count = self.frame_end - self.frame_start + 1
+        frames = out.path("frames")
+        if done < 0:
+            self._write(picture, frames, 0, 0.0, sums)
+        for number in range(1, count + 1):
+            frame = self.frame_start + number - 1
+            begun = time.perf_counter()
+            sim.run(self._sample(frame))
+            stepped = time.perf_counter()
+            self._write(picture, frames if number > done else None, number, self._time(frame), sums)
+            if mesh:
+                mesh.add(sim)
+            if self.map_seconds:
+                self._second(picture, out, frame)
+            sums.look()
+            seconds["step"] += stepped - begun
+            seconds["write"] += time.perf_counter() - stepped
+            yield Progress(frame, number / count)
+        sim.flush()
+        sums.look()
+
+    def _end(self, sim, picture, out, tiles, start):
+        """The first and the last maps."""
         tx, ty, nx, ny = tiles
+        picture.write_maps(out.path("maps_final.exr"), self._time(self.frame_end))
+        maps.write(out.path("maps_start.exr"), start,
+                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(tiles))
         self.final = {entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
                       for entry in maps.MAPS}
         sim.flush()
-        write_json(os.path.join(fresh, "index.json"), {**index, "complete": True})
-        seconds["total"] = time.perf_counter() - seconds["total"]
-        self.report = self._report(sim, seconds)
-        write_json(os.path.join(self.folder, "report.json"), self.report)
-        publish(self.folder)
-        if not self.plant_mesh:
-            delete(self.folder, plant_mesh.FILES)  # of a bake before
 
-    def _write(self, picture, fresh, number, seconds):
+    def _write(self, picture, fresh, number, seconds, sums):
         """One frame of every film into the folder `fresh`; None: it is there already."""
         picture.write_frame(fresh and frame_path(fresh, number), seconds)
         if self.plants:
             picture.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
+        if fresh:
+            sums.add(number, bool(self.plants))
 
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
@@ -304,48 +325,28 @@ class Bake:
             **({"lean": True} if self.plants else {}), **({OWNER: self.owner} if self.owner else {}),
         }
 
-    def _prepare(self, fresh, index):
-        """Make the folders; how many frames of the very same bake are there already (-1 = none)."""
+    def _prepare(self, out, index):
+        """(how many frames of the very same bake are in bake.new already (-1 = none), the Sums of its frames)"""
+        fresh, shown = out.path("frames"), os.path.join(self.folder, "frames")
+        done, sound, place = -1, {}, None
+        for each in (fresh, shown):
+            old = told(each)
+            if (self.resume and old and not old.get("complete")
+                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER))):
+                there, found = frames_sound(each, bool(self.plants))
+                if there > done:
+                    done, sound, place = there, found, each
         try:
-            os.makedirs(self.folder, exist_ok=True)
-        except OSError as problem:
-            raise DesirePathError(
-                f"The folder {self.folder} cannot be made ({problem.strerror}): choose another one."
-            ) from None
-        for name in OURS:
-            way = os.path.join(self.folder, name)
-            if os.path.lexists(way) and not os.path.isdir(way):
-                raise DesirePathError(f"{way} stands where the bake keeps a folder: move it or choose another folder.")
-        done = -1
-        for place in (fresh, os.path.join(self.folder, "frames")):
-            try:
-                with open(os.path.join(place, "index.json"), encoding="utf-8") as file:
-                    old = json.load(file)
-            except (OSError, ValueError):
-                continue
-            same = (self.resume and isinstance(old, dict) and not old.get("complete")
-                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER)))
-            there = frames_there(place, bool(self.plants)) if same else -1
-            if there >= 0:
-                done = there
-                if place != fresh:
-                    delete(fresh, FRAMES)
-                    os.rename(place, fresh)
-                break
-        try:
-            if done < 0:
-                delete(fresh, FRAMES)
-                os.makedirs(fresh, exist_ok=True)
-            if self.map_seconds:
-                seconds = os.path.join(self.folder, "maps.new")
-                delete(seconds, MAPS)
-                os.makedirs(seconds, exist_ok=True)
-            write_json(os.path.join(fresh, "index.json"), index)
+            out.fresh(keep=sound if place == fresh else ())
+            if place == shown:
+                for name in sound:  # what is shown stays until the bake is whole
+                    _link(os.path.join(shown, name), os.path.join(fresh, name))
+            whole.write_json(os.path.join(fresh, "index.json"), index, "The index of the frames")
+            return done, Sums(fresh, sound)
         except OSError as problem:
             raise DesirePathError(
                 f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one."
             ) from None
-        return done
 
     # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
 
@@ -368,19 +369,19 @@ class Bake:
     def _fields(self):
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
 
-    def _second(self, picture, frame):
+    def _second(self, picture, out, frame):
         """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
         if self.film == "passes":
             number = frame - self.gait.frame_start + 1
             if number % -(-len(self.passes) // MOST_PASS_MAPS) == 0:
                 name = f"pass_{number:04d}.exr"
-                picture.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
+                picture.write_maps(out.path("maps", name), self._time(frame))
             return
         elapsed = frame - self.frame_start
         before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
         if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
             name = f"second_{math.floor(now + 1e-9):04d}.exr"
-            picture.write_maps(os.path.join(self.folder, "maps.new", name), self._time(frame))
+            picture.write_maps(out.path("maps", name), self._time(frame))
 
     def _start_maps(self, sim, tiles):
         tx, ty, nx, ny = tiles
@@ -410,6 +411,14 @@ class Bake:
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
             "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
         }
+
+
+def _link(path, to):
+    """The same file under another name, too; a copy, where the disk has no such names."""
+    try:
+        os.link(path, to)
+    except OSError:
+        shutil.copy2(path, to)
 
 
 def _plain(problem):

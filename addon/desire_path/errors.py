@@ -2,4 +2,7 @@
 
 
 class DesirePathError(ValueError):
-    """Bad input, told in a sentence for the person at the screen."""
+    """Bad input, told in a sentence for the person at the screen; it can be printed whatever names are in it."""
+
+    def __init__(self, text=""):
+        super().__init__(str(text).encode("utf-8", "backslashreplace").decode("utf-8"))

@@ -1,30 +1,26 @@
-"""The folder of a bake: what can be played from it, how a fresh bake takes its place, and how it goes.
+"""What can be played from the folder of a bake: its index, its frames, and whether they are whole.
 
-    frames/     trail_0000.exr .., index.json      frames.new/   the bake that is being made
-                lean_0000.exr .., with plants
-    maps/       second_0001.exr .., pass_0001.exr  maps.new/     its maps
-Files of others in these folders are left alone. bake.py says what each file holds.
+output.py says where they lie while a bake is made and how it takes the place of another one; bake.py what each
+file holds.
 """
 
 from __future__ import annotations
 
-import contextlib
-import json
+import hashlib
+import math
 import os
 import struct
 from dataclasses import dataclass
-from pathlib import Path
 
+from . import whole
 from .errors import DesirePathError
+from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
-OWNER = "bake_folder_owner"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
-FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.part")
-MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
-OURS = {"frames": FRAMES, "frames.new": FRAMES, "frames.old": FRAMES, "maps": MAPS, "maps.new": MAPS,
-        "": ("maps_start.exr", "maps_final.exr", "maps_*.part", "report.json", "report.json.part",
-             "plants.pc2", "plants.pc2.part", "plants.npz")}
+SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
+MOST_SIDE = 1 << 30  # cells of a frame
+MOST_FRAME = 1 << 31  # a frame's number may be
 
 
 @dataclass(frozen=True)
@@ -61,14 +57,21 @@ class FrameIndex:
 
 def frame_path(frames_folder, number, film="trail"):
     """trail_0001.exr or lean_0001.exr and so on."""
-    return os.path.join(frames_folder, f"{film}_{number:04d}.exr")
+    return os.path.join(frames_folder, frame_name(number, film))
 
 
-def frames_there(frames_folder, lean):
-    """How many frames are whole, counted from number 1 on; -1 without the ground at rest."""
-    films = ("trail", "lean") if lean else ("trail",)
+def frame_name(number, film="trail"):
+    return f"{film}_{number:04d}.exr"
+
+
+def _films(lean):
+    return ("trail", "lean") if lean else ("trail",)
+
+
+def frames_there(frames_folder, lean, most=MOST_FRAME):
+    """How many frames, at most `most`, are whole, counted from number 1 on; -1 without the ground at rest."""
     number = -1
-    while all(_is_whole_frame(frame_path(frames_folder, number + 1, film)) for film in films):
+    while number < most and all(_is_whole_frame(frame_path(frames_folder, number + 1, film)) for film in _films(lean)):
         number += 1
     return number
 
@@ -77,7 +80,8 @@ def _is_whole_frame(path):
     """Whether a tiled OpenEXR file is there to its end: its last tile ends where the file does. Files appear
     whole, but a disk that fails and a copy that stops leave less; what the tiles hold is not looked at."""
     try:
-        with open(path, "rb") as file:
+        with whole.reader(path) as file:
+            long = os.fstat(file.fileno()).st_size
             head = file.read(1 << 16)
             found, at = {}, 8
             if head[:4] != _MAGIC:
@@ -86,18 +90,83 @@ def _is_whole_frame(path):
                 end = head.index(b"\0", at)
                 value = head.index(b"\0", end + 1) + 5
                 size, = struct.unpack_from("<i", head, value - 4)
+                if size < 0:
+                    return False
                 found[head[at:end]] = head[value:value + size]
                 at = value + size
             x0, y0, x1, y1 = struct.unpack("<4i", found[b"dataWindow"])
             wide, high = struct.unpack_from("<2I", found[b"tiles"])
             tiles = -((x0 - x1 - 1) // wide) * -((y0 - y1 - 1) // high)
+            if not 0 < 8 * tiles < long:
+                return False
             file.seek(at + 1)
             starts = struct.unpack(f"<{tiles}Q", file.read(8 * tiles))
             file.seek(max(starts) + 16)  # behind the tile's place
             size, = struct.unpack("<i", file.read(4))
-            return min(starts) > at and max(starts) + 20 + size == os.fstat(file.fileno()).st_size
+            return min(starts) > at and max(starts) + 20 + size == long
     except (OSError, ValueError, IndexError, KeyError, ZeroDivisionError, OverflowError, struct.error):
         return False
+
+
+# ---- checksums -----------------------------------------------------------------------------------------------
+
+
+class Sums:
+    """Writes the checksum of each frame as soon as its file is there: what a bake that goes on may rely on."""
+
+    def __init__(self, frames, known=()):
+        """known: dict of name -> checksum of frames that are there already"""
+        self._frames, self._waits = frames, []
+        self._file = open(os.path.join(frames, SUMS), "x", encoding="utf-8")  # noqa: SIM115
+        for each in dict(known).items():
+            self._write(*each)
+
+    def add(self, number, lean):
+        """A frame is being written, in the background."""
+        self._waits += [frame_name(number, film) for film in _films(lean)]
+
+    def look(self):
+        """Take those that are there by now; files appear whole."""
+        while self._waits and os.path.exists(os.path.join(self._frames, self._waits[0])):
+            name = self._waits.pop(0)
+            self._write(name, _sum(os.path.join(self._frames, name)))
+
+    def _write(self, name, found):
+        self._file.write(f"{name} {found}\n")
+        self._file.flush()
+
+    def close(self):
+        self._file.close()
+
+
+def _sum(path):
+    with whole.reader(path) as file:
+        return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+
+
+def frames_sound(frames, lean):
+    """(how many frames are bit for bit what was written, from number 1 on, -1 without the ground at rest; their
+    checksums by name)."""
+    known, sound, number = {}, {}, -1
+    try:
+        with whole.reader(os.path.join(frames, SUMS)) as file:
+            for line in file:
+                name, _, found = line.decode("ascii", "replace").strip().partition(" ")
+                known[name] = found
+    except OSError:
+        return -1, {}
+    while True:
+        names = [frame_name(number + 1, film) for film in _films(lean)]
+        try:
+            if any(_sum(os.path.join(frames, name)) != known[name] for name in names):
+                return number, sound
+        except (OSError, KeyError):
+            return number, sound
+        sound.update((name, known[name]) for name in names)
+        number += 1
+
+
+# ---- the index ----------------------------------------------------------------------------------------------
 
 
 def read_index(folder, just_baked=False):
@@ -106,122 +175,45 @@ def read_index(folder, just_baked=False):
 
     just_baked: every frame was written a moment ago, so that their files need no look
     """
-    for name in ("frames", "frames.new"):
+    settle(folder)
+    for name in ("frames", os.path.join(NEW, "frames")):
         frames = os.path.join(folder, name)
         path = os.path.join(frames, "index.json")
         if not os.path.exists(path):
             continue
+        data = told(frames)
+        if "format" not in data:
+            raise DesirePathError(f"{path} is damaged: bake again.")
+        if data["format"] != FORMAT:
+            raise DesirePathError(f"The bake in {folder} was written by version {str(data.get('version'))[:40]} in "
+                                  "another form: bake again.")
         try:
-            with open(path, encoding="utf-8") as file:
-                data = json.load(file)
-            form = data["format"]
-        except (OSError, ValueError, KeyError, TypeError):
-            raise DesirePathError(f"{path} is damaged: bake again.") from None
-        if form != FORMAT:
-            raise DesirePathError(
-                f"The bake in {folder} was written by version {data.get('version', 'unknown')} in another form: bake again."
-            )
-        try:
-            count = int(data["frame_end"]) - int(data["frame_start"]) + 1
-            lean = bool(data.get("lean", False))
-            there = count if just_baked else max(0, min(count, frames_there(frames, lean)))
-            return FrameIndex(
-                frames, float(data["cell"]), float(data["x0"]), float(data["y0"]), int(data["nx"]),
-                int(data["ny"]), int(data["frame_start"]), int(data["frame_end"]),
-                float(data["frame_rate"]), there, there == count, lean,
-                owner if isinstance(owner := data.get(OWNER, ""), str) else "",
-            )
-        except (KeyError, TypeError, ValueError):
+            return _index(frames, data, just_baked)
+        except (KeyError, TypeError, ValueError, OverflowError):
             raise DesirePathError(f"{path} is damaged: bake again.") from None
     raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
 
 
-def owner_of(folder):
-    """Id of the ground whose bake, whole or not, lies in a folder; empty: nobody's, or there is none."""
-    for name in ("frames", "frames.new"):
-        with contextlib.suppress(OSError, ValueError, RecursionError, AttributeError):
-            with open(os.path.join(folder, name, "index.json"), encoding="utf-8") as file:
-                found = json.load(file).get(OWNER, "")
-            if found and isinstance(found, str):
-                return found
-    return ""
+def _index(frames, data, just_baked):
+    cell, rate = _number(data["cell"]), _number(data["frame_rate"])
+    nx, ny = (_whole(data[name], 1, MOST_SIDE) for name in ("nx", "ny"))
+    first = _whole(data["frame_start"], -MOST_FRAME, MOST_FRAME)
+    last = _whole(data["frame_end"], first, MOST_FRAME)
+    if cell <= 0.0 or rate <= 0.0:
+        raise ValueError
+    count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
+    there = count if just_baked else max(0, frames_there(frames, lean, count))
+    return FrameIndex(frames, cell, _number(data["x0"]), _number(data["y0"]), nx, ny, first, last, rate, there,
+                      there == count, lean, owner if isinstance(owner, str) else "")
 
 
-def check_owner(folder, owner):
-    """Refuse a folder with the bake of another ground; who says no owner may have any."""
-    other = owner_of(folder)
-    if owner and other and owner != other:
-        raise DesirePathError(f"The folder {folder} holds the bake of another ground ({other}): choose another folder.")
+def _number(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError
+    return float(value)
 
 
-def free(folder, owner=""):
-    """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched.
-
-    owner: id of the ground that frees; another one's bake is refused
-    """
-    check_owner(folder, owner)
-    try:
-        for place, patterns in OURS.items():
-            delete(os.path.join(folder, place), patterns)
-    except OSError as problem:
-        raise DesirePathError(
-            f"{problem.filename} cannot be deleted ({problem.strerror}): delete the folder {folder} by hand."
-        ) from None
-
-
-def delete(folder, patterns):
-    """Delete our files from a folder, and the folder if that leaves it empty."""
-    for pattern in patterns:
-        for path in Path(folder).glob(pattern):
-            path.unlink()
-    with contextlib.suppress(OSError):  # not there, or holds somebody else's files
-        os.rmdir(folder)
-
-
-def _move(folder, into):
-    """Move what a folder holds into another one, and remove it; what is there already stays."""
-    os.makedirs(into, exist_ok=True)
-    for path in Path(folder).glob("*"):
-        if not os.path.lexists(os.path.join(into, path.name)):
-            os.rename(path, os.path.join(into, path.name))
-    with contextlib.suppress(OSError):
-        os.rmdir(folder)
-
-
-def write_json(path, data):
-    """Write a small file, whole or not at all."""
-    part = f"{path}.part"
-    with open(part, "w", encoding="utf-8") as file:
-        json.dump(data, file, indent=1)
-        file.write("\n")
-    os.replace(part, path)
-
-
-def is_whole(frames):
-    """Whether a folder of frames holds a bake that came to its end."""
-    try:
-        with open(os.path.join(frames, "index.json"), encoding="utf-8") as file:
-            return bool(json.load(file).get("complete"))
-    except (OSError, ValueError, AttributeError):
-        return False
-
-
-def publish(folder, only_if_free=False):
-    """Let the fresh frames take the place of the old ones; only_if_free: not of a whole bake."""
-    fresh, frames, old = (os.path.join(folder, name) for name in ("frames.new", "frames", "frames.old"))
-    if os.path.exists(frames):
-        if only_if_free and is_whole(frames):
-            return
-        delete(old, FRAMES)
-        if os.path.exists(old):
-            _move(old, frames)
-        os.rename(frames, old)
-    os.rename(fresh, frames)
-    with contextlib.suppress(OSError):  # what cannot be deleted does no harm
-        delete(old, FRAMES)
-        if os.path.exists(old):
-            _move(old, frames)  # somebody else's files
-    seconds, there = (os.path.join(folder, name) for name in ("maps.new", "maps"))
-    if os.path.exists(seconds):
-        delete(there, MAPS)
-        _move(seconds, there)
+def _whole(value, least, most):
+    if not least <= _number(value) <= most or value != int(value):
+        raise ValueError
+    return int(value)

@@ -11,7 +11,6 @@ trodden they are shown down for as long as the grass around them lies (Simulatio
 
 from __future__ import annotations
 
-import contextlib
 import os
 import struct
 
@@ -21,7 +20,6 @@ from . import whole
 from .errors import DesirePathError
 from .plants import KINDS
 
-FILES = ("plants.npz", "plants.pc2")
 MOST_BYTES = 16 << 30  # of a point cache
 _HELD = 1  # rows in the ground
 
@@ -72,7 +70,7 @@ def _unbroken(sim, stand, rows):
 
 
 class Writer:
-    """Writes both files while a bake runs. add() once a frame, then finish(), or drop() what there is."""
+    """Writes both files into a folder while a bake runs: add() once a frame, then finish(); close() in any case."""
 
     def __init__(self, sim, folder, frame_start, frames):
         self.folder, self.frames = folder, frames
@@ -82,8 +80,7 @@ class Writer:
         if 12 * count * frames > MOST_BYTES:
             raise DesirePathError(f"The plants as a mesh would take {12e-9 * count * frames:.0f} GB: choose fewer "
                                   "frames, a lower density or a smaller rectangle.")
-        self._part = os.path.join(folder, "plants.pc2.part")
-        self._file = open(self._part, "wb")  # noqa: SIM115  (open as long as the bake runs)
+        self._file = open(os.path.join(folder, "plants.pc2"), "xb")  # noqa: SIM115  (open as long as the bake runs)
         self._file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames))
 
     def add(self, sim):
@@ -92,16 +89,13 @@ class Writer:
             self._file.write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
 
     def finish(self, sim):
-        """Both files are whole now and take their names."""
+        """Both files are whole now."""
         self._file.close()
         unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in sim.stands]
         self.mesh["unbroken"] = np.concatenate(unbroken)
         with whole.file(os.path.join(self.folder, "plants.npz"), "The plants") as stream:
             np.savez_compressed(stream, **self.mesh)
-        os.replace(self._part, os.path.join(self.folder, "plants.pc2"))
 
-    def drop(self):
-        """Leave nothing behind."""
+    def close(self):
+        """No more is written."""
         self._file.close()
-        with contextlib.suppress(OSError):
-            os.unlink(self._part)

@@ -274,7 +274,7 @@ def test_saved_elsewhere_and_linked(folder):
 
 
 def test_frames_that_went_back_to_the_making_play(folder):
-    # stopped, started again and killed before a frame was written: they lie in frames.new once more
+    # stopped, started again and killed before a frame was written: they lie in bake.new once more
     (folder / "here").mkdir()
     file = str(folder / "here" / "a.blend")
     bpy.ops.wm.save_as_mainfile(filepath=file)
@@ -283,7 +283,8 @@ def test_frames_that_went_back_to_the_making_play(folder):
     wanted, _ = shown(ground, 12)
     bpy.ops.wm.save_mainfile()
     place = folder / "here" / "desire_path" / "a" / "Ground"
-    (place / "frames").rename(place / "frames.new")
+    (place / "bake.new").mkdir()
+    (place / "frames").rename(place / "bake.new" / "frames")
     bpy.ops.wm.open_mainfile(filepath=file)
     assert shown(bpy.data.objects["Ground"], 12)[0].tobytes() == wanted.tobytes()
 

@@ -109,7 +109,7 @@ def test_a_killed_bake_plays_what_is_whole(tmp_path):
         next(run)
     killed = tmp_path.parent / "killed"
     shutil.copytree(tmp_path, killed, ignore=shutil.ignore_patterns("*.part"))  # one may be being written
-    (killed / "frames.new" / "trail_0008.exr.part").write_bytes(b"half")
+    (killed / "bake.new" / "frames" / "trail_0008.exr.part").write_bytes(b"half")
     run.close()
     index = read_index(killed)
     assert 2 <= index.frames <= 7 and not index.complete  # the last ones may have been on their way
@@ -144,15 +144,14 @@ def test_damaged_frames_count_as_missing_and_are_written_again(tmp_path):
 
 
 def test_an_index_of_nonsense_is_baked_over(tmp_path):
-    (tmp_path / "frames.new").mkdir()
-    for text in ("[]", "null", "3", "{"):
-        (tmp_path / "frames.new" / "index.json").write_text(text)
+    for text in ("[]", "null", "3", "{", "[" * 100_000):
+        os.makedirs(tmp_path / "bake.new" / "frames")
+        (tmp_path / "bake.new" / "frames" / "index.json").write_text(text)
         baked(tmp_path)
         assert read_index(tmp_path).complete
-        os.makedirs(tmp_path / "frames.new", exist_ok=True)
 
 
-@pytest.mark.parametrize("name", ["frames", "frames.new", "maps"])
+@pytest.mark.parametrize("name", ["frames", "bake.new", "maps", "bake.old"])
 def test_a_file_where_a_folder_belongs_is_a_sentence(tmp_path, name):
     (tmp_path / name).write_text("somebody's")
     with pytest.raises(DesirePathError) as error:
@@ -174,7 +173,7 @@ def test_walkers_out_of_proportion_are_refused(tmp_path):
 
 def test_files_of_others_stay(tmp_path):
     """A folder that holds somebody's rendered frames and maps is chosen for a bake."""
-    theirs = [tmp_path / name for name in ("frames/0001.png", "maps/town.exr", "frames.old/a/b.txt")]
+    theirs = [tmp_path / name for name in ("frames/0001.png", "maps/town.exr", "bake.old/frames/a/b.txt")]
     for path in theirs:
         path.parent.mkdir(parents=True)
         path.write_text("theirs")
@@ -236,7 +235,7 @@ def test_a_bake_belongs_to_its_ground(tmp_path):
         baked(tmp_path, owner="the lane", cell_size=0.02)
     with pytest.raises(DesirePathError, match="another ground"):
         bakes.free(tmp_path, "the lane")
-    assert content(tmp_path) == before and not (tmp_path / "frames.new").exists()
+    assert content(tmp_path) == before and not (tmp_path / "bake.new").exists()
     baked(tmp_path, owner="the meadow", cell_size=0.02)
     assert content(tmp_path) != before
     bakes.free(tmp_path, "the meadow")
@@ -372,7 +371,7 @@ bake = Bake(standing(), Ground.flat(), "snow", {folder!r}, threads=1, cell_size=
 run = bake.run()
 for _ in range(3):
     next(run)
-least = os.path.getsize(os.path.join({folder!r}, "frames.new", "trail_0002.exr")) // 2
+least = os.path.getsize(os.path.join({folder!r}, "bake.new", "frames", "trail_0002.exr")) // 2
 resource.setrlimit(resource.RLIMIT_FSIZE, (least, least))
 try:
     for _ in run:

@@ -1,0 +1,153 @@
+"""What differs from one system and one kind of disk to the next; the rest of the add-on asks here.
+
+Linux can exchange two places at once and sync a whole disk; both have a plain way for where it cannot, or for a
+disk that cannot. Nothing here knows what a bake is.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+import socket
+import stat
+
+try:
+    import fcntl
+except ImportError:  # a system with other locks
+    fcntl = None
+
+_HERE = -100  # AT_FDCWD
+_EXCHANGE = 2  # RENAME_EXCHANGE
+_CANNOT = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EXDEV, errno.EPERM)
+
+
+def _system(name):
+    """A function of the C library; None where there is none."""
+    try:
+        return getattr(ctypes.CDLL(None, use_errno=True), name)
+    except (OSError, AttributeError, TypeError):
+        return None
+
+
+_renameat2, _syncfs = _system("renameat2"), _system("syncfs")
+
+
+def swap(one, other):
+    """Exchange what two paths name, files or folders, at once; False where system or disk cannot do that."""
+    if _renameat2 is None:
+        return False
+    if _renameat2(_HERE, os.fsencode(one), _HERE, os.fsencode(other), _EXCHANGE) == 0:
+        return True
+    number = ctypes.get_errno()
+    if number in _CANNOT:
+        return False
+    raise OSError(number, os.strerror(number), os.fspath(one))
+
+
+def sync(folder):
+    """Return when everything below a folder is on the disk."""
+    if _syncfs is not None:
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            if _syncfs(handle) == 0:
+                return
+        finally:
+            os.close(handle)
+    for place, _, names in os.walk(folder):
+        for name in names:
+            sync_one(os.path.join(place, name))
+        sync_one(place)
+
+
+def sync_one(path):
+    """Return when one file's bytes, or one folder's names, are on the disk."""
+    try:
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+    except OSError:  # a link, or a folder on a system that does not open them
+        return
+    try:
+        os.fsync(handle)
+    except OSError as problem:
+        if problem.errno not in (errno.EINVAL, errno.ENOTSUP):  # disks that sync no folders
+            raise
+    finally:
+        os.close(handle)
+
+
+def is_plain(path):
+    """Whether a path names a regular file; a link to one is none."""
+    try:
+        return stat.S_ISREG(os.lstat(path).st_mode)
+    except OSError:
+        return False
+
+
+# ---- locks -------------------------------------------------------------------------------------------------
+
+
+class Held(Exception):
+    """A lock is held; its text says by whom."""
+
+
+def lock(path, text):
+    """Make a file ours until unlock(); Held(its text) while another, in this process or not, has it.
+
+    The system drops the lock of a process that ends, however it ends, so that its file is taken over. On a disk
+    without locks the file itself is one, and the process named first in it has to be alive, here or elsewhere.
+    """
+    while True:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        try:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                raise OSError(errno.EEXIST, "it is no plain file", os.fspath(path))
+            before = os.pread(handle, 4096, 0).decode("utf-8", "replace")
+            if not _locked(handle, before):
+                raise Held(before)
+            if _same(handle, path):  # else it was released, and is another file by now
+                mine = handle
+                handle = None
+                os.ftruncate(mine, 0)
+                os.pwrite(mine, f"{os.getpid()} {socket.gethostname()} {text}\n".encode(), 0)
+                return mine
+        finally:
+            if handle is not None:
+                os.close(handle)
+
+
+def unlock(handle, path):
+    """Give up a lock and its file."""
+    if _same(handle, path):
+        os.unlink(path)
+    os.close(handle)
+
+
+def _locked(handle, before):
+    """Whether the lock is ours now."""
+    try:
+        if fcntl is not None:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+    except BlockingIOError:
+        return False
+    except OSError:
+        pass  # no locks on this disk
+    process, host, *_ = (*before.split(), "", "")
+    return not before or host == socket.gethostname() and not _alive(process)
+
+
+def _alive(process):
+    try:
+        os.kill(int(process), 0)
+    except (ProcessLookupError, ValueError, OverflowError):
+        return False
+    except PermissionError:
+        pass
+    return True
+
+
+def _same(handle, path):
+    try:
+        return os.path.samestat(os.fstat(handle), os.lstat(path))
+    except OSError:
+        return False

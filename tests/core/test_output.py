@@ -1,0 +1,289 @@
+"""One output folder: who may write there, and that a bake takes another one's place as a whole or not at all."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from desire_path import disk, output, whole
+from desire_path.bake import Bake, free, read_index
+from desire_path.errors import DesirePathError
+from desire_path.output import NAMES, Output
+from desire_path.plants import Planting
+from desire_path.sim import Ground
+
+from tests.core.test_bake import baked, content, sentence, standing
+
+REPO = Path(__file__).resolve().parents[2]
+FILES = {"frames/trail_0000.exr", "frames/index.json", "maps/second_0001.exr", "maps_start.exr", "maps_final.exr",
+         "report.json"}
+OLD, NEW = FILES | {"plants.pc2"}, FILES | {"plants.npz", "frames/trail_0001.exr"}
+
+
+def laid(folder):
+    """A folder that shows one bake, with a file of somebody's, and has another ready."""
+    for top, names, text in ((folder, OLD, "old"), (folder / "bake.new", NEW, "new")):
+        for name in names:
+            (top / name).parent.mkdir(parents=True, exist_ok=True)
+            (top / name).write_text(text)
+    (folder / "frames" / "notes.txt").write_text("mine")
+    return folder
+
+
+def shown(folder):
+    """What every name of a bake leads to."""
+    return {name: (folder / name).read_text() for name in OLD | NEW if (folder / name).exists()}
+
+
+def killed_after(steps, folder):
+    """Publish in a process that dies at its step number `steps`; whether it came to that."""
+    child = os.fork()
+    if child == 0:
+        left = steps
+
+        def dying(call):
+            def counted(*args, **more):
+                nonlocal left
+                left -= 1
+                if left < 0:
+                    os.kill(os.getpid(), signal.SIGKILL)
+                return call(*args, **more)
+            return counted
+
+        try:
+            for name in ("rename", "replace", "symlink", "unlink", "rmdir", "mkdir"):
+                setattr(os, name, dying(getattr(os, name)))
+            disk.swap = dying(disk.swap)
+            out = Output(folder)
+            out.open()
+            out.publish()
+            out.release()
+        finally:
+            os._exit(1 if sys.exc_info()[0] else 0)
+    _, status = os.waitpid(child, 0)
+    assert os.WIFSIGNALED(status) or os.WEXITSTATUS(status) == 0
+    return os.WIFSIGNALED(status)
+
+
+def no_links(*_args, **_more):
+    raise PermissionError(1, "Operation not permitted")
+
+
+@pytest.mark.parametrize("can", ["exchange", "link", "neither"])
+def test_killed_at_any_step_a_folder_shows_one_bake(tmp_path, monkeypatch, can):
+    old, new = dict.fromkeys(OLD, "old"), dict.fromkeys(NEW, "new")
+    if can != "exchange":
+        monkeypatch.setattr(disk, "swap", lambda one, other: False)
+    if can == "neither":
+        monkeypatch.setattr(os, "symlink", no_links)
+    seen = set()
+    for steps in range(1000):
+        folder = laid(tmp_path / str(steps))
+        died = killed_after(steps, folder)
+        found = shown(folder)
+        if can == "exchange":
+            assert found in (old, new), (steps, found)
+        elif can == "link":  # a name may be missing for a moment
+            assert found.items() <= old.items() or found.items() <= new.items(), (steps, found)
+        begun = os.path.lexists(folder / "bake.shown")
+        output.settle(folder)
+        seen.add(found == new)
+        assert shown(folder) == (new if begun or found == new else old), steps
+        out = Output(folder)
+        out.open()
+        if (folder / "bake.new").exists():
+            out.publish()
+        out.release()
+        assert shown(folder) == new and (folder / "frames" / "notes.txt").read_text() == "mine"
+        assert {path.name for path in folder.iterdir()} == {name.split("/")[0] for name in NEW}
+        assert not any(path.is_symlink() for path in folder.rglob("*"))
+        if not died:
+            break
+    assert not died and seen == {True, False}
+
+
+KILLED = """
+import sys
+sys.path[:0] = [{addon!r}, {repo!r}]
+from tests.core.test_output import grown
+for progress in grown({folder!r}, {soil!r}).run():
+    print(progress.frame, flush=True)
+"""
+
+
+def grown(folder, soil):
+    return Bake(standing(), Ground.flat(), soil, folder, threads=1, plant_mesh=True,
+                plants=[Planting("carex", 60.0, seed=len(soil))])
+
+
+def in_a_process(folder, soil):
+    script = KILLED.format(addon=str(REPO / "addon"), repo=str(REPO), folder=str(folder), soil=soil)
+    return subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+
+
+def marks(folder):
+    return [(folder / name).read_bytes() for name in ("frames/trail_0020.exr", "maps_final.exr", "plants.pc2")]
+
+
+def test_a_killed_bake_leaves_the_old_one_whole_and_the_next_leaves_nothing_of_it(tmp_path):
+    for soil in ("mud", "snow"):
+        for _ in grown(tmp_path / soil, soil).run():
+            pass
+    old, new, folder = marks(tmp_path / "mud"), marks(tmp_path / "snow"), tmp_path / "mud"
+    for frames in (1, 12, 36):  # a killed bake is gone on with by the next
+        child = in_a_process(folder, "snow")
+        for _ in range(frames):
+            child.stdout.readline()
+        child.kill()
+        child.wait()
+        assert marks(folder) in (old, new) and read_index(folder).complete
+    for _ in grown(folder, "snow").run():
+        pass
+    assert marks(folder) == new
+    assert {path.name for path in folder.iterdir()} == set(NAMES)
+    free(folder)
+    assert not folder.exists()
+
+
+def test_a_second_bake_into_a_folder_is_refused(tmp_path):
+    """In this process or another one, and so is freeing it; the first one goes on."""
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    next(run)
+    other = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1)
+    with pytest.raises(DesirePathError, match=f"running .process {os.getpid()} on {socket.gethostname()}") as error:
+        next(other.run())
+    assert str(tmp_path) in sentence(error)
+    with pytest.raises(DesirePathError, match="running"):
+        free(tmp_path)
+    assert "process" in subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path[:0] = [{str(REPO / 'addon')!r}]\n"
+         f"from desire_path.folder import free\ntry: free({str(tmp_path)!r})\nexcept ValueError as e: print(e)"],
+        capture_output=True, text=True).stdout
+    for _ in run:
+        pass
+    assert read_index(tmp_path).complete and not (tmp_path / "bake.lock").exists()
+    for _ in other.run():
+        pass
+    whole_one = tmp_path / "alone"
+    baked(whole_one, standing())
+    assert read_index(tmp_path).complete
+
+
+@pytest.mark.parametrize("locks", [True, False])
+def test_the_lock_of_a_killed_bake_is_taken_over(tmp_path, monkeypatch, locks):
+    if not locks:
+        monkeypatch.setattr(disk, "fcntl", None)
+    child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+    (tmp_path / "bake.lock").write_text(f"{child.pid} {socket.gethostname()} 2020-01-01T00:00:00\n")
+    if not locks:
+        with pytest.raises(DesirePathError, match=f"process {child.pid} on .* since 2020"):
+            baked(tmp_path)
+    child.kill()
+    child.wait()
+    baked(tmp_path)
+    assert read_index(tmp_path).complete and not (tmp_path / "bake.lock").exists()
+
+
+@pytest.mark.parametrize("name", [*NAMES, "bake.new", "bake.lock", "bake.shown"])
+@pytest.mark.parametrize("kind", ["link", "pipe"])
+def test_what_is_no_plain_file_of_ours_is_never_replaced(tmp_path, name, kind):
+    """A link into somebody's folder, a pipe: refused before anything is written, through it or over it."""
+    theirs = tmp_path / "theirs"
+    theirs.mkdir()
+    (theirs / "trail_0001.exr").write_text("precious")
+    folder = tmp_path / "bake"
+    folder.mkdir()
+    if kind == "link":
+        folded = name in ("frames", "maps", "bake.new")
+        (folder / name).symlink_to(theirs if folded else theirs / "trail_0001.exr")
+    else:
+        os.mkfifo(folder / name)
+    before = os.lstat(folder / name)
+    with pytest.raises(DesirePathError, match="stands where the bake keeps") as error:
+        baked(folder)
+    assert str(folder / name) in sentence(error)
+    with pytest.raises(DesirePathError, match="stands where the bake keeps"):
+        free(folder)
+    assert os.lstat(folder / name) == before and (theirs / "trail_0001.exr").read_text() == "precious"
+    assert [path.name for path in folder.iterdir()] == [name]
+
+
+def test_a_stopped_bake_is_shown_while_it_goes_on(tmp_path):
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    before = content(tmp_path)
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    next(run)
+    assert content(tmp_path) == before and len(before) == 11 and read_index(tmp_path).frames == 10
+    for _ in run:
+        pass
+    assert content(tmp_path).items() > before.items() and read_index(tmp_path).complete
+
+
+def test_a_frame_damaged_inside_is_written_again(tmp_path):
+    """One bit of what the tiles hold: the file's form is whole, its checksum tells."""
+    baked(tmp_path / "good")
+    good = content(tmp_path / "good")
+    folder = tmp_path / "bake"
+    run = Bake(standing(), Ground.flat(), "mud", folder, threads=1).run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    frame = folder / "frames" / "trail_0004.exr"
+    data = bytearray(frame.read_bytes())
+    data[-1] ^= 1
+    frame.write_bytes(data)
+    assert read_index(folder).frames == 10  # nothing to be seen
+    baked(folder)
+    assert content(folder) == good
+
+
+def test_a_bake_leaves_no_maps_of_the_one_before(tmp_path):
+    baked(tmp_path)
+    assert (tmp_path / "maps" / "second_0001.exr").exists()
+    baked(tmp_path, cell_size=0.02, map_seconds=False)
+    assert not (tmp_path / "maps").exists() and read_index(tmp_path).complete
+
+
+def test_what_is_shown_is_on_the_disk_first(tmp_path, monkeypatch):
+    order = []
+    sync, replace = disk.sync, os.replace
+    monkeypatch.setattr(disk, "sync", lambda folder: (order.append(f"sync {os.path.basename(folder)}"), sync(folder)))
+    monkeypatch.setattr(os, "replace", lambda one, other: (order.append(os.path.basename(other)), replace(one, other)))
+    baked(tmp_path)
+    assert order.index("index.json") < order.index("sync bake.new") < order.index("bake.shown")
+    monkeypatch.setattr(disk, "_syncfs", None)
+    synced = []
+    monkeypatch.setattr(os, "fsync", synced.append)
+    disk.sync(tmp_path)
+    assert len(synced) == sum(1 for _ in tmp_path.rglob("*")) + 1
+
+
+# ---- single files ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["link", "pipe", "folder", "dangling link"])
+def test_a_table_never_replaces_what_is_no_file(tmp_path, kind):
+    path, target = tmp_path / "out.csv", tmp_path / "target"
+    if kind == "link":
+        target.write_text("precious")
+    if "link" in kind:
+        path.symlink_to(target)
+    elif kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.mkdir()
+    before = os.lstat(path)
+    with pytest.raises(DesirePathError, match=f"which is a {kind.split()[-1]}") as error:
+        with whole.file(path, "The table", "w") as stream:
+            stream.write("new")
+    sentence(error)
+    assert os.lstat(path).st_mode == before.st_mode and os.lstat(path).st_ino == before.st_ino
+    assert target.exists() == (kind == "link") and (kind != "link" or target.read_text() == "precious")
+    assert not list(tmp_path.glob("*.part"))
