@@ -113,7 +113,11 @@ def read(path):
         raise DesirePathError(
             f"{path} cannot be opened: check that the file is there and may be read."
         ) from None
-    except ValueError:
+    except ValueError as problem:
+        if "packing" in str(problem):
+            raise DesirePathError(
+                f"{path} has a packing unknown here, of a newer OpenEXR: write it again with ZIP, PIZ or none."
+            ) from None
         raise DesirePathError(
             f"{path} is damaged or no flat OpenEXR image: write it again, or choose another file."
         ) from None

@@ -19,6 +19,8 @@ const char* dp_status_text(DpStatus status)
             return "the disk is full";
         case DP_BAD_FILE:
             return "the file is damaged or of another kind";
+        case DP_BAD_PACKING:
+            return "the file's packing is unknown";
     }
     return "unknown status";
 }

@@ -11,6 +11,7 @@ typedef enum DpStatus
     DP_CANNOT_WRITE,  // a file cannot be written whole; the old one is untouched
     DP_DISK_FULL,     // no space left; the old file is untouched
     DP_BAD_FILE,      // a file is damaged or of another kind
+    DP_BAD_PACKING,   // a file is packed in a way that is not known here
 } DpStatus;
 
 // One lower-case clause for people, no full stop. Never NULL.

@@ -90,6 +90,7 @@ typedef struct DpMapFile
 
 // Read a flat EXR (scan-line or tiled, half, float or uint channels) of any writer.
 // A damaged or foreign file: DP_BAD_FILE, nothing allocated; images of more than 2^28 pixels too.
+// One packed as only a newer OpenEXR can: DP_BAD_PACKING.
 DpStatus dp_maps_read(const char* path, DpMapFile** file);
 void     dp_map_file_destroy(DpMapFile* file);
 

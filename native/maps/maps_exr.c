@@ -10,10 +10,11 @@
 
 static _Thread_local bool starved;
 
+// OpenEXR takes nothing for a failure when it asks for no bytes, too
 static void* lend(size_t bytes)
 {
-    void* block = dp_alloc(bytes, 1);
-    if (!block && bytes) starved = true;
+    void* block = dp_alloc(bytes ? bytes : 1, 1);
+    if (!block) starved = true;
     return block;
 }
 

@@ -11,6 +11,7 @@
 #include "maps/maps_exr.h"
 
 #define LARGEST_TILE 16384  // [px]
+#define HEADER_LOOK 16384   // bytes in which a header names its packing
 
 typedef struct Source
 {
@@ -213,6 +214,22 @@ static DpStatus read_pixels(exr_const_context_t context, const exr_attr_chlist_t
     return done ? DP_BAD_FILE : DP_OK;
 }
 
+// Whether a file's header names a packing that came after this OpenEXR, which takes it for another.
+// The attribute is looked for where it stands: the rest of the header may be as new.
+static bool is_packed_anew(Source* source)
+{
+    static const unsigned char magic[] = {0x76, 0x2f, 0x31, 0x01};
+    static const char          named[] = "compression\0compression\0\1\0\0";  // and a last zero
+    unsigned char              head[HEADER_LOOK];
+    const int64_t got = read_bytes(NULL, source, head, sizeof head, 0, NULL);
+    if (got < (int64_t)(sizeof magic + sizeof named) || memcmp(head, magic, sizeof magic) != 0)
+        return false;
+    for (int64_t at = 8; at + (int64_t)sizeof named < got; ++at)
+        if (memcmp(head + at, named, sizeof named) == 0)
+            return head[at + (int64_t)sizeof named] >= EXR_COMPRESSION_LAST_TYPE;
+    return false;
+}
+
 static DpStatus read_all(Source* source, DpMapFile* map)
 {
     exr_context_initializer_t setup = dp_exr_setup(source);
@@ -250,7 +267,9 @@ DpStatus dp_maps_read(const char* path, DpMapFile** file)
     if (status == DP_OK) {
         source.size = about.st_size;
         map = dp_alloc(1, sizeof *map);
-        status = map ? read_all(&source, map) : DP_NO_MEMORY;
+        status = !map                      ? DP_NO_MEMORY
+                 : is_packed_anew(&source) ? DP_BAD_PACKING
+                                           : read_all(&source, map);
     }
     close(source.file);
     if (status == DP_OK)

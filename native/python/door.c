@@ -88,6 +88,7 @@ PyObject* dp_door_result(DpStatus status, const char* what)
         case DP_BAD_ARGUMENT:
         case DP_NO_GROUND:
         case DP_BAD_FILE:
+        case DP_BAD_PACKING:
             break;
     }
     PyErr_Format(kind, "%s: %s", what, dp_status_text(status));

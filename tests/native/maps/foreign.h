@@ -123,6 +123,8 @@ static const Foreign foreign_sorts[] = {
     {53, 41, 9, 9, 32, 0, EXR_COMPRESSION_NONE, {F, F, F}},
     {64, 64, 0, 0, 16, 1, EXR_COMPRESSION_PIZ, {F, F, F}},
     {1, 90, 0, 0, 0, 0, EXR_COMPRESSION_ZIP, {H, F, U}},
+    {53, 41, 0, 0, 0, 0, EXR_COMPRESSION_DWAA, {U, U, U}},
+    {53, 41, 0, 0, 32, 0, EXR_COMPRESSION_DWAB, {U, U, U}},
 };
 #define FOREIGN_SORTS ((int)(sizeof foreign_sorts / sizeof *foreign_sorts))
 #undef F
