@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from . import fit, lane, maps, plot, walker
+from . import fit, lane, plot, walker
 from . import path as paths
 from .bake import FILMS, Bake
 from .errors import DesirePathError
@@ -20,21 +20,20 @@ from .version import VERSION
 
 
 def _ground(text, spacing):
-    """Ground from the command line: "flat", "flat:0.3" or an EXR of heights."""
+    """Ground from the command line: "flat", "flat:0.3", or an EXR of heights or of a bake's maps."""
     if text == "flat" or text.startswith("flat:"):
         try:
             return Ground.flat(float(text[5:] or 0.0))
         except ValueError:
             raise DesirePathError(f"'{text}' is no ground: write flat or flat:HEIGHT in metres.") from None
-    picture = maps.read(text)
-    name = next((n for n in ("height", "Y", "R", "Z") if n in picture.planes), next(iter(picture.planes)))
-    step = spacing or picture.notes.get("cell")
-    if not isinstance(step, (int, float)):
-        raise DesirePathError(f"{text} does not say how far its samples are apart: add --spacing METRES.")
-    x0, y0 = (picture.notes.get(note, 0.0) for note in ("originX", "originY"))
-    if isinstance(x0, str) or isinstance(y0, str):
-        raise DesirePathError(f"{text} says in words where it lies: give originX and originY as numbers [m].")
-    return Ground.heights(picture.planes[name], step, x0 + step / 2, y0 + step / 2)
+    return Ground.read(text, spacing)
+
+
+def _cells(args, ground):
+    """Side and origin of the cells: as they are told, else those of the trail that goes on, else 1 cm from (0, 0)."""
+    left = ground.trail
+    cell = args.cell or (left.cell if left else 0.01)
+    return cell, args.origin or ((left.x0, left.y0) if left else (0.0, 0.0))
 
 
 def _kind(text):
@@ -68,7 +67,8 @@ def _along(args, gait, ground):
         return place_feet(gait, ground) if args.place_feet else gait
     if args.place_feet:
         raise DesirePathError("--along lays the feet on the ground's slope itself: leave out --place-feet.")
-    below = Simulation(ground, args.soil, args.cell, origin=args.origin).rest_height
+    cell, origin = _cells(args, ground)
+    below = Simulation(ground, args.soil, cell, origin=origin).rest_height
     return gait.along(paths.read(args.along)[:, :2], args.passes, back_and_forth=not args.one_way,
                       lateral=args.lateral, timing=args.timing, stride=args.stride, seed=args.seed, pause=args.pause,
                       ground=below)
@@ -84,10 +84,11 @@ def _bar(fraction, what):
 def _bake(args):
     gait, ground = Gait.load(args.walk), _ground(args.ground, args.spacing)
     plants = [_planting(text, args.seed) for text in args.plants]
+    cell, origin = _cells(args, ground)
     bake = Bake(
-        _along(args, gait, ground), ground, args.soil, args.out, cell_size=args.cell,
+        _along(args, gait, ground), ground, args.soil, args.out, cell_size=cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, threads=args.threads, origin=args.origin, plants=plants, film=args.film,
+        heap=args.heap, threads=args.threads, origin=origin, plants=plants, film=args.film,
     )
     word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
@@ -155,12 +156,13 @@ def _parser():
 
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
-    bake.add_argument("--ground", default="flat", help="flat, flat:HEIGHT, or an EXR of heights [m]")
+    bake.add_argument("--ground", default="flat", help="flat, flat:HEIGHT, an EXR of heights [m] (channel height, Z, "
+                      "V or Y), or a bake's maps_final.exr: its trail goes on")
     bake.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if it does not say")
     bake.add_argument("--soil", default="dry-sand", help=f"one of {', '.join(SOILS)}")
-    bake.add_argument("--cell", type=float, default=0.01, help="side of a cell [m] (0.01)")
-    bake.add_argument("--origin", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
-                      help="where cells begin [m] (0 0); a report.json says where another bake's did")
+    bake.add_argument("--cell", type=float, help="side of a cell [m] (0.01, or that of the trail that goes on)")
+    bake.add_argument("--origin", type=float, nargs=2, metavar=("X", "Y"), help="where cells begin [m] (0 0, or as in "
+                      "the trail that goes on); a report.json says where another bake's did")
     bake.add_argument("--out", required=True, help="folder for the files")
     bake.add_argument("--place-feet", action="store_true",
                       help="turn the feet to the ground's slope first; a walk of a level floor is carried there")

@@ -128,6 +128,7 @@ class Bake:
             "load_model": self.load_model,
             "soils": [asdict(soil) for soil in self.soils],
             "ground": self.ground.name,
+            **({"trail": self.ground.trail.path} if self.ground.trail else {}),
             "walkers": list(self.gait.walker_name),
             "mass_kg": [float(mass) for mass in self.gait.mass],
             **self.options,
@@ -396,7 +397,7 @@ class Bake:
 
     def _report(self, sim, seconds):
         found = sim.report()
-        warnings = list(self.gait.warnings) + list(self.loads.warnings)
+        warnings = list(self.gait.warnings) + list(self.loads.warnings) + sim.warnings
         if found["deepest_m"] >= RIGID * min(soil.layer_depth for soil in self.soils):
             warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "
                             "or choose a firmer soil.")

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _native, maps
+from . import _native, maps, trail
 from .errors import DesirePathError
 from .plants import as_plantings, seed_of
 from .soil import SOILS, Soil
@@ -39,10 +39,11 @@ _FIRST_LEAN = 64  # the number of the first of them among a map's fields
 
 @dataclass(frozen=True)
 class Ground:
-    """Where the ground is before anybody walks on it. Use flat(), heights() or mesh()."""
+    """Where the ground is before anybody walks on it. Use flat(), heights(), mesh() or read()."""
 
     native: tuple = field(repr=False)
     name: str = "ground"
+    trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
 
     @staticmethod
     def flat(height=0.0):
@@ -107,9 +108,29 @@ class Ground:
                     f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex.")
         return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
 
+    @staticmethod
+    def read(path, spacing=None):
+        """Ground from an OpenEXR image: a height map, or the trail in a map of a bake (maps_final.exr, one of maps/).
+
+        A trail goes on as it was left: rest height, compression, heap and pressure_time, not its plants. It lies on
+        level ground without end if it was pressed there, else there is no ground beyond the map. Give the simulation
+        the map's own cell size and origin (`trail.cell`, `trail.x0`, `trail.y0`); on others the trail is averaged.
+        A height map holds its heights [m] in the channel height, Z, V, Y, or in a grey picture; NaN = no ground.
+
+        spacing: distance of a height map's samples [m], if its header does not say
+        """
+        found = trail.read(path, spacing)
+        if not isinstance(found, trail.Trail):
+            return Ground.heights(*found)
+        if found.flat:
+            return Ground(("flat", float(found.rest[0, 0])), "flat", found)
+        half = found.cell / 2
+        ground = Ground.heights(found.rest, found.cell, found.x0 + half, found.y0 + half)
+        return Ground(ground.native, "trail", found)
+
     def arrays(self):
         """The arrays the ground is made of, for telling one ground from another."""
-        return [part for part in self.native if isinstance(part, np.ndarray)]
+        return [part for part in self.native if isinstance(part, np.ndarray)] + (self.trail.arrays() if self.trail else [])
 
 
 def as_soils(soils):
@@ -181,6 +202,7 @@ class Simulation:
         self.soils = as_soils(soils)
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
+        self.warnings = []  # sentences about what could not be taken as it was given
         self.stands = []  # (stand, number of the planting, plants), in the order they were planted
         self._planted = [set() for _ in self.plantings]  # squares
         try:
@@ -196,6 +218,9 @@ class Simulation:
             raise DesirePathError(f"The ground cannot be used: {problem}.") from None
         if self.plantings:
             self._core.open_plants(seed_of(self.plantings))
+        if ground.trail is not None:
+            i0, j0, left, self.warnings = ground.trail.on(self.cell_size, self.origin)
+            self._core.lay(i0, j0, *(left[name] for name in trail.LEFT))
         for number, planting in enumerate(self.plantings):
             if planting.roots is not None:
                 self._plant(number, planting.roots, planting.vigour)

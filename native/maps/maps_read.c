@@ -221,7 +221,7 @@ static bool is_packed_anew(Source* source)
     static const unsigned char magic[] = {0x76, 0x2f, 0x31, 0x01};
     static const char          named[] = "compression\0compression\0\1\0\0";  // and a last zero
     unsigned char              head[HEADER_LOOK];
-    const int64_t got = read_bytes(NULL, source, head, sizeof head, 0, NULL);
+    const int64_t              got = read_bytes(NULL, source, head, sizeof head, 0, NULL);
     if (got < (int64_t)(sizeof magic + sizeof named) || memcmp(head, magic, sizeof magic) != 0)
         return false;
     for (int64_t at = 8; at + (int64_t)sizeof named < got; ++at)

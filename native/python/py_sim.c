@@ -279,6 +279,34 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     return result;
 }
 
+static PyObject* simulation_lay(Simulation* self, PyObject* args)
+{
+    PyObject* grid[3];
+    DpTrail   trail = {0};
+    if (!PyArg_ParseTuple(args, "llOOO:lay", &trail.i0, &trail.j0, &grid[0], &grid[1], &grid[2]))
+        return NULL;
+    DpDoor    door = {.count = 0};
+    DpShape   shape = {2, {-1, -1}};
+    PyObject* result = NULL;
+    trail.compression = dp_door_open(&door, grid[0], "compression", 'f', &shape, false);
+    if (trail.compression) trail.heap = dp_door_open(&door, grid[1], "heap", 'f', &shape, false);
+    if (trail.heap)
+        trail.pressure_time = dp_door_open(&door, grid[2], "pressure_time", 'f', &shape, false);
+    if (trail.pressure_time && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
+        dp_door_result(DP_BAD_ARGUMENT, "laying a trail");
+    } else if (trail.pressure_time && dp_py_enter(self)) {
+        DpStatus status;
+        trail.ny = (int)shape.n[0], trail.nx = (int)shape.n[1];
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_terrain_lay(self->terrain, &trail);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_door_result(status, "laying a trail");
+    }
+    dp_door_close(&door);
+    return result;
+}
+
 static PyMethodDef methods[] = {
     {"rest", (PyCFunction)simulation_rest, METH_VARARGS,
      "rest(xy (n, 2) f8, out (n,) f8): height of the rest ground [m], NaN where there is none."},
@@ -302,6 +330,10 @@ static PyMethodDef methods[] = {
      "report() -> dict: contacts, depths [m] and volumes [m^3] so far."},
     {"read", (PyCFunction)simulation_read, METH_VARARGS,
      "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
+    {"lay", (PyCFunction)simulation_lay, METH_VARARGS,
+     "lay(i0, j0, compression, heap, pressure_time): a trail as somebody left it, (ny, nx) f4 "
+     "each, "
+     "from cell\n(i0, j0) on; before anybody walks."},
     {"open_plants", dp_py_open_plants, METH_VARARGS,
      "open_plants(seed): something may grow here; before anything is loaded or read."},
     {"plant", dp_py_plant, METH_VARARGS,

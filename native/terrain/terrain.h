@@ -85,6 +85,21 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
 // indices) back into the tiles and mark the tiles in which a value is new.
 void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1);
 
+// A trail somebody left: cells (nx, ny) from (i0, j0) on, all values finite and >= 0.
+typedef struct DpTrail
+{
+    long         i0, j0;
+    int          nx, ny;
+    const float* compression;    // [m] (ny, nx)
+    const float* heap;           // [m] (ny, nx)
+    const float* pressure_time;  // [Pa s] (ny, nx)
+} DpTrail;
+
+// Lay a trail down in place of what is there; cells without ground stay without. Tiles of which the
+// trail says nothing but zeros are left as they are. Bad sizes or values: DP_BAD_ARGUMENT, nothing
+// is laid.
+DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail);
+
 // ---- what grows on it ------------------------------------------------------------------------
 
 // alpha_veg [-] and E_v [Pa] of cells (ny, nx), the first with its centre at (x0, y0); a pure

@@ -125,7 +125,15 @@ static bool between(double at, int samples, int* before, double* beyond)
     return true;
 }
 
-// bilinear; a square with a hole at one of its corners is a hole
+// in proportion; a point on a sample, up to rounding, is that sample, whatever lies beside it
+static double mix(double low, double high, double share)
+{
+    return share <= EDGE_SLACK         ? low
+           : share >= 1.0 - EDGE_SLACK ? high
+                                       : low + (high - low) * share;
+}
+
+// bilinear; a square with a hole at one of its corners is a hole, but for its other samples
 static double heights_at(const Rest* rest, double x, double y, uint8_t* kind)
 {
     int    i, j;
@@ -136,9 +144,9 @@ static double heights_at(const Rest* rest, double x, double y, uint8_t* kind)
     const size_t at = (size_t)j * (size_t)rest->nx + (size_t)i;
     const float* h = rest->heights + at;
     const float* above = h + rest->nx;
-    const double here = (double)h[0] + ((double)h[1] - (double)h[0]) * u;
-    const double next = (double)above[0] + ((double)above[1] - (double)above[0]) * u;
-    const double height = here + (next - here) * v;
+    const double here = mix((double)h[0], (double)h[1], u);
+    const double next = mix((double)above[0], (double)above[1], u);
+    const double height = mix(here, next, v);
     if (kind && rest->kind_count && !isnan(height)) {
         const size_t nearest = at + (u >= 0.5 ? 1 : 0) + (v >= 0.5 ? (size_t)rest->nx : 0);
         const double whole = 1.0;

@@ -85,6 +85,31 @@ def test_a_file_of_oiiotool_is_read(tmp_path):
     assert red[0, 0] == 0 and blue[0, -1] == 1  # the lowest
 
 
+@pytest.mark.parametrize("packing", ["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"])
+def test_heights_of_every_packing_are_read(tmp_path, packing):
+    y, x = np.mgrid[0:70, 0:150]
+    height = (0.3 * np.sin(x / 20) + 0.2 * np.cos(y / 13)).astype(np.float32)
+    maps.write(tmp_path / "own.exr", {"Y": height})
+    path = tmp_path / "theirs.exr"
+    for name in ("height", "Z", "V", "Y"):
+        for kind, tiles in (("float", []), ("half", []), ("float", ["--tile", "32", "32"]), ("half", ["--tile", "64", "64"])):
+            subprocess.run(["oiiotool", str(tmp_path / "own.exr"), "--chnames", name, "-d", kind, *tiles,
+                            "--compression", packing, "-o", str(path)], check=True)
+            plane, = maps.read(path).planes.values()
+            assert np.abs(plane - height).max() < (0.02 if packing.startswith("b44") else 0.005), (name, kind, tiles)
+
+
+def test_a_packing_of_a_newer_openexr_is_named(tmp_path, grids):
+    path = tmp_path / "tomorrow.exr"
+    maps.write(path, grids)
+    named = b"compression\0compression\0\1\0\0\0"
+    for packing in (10, 11, 12, 13, 200):
+        head, rest = path.read_bytes().split(named)
+        path.write_bytes(head + named + bytes([packing]) + rest[1:])
+        with pytest.raises(DesirePathError, match="packing unknown here.* write it again with ZIP"):
+            maps.read(path)
+
+
 @pytest.mark.parametrize("planes, words", [
     ({}, "nothing to write"),
     ({"heap": np.zeros(4)}, "rows and columns"),
