@@ -153,10 +153,6 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     int         nx, ny;
     const char* software;
     if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &software)) return NULL;
-    if (nx < 1 || ny < 1 || nx > INT32_MAX / ny) {
-        PyErr_SetString(PyExc_ValueError, "open_frames: expected at least one tile");
-        return NULL;
-    }
     Film* self = make_film(simulation);
     if (!self) return NULL;
     if (!dp_py_enter(simulation)) {

@@ -182,7 +182,8 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
     DpShape    shape = {2, {-1, -1}};
     PyObject*  result = NULL;
     float*     out = dp_door_open(&door, o_out, "out", 'f', &shape, true);
-    const bool fits = axis >= 0 && axis < 3 && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX;
+    const bool fits = axis >= 0 && axis < 3 && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX &&
+                      dp_terrain_has(i0, j0, (long)shape.n[1], (long)shape.n[0]);
     if (out && !fits) dp_door_result(DP_BAD_ARGUMENT, "reading how grass lies");
     if (out && fits && enter(self)) {
         Py_BEGIN_ALLOW_THREADS

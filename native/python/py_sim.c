@@ -173,6 +173,10 @@ static PyObject* simulation_load(Simulation* self, PyObject* args)
     int32_t* triangle_count =
         dp_door_open(&door, o_triangle_count, "sole_triangle_count", 'i', DP_SHAPE1(P), false);
     if (!triangle_count) goto done;
+    if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
+        PyErr_SetString(PyExc_ValueError, "load: too many vertices or triangles in the soles");
+        goto done;
+    }
     uint8_t* touching = dp_door_open(&door, o_touching, "touching", 'B', DP_SHAPE2(P, T), false);
     if (!touching) goto done;
     double* force = dp_door_open(&door, o_force, "force", 'd', DP_SHAPE3(P, T, 3), false);

@@ -111,14 +111,30 @@ static void* copy(const void* items, size_t count, size_t size)
     return block;
 }
 
+#define FARTHEST 1e9     // of anything from the origin [m]
+#define TURN_SLACK 1e-2  // a unit quaternion's length may be so far off
+
+static bool poses_hold(const DpGait* g)
+{
+    for (size_t k = 0; k < (size_t)g->parts * (size_t)g->times; ++k) {
+        const double* p = g->pose + 7 * k;
+        const double  length = sqrt(p[3] * p[3] + p[4] * p[4] + p[5] * p[5] + p[6] * p[6]);
+        if (!(fabs(p[0]) <= FARTHEST && fabs(p[1]) <= FARTHEST && fabs(p[2]) <= FARTHEST &&
+              fabs(length - 1.0) <= TURN_SLACK))
+            return false;
+    }
+    return true;
+}
+
 // Indices in range, times rising, masses and soles that can be worked with.
 static bool gait_holds(const DpGait* g)
 {
     if (g->times < 2 || g->walkers < 1 || g->limbs < 1 || g->parts < 1) return false;
     for (int t = 1; t < g->times; ++t)
         if (!(g->time[t] > g->time[t - 1])) return false;
+    if (!isfinite(g->time[0]) || !isfinite(g->time[g->times - 1])) return false;
     for (int w = 0; w < g->walkers; ++w)
-        if (!(g->mass[w] > 0.0)) return false;
+        if (!(g->mass[w] > 0.0 && isfinite(g->mass[w]))) return false;
     for (int l = 0; l < g->limbs; ++l)
         if (g->limb_walker[l] < 0 || g->limb_walker[l] >= g->walkers) return false;
     for (int p = 0; p < g->parts; ++p) {
@@ -128,9 +144,9 @@ static bool gait_holds(const DpGait* g)
         for (int k = 0; k < 3 * sole->triangle_count; ++k)
             if (sole->triangle[k] < 0 || sole->triangle[k] >= sole->vertex_count) return false;
         for (int k = 0; k < 3 * sole->vertex_count; ++k)
-            if (!isfinite(sole->vertex[k])) return false;
+            if (!(fabs((double)sole->vertex[k]) <= FARTHEST)) return false;
     }
-    return true;
+    return poses_hold(g);
 }
 
 static DpStatus copy_soles(DpSim* sim, const DpGait* gait)
@@ -191,8 +207,6 @@ DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, co
 {
     if (!gait_holds(gait)) return DP_BAD_ARGUMENT;
     const size_t samples = (size_t)gait->parts * (size_t)gait->times;
-    for (size_t k = 0; k < 7 * samples; ++k)
-        if (!isfinite(gait->pose[k])) return DP_BAD_ARGUMENT;
     for (size_t k = 0; k < 3 * samples; ++k)
         if (!isfinite(force[k])) return DP_BAD_ARGUMENT;
 

@@ -1,4 +1,5 @@
 // sim/sim_film.c - films of the ground: which tiles are new in each, and what they show.
+#include <limits.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "sim/sim_inside.h"
 
 #define TILE_CELLS (DP_TILE * DP_TILE)
+#define MOST_TILES (1 << 22)  // of one film
 
 struct DpFilm
 {
@@ -176,10 +178,18 @@ DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path)
     return dp_writer_told(reel->writer, wait, path);
 }
 
+static bool are_tiles(long first, int count)
+{
+    const long most = LONG_MAX / DP_TILE;
+    return count > 0 && count <= MOST_TILES && first >= -most && first <= most &&
+           dp_terrain_has(first * DP_TILE, 0, (long)count * DP_TILE, 1);
+}
+
 static bool are_known(const DpSim* sim, const DpFilmOptions* options)
 {
-    if (options->tiles_x < 1 || options->tiles_y < 1 ||
-        options->tiles_x > INT32_MAX / options->tiles_y || options->fields < 1 ||
+    if (!are_tiles(options->tile_x, options->tiles_x) ||
+        !are_tiles(options->tile_y, options->tiles_y) ||
+        options->tiles_x > MOST_TILES / options->tiles_y || options->fields < 1 ||
         options->fields > DP_FILM_FIELDS)
         return false;
     for (int f = 0; f < options->fields; ++f) {

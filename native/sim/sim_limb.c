@@ -1,4 +1,6 @@
 // sim/sim_limb.c - where a limb is between two samples, and how hard it presses.
+#include <limits.h>
+
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
@@ -56,6 +58,12 @@ DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double
     return foot;
 }
 
+// a cell's number, or one that no ground has
+static long number_of(double cells)
+{
+    return (long)dp_clamp(cells, (double)LONG_MIN / 4.0, (double)LONG_MAX / 4.0);
+}
+
 // Cells under the limb's soles at sample and sample + 1, with `margin` [m] around.
 Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin)
 {
@@ -65,10 +73,10 @@ Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margi
         for (int end = 0; end < 2; ++end) {
             const DpBox box = dp_imprint_box(&sim->sole[limb->part[p]],
                                              dp_limb_pose(sim, limb->part[p], sample, end));
-            const Cells under = {(long)floor((box.x0 - margin - ox) / cell),
-                                 (long)ceil((box.x1 + margin - ox) / cell),
-                                 (long)floor((box.y0 - margin - oy) / cell),
-                                 (long)ceil((box.y1 + margin - oy) / cell)};
+            const Cells under = {number_of(floor((box.x0 - margin - ox) / cell)),
+                                 number_of(ceil((box.x1 + margin - ox) / cell)),
+                                 number_of(floor((box.y0 - margin - oy) / cell)),
+                                 number_of(ceil((box.y1 + margin - oy) / cell))};
             cells = dp_cells_join(cells, under);
         }
     }

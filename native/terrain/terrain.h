@@ -116,6 +116,9 @@ void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
 
 // ---- reading ---------------------------------------------------------------------------------
 
+// Whether there are nx x ny cells from (i0, j0) on: at least one, and all at numbers whose places are exact.
+bool dp_terrain_has(long i0, long j0, long nx, long ny);
+
 typedef enum DpField
 {
     DP_FIELD_COMPRESSION = 0,     // [m]
@@ -129,7 +132,7 @@ typedef enum DpField
 } DpField;
 
 // Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
-// (rest, modulus and kind are computed from the ground).
+// (rest, modulus and kind are computed from the ground). Cells that there cannot be: DP_BAD_ARGUMENT.
 DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
                          float* out);
 

@@ -324,10 +324,21 @@ static void read_tile(void* context, int index, int worker)
     }
 }
 
+static bool are_cells(long first, long count)
+{
+    return count > 0 && count < MOST_CELL_INDEX && first > -MOST_CELL_INDEX &&
+           first < MOST_CELL_INDEX - count;
+}
+
+bool dp_terrain_has(long i0, long j0, long nx, long ny)
+{
+    return are_cells(i0, nx) && are_cells(j0, ny);
+}
+
 DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
                          float* out)
 {
-    if (nx < 1 || ny < 1 || !is_rectangle(i0, i0 + nx, j0, j0 + ny)) return DP_BAD_ARGUMENT;
+    if (!dp_terrain_has(i0, j0, nx, ny)) return DP_BAD_ARGUMENT;
     if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) return DP_BAD_ARGUMENT;
     Reading reading = {terrain, field, i0, i0 + nx, j0, j0 + ny, tile_of(i0), tile_of(j0), 0, out};
     reading.tiles_x = (int)(tile_of(reading.i1 - 1) - reading.tx0 + 1);

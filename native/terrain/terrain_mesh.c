@@ -16,6 +16,7 @@
 #define NEEDLE 1e-10          // twice the area seen from above, over the longest edge squared
 #define SLACK (2.0 * NEEDLE)  // how far it reaches beyond its edges, over the longest edge
 #define MOST_BINS 30000       // along one side
+#define FINEST 1e-100         // of the ground's box [m]: thinner is none
 #define CHUNK 32768           // triangles or points looked at by one worker at a time
 #define NOWHERE UINT32_MAX    // the bin of a triangle that is not ground
 
@@ -265,7 +266,8 @@ static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_
     for (bool again = false;; again = true) {
         double box[4];
         memcpy(box, bounds, sizeof box);
-        if (!(box[2] > box[0] && box[3] > box[1])) box[2] += 1.0, box[3] += 1.0;
+        for (int k = 0; k < 2; ++k)  // wide enough to be cut into bins, however far off it lies
+            if (!(box[k + 2] - box[k] > FINEST)) box[k + 2] += 1.0 + 1e-9 * fabs(box[k]);
         choose_bins(binning->mesh, box, (size_t)ground->triangle_count);
         dp_parallel_for(chunks, workers, take_triangles, binning);
         if (!sum_up(binning->share, chunks, bounds, facing)) return DP_BAD_ARGUMENT;

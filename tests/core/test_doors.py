@@ -1,5 +1,7 @@
 """What callers hand to _native that it cannot use: a sentence, never a crash."""
 
+import threading
+
 import numpy as np
 import pytest
 
@@ -23,3 +25,93 @@ def test_plants_cannot_be_opened_once_a_recording_is_loaded():
         core.open_plants(0)
     core.run(6)  # and goes on as if nobody had asked
     assert core.report()["deepest_m"] > 0
+
+
+def bare():
+    return _native.Simulation(("flat", 0.0), np.array([_native.soil_default()], "f4"), 0.02)
+
+
+@pytest.mark.parametrize("at", [2**63 - 1, 2**63 - 4, -2**63, 2**55])
+def test_windows_at_the_end_of_all_numbers_are_refused(at):
+    core, out = bare(), np.zeros((8, 8), "f4")
+    for i0, j0 in ((at, 0), (0, at)):
+        for field in range(8):
+            with pytest.raises(ValueError, match="reading a map"):
+                core.read(field, i0, j0, out)
+        with pytest.raises(ValueError, match="opening the frames"):
+            core.open_frames(i0, j0, 2, 2, "")
+    core.open_plants(1)
+    with pytest.raises(ValueError, match="grass"):
+        core.read_lean(0, at, 0, out)
+    core.read(0, 5, -5, out)
+
+
+def test_more_tiles_than_can_be_are_refused():
+    core = bare()
+    for nx, ny in ((2**31 - 1, 1), (1 << 16, 1 << 16), (0, 3), (-2, -2)):
+        with pytest.raises(ValueError, match="opening the frames"):
+            core.open_frames(0, 0, nx, ny, "")
+    with pytest.raises(OverflowError):
+        core.open_frames(0, 0, 2**40, 1, "")
+
+
+@pytest.mark.parametrize("field", ["ab", ["a", 0], 7, None, ("a",), ("a", "b"), ("a", 99), (3, 0)])
+def test_what_is_no_field_of_a_map_is_named(field):
+    film = bare().open_frames(0, 0, 1, 1, "")
+    with pytest.raises(ValueError, match="not open"):
+        film.write_maps("nowhere.exr", 0.0)
+    with pytest.raises((TypeError, ValueError), match="open_maps|argument|str"):
+        film.open_maps((("compression", 0), field), ())
+
+
+@pytest.mark.parametrize("place, value", [(0, 1e12), (2, -1e300), (3, 0.0), (3, 1e200), (0, np.nan)])
+def test_recordings_out_of_reach_are_refused(place, value):
+    core = bare()
+    gait, loads = gaits.pressed([gaits.box(0.25, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -600]], seconds=0.1)
+    sole = gait.soles[0]
+
+    def load(pose):
+        core.load(gait.time, gait.mass, pose, np.zeros(1, "i4"), np.zeros(1, "i4"), sole.vertices.astype("f4"),
+                  np.array([len(sole.vertices)], "i4"), sole.triangles.astype("i4"),
+                  np.array([len(sole.triangles)], "i4"), loads.touching, np.ascontiguousarray(loads.force), loads.point)
+
+    bad = gait.pose.copy()
+    bad[0, 3, place] = value
+    with pytest.raises(ValueError, match="loading the recording"):
+        load(bad)
+    with pytest.raises(ValueError, match="stepping"):
+        core.run(5)  # nothing is loaded
+    load(gait.pose.copy())
+    core.run(5)
+
+
+def test_a_simulation_in_use_says_so_to_other_threads():
+    """Whoever comes second gets a sentence or waits; nobody gets half of a step."""
+    core = standing()
+    said, stop = [], threading.Event()
+
+    def ask():
+        while not stop.is_set():
+            try:
+                core.report()
+                core.read(0, -8, -8, np.zeros((16, 16), "f4"))
+            except RuntimeError as problem:
+                said.append(str(problem))
+
+    others = [threading.Thread(target=ask) for _ in range(3)]
+    for other in others:
+        other.start()
+    for sample in range(1, 20):
+        while True:
+            try:
+                core.run(sample)
+                break
+            except RuntimeError as problem:
+                said.append(str(problem))
+    stop.set()
+    for other in others:
+        other.join()
+    assert set(said) <= {"this simulation is already running in another thread"}
+    alone = standing()
+    alone.run(19)
+    assert alone.report() == core.report()

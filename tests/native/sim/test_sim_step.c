@@ -237,6 +237,11 @@ TEST(bad_recordings_are_refused)
     s.part_limb[0] = 7;
     CHECK(walk(&world, &s) == DP_BAD_ARGUMENT);
     s.part_limb[0] = 0;
+    s.pose[0] = 1e12;  // no cell has a number there
+    CHECK(walk(&world, &s) == DP_BAD_ARGUMENT);
+    s.pose[0] = 0.0, s.pose[3] = 2.0;
+    CHECK(walk(&world, &s) == DP_BAD_ARGUMENT);
+    s.pose[3] = 1.0;
     s.mass[0] = 0.0;
     CHECK(walk(&world, &s) == DP_BAD_ARGUMENT);
     CHECK(dp_sim_run(world.sim, 1) == DP_BAD_ARGUMENT);

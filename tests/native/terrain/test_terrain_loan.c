@@ -1,3 +1,5 @@
+#include <limits.h>
+
 #include <math.h>
 
 #include "base/parallel.h"
@@ -126,10 +128,31 @@ TEST(each_soil_brings_its_modulus_and_slope)
     dp_terrain_destroy(terrain);
 }
 
+// windows at the end of all numbers are none, and asking for them overflows nothing
+TEST(windows_that_cannot_be_are_refused)
+{
+    const DpGround ground = ground_flat(0.0);
+    DpTerrain*     terrain = ground_terrain(&ground, 0.1, 0.0, 0.0);
+    const long     far[4] = {LONG_MAX, LONG_MAX - 3, LONG_MIN, LONG_MIN + 3};
+    float          got[16];
+    for (int n = 0; n < 4; ++n) {
+        CHECK(!dp_terrain_has(far[n], 0, 4, 4) && !dp_terrain_has(0, far[n], 4, 4));
+        for (DpField field = DP_FIELD_COMPRESSION; field <= DP_FIELD_HEIGHT_CHANGE; ++field) {
+            CHECK(dp_terrain_read(terrain, field, far[n], 0, 4, 4, got) == DP_BAD_ARGUMENT);
+            CHECK(dp_terrain_read(terrain, field, 0, far[n], 4, 4, got) == DP_BAD_ARGUMENT);
+        }
+    }
+    CHECK(!dp_terrain_has(0, 0, 0, 4) && !dp_terrain_has(0, 0, 4, LONG_MAX));
+    CHECK(dp_terrain_has(-1000000, 1000000, 4, 4));
+    CHECK(dp_terrain_read(terrain, DP_FIELD_HEAP, -1000000, 1000000, 4, 4, got) == DP_OK);
+    dp_terrain_destroy(terrain);
+}
+
 int main(void)
 {
     RUN(windows_side_by_side_do_not_disturb_each_other);
     RUN(cells_without_ground_are_never_written);
     RUN(each_soil_brings_its_modulus_and_slope);
+    RUN(windows_that_cannot_be_are_refused);
     return check_done();
 }

@@ -341,6 +341,22 @@ TEST(bad_meshes_are_refused)
     }
 }
 
+// a point so far off that a metre is less than its last digit; triangles as thin as numbers go
+TEST(a_mesh_without_width_has_bins_all_the_same)
+{
+    const double  at[3] = {0.0, 1e99, -3e60};
+    const int32_t triangle[3] = {0, 1, 2};
+    for (int n = 0; n < 3; ++n)
+        for (int thin = 0; thin < 2; ++thin) {
+            double vertex[9] = {0.0};
+            for (int k = 0; k < 9; ++k) vertex[k] = at[n] + (thin && k > 4 ? 5e-324 : 0.0);
+            const DpGround         ground = ground_mesh(3, vertex, 1, triangle);
+            const DpTerrainOptions options = ground_options(0.1, 0.0, 0.0);
+            DpTerrain*             terrain = NULL;
+            CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_NO_GROUND);
+        }
+}
+
 int main(void)
 {
     RUN(the_highest_triangle_counts);
@@ -351,6 +367,7 @@ int main(void)
     RUN(any_number_of_workers_gives_the_same_bits);
     RUN(a_large_mesh_among_few_bins_each);
     RUN(a_point_of_no_triangle_may_lie_far_off);
+    RUN(a_mesh_without_width_has_bins_all_the_same);
     RUN(bad_meshes_are_refused);
     return check_done();
 }
