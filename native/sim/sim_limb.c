@@ -83,7 +83,26 @@ Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margi
     return cells;
 }
 
-// So many sub-steps that no column which may be loaded moves by more than half a cell in one.
+// The middle of what is lowest of a body, horizontally: what it rolls on, though no point of it slides.
+static DpVec3 lowest_spot(const DpMesh* sole, DpPose pose)
+{
+    DpVec3 sum = {0, 0, 0};
+    double lowest = INFINITY, count = 0.0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (int v = 0; v < sole->vertex_count; ++v) {
+            const float* at = sole->vertex + 3 * v;
+            const DpVec3 point =
+                dp_place(pose, dp_vec3((double)at[0], (double)at[1], (double)at[2]));
+            if (pass == 0)
+                lowest = fmin(lowest, point.z);
+            else if (point.z < lowest + LOADED_BAND)
+                sum = dp_add(sum, dp_vec3(point.x, point.y, 0.0)), count += 1.0;
+        }
+    return count > 0.0 ? dp_scale(sum, 1.0 / count) : sum;
+}
+
+// So many sub-steps that no column which may be loaded moves by more than half a cell in one, nor
+// does the place a rigid body rolls on. A foot's two parts roll from one to the other.
 int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
 {
     double lowest = INFINITY, farthest = 0.0;
@@ -105,6 +124,12 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
                 }
             }
         }
+    }
+    if (limb->part_count == 1) {
+        const DpMesh* sole = &sim->sole[limb->part[0]];
+        const DpVec3  way = dp_sub(lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 1.0)),
+                                   lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));
+        farthest = fmax(farthest, dp_length(way));
     }
     const double steps = ceil(farthest / (0.5 * sim->cell));
     return (int)dp_clamp(steps, 1.0, MOST_SUBSTEPS);

@@ -5,6 +5,8 @@
 //   slowest touches at its own height, as on a block that the ground does not show. Feet farther up
 //   hang from something else, a chair, a rope or wings, and press nothing. test_foot_contact.c,
 //   somebody_carries_what_does_not_fall, who_glides_stands_on_both_feet, who_hangs_presses_nothing.
+//   A rigid body has no feet to reach down with: lifted, it is carried by what lifts it.
+//   a_crate_on_a_rope_presses_nothing.
 #include <math.h>
 
 #include "base/vec.h"
@@ -75,12 +77,22 @@ static double mean(const double* value, int first, int end)
     return end > first ? sum / (double)(end - first) : -INFINITY;
 }
 
+// one limb of one part: a crate, a ball, a wheel
+static bool is_rigid(const DpGait* gait, int walker)
+{
+    int limbs = 0, parts = 0;
+    for (int l = 0; l < gait->limbs; ++l) limbs += gait->limb_walker[l] == walker;
+    for (int p = 0; p < gait->parts; ++p) parts += gait->limb_walker[gait->part_limb[p]] == walker;
+    return limbs == 1 && parts == 1;
+}
+
 void walker_support(const DpGait* gait, int walker, const double* height, const double* speed,
                     const double* clearance, const double* fall, const DpContactLimits* limits,
                     double rate, uint8_t* on)
 {
     const int    times = gait->times;
     const double floats = -limits->support_fall * DP_GRAVITY;
+    if (is_rigid(gait, walker)) return;
     for (int t = 0; t < times;) {
         int end = t;
         while (end < times && fall[end] > floats && !carried(gait, walker, on, end)) ++end;

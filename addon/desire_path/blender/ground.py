@@ -113,7 +113,8 @@ def _near(mesh, place, box):
 def under(gait):
     """The rectangle of the world the feet come near (x0, y0, x1, y1) [m]."""
     feet = gait.pose[..., :2].reshape(-1, 2)
-    return (*(feet.min(axis=0) - NEAR), *(feet.max(axis=0) + NEAR))
+    beside = NEAR + max(np.linalg.norm(sole.vertices, axis=1).max() for sole in gait.soles)
+    return (*(feet.min(axis=0) - beside), *(feet.max(axis=0) + beside))
 
 
 def _faces_up(obj, world, vertices, triangles):

@@ -111,7 +111,7 @@ def idle_ground(operator, context):
     if _running is not None:
         operator.poll_message_set("A bake is running")
         return False
-    return active(operator, context, "MESH", "the ground")
+    return active(operator, context, {"MESH"}, "the ground")
 
 
 class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):

@@ -15,7 +15,7 @@ import numpy as np
 from bpy.props import StringProperty
 
 from . import axes, force_graph, ground, moves, sample
-from .op_walkers import Refusal, active, walkers
+from .op_walkers import WALKERS, Refusal, active, walkers
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
 WIDTH = 3.0  # of a line [pixel]
@@ -262,7 +262,7 @@ class _Forces(Refusal):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        return active(cls, context, WALKERS, "the armature that walks, or a mesh that moves")
 
     def read(self, context):
         context.view_layer.update()

@@ -164,7 +164,7 @@ floor. Makes a new action; the one it had stays"""
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        return active(cls, context, {"ARMATURE"}, "the armature that walks")
 
     def work(self, context):
         obj = context.object

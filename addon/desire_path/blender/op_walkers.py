@@ -7,6 +7,9 @@ from ..errors import DesirePathError
 from . import axes, moves, plants, props, sample
 
 
+WALKERS = {"ARMATURE", "MESH"}
+
+
 class Refusal:
     """Operators that tell what is wrong in one sentence."""
 
@@ -25,10 +28,10 @@ def sentence(problem):
 
 
 def active(cls, context, kind, words, *, changed=True):
-    """Whether the active object is of a type, not being edited and, where it will be changed, of this
+    """Whether the active object is of a type (or of several), not being edited and, where it will be changed, of this
     file; else poll's message."""
     obj = context.object
-    if obj is None or obj.type != kind:
+    if obj is None or obj.type not in kind:
         cls.poll_message_set(f"Select {words} first")
         return False
     if obj.mode == "EDIT":
@@ -46,8 +49,8 @@ def grounds(scene):
 
 
 def walkers(scene, ground):
-    """The armatures that walk on a ground."""
-    return [obj for obj in scene.objects if obj.type == "ARMATURE" and obj.desire_path.is_walker
+    """Who walks on a ground: armatures, and meshes that move as rigid bodies."""
+    return [obj for obj in scene.objects if obj.type in WALKERS and obj.desire_path.is_walker
             and obj.desire_path.ground == ground]
 
 
@@ -60,7 +63,7 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "MESH", "the mesh that is walked on")
+        return active(cls, context, {"MESH"}, "the mesh that is walked on")
 
     def work(self, context):
         from . import home
@@ -118,7 +121,7 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        return active(cls, context, {"ARMATURE"}, "the armature that walks")
 
     def work(self, context):
         obj = context.object
@@ -142,7 +145,7 @@ class OBJECT_OT_desire_path_foot_add(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        return active(cls, context, {"ARMATURE"}, "the armature that walks")
 
     def execute(self, context):
         obj = context.object
@@ -167,7 +170,7 @@ class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks") and bool(context.object.desire_path.feet)
+        return active(cls, context, {"ARMATURE"}, "the armature that walks") and bool(context.object.desire_path.feet)
 
     def execute(self, context):
         feet = context.object.desire_path.feet
@@ -179,7 +182,7 @@ class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
 
 
 class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
-    """Let the active armature leave prints: finds its feet and joins it to the ground"""
+    """Let the active armature leave prints, by the feet found in it, or the active mesh, as a rigid body; joins it to the ground"""
 
     bl_idname = "object.desire_path_walker_add"
     bl_label = "Add Walker"
@@ -187,21 +190,40 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks")
+        if not active(cls, context, WALKERS, "the armature that walks, or a mesh that moves"):
+            return False
+        if context.object.desire_path.is_ground:
+            cls.poll_message_set("This is a ground: select the armature that walks on it, or a mesh that moves")
+            return False
+        return True
 
     def work(self, context):
         obj, scene = context.object, context.scene
         settings = obj.desire_path
         ground = self.ground(context, settings.ground)
-        found = detect(scene, obj, keep=not settings.is_walker)
+        means, told = self.means(scene, obj)
         settings.is_walker = True
         settings.ground = ground
-        for each in found.warnings + forgotten(obj):
+        for each in told + forgotten(obj):
             self.report({"WARNING"}, each)
         moves.follow(scene, ground, walkers(scene, ground))
-        feet = ", ".join(foot.foot for foot in found.feet)
-        self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' with {feet}.")
+        self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' {means}.")
         return {"FINISHED"}
+
+    @staticmethod
+    def means(scene, obj):
+        """(by what a walker leaves prints, in words; sentences about it)"""
+        if obj.type == "ARMATURE":
+            found = detect(scene, obj, keep=not obj.desire_path.is_walker)
+            return "with " + ", ".join(foot.foot for foot in found.feet), found.warnings
+        bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]
+        if bound or obj.parent is not None and obj.parent.type == "ARMATURE":
+            rig = bound[0] if bound else obj.parent
+            raise DesirePathError(f"'{obj.name}' is moved by the armature '{rig.name}': select that, and press Add "
+                                  "Walker.")
+        if not len(obj.data.polygons) and not obj.modifiers:
+            raise DesirePathError(f"'{obj.name}' has no faces to press the ground with: give it some.")
+        return "as a rigid body", ()
 
     @staticmethod
     def ground(context, chosen):
@@ -250,7 +272,7 @@ class OBJECT_OT_desire_path_remove(Refusal, bpy.types.Operator):
 
 
 class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
-    """Write what the active armature does to a file that bakes without Blender"""
+    """Write what the active walker does to a file that bakes without Blender"""
 
     bl_idname = "object.desire_path_record"
     bl_label = "Record Walk"
@@ -262,7 +284,7 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "ARMATURE", "the armature that walks", changed=False)
+        return active(cls, context, WALKERS, "the armature that walks, or a mesh that moves", changed=False)
 
     def invoke(self, context, _event):
         context.window_manager.fileselect_add(self)
@@ -294,7 +316,7 @@ class OBJECT_OT_desire_path_paint_add(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "MESH", "a ground") and context.object.desire_path.is_ground
+        return active(cls, context, {"MESH"}, "a ground") and context.object.desire_path.is_ground
 
     def execute(self, context):
         obj = context.object
@@ -315,7 +337,7 @@ class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return active(cls, context, "MESH", "a ground") and bool(context.object.desire_path.painted)
+        return active(cls, context, {"MESH"}, "a ground") and bool(context.object.desire_path.painted)
 
     def execute(self, context):
         settings = context.object.desire_path

@@ -17,8 +17,8 @@ def _column(layout):
 def draw(layout, context):
     obj = context.object
     if obj is None or obj.type not in {"MESH", "ARMATURE"}:
-        layout.label(text="Select a ground mesh or an armature", icon="INFO")
-    elif obj.type == "MESH":
+        layout.label(text="Select a ground mesh or a walker", icon="INFO")
+    elif obj.type == "MESH" and not obj.desire_path.is_walker:
         draw_ground(layout, context, obj)
     else:
         draw_walker(layout, obj)
@@ -28,6 +28,7 @@ def draw_ground(layout, context, obj):
     settings = obj.desire_path
     if not settings.is_ground:
         layout.operator("object.desire_path_ground_add", icon="ADD")
+        layout.operator("object.desire_path_walker_add", icon="ADD")
         return
     column = _column(layout)
     column.prop(settings, "soil")
@@ -45,9 +46,9 @@ def draw_ground(layout, context, obj):
     for each in there:
         passes = each.desire_path.passes if each.desire_path.path is not None else 1
         box.label(text=f"{each.name}, {weight(each.desire_path)}" + (f", {passes} passes" if passes > 1 else ""),
-                  icon="ARMATURE_DATA")
+                  icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA")
     if not there:
-        box.label(text="None: select an armature and press Add Walker", icon="INFO")
+        box.label(text="None: select one and press Add Walker", icon="INFO")
 
     job = op_bake.running()
     if job is not None:
@@ -177,9 +178,11 @@ def draw_walker(layout, obj):
     if not settings.mass:
         column.label(text=weight(settings).capitalize() if settings.estimated_mass
                      else "Estimated when recorded", icon="INFO")
-    column.prop(settings, "sole")
-    column.prop(settings, "path")
-    if settings.path is not None:
+    legged = obj.type == "ARMATURE"
+    if legged:
+        column.prop(settings, "sole")
+        column.prop(settings, "path")
+    if legged and settings.path is not None:
         way = column.column(align=True)
         way.prop(settings, "passes")
         way.prop(settings, "lateral")
@@ -188,13 +191,15 @@ def draw_walker(layout, obj):
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
     row = layout.row(align=True)
-    row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
+    if legged:
+        row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
-    row = layout.row(align=True)
-    row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
-    row.operator("object.desire_path_place_feet", text="Into Prints", icon="TRIA_DOWN_BAR").into_prints = True
-    column = _column(layout)
-    column.prop(settings, "place_feet")
+    if legged:
+        row = layout.row(align=True)
+        row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
+        row.operator("object.desire_path_place_feet", text="Into Prints", icon="TRIA_DOWN_BAR").into_prints = True
+        column = _column(layout)
+        column.prop(settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 

@@ -67,7 +67,7 @@ class _Forces(_Rig):
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and context.object.desire_path.is_walker
+        return context.object is not None and context.object.desire_path.is_walker
 
     def draw(self, context):
         draw_forces(self.layout, context, context.object)

@@ -171,9 +171,9 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     missing: StringProperty(options={"HIDDEN"}, description="What a stopped bake lacks")
 
     # ---- a walker
-    is_walker: BoolProperty(name="Walker", description="This armature leaves prints")
+    is_walker: BoolProperty(name="Walker", description="This armature, or rigid body, leaves prints")
     ground: PointerProperty(name="Ground", type=bpy.types.Object, poll=is_ground,
-                            description="The mesh this armature walks on")
+                            description="The mesh this walker leaves prints in")
     mass: FloatProperty(name="Mass [kg]", default=75.0, soft_min=1.0, soft_max=1000.0, precision=1,
                         description="How heavy the walker is, in kilograms; 0 = estimated from its "
                         "height")

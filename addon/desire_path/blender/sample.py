@@ -13,13 +13,14 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from .. import body, mass, rigs
+from .. import body, mass, rigs, solid
 from ..errors import DesirePathError
 from ..foot import FootShape
 from ..gait import Gait
 from ..tread import Tread
 from . import axes, clock, compat, playback
 
+STIFF = 0.01  # a rigid body may change by so much of its size
 PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
 
 
@@ -302,8 +303,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
 
     land: a Simulation of its ground, for feet that lie on slopes
     """
-    if armature is None or armature.type != "ARMATURE":
-        raise DesirePathError("There is no armature to record: select the one that walks.")
+    if armature is None or armature.type not in {"ARMATURE", "MESH"}:
+        raise DesirePathError("There is nobody to record: select the armature that walks, or a mesh that moves.")
     if frame_end <= frame_start:
         raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
                               "after the start.")
@@ -311,6 +312,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     samples = samples or samples_of(scene, [armature])
     scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
+    if armature.type == "MESH":
+        return _solid(scene, armature, frames, samples, rate, scale)
     with still(armature), private_scene(scene, armature) as own:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
@@ -329,6 +332,82 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
                                 frame_rate=rate, frame_start=frame_start, land=land,
                                 shapes=placed(armature))
     return replace(gait, warnings=gait.warnings + told)
+
+
+def _solid(scene, obj, frames, samples, rate, scale):
+    """What a mesh did as one rigid body, as it is at the first frame, with its modifiers."""
+    with still(obj), private_scene(scene, obj) as own:
+        (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
+        placed = np.array([np.array(evaluated(own, obj, frame).matrix_world, np.float64) for frame in frames])
+    if simulated(obj):
+        placed = _fallen(scene, obj, frames, samples)
+    bad = ~(np.abs(placed) < axes.FAR).all(axis=(1, 2)) | ~(np.linalg.norm(placed[:, :3, :3], axis=1) > 0.0).all(axis=1)
+    if bad.any():
+        raise DesirePathError(f"'{obj.name}' has no usable transform at frame {frames[bad.argmax()]:g} (NaN, infinite, "
+                              "or scaled to nothing): look at its keys and drivers there.")
+    turned = axes.rigid(placed, scale)
+    size = np.swapaxes(turned[:, :3, :3], 1, 2) @ placed[:, :3, :3]  # what the turn leaves: scale, mirror, shear
+    shape = np.eye(4)
+    shape[:3, :3] = size[0]
+    vertices = axes.points(shape, rest, scale)
+    faces = faces[:, ::-1] if np.linalg.det(size[0]) < 0.0 else faces
+    told, apart = [], np.abs(size - size[0]).max() / np.abs(size[0]).max()
+    if apart > STIFF or len(last) != len(rest) or (len(rest) and np.abs(last - rest).max() > STIFF * np.ptp(rest)):
+        told.append(f"'{obj.name}' changes its shape or size between the frames: it presses as it is at frame "
+                    f"{frames[0]:g}.")
+    kilograms, estimated = _solid_weight(obj, vertices, faces)
+    time = (np.asarray(frames) - frames[0]) / rate
+    return solid.gait_from_solid(time, turned, vertices, faces, mass=kilograms, name=obj.name,
+                                 frame_rate=rate, frame_start=round(frames[0]), warnings=told + estimated)
+
+
+def _shape(found):
+    """Vertices and triangles of an evaluated mesh, in its own axes."""
+    return compat.positions(found.data), compat.triangles(found.data)
+
+
+def _solid_weight(obj, vertices, faces):
+    """(mass [kg], sentences about it) of a rigid body; mass 0 is estimated from its volume."""
+    settings = obj.desire_path
+    if settings.mass > 0.0:
+        return axes.typed(settings.mass), []
+    volume = solid.centre(vertices, faces)[1] if len(faces) else 0.0
+    if not volume > 0.0:
+        raise DesirePathError(f"The mass of '{obj.name}' cannot be estimated, since its mesh is not closed: give it a "
+                              "mass in kilograms.")
+    settings.estimated_mass = mass.DENSITY * volume
+    return mass.DENSITY * volume, [mass.told_by_volume(obj.name, mass.DENSITY * volume, volume)]
+
+
+def simulated(obj):
+    """Whether Blender's rigid bodies move an object or one that it hangs on."""
+    while obj is not None:
+        if obj.rigid_body is not None and obj.rigid_body.type == "ACTIVE":
+            return True
+        obj = obj.parent
+    return False
+
+
+def _fallen(scene, obj, frames, samples):
+    """World matrices of what is simulated: its own scene is stepped through, and left as it was."""
+    world = scene.rigidbody_world
+    before, keep, out = scene.frame_current, scene.frame_subframe, []
+    first, last = round(frames[0]), round(frames[-1])
+    try:
+        for frame in range(min(first, world.point_cache.frame_start if world is not None else first), last + 1):
+            scene.frame_set(frame)
+            if frame >= first:
+                depsgraph = scene.view_layers[0].depsgraph
+                out.append(np.array(obj.evaluated_get(depsgraph).matrix_world, np.float64))
+    finally:
+        scene.frame_set(before, subframe=keep)
+    placed = np.array(out)
+    if samples == 1:
+        return placed
+    at = np.arange(len(frames)) / samples  # between whole frames, straight
+    low = np.minimum(at.astype(int), len(placed) - 2)
+    share = (at - low)[:, None, None]
+    return (1.0 - share) * placed[low] + share * placed[low + 1]
 
 
 def gaits(scene, walkers, frame_start, frame_end, land=None):

@@ -56,7 +56,7 @@ TEST(reserves_spread_as_told)
     for (int k = 0; k < 3000; ++k) {
         const double z = log(dp_plants_reserve(a, 0, k) / 0.1);
         sum += z, squares += z * z;
-        near += fabs(z) < 0.25 * 1.3, far += fabs(z) > 2.0 * 1.3;
+        near += fabs(z)<0.25 * 1.3, far += fabs(z)> 2.0 * 1.3;
         same += fabs(z - log(dp_plants_reserve(b, 0, k) / 0.1)) < 1e-9;
     }
     CHECK_NEAR(sum / 3000, 0.0, 0.1);

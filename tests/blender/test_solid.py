@@ -1,0 +1,181 @@
+"""Meshes that move leave prints as rigid bodies: by keys, parents, constraints and Blender's own rigid bodies."""
+import json
+import math
+
+import bpy
+import numpy as np
+
+from desire_path.blender import op_walkers, sample
+from scenes import meshes, people
+from test_bake import refused
+from test_playback import shown
+
+RATE = 24
+
+
+def crate(size=0.4, name="Crate"):
+    """A cube that stands on z = 0, its origin in its middle."""
+    bpy.ops.mesh.primitive_cube_add(size=size, location=(0.0, 0.0, 0.5 * size))
+    obj = bpy.context.object
+    obj.name = name
+    return obj
+
+
+def key(obj, frame, **values):
+    for name, value in values.items():
+        setattr(obj, name, value)
+        obj.keyframe_insert(name, frame=frame)
+
+
+def sand(folder, size=4.0, cell=0.02):
+    count = int(size / 0.04)
+    ground = meshes.grid(count + 1, count + 1, 0.04, -size / 2, -size / 2)
+    meshes.activate(ground)
+    assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
+    ground.desire_path.cell_size = cell
+    ground.desire_path.folder = str(folder / "bake")
+    return ground
+
+
+def pressed_by(obj, ground, folder, mass=60.0):
+    """(report, how much lower points lie at the end (n,), where they are (n, 3))"""
+    meshes.activate(obj)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    obj.desire_path.mass = mass
+    meshes.activate(ground)
+    frame = bpy.context.scene.frame_current
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert bpy.context.scene.frame_current == frame
+    report = json.loads((folder / "bake" / "report.json").read_text())
+    at, _ = shown(ground, ground.desire_path.frame_end)
+    rest, _ = shown(ground, ground.desire_path.frame_start - 1)
+    return report, rest[:, 2] - at[:, 2], rest
+
+
+def hops(obj, size=0.4):
+    """Three hops along +X, 0.6 m each, with a stand of 6 frames between."""
+    for k in range(4):
+        at = 1 + 18 * k
+        for frame in (at, at + 6):
+            key(obj, frame, location=(0.6 * k - 0.9, 0.0, 0.5 * size))
+        if k < 3:
+            key(obj, at + 12, location=(0.6 * k - 0.6, 0.0, 0.5 * size + 0.3))
+
+
+def test_a_crate_that_hops_leaves_its_square(folder):
+    ground, obj = sand(folder), crate()
+    hops(obj)
+    report, depth, at = pressed_by(obj, ground, folder, mass=600.0)
+    assert ground.desire_path.frame_end == 61
+    assert report["contacts"] == 4, report
+    deep = at[depth > 0.001]
+    for k in range(4):
+        here = deep[np.abs(deep[:, 0] - (0.6 * k - 0.9)) < 0.3]
+        assert np.ptp(here[:, 0]) > 0.3 and np.ptp(here[:, 1]) > 0.3, k
+        assert np.abs(here[:, :2] - (0.6 * k - 0.9, 0.0)).max() < 0.26, k
+    assert 0.0005 < report["deepest_m"] < 0.1
+
+
+def test_scale_parents_units_and_modifiers_count(folder):
+    ground, obj = sand(folder), crate(size=0.2)
+    obj.scale = (2.0, 2.0, -2.0)  # mirrored, too
+    obj.location.z = 0.2
+    carrier = meshes.link(bpy.data.objects.new("Carrier", None))
+    key(carrier, 1, location=(-0.5, 0.3, 0.3))
+    key(carrier, 12, location=(-0.5, 0.3, 0.0))
+    key(carrier, 24, location=(-0.5, 0.3, 0.0))
+    obj.parent = carrier
+    more = obj.modifiers.new("Array", "ARRAY")
+    more.count = 2  # a second one beside it
+    more.relative_offset_displace = (1.0, 0.0, 0.0)
+    report, depth, at = pressed_by(obj, ground, folder, mass=600.0)
+    deep = at[depth > 0.001]
+    np.testing.assert_allclose(deep[:, :2].min(axis=0), (-0.7, 0.1), atol=0.05)
+    np.testing.assert_allclose(deep[:, :2].max(axis=0), (0.1, 0.5), atol=0.05)
+
+
+def test_a_wheel_leaves_a_rut(folder):
+    ground = sand(folder)
+    bpy.ops.mesh.primitive_cylinder_add(vertices=180, radius=0.3, depth=0.12, rotation=(0.0, math.pi / 2, 0.0))
+    bpy.ops.object.transform_apply(rotation=True)
+    wheel = bpy.context.object
+    for frame, way in ((1, -1.2), (49, 1.2)):
+        key(wheel, frame, location=(0.0, way, 0.3), rotation_euler=(-way / 0.3, 0.0, 0.0))
+    for curve in people_curves(wheel):
+        for each in curve.keyframe_points:
+            each.interpolation = "LINEAR"
+    report, depth, at = pressed_by(wheel, ground, folder, mass=100.0)
+    assert report["contacts"] == 1
+    middle = (np.abs(at[:, 0]) < 0.01) & (np.abs(at[:, 1]) < 1.0)
+    assert middle.sum() > 20 and depth[middle].min() > 0.0001
+    assert depth[np.abs(at[:, 0]) > 0.2].max() < 1e-5
+
+
+def people_curves(obj):
+    action = obj.animation_data.action
+    if hasattr(action, "layers"):
+        return action.layers[0].strips[0].channelbag(action.slots[0]).fcurves
+    return action.fcurves
+
+
+def test_what_blenders_rigid_bodies_let_fall_presses(folder):
+    ground, obj = sand(folder), crate()
+    meshes.activate(obj)
+    bpy.ops.rigidbody.object_add(type="ACTIVE")
+    obj.location = (0.3, -0.2, 0.7)
+    meshes.activate(ground)
+    bpy.ops.rigidbody.object_add(type="PASSIVE")
+    ground.rigid_body.collision_shape = "MESH"
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 40
+    scene.frame_set(7)
+    report, depth, at = pressed_by(obj, ground, folder, mass=400.0)
+    assert (ground.desire_path.frame_start, ground.desire_path.frame_end) == (1, 40)
+    deep = at[depth > 0.001]
+    assert report["contacts"] >= 1 and len(deep)
+    lies = sample.record(scene, obj, 1, 40).pose[0, -1, :3]  # after a bounce or two
+    assert lies[2] < 0.3 and np.hypot(*(at[depth.argmax(), :2] - lies[:2])) < 0.4
+    middle = np.hypot(*(at[:, :2] - lies[:2]).T) < 0.1
+    assert depth[middle].min() > 0.0005
+
+
+def test_mass_is_estimated_from_what_it_holds(folder):
+    sand(folder)
+    obj = crate(size=0.5)
+    meshes.activate(obj)
+    bpy.ops.object.desire_path_walker_add()
+    obj.desire_path.mass = 0.0
+    key(obj, 1, location=(0.0, 0.0, 0.25))
+    key(obj, 10, location=(0.1, 0.0, 0.25))
+    gait = sample.record(bpy.context.scene, obj, 1, 10)
+    assert abs(gait.mass[0] - 125.0) < 0.5 and any("125 kg" in each for each in gait.warnings)
+
+
+def test_what_changes_its_shape_is_told(folder):
+    sand(folder)
+    obj = crate()
+    obj.shape_key_add(name="Basis")
+    block = obj.shape_key_add(name="Wide")
+    block.data[0].co.x -= 0.3
+    block.value = 0.0
+    block.keyframe_insert("value", frame=1)
+    block.value = 1.0
+    block.keyframe_insert("value", frame=10)
+    gait = sample.record(bpy.context.scene, obj, 1, 10)
+    assert any("changes its shape" in each for each in gait.warnings)
+
+
+def test_who_is_no_rigid_body_is_told_what_to_do(folder):
+    ground = sand(folder)
+    rig = people.walk(people.biped())
+    meshes.activate(rig)
+    skin = crate(name="Skin")
+    skin.parent = rig
+    meshes.activate(skin)
+    refused(bpy.ops.object.desire_path_walker_add, "Skin", "Walker", "select that")
+    meshes.activate(ground)
+    assert not bpy.ops.object.desire_path_walker_add.poll()
+    empty = meshes.link(bpy.data.objects.new("Nothing", bpy.data.meshes.new("Nothing")))
+    meshes.activate(empty)
+    refused(bpy.ops.object.desire_path_walker_add, "no faces")
+    assert op_walkers.walkers(bpy.context.scene, ground) == []
