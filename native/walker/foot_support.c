@@ -77,13 +77,17 @@ static double mean(const double* value, int first, int end)
     return end > first ? sum / (double)(end - first) : -INFINITY;
 }
 
-// one limb of one part: a crate, a ball, a wheel
+// one limb of one part, with neither ball nor tip: a crate, a ball, a wheel
 static bool is_rigid(const DpGait* gait, int walker)
 {
     int limbs = 0, parts = 0;
     for (int l = 0; l < gait->limbs; ++l) limbs += gait->limb_walker[l] == walker;
     for (int p = 0; p < gait->parts; ++p) parts += gait->limb_walker[gait->part_limb[p]] == walker;
-    return limbs == 1 && parts == 1;
+    bool foot = false;
+    for (int k = 0; k < gait->points; ++k)
+        foot = foot || (gait->limb_walker[limb_of(gait, k)] == walker &&
+                        gait->point_role[k] != DP_POINT_HEEL);
+    return limbs == 1 && parts == 1 && !foot;
 }
 
 void walker_support(const DpGait* gait, int walker, const double* height, const double* speed,
