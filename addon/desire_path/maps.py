@@ -39,8 +39,9 @@ MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
     Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
 )
 PICTURE = "Y"  # the channel that every program shows, grey
-GROUND = (  # beside them, so that another bake can go on from here
+GROUND = (  # beside them: what another bake goes on from, and what is no sum
     Map("rest", "m", "", "height before anybody walked; NaN = no ground"),
+    Map("pressure", "Pa", "", "stress under the soles at that moment"),
 )
 LEAN = (  # beside them where plants grow
     Map("lean_x", "-", "", "how far grass leans along x, by its height, -1..1"),

@@ -32,6 +32,7 @@ _FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
     "soil": 5,
     "plant_strength": 6,
     "height_change": 7,
+    "pressure": 67,
 }
 _LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
 _FIRST_LEAN = 64  # the number of the first of them among a map's fields
@@ -363,7 +364,7 @@ class Simulation:
 
     def read(self, name, i0, j0, nx, ny):
         """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS or
-        maps.LEAN, "rest", "young_modulus" or "soil"."""
+        maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa]."""
         if name not in _FIELDS and name not in _LEAN:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*_FIELDS, *_LEAN])}.")
         if nx < 1 or ny < 1:

@@ -95,6 +95,8 @@ typedef struct DpSoilPatch
 
     const DpSoil* soils;  // the table of soils
     int           soil_count;
+
+    float* pressure;  // sigma under the sole at hand, where it presses; NULL = not asked for [Pa]
 } DpSoilPatch;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

@@ -192,8 +192,9 @@ static int read_fields(const Film* self, PyObject* items, DpFilmOptions* options
             return -1;
         }
         if (!PyArg_ParseTuple(item, "si:open_maps", &options->channel[k], field)) return -1;
-        if (*field < 0 || *field > last ||
-            (*field > DP_FIELD_HEIGHT_CHANGE && *field < DP_FIELD_LEAN)) {
+        if (*field != DP_FIELD_PRESSURE &&
+            (*field < 0 || *field > last ||
+             (*field > DP_FIELD_HEIGHT_CHANGE && *field < DP_FIELD_LEAN))) {
             PyErr_Format(PyExc_ValueError, "open_maps: there is no field %d", *field);
             return -1;
         }

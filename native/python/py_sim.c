@@ -262,7 +262,8 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     long      i0, j0;
     PyObject* out_object;
     if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
-    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) {
+    const bool pressure = field == DP_FIELD_PRESSURE;
+    if (!pressure && (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE)) {
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
@@ -271,10 +272,13 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     PyObject* result = NULL;
     float*    out = dp_door_open(&door, out_object, "out", 'f', &shape, true);
     if (out && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX && dp_py_enter(self)) {
-        DpStatus status;
+        DpStatus status = DP_OK;
         Py_BEGIN_ALLOW_THREADS
-        status = dp_terrain_read(self->terrain, (DpField)field, i0, j0, (int)shape.n[1],
-                                 (int)shape.n[0], out);
+        if (pressure)
+            dp_sim_pressure(self->sim, i0, j0, (int)shape.n[1], (int)shape.n[0], out);
+        else
+            status = dp_terrain_read(self->terrain, (DpField)field, i0, j0, (int)shape.n[1],
+                                     (int)shape.n[0], out);
         Py_END_ALLOW_THREADS
         self->busy = false;
         result = dp_door_result(status, "reading a map");

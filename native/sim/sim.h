@@ -59,6 +59,11 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
 // How the grass lies on the terrain's cells; NULL on bare ground. It belongs to the simulation.
 DpLean* dp_sim_lean(const DpSim* sim);
 
+// What the soles press with at the end of the last step: sigma [Pa] of cells (nx, ny) from (i0, j0)
+// on into out (ny, nx), 0 where nobody presses; and the tiles in which somebody does.
+void dp_sim_pressure(const DpSim* sim, long i0, long j0, int nx, int ny, float* out);
+void dp_sim_soles(const DpSim* sim, DpTileVisit visit, void* context);
+
 // From now on remember how stems are laid, for dp_sim_shown; costs time and memory where feet go.
 DpStatus dp_sim_lay(DpSim* sim);
 // One plant's particles (particles, 3) [m] as they are to be shown: trodden stems down for as long

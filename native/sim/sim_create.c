@@ -72,6 +72,9 @@ static void drop_recording(DpSim* sim)
                             sim->group, sim->order,       sim->pressure_point, sim->touching,
                             sim->start, sim->part_of_limb};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
+    for (int l = 0; sim->pressing && l < sim->gait.limbs; ++l) dp_free(sim->pressing[l].value);
+    dp_free(sim->pressing);
+    sim->pressing = NULL;
     sim->time = sim->pose = sim->mass = sim->force = sim->pressure_point = NULL;
     sim->sole = NULL, sim->limb = NULL, sim->sole_vertex = NULL, sim->sole_triangle = NULL;
     sim->group = sim->order = sim->start = sim->part_of_limb = NULL, sim->touching = NULL;
@@ -179,11 +182,13 @@ static DpStatus make_limbs(DpSim* sim, const DpGait* gait)
 {
     const size_t limbs = (size_t)gait->limbs, parts = (size_t)gait->parts;
     sim->limb = dp_alloc(limbs, sizeof *sim->limb);
+    sim->pressing = dp_alloc(limbs, sizeof *sim->pressing);
     sim->part_of_limb = dp_alloc(parts, sizeof *sim->part_of_limb);
     sim->group = dp_alloc(limbs, sizeof *sim->group);
     sim->order = dp_alloc(limbs, sizeof *sim->order);
     sim->start = dp_alloc(limbs + 1, sizeof *sim->start);
-    bool whole = sim->limb && sim->part_of_limb && sim->group && sim->order && sim->start;
+    bool whole =
+        sim->limb && sim->pressing && sim->part_of_limb && sim->group && sim->order && sim->start;
     for (int b = 0; b < sim->bench_count; ++b) {
         sim->bench[b].sole = dp_alloc(parts, sizeof(DpMesh));
         sim->bench[b].pose = dp_alloc(parts, sizeof(DpPose));

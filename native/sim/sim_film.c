@@ -19,7 +19,7 @@ struct DpFilm
     int       tiles_x, tiles_y;
     int       field[DP_FILM_FIELDS];
     int       fields;
-    bool      of_ground, of_grass;  // whose changes it shows
+    bool      of_ground, of_grass, of_soles;  // whose changes it shows
     DpFrames* frames;
     uint8_t*  changed;  // tiles that are not what was written last (tiles_y, tiles_x)
 };
@@ -47,10 +47,13 @@ static void fill_tile(const DpFilm* film, int index, float* value)
             dp_terrain_tile(sim->terrain, tx, ty, (DpField)film->field[f], value + f, film->fields);
             continue;
         }
-        float lies[TILE_CELLS];
-        dp_lean_read(dp_sim_lean(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
-                     axis == 0 ? lies : NULL, axis == 1 ? lies : NULL, axis == 2 ? lies : NULL);
-        for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = lies[n];
+        float cell[TILE_CELLS];
+        if (film->field[f] == DP_FIELD_PRESSURE)
+            dp_sim_pressure(sim, tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, cell);
+        else
+            dp_lean_read(dp_sim_lean(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
+                         axis == 0 ? cell : NULL, axis == 1 ? cell : NULL, axis == 2 ? cell : NULL);
+        for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = cell[n];
     }
 }
 
@@ -103,6 +106,11 @@ static void mark_grass(void* context, long tx, long ty)
         if (film->of_grass) mark(film, tx, ty);
 }
 
+static void mark_sole(void* context, long tx, long ty)
+{
+    mark(context, tx, ty);
+}
+
 static DpStatus write_changed(DpFilm* film, const char* path, double time, const char** failed)
 {
     DpReel*        reel = film->reel;
@@ -111,6 +119,7 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
     if (status != DP_OK) return status;
     dp_terrain_changed(sim->terrain, mark_ground, reel);
     if (dp_sim_lean(sim)) dp_lean_changed(dp_sim_lean(sim), mark_grass, reel);
+    if (film->of_soles) dp_sim_soles(sim, mark_sole, film);
     DpTiles* tiles = dp_writer_tiles(reel->writer, film->frames);
     if (!tiles) return DP_NO_MEMORY;
     const int count = film->tiles_x * film->tiles_y;
@@ -124,6 +133,7 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
         fill_tile(film, k, value);
     }
     memset(film->changed, 0, (size_t)count);
+    if (film->of_soles) dp_sim_soles(sim, mark_sole, film);  // they will not stay
     return dp_writer_give(reel->writer, tiles, path, time);
 }
 
@@ -195,7 +205,7 @@ static bool are_known(const DpSim* sim, const DpFilmOptions* options)
     for (int f = 0; f < options->fields; ++f) {
         const int  field = options->field[f];
         const bool lies = field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3;
-        if (!(lies && dp_sim_lean(sim)) &&
+        if (!(lies && dp_sim_lean(sim)) && field != DP_FIELD_PRESSURE &&
             (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE))
             return false;
     }
@@ -233,7 +243,8 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
     made->fields = options->fields;
     for (int f = 0; f < options->fields; ++f) {
         const int field = made->field[f] = options->field[f];
-        made->of_grass = made->of_grass || field >= DP_FIELD_LEAN;
+        made->of_soles = made->of_soles || field == DP_FIELD_PRESSURE;
+        made->of_grass = made->of_grass || (field >= DP_FIELD_LEAN && field != DP_FIELD_PRESSURE);
         made->of_ground =
             made->of_ground || (field < DP_FIELD_LEAN && field != DP_FIELD_PLANT_STRENGTH);
     }
@@ -242,6 +253,7 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
         drop(made);
         return status;
     }
+    if (made->of_soles) dp_sim_soles(reel->sim, mark_sole, made);
     pthread_mutex_lock(&reel->lock);
     made->next = reel->first;
     reel->first = made;

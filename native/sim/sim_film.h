@@ -9,7 +9,8 @@
 #include "terrain/terrain.h"
 
 #define DP_FILM_FIELDS 16
-#define DP_FIELD_LEAN 64  // lean_x, lean_y, crushed: beyond the terrain's own fields
+#define DP_FIELD_LEAN 64      // lean_x, lean_y, crushed: beyond the terrain's own fields
+#define DP_FIELD_PRESSURE 67  // under the soles now, see dp_sim_pressure
 
 typedef struct DpSim  DpSim;
 typedef struct DpReel DpReel;  // all films of one simulation, and the thread that writes them
@@ -20,8 +21,9 @@ typedef struct DpFilmOptions
     long tile_x, tile_y;    // lowest tile
     int  tiles_x, tiles_y;  // >= 1
 
-    int         fields;                   // 1..DP_FILM_FIELDS
-    int         field[DP_FILM_FIELDS];    // a DpField, or DP_FIELD_LEAN + 0, 1, 2 on planted ground
+    int fields;  // 1..DP_FILM_FIELDS
+    int field
+        [DP_FILM_FIELDS];  // a DpField, DP_FIELD_PRESSURE, or DP_FIELD_LEAN + 0, 1, 2 on planted ground
     const char* channel[DP_FILM_FIELDS];  // the name of each in the files
 
     const DpNote* notes;  // of every file's header

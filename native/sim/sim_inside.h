@@ -31,6 +31,16 @@ typedef struct Limb
     bool   off_ground;                  // pressed where there is no ground
 } Limb;
 
+// What a limb's soles press with at the end of a step.
+typedef struct Pressing
+{
+    Cells  at;      // cells under its soles; empty: it does not press
+    long   i0, j0;  // world cell of value[0]
+    int    row;
+    float* value;  // sigma [Pa]
+    size_t room;
+} Pressing;
+
 // What one thread needs for itself.
 typedef struct Bench
 {
@@ -112,8 +122,9 @@ struct DpSim
     double*  pressure_point;
     int*     part_of_limb;
 
-    Limb* limb;
-    int   next;  // first interval not yet stepped: from sample `next` to `next + 1`
+    Limb*     limb;
+    Pressing* pressing;  // of every limb
+    int       next;      // first interval not yet stepped: from sample `next` to `next + 1`
 
     Bench* bench;  // one per worker (options.workers)
     int    bench_count;
@@ -179,6 +190,10 @@ void     dp_ahead_press(DpSim* sim, int sample, int index, Bench* bench);  // on
 // Cover has changed within x0..x1, y0..y1 [m]: what was lent there does not count.
 void dp_ahead_worn(DpSim* sim, double x0, double y0, double x1, double y1);
 bool dp_ahead_take(DpSim* sim);  // lay it down; false: the step has still to be made
+
+// sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody presses
+DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
+void     dp_pressing_clear(DpSim* sim);
 
 // sim_press.c: one limb's step on its patch, and its settling
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench);

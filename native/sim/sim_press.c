@@ -89,16 +89,23 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, B
     DpStatus status = fit_imprint(bench, patch);
     if (status != DP_OK) return status;
 
+    Pressing*    pressing = &sim->pressing[limb - sim->limb];
     const int    substeps = dp_limb_substeps(sim, limb, sample);
     const double dt = (sim->time[sample + 1] - sim->time[sample]) / substeps;
     bench->imprint.i0 = bench->imprint.i1 = 0;
-    for (int u = 0; u < substeps && status == DP_OK; ++u)
-        status = press(sim, limb, patch, bench, sample, (u + 0.5) / substeps, dt);
+    for (int u = 0; u < substeps && status == DP_OK; ++u) {
+        status = dp_pressing_open(pressing, limb, patch);
+        if (status == DP_OK)
+            status = press(sim, limb, patch, bench, sample, (u + 0.5) / substeps, dt);
+    }
     if (status != DP_OK) return status;
 
     DpSettled  settled;
     const bool stands_here = bench->imprint.i0 < bench->imprint.i1;
-    const int  most =
+    if (stands_here)
+        pressing->at = (Cells){pressing->i0 + bench->imprint.i0, pressing->i0 + bench->imprint.i1,
+                               pressing->j0 + bench->imprint.j0, pressing->j0 + bench->imprint.j1};
+    const int most =
         sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps : SLIDING_SWEEPS;
     status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
                                sim->options.tolerance, most, bench->soil_scratch, &settled);

@@ -126,6 +126,7 @@ static void count(DpSim* sim)
 DpStatus dp_step_plan(DpSim* sim, int sample)
 {
     sim->groups = 0;
+    dp_pressing_clear(sim);
     bool any = false;
     for (int l = 0; l < sim->gait.limbs; ++l) {
         plan_limb(sim, &sim->limb[l], sample);
@@ -190,6 +191,7 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
 
 DpStatus dp_sim_settle(DpSim* sim)
 {
+    dp_pressing_clear(sim);
     for (int l = 0; sim->limb && l < sim->gait.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->stands) continue;

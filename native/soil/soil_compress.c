@@ -307,6 +307,7 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     patch->compression[p] = (float)((double)c + (press - loose));
     if (patch->pressure_time)
         patch->pressure_time[p] += (float)(target.stress * target.share * dt);  // TRAIL (17)
+    if (patch->pressure) patch->pressure[p] = (float)(target.stress * target.share);
 
     // the ledger counts what the float grids really hold
     const double out_of_heap = (double)b - (double)patch->heap[p];

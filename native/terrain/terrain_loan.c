@@ -142,7 +142,8 @@ DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, lon
                               grid[5],
                               loan->kind,
                               terrain->soils,
-                              terrain->soil_count};
+                              terrain->soil_count,
+                              NULL};
     loan->patch = lent;
     loan->i0 = i0;
     loan->j0 = j0;

@@ -73,7 +73,8 @@ static World make(double cell, double degrees)
                             w.rest_slope,
                             w.kind,
                             NULL,
-                            1};
+                            1,
+                            NULL};
     return w;
 }
 

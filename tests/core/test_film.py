@@ -63,3 +63,24 @@ def test_a_film_outlives_its_simulation(trodden, tmp_path):
     film.write_frame(tmp_path / "a.exr", 0.0)
     with pytest.raises(ValueError, match="not open"):
         film.write_maps(tmp_path / "b.exr", 0.0)
+
+
+def test_pressure_is_there_while_somebody_stands_and_nowhere_else(trodden, tmp_path):
+    sim, samples = trodden
+    film = sim.open_frames(-1, -1, 2, 2)
+    film.open_maps(["compression", "pressure"], [("cell", 0.01)])
+    window = (-TILE, -TILE, 2 * TILE, 2 * TILE)
+    for name, sample in (("before", 0), ("stands", 12), ("still", 20), ("gone", samples - 1)):
+        sim.run(sample)
+        film.write_maps(tmp_path / f"{name}.exr", 0.0)
+        now = sim.read("pressure", *window)
+        assert now.sum(dtype=float) * 1e-4 == pytest.approx(700.0 if name in ("stands", "still") else 0.0, abs=1e-3), name
+        assert not now.any() or (np.count_nonzero(now) * 1e-4 == pytest.approx(0.25 * 0.11, rel=0.2))
+    sim.flush()
+    planes = {name: maps.read(tmp_path / f"{name}.exr").planes for name in ("before", "stands", "still", "gone")}
+    for name, there in planes.items():
+        assert there["pressure"].any() == (name in ("stands", "still")), name
+    assert planes["gone"]["compression"].any()
+    sim.run(samples - 1)
+    sim.settle()
+    assert not sim.read("pressure", *window).any()

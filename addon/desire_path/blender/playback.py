@@ -4,7 +4,7 @@
     frames/lean_0000.exr ..   --image texture-->  attributes `desire_path_lean`, `plant_strength`
 
 One geometry-nodes modifier samples the frame's image once per point, by world position, into one
-colour attribute (height change, plant strength, compression, pressure) and moves the points by it;
+colour attribute (height change, plant strength, compression, pressure_time) and moves the points by it;
 where plants grew, a second image says how they lie. All numbers are constants inside the tree, so the
 same tree works from 3.4 to 5.2. File 0 is the untouched ground, file n the frame
 `frame_start + n - 1`.
