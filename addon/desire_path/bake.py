@@ -31,7 +31,7 @@ import numpy as np
 
 from . import _native, maps, plant_mesh, walker, whole
 from .errors import DesirePathError
-from .folder import FORMAT, OWNER, Sums, frame_path, frames_sound, told
+from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .output import Output
 from .passes import turns_of
@@ -68,12 +68,13 @@ class Bake:
     resume: go on where the same bake was stopped. map_seconds: write maps after every second, or pass.
     film: "frames", or "passes": frame n is the ground after pass n of Gait.along; None = "passes" if there are several.
     owner: id of the ground the folder belongs to; run() refuses a folder with the bake of another. Empty: anybody's.
+    inputs: words for what it is made from, kept in index.json for whoever wants to know whether that has changed.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False, film=None, owner=""):
+                 plants=(), plant_mesh=False, film=None, owner="", inputs=None):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -92,6 +93,7 @@ class Bake:
             raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
         self.folder = os.path.abspath(os.fspath(folder))
         self.owner = str(owner)
+        self.inputs = dict(inputs or {})
         self.frame_rate = float(gait.frame_rate)
         frames = (len(self.passes) - 1 if self.film == "passes"
                   else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
@@ -324,6 +326,7 @@ class Bake:
             "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
             "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
             **({"lean": True} if self.plants else {}), **({OWNER: self.owner} if self.owner else {}),
+            **({INPUTS: self.inputs} if self.inputs else {}),
         }
 
     def _prepare(self, out, index):

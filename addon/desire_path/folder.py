@@ -10,13 +10,14 @@ import hashlib
 import math
 import os
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from . import whole
 from .errors import DesirePathError
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
+INPUTS = "inputs"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
 MOST_SIDE = 1 << 30  # cells of a frame
@@ -40,6 +41,7 @@ class FrameIndex:
     complete: bool
     lean: bool = False  # with lean_0000.exr .., how the grass lies
     owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
+    inputs: dict = field(default_factory=dict)  # words for what it was made from, as Bake was given them
 
     @property
     def missing(self):
@@ -204,7 +206,8 @@ def _index(frames, data, just_baked):
     count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
     there = count if just_baked else max(0, frames_there(frames, lean, count))
     return FrameIndex(frames, cell, _number(data["x0"]), _number(data["y0"]), nx, ny, first, last, rate, there,
-                      there == count, lean, owner if isinstance(owner, str) else "")
+                      there == count, lean, owner if isinstance(owner, str) else "",
+                      inputs if isinstance(inputs := data.get(INPUTS), dict) else {})
 
 
 def _number(value):

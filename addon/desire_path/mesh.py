@@ -6,6 +6,8 @@ corner, face by face. A place is the map from its own space to the world, float6
 
 from __future__ import annotations
 
+import hashlib
+import json
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +25,15 @@ class Near:
     vertices: np.ndarray  # float64 (k, 3) [m]
     triangles: np.ndarray  # int32 (m, 3)
     of: np.ndarray  # int32 (k,): their numbers among all points
+
+
+def mark(arrays, words=()):
+    """A word for arrays, and for numbers and words in lists or by name: another one when any of them differs."""
+    digest = hashlib.sha256(json.dumps(words, sort_keys=True, default=float).encode())
+    for array in arrays:
+        digest.update(f"{array.shape} {array.dtype}".encode())
+        digest.update(_native.digest(np.ascontiguousarray(array)))
+    return digest.hexdigest()[:32]
 
 
 def near(points, corners, starts, sides, place, box=None):

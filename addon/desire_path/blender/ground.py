@@ -34,6 +34,7 @@ class Surface:
     warnings: tuple
     place: stack.Place  # of our modifier
     drawn: np.ndarray  # the points the viewport has, in the world (m, 3) [m]
+    mark: str  # another one when anything of the mesh, its place or its painted soils is
     finer: int = 1  # times as many points as were read are in renders
 
 
@@ -76,6 +77,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         del later
         near = _near(found.data, world * scale, box)
         weights = [compat.float_attribute(found.data, WEIGHT.format(k)) for k in range(len(groups))]
+        mark = _mark(found.data, world * scale, weights)
         drawn = None
         if stack.differs(scene, obj, place.before):
             stack.show(scene, copy, obj, render=False)
@@ -93,7 +95,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     return Surface(Ground(("mesh", vertices, triangles, kinds), "mesh"), world, scale, vertices,
                    np.array(list(product(*zip(near.low, near.high))), np.float64),
                    _cell_corner(vertices, cell), (*warnings, *place.warnings), place,
-                   vertices if drawn is None else drawn, finer)
+                   vertices if drawn is None else drawn, mark, finer)
 
 
 def _same(one, other):
@@ -108,6 +110,14 @@ def _near(mesh, place, box):
     """The faces of a mesh that reach into a box; place: from its own space to the world (4, 4) [m]."""
     from .. import mesh as meshes
     return meshes.near(compat.positions(mesh), *compat.faces(mesh), place[:3], box)
+
+
+def _mark(mesh, place, weights):
+    """A word for all of a mesh, where it is, and what is painted on it."""
+    from .. import mesh as meshes
+    corners, starts, sides = compat.faces(mesh)
+    there = [each for each in (starts, *weights) if each is not None]
+    return meshes.mark([compat.positions(mesh), corners, place, *there], sides)
 
 
 def under(gait):

@@ -3,14 +3,13 @@
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
-import os
 from contextlib import suppress
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, playback, show
+from . import ground, home, op_forces, op_plants, playback, show, state
 
 
 _unsaved = False  # whether the file that is being saved never was before
@@ -27,39 +26,24 @@ def refresh(scene, obj):
         return
     try:
         index = read_index(home.folder(obj))
-    except DesirePathError as problem:
-        ours = playback.modifier(obj)
-        if ours is not None and not _plays_from_elsewhere(obj, ours):
-            settings.missing = str(problem)
-        return
+    except DesirePathError:
+        return  # its state says so
     if index.owner and settings.bake_id and index.owner != settings.bake_id:
         return  # of another ground, whose folder it is now
     ours = playback.modifier(obj)
     mark = playback.mark(index.folder, index, index.frames)
     if ours is not None and ours.node_group[playback.TAG] == mark:
-        settings.missing = show.missing(index)
         return
-    try:
-        box = (index.x0, index.y0, index.x0 + index.nx * index.cell,
-               index.y0 + index.ny * index.cell)
-        surface = ground.read(scene, obj, index.cell, index.frame_start, box=box)
-        show.play(obj, surface)
-    except DesirePathError as problem:
-        settings.missing = str(problem)
-
-
-def _plays_from_elsewhere(obj, ours):
-    """Whether the frames are there, but not in the object's folder: the file was saved to another
-    place, and Blender keeps the way to its images."""
-    image = playback.image_of(ours.node_group)
-    path = os.path.abspath(bpy.path.abspath(image.filepath)) if image is not None else ""
-    return os.path.exists(path) and not path.startswith(home.folder(obj) + os.sep)
+    box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
+    with suppress(DesirePathError):  # its state says what is wrong
+        show.play(obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
 
 
 @persistent
 def after_load(*_):
     op_forces.hide()  # of the file before
     home.forget()
+    state.doubt()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:
@@ -68,6 +52,7 @@ def after_load(*_):
 
 @persistent
 def after_undo(*_):
+    state.doubt()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if (obj.type == "MESH" and obj.desire_path.is_ground
@@ -113,6 +98,7 @@ def register():
 
 
 def unregister():
+    state.unregister()
     bpy.app.handlers.redo_post.remove(after_undo)
     bpy.app.handlers.undo_post.remove(after_undo)
     bpy.app.handlers.save_post.remove(after_save)

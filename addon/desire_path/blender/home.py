@@ -28,6 +28,15 @@ def folder(obj):
     return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
 
 
+def played(obj):
+    """The bake folder a ground plays from, which is another one after its file was saved elsewhere; empty: none."""
+    ours = playback.modifier(obj)
+    image = playback.image_of(ours.node_group) if ours is not None else None
+    if image is None:
+        return ""
+    return os.path.dirname(os.path.dirname(os.path.abspath(bpy.path.abspath(image.filepath, library=image.library))))
+
+
 def sharing(obj):
     """Other grounds of the file with the same bake folder."""
     own = folder(obj)

@@ -4,7 +4,11 @@
     ground mesh --read--> Surface --> Bake, which only has to be run
     plants, settings ----------/
 """
-from . import axes, ground, plants, sample, way
+from dataclasses import asdict
+
+from ..errors import DesirePathError
+from . import axes, ground, moves, plants, sample, way
+from .op_walkers import walkers
 
 
 def taken(scene, obj, there, first, last, **more):
@@ -30,3 +34,34 @@ def taken(scene, obj, there, first, last, **more):
                 load_model=there[0].desire_path.load_model, law=settings.law, heap=settings.heap,
                 threads=settings.threads, origin=surface.origin, plants=grown,
                 plant_mesh=settings.plant_mesh and bool(grown), **more), surface
+
+
+def now(scene, obj):
+    """The marks of what a ground would be baked from now."""
+    there = walkers(scene, obj)
+    if not there:
+        raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
+    steps = taken(scene, obj, there, *moves.frames(scene, obj, there))
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return marks(obj, there, *end.value)
+
+
+def marks(obj, there, made, surface):
+    """A word for each part a bake is made from, another one when that part is; names do not count."""
+    from .. import mesh
+    gait, settings = made.gait, obj.desire_path
+    walk = [gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
+            gait.point_role, gait.cut]
+    for sole in gait.soles:
+        walk += [sole.vertices, sole.triangles]
+    grown = [each for planting in made.plants for each in planting.arrays()]
+    options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
+    chosen = [made.cell_size, made.frame_start, made.frame_end, made.frame_rate, made.film, options,
+              sorted({each.desire_path.load_model for each in there}), [asdict(soil) for soil in made.soils],
+              made.plant_mesh, settings.attributes, settings.vertex_group]
+    return {"walk": mesh.mark(walk), "ground": surface.mark,
+            "plants": mesh.mark(grown, [planting.told() for planting in made.plants]),
+            "settings": mesh.mark((), chosen)}

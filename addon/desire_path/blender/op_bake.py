@@ -71,6 +71,7 @@ class Job:
         settings = obj.desire_path
         made, self.surface = yield from inputs.taken(scene, obj, there, settings.frame_start, settings.frame_end,
                                                      folder=self.path, owner=settings.bake_id)
+        made.inputs = inputs.marks(obj, there, made, self.surface)
         self.warnings += [*self.surface.warnings, *way.warnings(there)]
         self.recorded = time.perf_counter() - self.begun
         self.warnings += op_plants.refresh(scene, obj)

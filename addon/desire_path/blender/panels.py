@@ -4,7 +4,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, plants, tufts
+from . import op_bake, plants, props, state, tufts
 from .op_walkers import walkers
 
 
@@ -63,14 +63,25 @@ def draw_ground(layout, context, obj):
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
         layout.operator("object.desire_path_free", icon="TRASH")
+        draw_state(layout, context, obj)
     draw_result(layout, context, settings)
 
 
+def draw_state(layout, context, obj):
+    """What has become of the bake, in a word and a sentence."""
+    told = state.last(obj)
+    if told is None:
+        layout.label(text="Looking for Changes", icon="TIME")
+        return
+    _, word, _, icon, _ = props.STATES[state.STATES.index(told.state)]
+    layout.label(text=word, icon=icon)
+    if told.text:
+        _lines(layout, told.text, "BLANK1", _letters(context))
+
+
 def draw_result(layout, context, settings):
-    """What the last bake did, and what is missing."""
+    """What the last bake did."""
     width = _letters(context)
-    if settings.missing:
-        _lines(layout, settings.missing, "ERROR", width)
     if not settings.summary:
         return
     found = json.loads(settings.summary)

@@ -36,7 +36,6 @@ def play(obj, surface, baked=None):
     stems.remove(plants.grass.of(settings.plant_object, obj))
     settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
                                        surface.scale) if index.complete else None
-    settings.missing = missing(index)
     return index, warnings
 
 
@@ -57,6 +56,12 @@ def missing(index):
             f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on.")
 
 
+def was_whole(index):
+    """Whether a bake came to its end, whatever has become of its files."""
+    from ..folder import is_whole
+    return is_whole(index.folder)
+
+
 def free(obj):
     """Give the mesh back as it was and delete the files of its bake; those of another ground or file stay."""
     from .. import bake
@@ -69,4 +74,4 @@ def free(obj):
         bake.free(folder(obj), settings.bake_id)
         if settings.folder_auto:
             home.leave(folder(obj))
-    settings.summary = settings.missing = ""
+    settings.summary = ""

@@ -1,0 +1,202 @@
+"""state.py - what has become of a ground's bake: NONE, FRESH, OUTDATED, PARTIAL or MISSING.
+
+    frames/index.json "inputs" <--at the bake-- marks of walk, ground, plants, settings
+                               --compared with-- the same, taken anew from the scene
+Scripts are told by looking anew every time they ask. A panel may not look while it is drawn: it shows the last
+answer, and once something has changed a timer looks again as soon as Blender rests.
+"""
+import os
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import DesirePathError
+from . import home, inputs, playback, show
+from .op_walkers import walkers
+
+NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
+PARTS = {"walk": "the walk", "ground": "the ground", "plants": "the plants", "settings": "the settings"}
+REST = 0.3  # without a change before the timer looks [s]
+SHARE = 10.0  # looking takes a tenth of the time at most
+
+
+@dataclass(frozen=True)
+class Told:
+    """A state and a sentence about it, empty where nothing is to be done."""
+
+    state: str
+    text: str = ""
+
+
+# ---- looking ----------------------------------------------------------------------------------------
+
+
+def found(obj):
+    """What has become of the bake of a ground, looked up anew."""
+    from ..bake import read_index
+    settings = obj.desire_path
+    plays = playback.modifier(obj) is not None
+    if not settings.is_ground or not plays and (not settings.folder or home.lost(obj)):
+        return Told(NONE)
+    try:
+        index = read_index(plays and home.played(obj) or home.folder(obj))
+    except DesirePathError as problem:
+        return Told(MISSING, str(problem)) if plays else Told(NONE)
+    if not plays and (index.frames > 0 or index.owner != settings.bake_id):
+        return Told(NONE)
+    if not index.complete:
+        return Told(MISSING if show.was_whole(index) else PARTIAL, show.missing(index))
+    text = _changed(obj, index)
+    return Told(OUTDATED if text else FRESH, text)
+
+
+def _changed(obj, index):
+    """A sentence about what has changed since a bake; empty where nothing has."""
+    if not index.inputs:
+        return "This bake does not say what it was made from, as earlier versions did not: bake again."
+    scene = bpy.context.scene
+    if obj.name not in scene.objects:
+        scene = (obj.users_scene or (scene,))[0]
+    if not walkers(scene, obj) and not home.is_own(obj):
+        return ""  # who walked is in another file, which tells
+    try:
+        with _looked_at(scene, obj):
+            now = inputs.now(scene, obj)
+    except DesirePathError as problem:
+        return f"The scene has changed since the bake: {problem}"
+    changed = [words for name, words in PARTS.items() if index.inputs.get(name) != now[name]]
+    if not changed:
+        return ""
+    text = " and ".join(filter(None, (", ".join(changed[:-1]), changed[-1])))
+    one = len(changed) == 1 and not changed[0].endswith("s")
+    return f"{text.capitalize()} {'has' if one else 'have'} changed since the bake: bake again."
+
+
+@contextmanager
+def _looked_at(scene, obj):
+    """Walkers that are hidden in viewports are looked at all the same."""
+    hidden = [each for each in walkers(scene, obj) if each.hide_viewport]
+    for each in hidden:
+        each.hide_viewport = False
+    try:
+        bpy.context.view_layer.update()
+        yield
+    finally:
+        for each in hidden:
+            each.hide_viewport = True
+
+
+# ---- for scripts ------------------------------------------------------------------------------------
+
+
+def ask(obj):
+    """The same; an evaluated copy, as drivers have it, is told what was found last."""
+    if obj.is_evaluated:
+        return _last.get(obj.name_full, (Told(NONE),))[0]
+    told = found(obj)
+    _last[obj.name_full] = told, _changes, _glance(obj)
+    return told
+
+
+# ---- for panels -------------------------------------------------------------------------------------
+
+_last = {}  # name of a ground -> what was found, after which change of the scene, and its glance
+_changes, _changed_at = 0, 0.0  # of the scene, since a panel was drawn first
+_waiting = set()  # names of grounds to look at
+_not_before = 0.0
+
+
+def last(obj):
+    """What was found last, or None where the timer has to look first. Quick, and changes nothing."""
+    told, changes, glance = _last.get(obj.name_full, (None, -1, None))
+    if changes == _changes and glance == _glance(obj):
+        return told
+    _waiting.add(obj.name_full)
+    if not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=REST)
+    if _scene_changed not in bpy.app.handlers.depsgraph_update_post:
+        bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
+    return None
+
+
+def _glance(obj):
+    """What can be seen at once of a ground, its walkers and its files."""
+    there = [each for each in bpy.data.objects if each.type == "ARMATURE" and each.desire_path.ground == obj]
+    path = home.played(obj)
+    ages = []
+    for place in (("frames",), ("frames", "index.json"), ("frames.new",)) if path else ():
+        try:
+            ages.append(os.stat(os.path.join(path, *place)).st_mtime_ns)
+        except OSError:
+            ages.append(0)
+    return path, ages, [_numbers(each.desire_path) for each in (obj, *there)]
+
+
+def _numbers(group):
+    """The plain properties of a property group, and of those in its lists."""
+    out = []
+    for name, each in type(group).__annotations__.items():
+        if each.function is bpy.props.CollectionProperty:
+            out += [_numbers(one) for one in getattr(group, name)]
+        elif "get" not in each.keywords:
+            out.append(getattr(group, name))
+    return out
+
+
+@persistent
+def _scene_changed(_scene, depsgraph):
+    """Whether anything was changed that may move, shape or time something; a frame that is shown is no change."""
+    global _changes, _changed_at
+    for each in depsgraph.updates:
+        if isinstance(each.id, (bpy.types.Scene, bpy.types.Collection)):
+            continue
+        if each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object):
+            _changes, _changed_at = _changes + 1, time.monotonic()
+            return
+
+
+def doubt():
+    """Anything may have changed: undo, another file."""
+    global _changes
+    _changes += 1
+
+
+def _look():
+    """Look at one ground that waits, when Blender rests."""
+    global _not_before
+    now = time.monotonic()
+    if not _waiting:
+        return None
+    if now < max(_not_before, _changed_at + REST) or _busy():
+        return REST
+    obj = bpy.data.objects.get(_waiting.pop())
+    if obj is not None:
+        ask(obj)
+        _not_before = time.monotonic() + SHARE * (time.monotonic() - now)
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                if area.type in {"PROPERTIES", "VIEW_3D"}:
+                    area.tag_redraw()
+    return REST
+
+
+def _busy():
+    """Whether the user is in the middle of something."""
+    for window in bpy.context.window_manager.windows:
+        active = window.view_layer.objects.active
+        if (window.screen.is_animation_playing or active is not None and active.mode == "EDIT"
+                or len(getattr(window, "modal_operators", ()))):
+            return True
+    return False
+
+
+def unregister():
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    if _scene_changed in bpy.app.handlers.depsgraph_update_post:
+        bpy.app.handlers.depsgraph_update_post.remove(_scene_changed)
+    _last.clear()
+    _waiting.clear()

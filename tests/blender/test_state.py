@@ -1,0 +1,194 @@
+"""The state of a bake is told truly: what was changed, lost or stopped, and that nothing was."""
+import json
+import shutil
+
+import bpy
+import numpy as np
+
+from desire_path.blender import axes, compat, op_bake, show
+from scenes import meshes, people
+from test_bake import scene
+from test_home import files, opened, saved
+from test_playback import shown
+from test_sample import ids
+
+
+def keys(obj):
+    return compat.curves(obj.animation_data, obj)
+
+
+def baked(folder, **more):
+    ground, walker = scene(folder, frames=8, cell=0.03, **more)
+    assert ground.desire_path.bake_state == "NONE" and not ground.desire_path.missing
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert ground.desire_path.bake_state == "FRESH" and not ground.desire_path.missing
+    return ground, walker
+
+
+def test_whatever_is_changed_and_changed_back(folder):
+    ground, walker = baked(folder)
+    settings, wears = ground.desire_path, walker.desire_path
+    key = keys(walker)[0].keyframe_points[3]
+    point = ground.data.vertices[0]
+    bump = ground.modifiers.new("Bump", "DISPLACE")
+    bump.strength, bump.show_viewport, bump.show_render = 0.01, False, False
+    bone = walker.data.bones["foot.L"]
+    changes = (  # who, what, another value, the words it is told with
+        (settings, "cell_size", 0.031, "settings"), (settings, "soil", "snow", "settings"),
+        (settings, "frame_end", 7, "settings"), (settings, "law", "uniform", "settings"),
+        (settings, "attributes", False, "settings"), (settings, "vertex_group", True, "settings"),
+        (wears, "mass", 74.5, "walk"), (wears, "load_model", "impulse", "settings"), (wears, "place_feet", True, "walk"),
+        (wears, "subframes", 2, "walk"), (wears, "ground", None, "Nobody walks"),
+        (key, "co", (key.co[0], key.co[1] + 0.004), "walk"), (walker.location, "x", 0.01, "walk"),
+        (bpy.context.scene.render, "fps", 31, "settings"), (ground.location, "z", -0.01, "ground"),
+        (ground, "rotation_euler", (0.0, 0.0, 0.01), "ground"), (point.co, "z", 0.02, "ground"),
+        (bone, "use_deform", bone.use_deform, None), (walker, "hide_viewport", True, None),
+        (walker, "name", "Somebody", None), (ground, "name", "Beach", None), (settings, "threads", 1, None))
+    for who, what, value, words in changes:
+        before = getattr(who, what)
+        before = tuple(before) if hasattr(before, "__len__") and not isinstance(before, str) else before
+        setattr(who, what, value)  # and nobody updates anything
+        told = settings.missing
+        assert settings.bake_state == ("OUTDATED" if words else "FRESH"), (what, told)
+        assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (what, told)
+        setattr(who, what, before)
+        assert settings.bake_state == "FRESH", (what, settings.missing)
+    known = ids()
+    bump.show_viewport = bump.show_render = True
+    assert settings.bake_state == "OUTDATED" and "ground" in settings.missing
+    ground.modifiers.remove(bump)
+    assert settings.bake_state == "FRESH" and ids() == known
+    bpy.data.objects.remove(walker)
+    assert settings.bake_state == "OUTDATED" and "Nobody walks" in settings.missing
+
+
+def test_what_changes_nothing(folder):
+    """Frames that are shown, selection, undo, another file in between, the file moved with its folder."""
+    ground, walker = saved(folder / "here" / "one.blend", frames=8, cell=0.03)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    bpy.context.scene.frame_set(5)
+    meshes.activate(walker)
+    assert ground.desire_path.bake_state == "FRESH"
+    meshes.activate(ground)
+    bpy.ops.ed.undo_push(message="baked")
+    walker.location.x = 0.2
+    bpy.ops.ed.undo_push(message="moved")
+    assert ground.desire_path.bake_state == "OUTDATED"
+    bpy.ops.ed.undo()
+    ground = bpy.data.objects["Ground"]
+    assert ground.desire_path.bake_state == "FRESH"
+    bpy.ops.ed.redo()
+    assert bpy.data.objects["Ground"].desire_path.bake_state == "OUTDATED"
+    bpy.ops.ed.undo()
+    bpy.ops.wm.save_mainfile()
+    assert opened(folder / "here" / "one.blend").desire_path.bake_state == "FRESH"
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "two.blend"))
+    assert bpy.data.objects["Ground"].desire_path.bake_state == "FRESH"
+    (folder / "else").mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "else" / "two.blend"))
+    assert bpy.data.objects["Ground"].desire_path.bake_state == "FRESH"
+    assert opened(folder / "else" / "two.blend").desire_path.bake_state == "FRESH"
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    (folder / "here").rename(folder / "there")
+    ground = opened(folder / "there" / "one.blend")
+    assert ground.desire_path.bake_state == "FRESH"
+    bpy.data.objects["Walker"].desire_path.mass = 60.0
+    assert ground.desire_path.bake_state == "OUTDATED"
+
+
+def test_scale_that_is_applied_after_the_bake(folder):
+    ground = meshes.grid(60, 130, 0.01, -0.3, -1.1)
+    ground.scale = (2.0, 2.0, 2.0)
+    meshes.activate(ground)
+    assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
+    ground.desire_path.folder, ground.desire_path.cell_size = str(folder / "bake"), 0.02
+    walker = people.walk(people.biped(), frames=12)
+    meshes.activate(walker)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    meshes.activate(ground)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    before = placed(ground, 12)
+    assert bpy.ops.object.transform_apply(location=False, rotation=False, scale=True) == {"FINISHED"}
+    stays = np.abs(placed(ground, 12) - before).max() < 1e-5
+    assert stays or ground.desire_path.bake_state == "OUTDATED" and "ground" in ground.desire_path.missing
+
+
+def placed(ground, frame):
+    """The points of a ground in the world as they are shown."""
+    return axes.points(np.array(ground.matrix_world), shown(ground, frame)[0], 1.0)
+
+
+def test_files_that_are_gone(folder):
+    ground, _ = baked(folder)
+    place = folder / "bake" / "frames"
+    kept = files(folder / "bake")
+
+    def restored():
+        shutil.rmtree(folder / "bake", ignore_errors=True)
+        for name, data in kept.items():
+            path = folder / "bake" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+        assert ground.desire_path.bake_state == "FRESH"
+
+    (place / "trail_0005.exr").unlink()
+    assert ground.desire_path.bake_state == "MISSING" and "5 to 8 are missing" in ground.desire_path.missing
+    restored()
+    (place / "index.json").write_text("{")
+    assert ground.desire_path.bake_state == "MISSING" and "damaged" in ground.desire_path.missing
+    restored()
+    (place / "index.json").unlink()
+    assert ground.desire_path.bake_state == "MISSING"
+    restored()
+    shutil.rmtree(folder / "bake")
+    assert ground.desire_path.bake_state == "MISSING" and "bake" in ground.desire_path.missing
+    restored()
+    index = json.loads((place / "index.json").read_text())
+    del index["inputs"]
+    (place / "index.json").write_text(json.dumps(index))
+    assert ground.desire_path.bake_state == "OUTDATED" and "earlier" in ground.desire_path.missing
+
+
+def stopped(after):
+    """Bake, stopped as ESC does after so many steps of writing."""
+    job = op_bake.Job(bpy.context.scene, bpy.context.object)
+    steps = job.run()
+    while job.fraction < after:
+        next(steps)
+    steps.close()
+    show.play(job.object(), job.surface)
+
+
+def test_a_bake_that_was_stopped(folder):
+    ground, walker = scene(folder, frames=12, cell=0.03)
+    stopped(0.4)
+    assert ground.desire_path.bake_state == "PARTIAL" and "bake again to go on" in ground.desire_path.missing
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert ground.desire_path.bake_state == "FRESH"
+    before, _ = shown(ground, 12)
+    stopped(0.4)  # in a bake of the same: what was whole plays on
+    assert ground.desire_path.bake_state == "FRESH" and shown(ground, 12)[0].tobytes() == before.tobytes()
+    walker.desire_path.mass = 40.0
+    stopped(0.4)
+    assert ground.desire_path.bake_state == "OUTDATED" and shown(ground, 12)[0].tobytes() == before.tobytes()
+    walker.desire_path.mass = 75.0
+    assert ground.desire_path.bake_state == "FRESH"
+
+
+def test_undone_bakes(folder):
+    ground, _ = scene(folder, frames=8, cell=0.03)
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="first")
+    bpy.data.objects["Ground"].desire_path.soil = "snow"
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="second")
+    told = lambda: bpy.data.objects["Ground"].desire_path.bake_state  # noqa: E731
+    assert told() == "FRESH"
+    bpy.ops.ed.undo()
+    assert told() == "OUTDATED"  # the files are those of snow
+    bpy.ops.ed.undo()
+    assert told() == "NONE"
+    bpy.ops.ed.redo()
+    bpy.ops.ed.redo()
+    assert told() == "FRESH"
