@@ -584,7 +584,7 @@ def test_killed_in_the_middle(folder):
                              stderr=subprocess.STDOUT)
     place = folder / "here" / "desire_path" / "a" / "Ground"
     until = time.monotonic() + 60
-    while not list(place.glob("frames*/trail_0006.exr")) and time.monotonic() < until:
+    while not list(place.rglob("trail_0006.exr")) and time.monotonic() < until:
         assert child.poll() is None, child.stdout.read().decode()
         time.sleep(0.01)
     child.send_signal(signal.SIGKILL)

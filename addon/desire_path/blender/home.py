@@ -34,7 +34,9 @@ def played(obj):
     image = playback.image_of(ours.node_group) if ours is not None else None
     if image is None:
         return ""
-    return os.path.dirname(os.path.dirname(os.path.abspath(bpy.path.abspath(image.filepath, library=image.library))))
+    frames = os.path.dirname(os.path.abspath(bpy.path.abspath(image.filepath, library=image.library)))
+    above = os.path.dirname(frames)
+    return above if playback.is_published(frames) else os.path.dirname(above)
 
 
 def sharing(obj):

@@ -14,6 +14,7 @@ import os
 import bpy
 import numpy as np
 
+from ..output import NEW
 from . import axes, clock, compat
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
@@ -116,9 +117,15 @@ def has_lean(index):
     return bool(getattr(index, "lean", False))
 
 
+def is_published(frames):
+    """Whether a folder of frames is that of a bake that is shown, not of one that was cut off in the making."""
+    return os.path.basename(os.path.dirname(frames)) != NEW
+
+
 def mark(frames, index, count):
     """What a tree plays, in a word, to tell whether the files are still the same."""
-    return (f"{os.path.basename(frames)} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
+    place = "frames" if is_published(frames) else NEW
+    return (f"{place} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
             f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean")
 
 

@@ -20,7 +20,7 @@ def play(obj, surface, baked=None):
     if index.frames:
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
-        frames = playback.join(settings.folder, os.path.basename(index.folder))
+        frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
         smooth = ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
@@ -58,7 +58,7 @@ def missing(index):
 
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
-    from ..folder import is_whole
+    from ..output import is_whole
     return is_whole(index.folder)
 
 

@@ -127,7 +127,7 @@ def _glance(obj):
     there = [each for each in bpy.data.objects if each.type == "ARMATURE" and each.desire_path.ground == obj]
     path = home.played(obj)
     ages = []
-    for place in (("frames",), ("frames", "index.json"), ("frames.new",)) if path else ():
+    for place in (("frames",), ("frames", "index.json"), ("bake.new",)) if path else ():
         try:
             ages.append(os.stat(os.path.join(path, *place)).st_mtime_ns)
         except OSError:
