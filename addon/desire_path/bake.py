@@ -69,12 +69,14 @@ class Bake:
     film: "frames", or "passes": frame n is the ground after pass n of Gait.along; None = "passes" if there are several.
     owner: id of the ground the folder belongs to; run() refuses a folder with the bake of another. Empty: anybody's.
     inputs: words for what it is made from, kept in index.json for whoever wants to know whether that has changed.
+    wait: so long run() lets another program end its bake into the folder before it refuses, which it does at once where
+    this program bakes there [s].
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False, film=None, owner="", inputs=None):
+                 plants=(), plant_mesh=False, film=None, owner="", inputs=None, wait=30.0):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -92,7 +94,7 @@ class Bake:
         if self.plant_mesh and not self.plants:
             raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
         self.folder = os.path.abspath(os.fspath(folder))
-        self.owner = str(owner)
+        self.owner, self.wait = str(owner), float(wait)
         self.inputs = dict(inputs or {})
         self.frame_rate = float(gait.frame_rate)
         frames = (len(self.passes) - 1 if self.film == "passes"
@@ -225,7 +227,7 @@ class Bake:
     def _run(self):
         check_cell(self.cell_size)
         out = Output(self.folder, self.owner)
-        out.open()
+        out.open(self.wait)
         try:
             yield from self._into(out)
         finally:

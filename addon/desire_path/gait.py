@@ -5,17 +5,17 @@ L limbs own P parts, P parts own K contact points, all over T times.
 """
 
 import os
-import zipfile
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import whole
+from . import npz, whole
 from .errors import DesirePathError
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
 AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]
 
+MOST_FRAME = 1 << 31  # a frame's number may be
 MOST_MASS = 1e7  # of a walker; the heaviest machines on feet would weigh less [kg]
 _VERSION = 1
 _NUMBERS = (  # name, type, shape by letters
@@ -145,6 +145,9 @@ class Gait:
                                   "last: record the walk again.")
         if not np.isfinite(self.time).all() or (np.diff(self.time) <= 0).any():
             raise DesirePathError("The recording's times do not increase: record the walk again.")
+        if abs(self.frame_start) > MOST_FRAME:
+            raise DesirePathError(f"The recording begins at frame {self.frame_start}, where no scene is: record the "
+                                  "walk again.")
         if not (np.isfinite(self.frame_rate) and self.frame_rate > 0):
             raise DesirePathError(f"A frame rate of {self.frame_rate:g} cannot be used: set the "
                                   "scene's frames a second to more than 0.")
@@ -229,17 +232,15 @@ class Gait:
         """Read what save() wrote; a damaged file is a DesirePathError."""
         path = os.fspath(path)
         try:
-            with np.load(path, allow_pickle=False) as file:
-                arrays = {name: file[name] for name in file.files}
+            arrays = npz.read(path)
         except FileNotFoundError:
             raise DesirePathError(f"There is no recording at {path}: record the walk first or "
                                   "check the name.") from None
         except PermissionError as error:
             raise DesirePathError(f"The recording {path} cannot be read ({error.strerror}): check "
                                   "whose file it is.") from None
-        except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zipfile.zlib.error,
-                NotImplementedError, AttributeError):
-            raise DesirePathError(f"{path} is damaged or no recording: record the walk "
+        except npz.Damaged as error:
+            raise DesirePathError(f"{path} is damaged or no recording ({error}): record the walk "
                                   "again.") from None
         try:
             version = int(arrays["version"])
@@ -254,9 +255,11 @@ class Gait:
                         **wanted)
         except DesirePathError:
             raise
-        except (KeyError, ValueError, TypeError, IndexError) as error:
-            raise DesirePathError(f"{path} is damaged or no recording ({error}): record the walk "
+        except (KeyError, ValueError, TypeError, IndexError, OverflowError) as error:
+            raise DesirePathError(f"{path} is damaged or no recording ({str(error)[:100]}): record the walk "
                                   "again.") from None
+        except MemoryError:
+            raise DesirePathError(f"There is not enough memory for the recording {path}: record fewer frames.") from None
         return gait.check()
 
     # ---- several walkers, other rates ----------------------------------------------------------
@@ -346,6 +349,10 @@ def _stack(blocks, kind):
 
 
 def _unstack(arrays):
-    vertices = np.split(arrays["sole_vertices"], np.cumsum(arrays["sole_vertex_count"])[:-1])
-    triangles = np.split(arrays["sole_triangles"], np.cumsum(arrays["sole_triangle_count"])[:-1])
-    return tuple(Sole(v, t) for v, t in zip(vertices, triangles, strict=True))
+    blocks = []
+    for rows, counts in (("sole_vertices", "sole_vertex_count"), ("sole_triangles", "sole_triangle_count")):
+        count = arrays[counts].astype("i8")
+        if count.ndim != 1 or count.min(initial=0) < 0 or count.sum() != len(arrays[rows]):
+            raise ValueError(f"{counts} does not fit {rows}")
+        blocks.append(np.split(arrays[rows], np.cumsum(count)[:-1]))
+    return tuple(Sole(v, t) for v, t in zip(*blocks, strict=True))

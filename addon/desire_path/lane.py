@@ -22,6 +22,7 @@ from .sim import Ground, Simulation
 
 WALK = Path(__file__).parent / "walks" / "walk.npz"
 PASSES = (25, 75, 200, 500)  # counts of Cole's lanes
+MOST_PASSES = 1_000_000_000  # a table may speak of
 BEYOND = 0.4  # people walk on so far past both ends [m]
 SCATTER = 0.32  # standard deviation of their tracks, in widths of the lane
 ENOUGH = 400  # plants that tell a lane's cover to a point or so
@@ -150,7 +151,7 @@ def read(path):
             row = told["passes"], told["cover"], told.get("days", 0.0)
         except (KeyError, ValueError):
             raise DesirePathError(f"Line {number} of {path} is not in numbers: mend it.") from None
-        if not (row[0] >= 1 and row[0] == int(row[0]) and 0.0 <= row[1] <= 100.0 and 0.0 <= row[2] < math.inf):
+        if not (1 <= row[0] <= MOST_PASSES and row[0] == int(row[0]) and 0.0 <= row[1] <= 100.0 and 0.0 <= row[2] < math.inf):
             raise DesirePathError(f"Line {number} of {path} cannot be: passes are whole numbers from 1 on, cover is "
                                   "0 to 100 per cent, days are 0 or more.")
         found.append((int(row[0]), *row[1:]))

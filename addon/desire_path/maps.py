@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import _native
+from . import _native, whole
 from .errors import DesirePathError
 
 
@@ -91,6 +91,7 @@ def write(path, planes, notes=()):
         )
     pairs = list(notes.items() if isinstance(notes, dict) else notes)
     pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
+    whole.check(path, "The maps")
     try:
         _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs)
     except OSError as problem:

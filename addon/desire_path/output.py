@@ -37,7 +37,8 @@ from pathlib import Path
 from . import disk, whole
 from .errors import DesirePathError
 
-FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.*part", "trail_sums.txt")
+FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.*part",
+          "trail_sums.txt")
 MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
 FILES = ("maps_start.exr", "maps_final.exr", "report.json", "plants.pc2", "plants.npz")
 NAMES = ("frames", "maps", *FILES)
@@ -53,7 +54,8 @@ def told(frames):
     """What the index.json of a folder of frames says, a dict; empty where there is none that can be read."""
     try:
         with whole.reader(os.path.join(frames, "index.json")) as file:
-            data = json.loads(file.read(MOST_JSON).decode("utf-8"))
+            text = file.read(MOST_JSON + 1)
+        data = json.loads(text.decode("utf-8")) if len(text) <= MOST_JSON else {}
     except (OSError, ValueError, RecursionError, MemoryError):
         return {}
     return data if isinstance(data, dict) else {}
@@ -85,8 +87,11 @@ class Output:
         """Of something that is made, below bake.new."""
         return os.path.join(self.new, *names)
 
-    def open(self):
-        """Take the folder for this bake, and put right what a killed one left there."""
+    def open(self, wait=0.0):
+        """Take the folder for this bake, and put right what a killed one left there.
+
+        wait: so long another program may go on baking there before this one is refused [s]
+        """
         place = self.folder
         while not os.path.lexists(place):
             self._made.append(place)
@@ -97,7 +102,7 @@ class Output:
             raise DesirePathError(
                 f"The folder {self.folder} cannot be made ({problem.strerror}): choose another one.") from None
         try:
-            self._take()
+            self._take(time.monotonic() + wait)
             self._check_places()
             check_owner(self.folder, self.owner)
             self.settle()
@@ -109,17 +114,20 @@ class Output:
             self.release()
             raise
 
-    def _take(self):
+    def _take(self, until):
         path = os.path.join(self.folder, LOCK)
         if whole.kind_of(path) not in ("", "file"):
             raise DesirePathError(f"{path} stands where the bake keeps a file: move it or choose another folder.")
-        try:
-            self._lock = disk.lock(path, time.strftime("%Y-%m-%dT%H:%M:%S"))
-        except disk.Held as held:
-            process, host, since = (*str(held).split(), "?", "?", "?")[:3]
-            raise DesirePathError(
-                f"Another bake into {self.folder} is running (process {process} on {host}, since {since}): wait for "
-                "it, stop it, or choose another folder.") from None
+        while self._lock is None:
+            try:
+                self._lock = disk.lock(path, time.strftime("%Y-%m-%dT%H:%M:%S"))
+            except disk.Held as held:
+                process, host, since = (*str(held).split(), "?", "?", "?")[:3]
+                if process == str(os.getpid()) or time.monotonic() > until:
+                    raise DesirePathError(
+                        f"Another bake into {self.folder} is running (process {process} on {host}, since {since}): "
+                        "wait for it, stop it, or choose another folder.") from None
+                time.sleep(0.1)
 
     def release(self):
         """Let others bake here; folders that open() made and nothing came into go."""
@@ -276,6 +284,15 @@ def check_owner(folder, owner):
     other = owner_of(folder)
     if owner and other and owner != other:
         raise DesirePathError(f"The folder {folder} holds the bake of another ground ({other}): choose another folder.")
+
+
+def check_idle(folder):
+    """Refuse a folder that is being baked into now, before work is put into a bake of one's own."""
+    if os.path.lexists(os.path.join(folder, LOCK)):
+        out = Output(folder)
+        with contextlib.suppress(OSError):  # open() will say what is wrong
+            out._take(time.monotonic())
+        out.release()
 
 
 def settle(folder):

@@ -22,6 +22,7 @@ from .errors import DesirePathError
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
 _VERSION = 1
+_MOST_TEXT = 1 << 16  # bytes of a kind's file
 _RANGES = {  # what native/plants refuses, said by name; angles in radians
     "height": (0, 10), "width": (0, 10), "depth": (0, 10), "spacing": (1e-4, 10), "radius": (0, 1),
     "curl": (0, math.pi / 2), "sway": (1e-3, 1e3), "across": (1e-3, 1e4), "damping": (0, 1e4),
@@ -61,13 +62,13 @@ class Kind:
 
     def __post_init__(self):
         if self.form not in FORMS:
-            raise DesirePathError(f'There is no plant form "{self.form}": choose surface or tuft.')
-        if self.sheets not in (2, 3):
-            raise DesirePathError(f"A tuft of {self.sheets} sheets cannot be built: choose 2 or 3.")
+            raise DesirePathError(f'There is no plant form "{str(self.form)[:40]}": choose surface or tuft.')
+        if not isinstance(self.sheets, (int, np.integer)) or self.sheets not in (2, 3):
+            raise DesirePathError(f"A tuft of {str(self.sheets)[:40]} sheets cannot be built: choose 2 or 3.")
         for name, (low, high) in _RANGES.items():
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-                raise DesirePathError(f"A plant's {name} of {value} cannot be used: choose one from {low:.4g} "
+                raise DesirePathError(f"A plant's {name} of {_told(value)} cannot be used: choose one from {low:.4g} "
                                       f"to {high:.4g}.")
         if self.break_angle < self.degrade_angle:
             raise DesirePathError("A plant's break_angle lies below its degrade_angle: raise it.")
@@ -91,19 +92,23 @@ class Kind:
     def load(path):
         """A kind that save() wrote; numbers it leaves out are those of the default kind."""
         try:
-            told = json.loads(Path(path).read_text(encoding="utf-8"))
+            with whole.reader(path) as file:
+                text = file.read(_MOST_TEXT + 1)
         except FileNotFoundError:
             raise DesirePathError(f"There is no plant kind at {path}: check the path.") from None
-        except OSError as error:
-            raise DesirePathError(f"The plant kind {path} cannot be read ({error.strerror}): choose a file that "
-                                  "Kind.save() wrote.") from None
-        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError):
+        except (OSError, ValueError) as error:
+            raise DesirePathError(f"The plant kind {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
+                                  "choose a file that Kind.save() wrote.") from None
+        try:
+            told = json.loads(text.decode("utf-8")) if len(text) <= _MOST_TEXT else None
+        except (ValueError, RecursionError, MemoryError):
             raise DesirePathError(f"{path} is not a plant kind: save one with Kind.save().") from None
-        if not isinstance(told, dict) or told.pop("desire_path_plant", None) != _VERSION:
+        version = told.pop("desire_path_plant", None) if isinstance(told, dict) else None
+        if type(version) is not int or version != _VERSION:
             raise DesirePathError(f"{path} is not a plant kind of this version: save one with Kind.save().")
         unknown = sorted(set(told) - {f.name for f in fields(Kind)})
         if unknown:
-            raise DesirePathError(f"{path} says {unknown[0]}, which no plant has: remove it.")
+            raise DesirePathError(f"{path} says {unknown[0][:40]}, which no plant has: remove it.")
         return Kind(**told)
 
 
@@ -343,6 +348,13 @@ def seed_of(plantings):
     for planting in plantings:
         seed = _mixed(seed, int(planting.seed), 0)
     return seed
+
+
+def _told(value):
+    """A value as a sentence shows it."""
+    if isinstance(value, (int, float)):
+        return f"{float(value):g}" if abs(value) < 1e300 else "more than 1e300"
+    return repr(value)[:40]
 
 
 def _is_number(value):

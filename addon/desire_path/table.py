@@ -1,9 +1,13 @@
 """Tables of text that people write: one line of column names, then rows."""
 
 import csv
+import io
 import os
 
+from . import whole
 from .errors import DesirePathError
+
+MOST = 1 << 25  # bytes of a table
 
 
 def read(path, needed, *, columns=None):
@@ -14,8 +18,14 @@ def read(path, needed, *, columns=None):
     path = os.fspath(path)
     columns = columns or ",".join(needed)
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
+        with whole.reader(path) as file:
+            if os.fstat(file.fileno()).st_size > MOST:
+                raise DesirePathError(f"{path} is larger than {MOST >> 20} MB: give a shorter table with the columns "
+                                      f"{columns}.")
+            stream = io.TextIOWrapper(file, encoding="utf-8-sig", newline="")
             rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]
+    except MemoryError:
+        raise DesirePathError(f"There is not enough memory for {path}: give a shorter table.") from None
     except OSError as error:
         raise DesirePathError(f"{path} cannot be read ({error.strerror}): give a table with the columns "
                               f"{columns}.") from None

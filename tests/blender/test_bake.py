@@ -10,7 +10,7 @@ import time
 import bpy
 import numpy as np
 
-from desire_path import bake, maps, sim
+from desire_path import bake, maps, output, sim
 from desire_path.blender import compat, op_bake, op_forces, playback
 from desire_path.gait import Gait
 from desire_path.soil import SOILS
@@ -287,6 +287,18 @@ def test_frames_that_went_back_to_the_making_play(folder):
     (place / "frames").rename(place / "bake.new" / "frames")
     bpy.ops.wm.open_mainfile(filepath=file)
     assert shown(bpy.data.objects["Ground"], 12)[0].tobytes() == wanted.tobytes()
+
+
+def test_a_folder_that_is_baked_into_is_refused(folder):
+    """As by another Blender with the same file; nothing is recorded first."""
+    ground, _ = scene(frames=12)
+    ground.desire_path.folder = str(folder / "bake")
+    other = output.Output(folder / "bake")
+    other.open()
+    refused(bpy.ops.object.desire_path_bake, "Another bake into", "is running")
+    assert not ground.modifiers
+    other.release()
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
 
 
 def test_unsaved_file_says_where_its_bake_goes():

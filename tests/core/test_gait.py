@@ -47,7 +47,7 @@ def test_a_file_that_may_not_be_read_is_not_called_damaged(tmp_path, monkeypatch
     def locked(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(np, "load", locked)
+    monkeypatch.setattr(os, "open", locked)
     with pytest.raises(DesirePathError, match="cannot be read .Permission denied."):
         Gait.load(tmp_path / "walk.npz")
 

@@ -7,9 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from desire_path import disk, output, whole
+from desire_path import disk, maps, output, whole
 from desire_path.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
 from desire_path.output import NAMES, Output
@@ -168,9 +169,18 @@ def test_a_second_bake_into_a_folder_is_refused(tmp_path):
     assert read_index(tmp_path).complete and not (tmp_path / "bake.lock").exists()
     for _ in other.run():
         pass
-    whole_one = tmp_path / "alone"
-    baked(whole_one, standing())
-    assert read_index(tmp_path).complete
+
+
+def test_a_bake_of_another_program_is_waited_for_and_then_this_one_takes_its_place(tmp_path):
+    child = in_a_process(tmp_path, "snow")
+    child.stdout.readline()
+    with pytest.raises(DesirePathError, match=f"running .process {child.pid} on"):
+        baked(tmp_path, wait=0.0)
+    baked(tmp_path)
+    assert child.wait() == 0 and read_index(tmp_path).complete
+    alone = tmp_path / "alone"
+    baked(alone)
+    assert content(tmp_path) == content(alone)
 
 
 @pytest.mark.parametrize("locks", [True, False])
@@ -181,7 +191,7 @@ def test_the_lock_of_a_killed_bake_is_taken_over(tmp_path, monkeypatch, locks):
     (tmp_path / "bake.lock").write_text(f"{child.pid} {socket.gethostname()} 2020-01-01T00:00:00\n")
     if not locks:
         with pytest.raises(DesirePathError, match=f"process {child.pid} on .* since 2020"):
-            baked(tmp_path)
+            baked(tmp_path, wait=0.0)
     child.kill()
     child.wait()
     baked(tmp_path)
@@ -287,3 +297,26 @@ def test_a_table_never_replaces_what_is_no_file(tmp_path, kind):
     assert os.lstat(path).st_mode == before.st_mode and os.lstat(path).st_ino == before.st_ino
     assert target.exists() == (kind == "link") and (kind != "link" or target.read_text() == "precious")
     assert not list(tmp_path.glob("*.part"))
+
+
+@pytest.mark.parametrize("words", [("loads",), ("loads", "--contacts"), ("plot",), ("lane",), ("bake",)])
+def test_no_command_replaces_a_pipe(tmp_path, words):
+    """Nor would it a device, which the tests leave alone."""
+    walk = str(Path(whole.__file__).parent / "walks" / "walk.npz")
+    pipe = tmp_path / ("out.png" if words == ("plot",) else "out")
+    os.mkfifo(pipe)
+    more = {"loads": [walk], "plot": [walk], "bake": [walk, "--cell", "0.05"],
+            "lane": ["--passes", "1", "--length", "2", "--cell", "0.05"]}[words[0]]
+    out = ["--out", str(tmp_path / "table"), "--contacts", str(pipe)] if words[1:] else ["--out", str(pipe)]
+    done = subprocess.run([sys.executable, "-m", "desire_path", words[0], *more, *out], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(REPO / "addon")})
+    assert done.returncode == 1 and len(done.stderr.strip().splitlines()) == 1, done
+    assert str(pipe) in done.stderr and "Traceback" not in done.stderr
+    assert pipe.is_fifo() and {path.name for path in tmp_path.iterdir()} <= {pipe.name, "table"}
+
+
+def test_maps_never_replace_what_is_no_file(tmp_path):
+    (tmp_path / "map.exr").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(DesirePathError, match="which is a link"):
+        maps.write(tmp_path / "map.exr", {"height": np.zeros((2, 2))})
+    assert not (tmp_path / "elsewhere").exists()

@@ -13,6 +13,7 @@ from contextlib import closing
 import bpy
 
 from ..errors import DesirePathError
+from ..output import check_idle
 from . import home, inputs, moves, op_plants, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import Refusal, active, sentence, walkers
@@ -51,6 +52,7 @@ class Job:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
         self.path = home.claim(obj)
+        check_idle(self.path)
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]
 
@@ -70,7 +72,7 @@ class Job:
                                   "again.")
         settings = obj.desire_path
         made, self.surface = yield from inputs.taken(scene, obj, there, settings.frame_start, settings.frame_end,
-                                                     folder=self.path, owner=settings.bake_id)
+                                                     folder=self.path, owner=settings.bake_id, wait=0.0)
         made.inputs = inputs.marks(obj, there, made, self.surface)
         self.warnings += [*self.surface.warnings, *way.warnings(there)]
         self.recorded = time.perf_counter() - self.begun

@@ -8,7 +8,7 @@ import os
 import bpy
 import numpy as np
 
-from .. import tuft
+from .. import npz, tuft
 from ..errors import DesirePathError
 from . import clock, compat, grass, playback, tufts
 
@@ -23,11 +23,10 @@ def show(ground, folder, path, frame_start, scale):
     folder: as Blender writes paths; path: the same for the system; scale: metres in a unit [m]
     """
     try:
-        with np.load(os.path.join(path, "plants.npz")) as file:
-            found = {name: file[name] for name in file.files}
+        found = npz.read(os.path.join(path, "plants.npz"), 16 << 30)
     except FileNotFoundError:
         return None
-    except (OSError, ValueError, KeyError, EOFError) as problem:
+    except (PermissionError, npz.Damaged) as problem:
         raise DesirePathError(f"plants.npz in {path} is damaged ({problem}): bake again.") from None
     if not os.path.exists(os.path.join(path, "plants.pc2")):
         return None
