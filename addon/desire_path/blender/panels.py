@@ -4,7 +4,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, plants, props, state, tufts
+from . import op_bake, plants, state, tufts
 from .op_walkers import walkers
 
 
@@ -73,7 +73,7 @@ def draw_state(layout, context, obj):
     if told is None:
         layout.label(text="Looking for Changes", icon="TIME")
         return
-    _, word, _, icon, _ = props.STATES[state.STATES.index(told.state)]
+    word, icon = state.LOOKS[told.state]
     layout.label(text=word, icon=icon)
     if told.text:
         _lines(layout, told.text, "BLANK1", _letters(context))

@@ -49,8 +49,6 @@ def _foot_by_hand(self, _context):
 def overridable(group):
     """Let a library override of an object change what it remembers, and keep it."""
     for each in group.__annotations__.values():
-        if "get" in each.keywords:
-            continue  # found anew whenever it is asked for
         inserts = {"USE_INSERTION"} if each.function is CollectionProperty else set()
         each.keywords["override"] = {"LIBRARY_OVERRIDABLE"} | inserts
     return group
@@ -117,25 +115,6 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
 
 
-STATES = (
-    ("NONE", "Not Baked", "Nothing plays on this ground", "RADIOBUT_OFF", 0),
-    ("FRESH", "Baked", "What plays is what a bake would press now", "CHECKMARK", 1),
-    ("OUTDATED", "Outdated", "The walk, the ground, its plants or the settings have changed since the bake",
-     "FILE_REFRESH", 2),
-    ("PARTIAL", "Partly Baked", "The bake was stopped before its last frame", "PAUSE", 3),
-    ("MISSING", "Files Missing", "Files of the bake are gone or damaged", "ERROR", 4))
-
-
-def _state(self):
-    from . import state
-    return state.STATES.index(state.ask(self.id_data).state)
-
-
-def _missing(self):
-    from . import state
-    return state.ask(self.id_data).text
-
-
 @overridable
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
@@ -189,10 +168,19 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     made_groups: StringProperty(options={"HIDDEN"})
     made_attributes: StringProperty(options={"HIDDEN"})
     summary: StringProperty(options={"HIDDEN"}, description="What the last bake did")
-    bake_state: EnumProperty(
-        name="State", get=_state, items=STATES,
-        description="What has become of the bake, found anew whenever it is asked for")
-    missing: StringProperty(get=_missing, description="What the bake lacks, in a sentence; empty = nothing")
+
+    # plain Python: Blender reads properties of its own while it saves and loads overrides, when nobody may look around
+    @property
+    def bake_state(self):
+        """What has become of the bake, NONE, FRESH, OUTDATED, PARTIAL or MISSING: found anew whenever it is asked for."""
+        from . import state
+        return state.ask(self.id_data).state
+
+    @property
+    def missing(self):
+        """The same in a sentence, which says what to do; empty where all is well."""
+        from . import state
+        return state.ask(self.id_data).text
 
     # ---- a walker
     is_walker: BoolProperty(name="Walker", description="This armature, or rigid body, leaves prints")

@@ -18,6 +18,9 @@ from . import home, inputs, playback, show
 from .op_walkers import walkers
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
+LOOKS = {  # the word and the icon of each in the panel
+    NONE: ("Not Baked", "RADIOBUT_OFF"), FRESH: ("Baked", "CHECKMARK"), OUTDATED: ("Outdated", "FILE_REFRESH"),
+    PARTIAL: ("Partly Baked", "PAUSE"), MISSING: ("Files Missing", "ERROR")}
 PARTS = {"walk": "the walk", "ground": "the ground", "plants": "the plants", "settings": "the settings"}
 REST = 0.3  # without a change before the timer looks [s]
 SHARE = 10.0  # looking takes a tenth of the time at most
@@ -141,7 +144,7 @@ def _numbers(group):
     for name, each in type(group).__annotations__.items():
         if each.function is bpy.props.CollectionProperty:
             out += [_numbers(one) for one in getattr(group, name)]
-        elif "get" not in each.keywords:
+        else:
             out.append(getattr(group, name))
     return out
 
