@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from . import fit, lane, plot, walker
+from . import fit, jumps, lane, plot, walker
 from . import path as paths
 from .bake import FILMS, Bake
 from .errors import DesirePathError
@@ -39,6 +39,10 @@ def _cells(args, ground):
 def _kind(text):
     """A kind's name, or a file that Kind.save or the fit wrote."""
     return Kind.load(text) if text.endswith(".json") else text
+
+
+def _walk(path):
+    return jumps.found(Gait.load(path))
 
 
 def _planting(text, seed):
@@ -82,7 +86,7 @@ def _bar(fraction, what):
 
 
 def _bake(args):
-    gait, ground = Gait.load(args.walk), _ground(args.ground, args.spacing)
+    gait, ground = _walk(args.walk), _ground(args.ground, args.spacing)
     plants = [_planting(text, args.seed) for text in args.plants]
     cell, origin = _cells(args, ground)
     bake = Bake(
@@ -106,7 +110,7 @@ def _bake(args):
 
 
 def _loads(args):
-    gait = Gait.load(args.walk)
+    gait = _walk(args.walk)
     loads = walker.loads(gait, args.model)
     walker.write_loads(args.out, gait, loads)
     if args.contacts:
@@ -119,7 +123,7 @@ def _loads(args):
 
 
 def _plot(args):
-    gait = Gait.load(args.walk)
+    gait = _walk(args.walk)
     loads = walker.loads(gait, args.model)
     plot.write(args.out, gait, loads)
     for warning in loads.warnings:

@@ -29,7 +29,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import _native, maps, plant_mesh, walker, whole
+from . import _native, jumps, maps, plant_mesh, walker, whole
 from .errors import DesirePathError
 from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
@@ -83,8 +83,7 @@ class Bake:
             )
         if film not in (None, *FILMS):
             raise DesirePathError(f"There is no film '{film}': choose {' or '.join(FILMS)}.")
-        gait.check()
-        self.gait = gait
+        self.gait = gait = jumps.found(gait.check())
         self.passes = turns_of(gait)
         self.film = film or FILMS[len(self.passes) > 1]
         self.ground = ground
@@ -144,7 +143,8 @@ class Bake:
         """The same for two bakes exactly when they write the same files."""
         digest = hashlib.sha256(f"{VERSION} {FORMAT} {self._parameters()} {self.ground.native[0]}".encode())
         gait = self.gait
-        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut]
+        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut,
+                  gait.jump]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
         for planting in self.plants:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import foot as feet_of, rigs, rotation, slope
+from . import foot as feet_of, jumps, rigs, rotation, slope
 from .errors import DesirePathError
 from .gait import Gait
 
@@ -190,6 +190,10 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     time = np.asarray(motion.time, float)
     warnings = list(rig.warnings)
     com = mass_centre(bones, rig)
+    leaps = jumps.between(time, com, np.array([bones.point(f.foot) for f in rig.feet]), frame_rate, time[0])
+    cut = [sample for a, b, _ in leaps for sample in range(a + 1, b + 1)]
+    warnings += jumps.sentences(name, [(*(frame_start + time[[a, b]] * frame_rate), size) for a, b, size in leaps])
+    bones.tell = ~jumps.alone(len(time), cut)
     up_rest = rest_up(bones, rig)
     ankles = np.array([bones.rest_point(f.foot) for f in rig.feet])
     leg = float(np.median(ankles @ -up_rest)) + float(
@@ -238,7 +242,8 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         limb_walker=np.zeros(len(feet)), part_limb=part_limb, soles=soles, point=np.array(points),
         point_part=point_part, point_role=point_role, limb_name=[f.foot for f in rig.feet],
         part_name=["heel", "toe"] * len(feet), walker_name=[name], frame_rate=frame_rate,
-        frame_start=frame_start, warnings=warnings).check()
+        frame_start=frame_start, warnings=warnings, cut=cut,
+        jump=[(sample, 0) for sample in cut]).check()
 
 
 def _square(bones, feet, up, sign):

@@ -150,13 +150,14 @@ class Foot:
         spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0)
         speed = np.maximum(np.linalg.norm(v_ankle, axis=1), np.linalg.norm(v_ball, axis=1))
         rise = np.maximum(abs(v_ankle[:, 2]), abs(v_ball[:, 2]))
-        height = np.maximum(ankle[:, 2] - np.quantile(ankle[:, 2], 0.02),
-                            ball[:, 2] - np.quantile(ball[:, 2], 0.02))
+        tell = self.bones.tell
+        height = np.maximum(ankle[:, 2] - np.quantile(ankle[tell, 2], 0.02),
+                            ball[:, 2] - np.quantile(ball[tell, 2], 0.02))
         low = height < 0.10 * max(self.leg, 0.1)
         over_ball = ankle[:, 2] - ball[:, 2]
         for more in (1.0, 2.0, 4.0):
             slow = (speed < more * FLAT_SPEED) | (low & (rise < more * 0.5 * FLAT_RISE))
-            flat = slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
+            flat = tell & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
             if more > 1.0:
                 flat &= low
             if flat.any():  # of those, the ones with the heel down
@@ -277,7 +278,7 @@ def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, wa
         toe_at = ball - toe_turn @ np.array([0.0, shape.ball_side, shape.ball_height])
     else:
         under = heel_at + heel_turn @ ball_in_foot
-        rest_height = np.median(under[flat, 2]) if flat.any() else np.quantile(under[:, 2], 0.05)
+        rest_height = np.median(under[flat, 2]) if flat.any() else np.quantile(under[bones.tell, 2], 0.05)
         low = 0.25 * (shape.tip - shape.heel)
         toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
         toe_at = under

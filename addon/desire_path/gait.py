@@ -63,12 +63,14 @@ class Gait:
     frame_start: int = 1  # scene frame at time[0]
     warnings: tuple = ()
     cut: np.ndarray = ()  # samples at which a new piece begins: the motion jumps there (C,), rising
+    jump: np.ndarray = ()  # those of them at which one walker only jumps: sample, walker (J, 2)
 
     def __post_init__(self):
         for name, kind, _ in _NUMBERS:
             value = np.ascontiguousarray(getattr(self, name), kind)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
+        object.__setattr__(self, "jump", np.array(self.jump, "i8").reshape(-1, 2))
         object.__setattr__(self, "soles", tuple(self.soles))
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in _NAMES:
@@ -94,10 +96,15 @@ class Gait:
 
     # ---- pieces: between two cuts the motion is one ----------------------------------------------
 
-    def pieces(self):
-        """(first sample, sample after the last) of each piece."""
-        ends = [0, *self.cut.tolist(), len(self.time)]
+    def pieces(self, cut=None):
+        """(first sample, sample after the last) of each piece, or of those that these cuts alone make."""
+        ends = [0, *(self.cut if cut is None else cut).tolist(), len(self.time)]
         return list(zip(ends[:-1], ends[1:]))
+
+    def cuts_of(self, walkers):
+        """The cuts that these walkers have: those of all, and where they jump themselves."""
+        own = self.jump[np.isin(self.jump[:, 1], walkers), 0]
+        return self.cut[~np.isin(self.cut, self.jump[:, 0]) | np.isin(self.cut, own)]
 
     def there(self, first, after):
         """Numbers of the walkers that are there in samples first..after-1, rising."""
@@ -106,7 +113,7 @@ class Gait:
     def piece(self, first, after):
         """Samples first..after-1, which hold no cut, as a recording of their own."""
         return replace(self, time=self.time[first:after], com=self.com[:, first:after],
-                       pose=self.pose[:, first:after], cut=(),
+                       pose=self.pose[:, first:after], cut=(), jump=(),
                        frame_start=round(self.frame(first)), warnings=())
 
     # ---- what a recording must be ------------------------------------------------------------
@@ -143,6 +150,8 @@ class Gait:
                               or (np.diff(self.cut) < 1).any()):
             raise DesirePathError("The recording's cuts do not rise from its second sample to its "
                                   "last: record the walk again.")
+        if not (np.isin(self.jump[:, 0], self.cut).all() and np.isin(self.jump[:, 1], range(len(self.mass))).all()):
+            raise DesirePathError("The recording's jumps are not among its cuts and walkers: record the walk again.")
         if not np.isfinite(self.time).all() or (np.diff(self.time) <= 0).any():
             raise DesirePathError("The recording's times do not increase: record the walk again.")
         if abs(self.frame_start) > MOST_FRAME:
@@ -200,8 +209,10 @@ class Gait:
         limbs = np.flatnonzero(np.isin(self.limb_walker, walkers))
         parts = np.flatnonzero(np.isin(self.part_limb, limbs))
         points = np.flatnonzero(np.isin(self.point_part, parts))
+        jump = self.jump[np.isin(self.jump[:, 1], walkers)]
+        jump[:, 1] = np.searchsorted(walkers, jump[:, 1])
         return replace(
-            self, com=self.com[walkers], mass=self.mass[walkers], pose=self.pose[parts],
+            self, cut=self.cuts_of(walkers), jump=jump, com=self.com[walkers], mass=self.mass[walkers], pose=self.pose[parts],
             limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
             part_limb=np.searchsorted(limbs, self.part_limb[parts]), soles=[self.soles[p] for p in parts],
             point=self.point[points], point_part=np.searchsorted(parts, self.point_part[points]),
@@ -216,7 +227,7 @@ class Gait:
         arrays = {name: getattr(self, name) for name, _, _ in _NUMBERS}
         for name in ("limb_name", "part_name", "walker_name", "warnings"):
             arrays[name] = np.array(getattr(self, name), dtype="U")
-        arrays["cut"] = self.cut
+        arrays["cut"], arrays["jump"] = self.cut, self.jump
         arrays["version"] = np.array(_VERSION)
         arrays["frame_rate"] = np.array(self.frame_rate)
         arrays["frame_start"] = np.array(self.frame_start)
@@ -252,7 +263,7 @@ class Gait:
                 wanted[name] = tuple(arrays[name].tolist())
             gait = Gait(soles=_unstack(arrays), frame_rate=float(arrays["frame_rate"]),
                         frame_start=int(arrays["frame_start"]), cut=arrays.get("cut", ()),
-                        **wanted)
+                        jump=arrays.get("jump", ()), **wanted)
         except DesirePathError:
             raise
         except (KeyError, ValueError, TypeError, IndexError, OverflowError) as error:
@@ -291,7 +302,8 @@ class Gait:
             limb_name=chain("limb_name"), part_name=chain("part_name"),
             walker_name=chain("walker_name"), frame_rate=first.frame_rate,
             frame_start=first.frame_start, warnings=tuple(dict.fromkeys(chain("warnings"))),
-            cut=np.unique(np.concatenate([g.cut for g in gaits])))
+            cut=np.unique(np.concatenate([g.cut for g in gaits])),
+            jump=np.concatenate([g.jump + (0, first) for g, first in zip(gaits, walkers)]))
 
     def rate(self):
         """Samples a second if they are even within every piece, else None."""
@@ -338,10 +350,13 @@ class Gait:
         if have is not None and abs(rate / have - 1.0) < 1e-9:
             return self
         parts = [self.piece(*ends).resample(rate) for ends in self.pieces()]
+        cut = np.cumsum([len(p.time) for p in parts])[:-1]
+        jump = self.jump.copy()
+        jump[:, 0] = cut[np.searchsorted(self.cut, jump[:, 0])]
         return replace(self, time=np.concatenate([p.time for p in parts]),
                        com=np.concatenate([p.com for p in parts], axis=1),
                        pose=np.concatenate([p.pose for p in parts], axis=1),
-                       cut=np.cumsum([len(p.time) for p in parts])[:-1])
+                       cut=cut, jump=jump)
 
 
 def _stack(blocks, kind):

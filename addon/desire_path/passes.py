@@ -63,7 +63,8 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
             random = np.random.default_rng([int(seed), w, number])
             scatter = _Scatter(even % 1.0, random, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
             turns.append((w, *_one(cycle, way, rate, scatter, ground)))
-    return _chained([cycle.gait for cycle in cycles], turns, rate, [pause if n else 0.0 for n in range(len(turns))])
+    walks = [replace(cycle.gait, frame_start=gait.frame_start) for cycle in cycles]
+    return _chained(walks, turns, rate, [pause if n else 0.0 for n in range(len(turns))])
 
 
 def _is_whole(value, least):
@@ -232,7 +233,7 @@ def _chained(gaits, turns, rate, pauses):
             if who == w:
                 com[0, start:start + len(body)] = body
                 pose[:, start:start + len(body)] = parts
-        walking.append(replace(gait, time=time, com=com, pose=pose, cut=np.cumsum(lengths)[:-1],
+        walking.append(replace(gait, time=time, com=com, pose=pose, cut=np.cumsum(lengths)[:-1], jump=(),
                                frame_rate=gaits[0].frame_rate, frame_start=gaits[0].frame_start))
     return Gait.join(walking)
 
@@ -262,7 +263,7 @@ def turns_of(gait):
     """(first sample, sample after the last, walker, pause before [s]) of each pass of a recording, in time."""
     rate = gait.rate() or gait.frame_rate
     turns, before = [], gait.time[0]
-    for a, b in gait.pieces():
+    for a, b in gait.pieces(gait.cuts_of(())):
         there = gait.there(a, b)
         for w in there:
             pause = float(gait.time[a] - before)

@@ -74,8 +74,7 @@ def summary(gait, loads):
         # a cadence is known once a foot comes down again: two that land together are no steps
         again = len({each.limb for each in steps}) < len(steps)
         way = np.linalg.norm(np.diff(gait.com[w, :, :2], axis=0), axis=1)
-        if len(gait.cut):
-            way[gait.cut - 1] = 0.0
+        way[gait.cuts_of([w]) - 1] = 0.0
         total = force[limbs].sum(axis=0)
         told.append({
             "walker": name, "mass_kg": float(gait.mass[w]),

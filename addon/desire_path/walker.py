@@ -17,6 +17,7 @@ MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is withi
 GRAVITY = 9.81
 SLIDE = 0.4  # feet that stand do not slide faster [m/s]
 HOVER = 0.1  # feet that stand do not do so farther from the ground [m]
+ASIDE = 0.3  # a walker put aside is farther up or down than this share of its mass centre's height over its feet
 BESIDE = "Some steps land beside the ground and leave no print there."
 
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
@@ -178,8 +179,14 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     if not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
     if len(gait.cut):
-        return _loads_by_piece(gait, ground, lambda piece, heights: loads(
-            piece, model, heights, settle_time=settle_time, half_sine=half_sine, limits=limits, options=options))
+        def find(piece, heights):
+            try:
+                return loads(piece, model, heights, settle_time=settle_time, half_sine=half_sine, limits=limits,
+                             options=options)
+            except _Sunk as problem:
+                return problem
+
+        return _loads_by_piece(gait, ground, find)
     even, every = _even(gait)
     below = _on_even(gait, even, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
@@ -204,32 +211,45 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
 # ---- a recording in pieces: every piece for itself, nothing carries over a cut -----------------------
 
 
+def _spans(gait):
+    """(walkers, first sample, sample after the last) of each piece; who jumps has pieces of its own. From a pose
+    that stands alone nothing can be told."""
+    jumpers = np.unique(gait.jump[:, 1])
+    others = np.setdiff1d(np.arange(len(gait.mass)), jumpers)
+    for who in [others, *jumpers[:, None]]:
+        for first, after in gait.pieces(gait.cuts_of(who)):
+            there = np.intersect1d(gait.there(first, after), who)
+            if len(there) and after - first > 1:
+                yield there, first, after
+
+
 def _pieces(gait, ground):
-    """(samples, parts, points, recording of those who are there, its ground) for each piece that has any."""
-    for first, after in gait.pieces():
-        there = gait.there(first, after)
-        if not len(there):
-            continue
+    """(samples, walkers, parts, points, recording of them, its ground) for each piece that has any."""
+    for there, first, after in _spans(gait):
         parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], there))
         points = np.flatnonzero(np.isin(gait.point_part, parts))
         one = ground is None or callable(ground) or np.ndim(ground) == 0
         heights = ground if one else np.asarray(ground)[points, first:after]
-        yield slice(first, after), parts, points, gait.piece(first, after).only(there), heights
+        yield slice(first, after), there, parts, points, gait.piece(first, after).only(there), heights
 
 
 def _let_go(gait, touching):
-    """Nothing touches at the samples on either side of a cut."""
-    touching[:, gait.cut] = touching[:, gait.cut - 1] = 0
+    """Nothing touches at the samples on either side of a cut, nobody who jumps there."""
+    owner = gait.limb_walker[gait.part_limb]
+    for w in range(len(gait.mass)):
+        cut = gait.cuts_of([w])
+        for beside in (cut, cut - 1):
+            touching[np.ix_(owner == w, beside)] = 0
     return touching
 
 
 def _contacts_by_piece(gait, ground, limits):
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = []
-    for samples, parts, points, piece, heights in _pieces(gait, ground):
-        touching[parts, samples], rest = contacts(piece, heights, limits=limits)
+    known = ((each, *contacts(*each[4:], limits=limits)) for each in _pieces(gait, ground))
+    for (samples, _, parts, points, *_), touching[parts, samples], rest in _standing(gait, known):
         clearance.append(_known(gait, points, touching[gait.point_part[points], samples], rest))
-    return _let_go(gait, touching), _middle(clearance)
+    return _let_go(gait, touching), _middle(clearance, len(gait.point))
 
 
 def _known(gait, points, touching, rest):
@@ -239,9 +259,9 @@ def _known(gait, points, touching, rest):
     return clearance
 
 
-def _middle(clearance):
+def _middle(clearance, points):
     """Clearance of each point (K,) over all pieces; 0 where none knows."""
-    clearance = np.array(clearance)
+    clearance = np.array(clearance).reshape(-1, points)
     known = np.isfinite(clearance).any(axis=0)
     clearance[:, ~known] = 0.0
     return np.nanmedian(clearance, axis=0)
@@ -251,30 +271,59 @@ def _side_by_side(pieces, find, ground):
     """(piece, what find() tells of it) in their order; a ground that has to be asked is asked by one at a time."""
     pieces = list(pieces)
     if callable(ground):
-        yield from ((piece, find(*piece[3:])) for piece in pieces)
+        yield from ((piece, find(*piece[4:])) for piece in pieces)
         return
     with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
-        yield from zip(pieces, workers.map(lambda piece: find(*piece[3:]), pieces))
+        yield from zip(pieces, workers.map(lambda piece: find(*piece[4:]), pieces))
+
+
+def _standing(gait, pieces):
+    """Those pieces, each with its touching and clearance, in which feet stand as high over the ground as in the
+    longest stay of the same walker, if it jumps: put aside above or below the ground it presses nothing."""
+    jumpers = set(gait.jump[:, 1].tolist())
+    if not jumpers:
+        return pieces
+    pieces, main = list(pieces), {}
+
+    def height(piece, touching, clearance):
+        rest = clearance[touching[piece.point_part].any(axis=1)]
+        return float(np.median(rest)) if len(rest) else 0.0
+
+    for (_, there, _, _, piece, _), touching, clearance, *_ in pieces:
+        stay = int(np.count_nonzero(touching))
+        main[there[0]] = max(main.get(there[0], (0, 0.0)), (stay, height(piece, touching, clearance)))
+    return [(each, touching, clearance, *more) for each, touching, clearance, *more in pieces
+            if each[1][0] not in jumpers or abs(height(each[4], touching, clearance) - main[each[1][0]][1])
+            <= ASIDE * np.median(each[4].com[0, :, 2] - each[4].pose[..., 2].min(axis=0))]
 
 
 def _loads_by_piece(gait, ground, find):
-    """FootForce of the whole recording; find(piece, ground) gives that of a piece."""
+    """FootForce of the whole recording; find(piece, ground) gives that of a piece, or why there is none."""
     shape = (len(gait.part_limb), len(gait.time))
     touching, force, point = np.zeros(shape, "u1"), np.zeros(shape + (3,)), np.full(shape + (3,), np.nan)
-    clearance, told = [], []
+    clearance, told, sunk = [], [], []
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
-    for (samples, parts, points, piece, _), found in _side_by_side(_pieces(gait, ground), find, ground):
+
+    def known():
+        for piece, found in _side_by_side(_pieces(gait, ground), find, ground):
+            if isinstance(found, _Sunk):
+                sunk.append(found)
+            else:
+                yield piece, found.touching, found.clearance, found
+
+    for (samples, there, parts, points, piece, _), *_, found in _standing(gait, known()):
         touching[parts, samples] = found.touching
         force[parts, samples], point[parts, samples] = found.force, found.point
         clearance.append(_known(gait, points, touching[gait.point_part[points], samples], found.clearance))
         told += found.warnings
         if found.mean is not None:
-            there = gait.there(samples.start, samples.stop)
             weighed[there] += len(piece.time) * found.mean
             span[there] += len(piece.time)
+    if sunk and not clearance:
+        raise sunk[0]
     _let_go(gait, touching)
     force[touching == 0], point[touching == 0] = 0.0, np.nan
-    return FootForce(gait.time, touching, force, point, _middle(clearance),
+    return FootForce(gait.time, touching, force, point, _middle(clearance, len(gait.point)),
                      weighed / np.maximum(span, 1.0) if span.any() else None, _once(told))
 
 
@@ -307,12 +356,16 @@ def _at(want, have, touching, force, point):
     return on, new_force, new_point
 
 
+class _Sunk(DesirePathError):
+    """A walker is under the ground all the time."""
+
+
 def _sinks(gait, below):
     """Refuse a walker that is under the ground all the time."""
     ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
     for w in range(len(gait.mass)):
         if gait.com[w, :, 2].max() < ground:
-            raise DesirePathError(f"{gait.walker_name[w]} is below the ground all the time, whose highest "
+            raise _Sunk(f"{gait.walker_name[w]} is below the ground all the time, whose highest "
                                   "faces count: move the ground down or the walker up, or take roofs "
                                   "out of the ground.")
     return []

@@ -283,3 +283,22 @@ def test_feet_are_placed_in_stretched_time():
     risen = (after.at("hips") - before.at("hips"))[:, 2, 3]
     ahead = before.at("hips")[:, 1, 3]
     assert np.abs(np.diff(risen) + 0.2 * np.diff(ahead)).max() < 0.03, (risen, ahead)
+
+
+def test_a_pose_before_the_walk_is_cut_off(folder):
+    found = []
+    for pose, looks in ((False, 1), (True, 1), (True, 4)):
+        ground, walker = strip(folder / f"{pose} {looks}")
+        walker.desire_path.subframes = looks
+        if pose:  # as converters leave it, far from where the walk begins and with straight legs
+            for curve in compat.curves(walker.animation_data, walker):
+                curve.keyframe_points.insert(0, 1.5 if curve.data_path == "location" else 0.0)
+                curve.update()
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        report = json.loads((folder / f"{pose} {looks}" / "bake" / "report.json").read_text())
+        told = [each for each in report["warnings"] if "jumps" in each]
+        assert len(told) == pose and (not pose or "between frames 0 and 1: taken as a cut" in told[0]), told
+        found.append((report["contacts"], shown(ground, 30)[0][:, 2].min()))
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert found[0][0] == found[1][0] == found[2][0], found
+    assert abs(found[0][1] - found[1][1]) < 2e-3, found

@@ -102,7 +102,8 @@ def test_a_loop_is_taken_whole(walk, closing, fps):
     com, pose, _ = found.at(phase)
     way = found.way * phase[:, None] * (1, 0, 0)
     pose[..., :3] -= way
-    clip = replace(walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps)
+    clip = replace(walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps,
+                   cut=(), jump=())
     again = cycle.find(clip)
     assert again.seconds == pytest.approx(seconds, rel=1e-6)
     assert again.speed == pytest.approx(found.way / seconds, rel=0.08)
