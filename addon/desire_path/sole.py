@@ -20,6 +20,9 @@ OUTLINE = np.array([
 ROUND = 0.008  # the edge rises over this much [m]
 ARCH = 0.004  # the inner waist stands this high [m]
 INSETS = (0.0, 0.15, 0.45, 1.0)  # columns near the edge, in shares of ROUND
+FEW = 12  # faces under a foot that give its print a shape, at least
+COARSE = 8.0  # cells of the print under each of them that are too many for so few
+UNDERSIDE = 0.15  # faces lower than this share of a foot's length are under it, if they look more down than aside
 OVERLAP = 0.012  # the toe part reaches back under the heel part, so that a bent foot has no gap [m]
 
 
@@ -154,3 +157,25 @@ def cut(vertices, triangles, most=4000):
         return None
     used, packed = np.unique(triangles, return_inverse=True)
     return vertices[used], packed.reshape(-1, 3).astype("i4")
+
+
+def few_faces(gait, cell):
+    """Sentences about feet whose soles have too few faces for prints in cells of this size [m] to have a shape."""
+    found = {}
+    for limb, name in enumerate(gait.limb_name):
+        soles = [gait.soles[part] for part in np.flatnonzero(np.asarray(gait.part_limb) == limb)
+                 if gait.part_name[part] in ("heel", "toe")]
+        corners = [np.asarray(each.vertices, float)[each.triangles] for each in soles]
+        if not corners:
+            continue
+        length = np.ptp(np.concatenate([each.reshape(-1, 3)[:, 0] for each in corners]))
+        corner = np.concatenate(corners)
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        under = 2.0 * abs(normal[:, 2]) > np.linalg.norm(normal, axis=1)
+        under &= corner[:, :, 2].max(axis=1) < corner[:, :, 2].min() + UNDERSIDE * length
+        faces, cells = int(under.sum()), abs(normal[under, 2]).sum() / 2.0 / cell ** 2
+        if faces < FEW and cells > COARSE * max(faces, 1):
+            found.setdefault((faces, round(cells)), []).append(name)
+    return [f"{' and '.join(names)} press with {faces} triangles on {cells} cells, too few for the shape of a foot: "
+            "give the shoes or skin a finer mesh there, or choose a mesh as the sole."
+            for (faces, cells), names in found.items()]

@@ -8,7 +8,7 @@ import pytest
 from desire_path import body, rigs, rotation, sole, walker
 from desire_path.body import Motion, Skeleton, Skin
 from desire_path.errors import DesirePathError
-from desire_path.gait import BALL, HEEL, TIP
+from desire_path.gait import BALL, HEEL, TIP, Sole
 
 NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
 PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
@@ -392,6 +392,34 @@ def test_a_boot_leaves_a_boot_print():
         assert f[:, 2].min() == pytest.approx(0.0, abs=2e-3)
     marks = g.point[g.point_role == HEEL]
     assert (marks[:, 0] < -0.02).all()
+
+
+def test_soles_of_few_faces_are_told():
+    bones = person()
+    boxes = gait(bones, walk(bones), skin=boots())
+    for cell in (0.004, 0.01):
+        said = sole.few_faces(boxes, cell)
+        assert len(said) == 1 and "foot.L and foot.R" in said[0] and "sole" in said[0]  # alike on both feet
+        faces, cells = (int(word) for word in said[0].split() if word.isdigit())
+        assert faces < 12 and cells == pytest.approx(0.1 * 0.29 / cell ** 2, rel=0.3)
+    assert not sole.few_faces(boxes, 0.08)  # such cells show no more than the faces do
+    built_in = gait(bones, walk(bones))
+    assert not sole.few_faces(built_in, 0.004)
+    fine = replace(boxes, soles=[finer(each) for each in boxes.soles])
+    assert not sole.few_faces(fine, 0.01)
+    solid = replace(boxes, part_name=["body"] * 4)  # a crate may have six sides
+    assert not sole.few_faces(solid, 0.01)
+
+
+def finer(shape):
+    """Every triangle cut into four."""
+    corner = np.asarray(shape.vertices, float)[shape.triangles]
+    middle = (corner + np.roll(corner, -1, axis=1)) / 2.0
+    parts = [np.stack(each, axis=1) for each in (
+        (corner[:, 0], middle[:, 0], middle[:, 2]), (middle[:, 0], corner[:, 1], middle[:, 1]),
+        (middle[:, 2], middle[:, 1], corner[:, 2]), (middle[:, 0], middle[:, 1], middle[:, 2]))]
+    vertices = np.concatenate(parts).reshape(-1, 3)
+    return Sole(vertices, np.arange(len(vertices), dtype="i4").reshape(-1, 3))
 
 
 def test_a_skin_without_toe_weights_is_split_at_the_ball():

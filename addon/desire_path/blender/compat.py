@@ -131,6 +131,23 @@ def nodes_modifier(obj, name, tree):
     return modifier
 
 
+def node_objects(modifier):
+    """The objects that a nodes modifier is given, and that its nodes name."""
+    inputs = getattr(getattr(modifier, "properties", None), "inputs", None)
+    if inputs is not None:
+        given = [getattr(getattr(inputs, name, None), "value", None) for name in dir(inputs) if name.startswith("Socket")]
+    else:
+        given = [modifier[name] for name in modifier.keys()]
+    trees = [modifier.node_group]
+    for tree in trees:
+        for node in tree.nodes:
+            given += [getattr(each, "default_value", None) for each in node.inputs if each.type == "OBJECT"]
+            inner = getattr(node, "node_tree", None)
+            if inner is not None and inner not in trees:
+                trees.append(inner)
+    return [each for each in given if isinstance(each, bpy.types.Object)]
+
+
 def move_modifier(obj, modifier, index):
     """Put a modifier at a place of its stack, as far as Blender lets it."""
     first = list(obj.modifiers).index(modifier)
@@ -181,6 +198,18 @@ def curves(animation, owner):
     layer = action.layers[0] if len(action.layers) else action.layers.new("Layer")
     strip = layer.strips[0] if len(layer.strips) else layer.strips.new(type="KEYFRAME")
     return strip.channelbag(slot, ensure=True).fcurves
+
+
+def curve(animation, path):
+    """The F-curve that keys a property of an object, or None."""
+    action = animation.action if animation is not None else None
+    if action is None:
+        return None
+    bags = [action]
+    if hasattr(action, "layers"):
+        bags = [bag for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+                if bag.slot == animation.action_slot]
+    return next(filter(None, (bag.fcurves.find(path) for bag in bags)), None)
 
 
 def use_action(animation, action, slot=None):

@@ -4,8 +4,9 @@
     ground mesh --read--> Surface --> Bake, which only has to be run
     plants, settings ----------/
 """
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
+from .. import sole
 from ..errors import DesirePathError
 from . import axes, ground, moves, plants, sample, way
 from .op_walkers import walkers
@@ -27,6 +28,7 @@ def taken(scene, obj, there, first, last, **more):
         yield
         surface = ground.read(scene, obj, cell, first, last, box=ground.under(gait))
         gait = ground.walked(scene, there, gait, surface, cell, first, last)
+    gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell)))
     yield
     grown = plants.plantings(scene, obj)
     yield

@@ -10,42 +10,18 @@ import math
 from contextlib import contextmanager
 from dataclasses import replace
 
-import bpy
 import numpy as np
 
 from .. import body, mass, rigs, solid
 from ..errors import DesirePathError
 from ..foot import FootShape
 from ..gait import Gait
-from ..tread import Tread
-from . import axes, clock, compat, playback
+from . import axes, clock, playback
+from .private import evaluated, private_scene
+from .worn import skin, tread
 
 STIFF = 0.01  # a rigid body may change by so much of its size
 PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
-
-
-@contextmanager
-def private_scene(scene, obj):
-    """A scene with one object in it and the clock of `scene`; gone afterwards."""
-    own = bpy.data.scenes.new("desire_path sampling")
-    try:
-        for name in ("fps", "fps_base", "frame_map_old", "frame_map_new"):
-            setattr(own.render, name, getattr(scene.render, name))
-        own.collection.objects.link(obj)
-        yield own
-    finally:
-        bpy.data.scenes.remove(own)
-
-
-def evaluated(own, obj, frame):
-    """The object as it is at a frame (a float: sub-frames are evaluated) of a private scene."""
-    whole = math.floor(frame)
-    own.frame_set(whole, subframe=frame - whole)
-    found = obj.evaluated_get(own.view_layers[0].depsgraph)
-    if not found.is_evaluated:
-        raise DesirePathError(f"'{obj.name}' is disabled in viewports: enable it (the screen icon in "
-                              "the Outliner) and try again.")
-    return found
 
 
 @contextmanager
@@ -164,119 +140,7 @@ def weight(armature, shape, found, volume=None):
     return kilograms, (mass.sentence(armature.name, kilograms, height),)
 
 
-# ---- what the feet wear -----------------------------------------------------------------------------
-
-
-def skin(scene, armature, feet, world, scale):
-    """Meshes bound to the feet, in the skeleton's rest space; None where there are none.
-
-    Skins, clothes and shoes count alike. A bone below a foot or toe (a toe's tip, single toes)
-    counts for the nearest one above it. feet None: all there is, every bone for itself.
-    """
-    owner = _owners(armature, feet) if feet is not None else {bone.name: bone.name for bone in armature.data.bones}
-    size = axes.sizes(world)
-    to_armature = np.linalg.inv(np.array(armature.matrix_world, np.float64))
-    vertices, triangles, weights, count = [], [], [], 0
-    for obj in scene.objects:
-        if obj.type != "MESH" or obj.hide_render or obj.desire_path.is_ground:
-            continue
-        bound = _bound(obj, armature, owner, to_armature)
-        if bound is None:
-            continue
-        rest, share = bound
-        faces = compat.triangles(obj.data)
-        any_share = np.zeros(len(rest), bool)
-        for each in share.values():
-            any_share |= each > 0.0
-        faces = faces[any_share[faces].any(axis=1)]
-        if not len(faces):
-            continue
-        used, faces = np.unique(faces, return_inverse=True)
-        vertices.append(axes.points(size, rest[used], scale))
-        triangles.append(faces.reshape(-1, 3) + count)
-        weights.append({name: each[used] for name, each in share.items()})
-        count += len(used)
-    if not vertices:
-        return None
-    names = sorted(set().union(*weights))
-    joined = {name: np.concatenate([w.get(name, np.zeros(len(v), np.float32))
-                                    for w, v in zip(weights, vertices)]) for name in names}
-    vertices = np.concatenate(vertices)
-    if not (np.abs(vertices) < axes.FAR).all():
-        raise DesirePathError(f"A mesh on '{armature.name}' has NaN or infinite vertices at its feet: "
-                              "repair the mesh.")
-    return body.Skin(vertices, np.concatenate(triangles).astype(np.int32), joined)
-
-
-def _owners(armature, feet):
-    """Bone name -> the foot, toe or heel bone it moves with."""
-    ends = {name for foot in feet for name in (foot.foot, foot.toe, foot.heel) if name}
-    owner = {}
-    for bone in armature.data.bones:
-        above = bone
-        while above is not None and above.name not in ends:
-            above = above.parent
-        if above is not None:
-            owner[bone.name] = above.name
-    return owner
-
-
-def _bound(obj, armature, owner, to_armature):
-    """Rest positions in armature space and weights per foot bone of a mesh, or None."""
-    modifier = any(m.type == "ARMATURE" and m.object == armature for m in obj.modifiers)
-    if not modifier and obj.parent != armature:
-        return None
-    mesh = obj.data
-    if not modifier and obj.parent_type == "BONE":
-        name = owner.get(obj.parent_bone)
-        if name is None:
-            return None
-        bone = armature.data.bones[obj.parent_bone]
-        local = np.array(obj.matrix_parent_inverse, np.float64) @ np.array(obj.matrix_basis)
-        if not bone.use_relative_parent:
-            tail = np.array(bone.matrix_local, np.float64)
-            tail[:3, 3] += tail[:3, 1] * bone.length
-            local = tail @ local
-        return axes.points(local, compat.positions(mesh), 1.0), {
-            name: np.ones(len(mesh.vertices), np.float32)}
-    group = {g.index: owner[g.name] for g in obj.vertex_groups if g.name in owner}
-    if not group:
-        return None
-    share = {name: np.zeros(len(mesh.vertices), np.float32) for name in set(group.values())}
-    for vertex in mesh.vertices:
-        for member in vertex.groups:
-            name = group.get(member.group)
-            if name is not None:
-                share[name][vertex.index] += member.weight
-    local = to_armature @ np.array(obj.matrix_world, np.float64)
-    return axes.points(local, compat.positions(mesh), 1.0), share
-
-
-def tread(scene, armature, feet, world, scale):
-    """The mesh chosen as the sole, as it lies in the rest pose; None where none was chosen."""
-    obj = armature.desire_path.sole
-    if obj is None:
-        return None
-    if obj.type != "MESH":
-        raise DesirePathError(f"'{obj.name}' is no mesh: choose a mesh as the sole of "
-                              f"'{armature.name}'.")
-    to_armature = np.linalg.inv(np.array(armature.matrix_world, np.float64))
-    bound = _bound(obj, armature, _owners(armature, feet), to_armature)
-    if bound is not None:
-        rest, faces = bound[0], compat.triangles(obj.data)
-        turned = np.linalg.det(np.array(obj.matrix_basis)[:3, :3]) < 0.0
-    else:
-        place = axes.matrix(obj.matrix_world, obj.name)
-        with private_scene(scene, obj) as own:
-            own.frame_set(scene.frame_current)
-            mesh = obj.evaluated_get(own.view_layers[0].depsgraph).data  # with its modifiers
-            rest, faces = compat.positions(mesh), compat.triangles(mesh)
-        rest = axes.points(to_armature @ place, rest, 1.0)
-        turned = np.linalg.det(to_armature[:3, :3] @ place[:3, :3]) < 0.0
-    size = axes.sizes(world)
-    if turned != (np.linalg.det(size[:3, :3]) < 0.0):  # mirrored: what was outside stays outside
-        faces = faces[:, ::-1]
-    return Tread(axes.points(size, rest, scale), faces, f"'{obj.name}'")
+# ---- all of it --------------------------------------------------------------------------------------
 
 
 def placed(armature):
@@ -293,9 +157,6 @@ def placed(armature):
 def samples_of(scene, walkers):
     """How often walkers are looked at in a scene frame, so that no frame of a sped-up animation is left out."""
     return max(each.desire_path.subframes for each in walkers) * math.ceil(1.0 / clock.stretch(scene) - 1e-6)
-
-
-# ---- all of it --------------------------------------------------------------------------------------
 
 
 def record(scene, armature, frame_start, frame_end, samples=None, land=None):
@@ -319,16 +180,16 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         shape = skeleton(armature, world, scale)
         found, volume = rig(armature, shape), None
         if len(found.feet) > 2:  # no table knows this body: its mesh does
-            hide = skin(scene, armature, None, world, scale)
+            hide = skin(scene, armature, None, world, scale, frames)
             full = mass.by_volume(shape, found, hide) if hide is not None else None
             if full:
                 found = found if settings.mass_center else replace(found, segments=full[0])
                 volume = full[1]
         kilograms, told = weight(armature, shape, found, volume)
         moved = motion(own, armature, found.bones, frames, rate, scale)
-    worn = skin(scene, armature, found.feet, world, scale)
+    worn = skin(scene, armature, found.feet, world, scale, frames)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
-                                tread=tread(scene, armature, found.feet, world, scale),
+                                tread=tread(scene, armature, found.feet, world, scale, frames),
                                 frame_rate=rate, frame_start=frame_start, land=land,
                                 shapes=placed(armature))
     return replace(gait, warnings=gait.warnings + told)

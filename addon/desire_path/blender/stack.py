@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import axes, compat, playback, sample
+from . import axes, compat, playback
+from .private import evaluated, private_scene
 
 STANDS = {"PARTICLE_SYSTEM", "COLLISION", "SURFACE", "WEIGHTED_NORMAL", "NORMAL_EDIT"}  # on the ground, or for its looks
 LEVELS = {"SUBSURF": ("levels", "render_levels"), "MULTIRES": ("levels", "render_levels"),
@@ -87,7 +88,7 @@ def shaped(scene, obj, before, trees=()):
         show(scene, copy, obj)
         for tree in trees:
             compat.nodes_modifier(copy, "desire_path", tree)
-        with sample.private_scene(scene, copy) as alone:
+        with private_scene(scene, copy) as alone:
             yield alone, copy
     finally:
         bpy.data.objects.remove(copy)
@@ -178,7 +179,7 @@ class _Made:
 def _look(scene, obj, count, frame):
     """What the first modifiers make of a ground."""
     with shaped(scene, obj, count) as (own, copy):
-        found = sample.evaluated(own, copy, frame)
+        found = evaluated(own, copy, frame)
         world = np.array(found.matrix_world, np.float64)
         points, corners = compat.positions(found.data), np.empty(len(found.data.loops), np.int32)
         if len(corners):
@@ -186,7 +187,7 @@ def _look(scene, obj, count, frame):
     tail = _tree("desire_path instances", "GeometryNodeSeparateComponents", "GeometryNodeInstancesToPoints",
                  "GeometryNodePointsToVertices")
     with shaped(scene, obj, count, [tail]) as (own, copy):
-        instances = compat.positions(sample.evaluated(own, copy, frame).data)
+        instances = compat.positions(evaluated(own, copy, frame).data)
     return _Made(points, corners, instances, world)
 
 
