@@ -20,23 +20,22 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import math
-import os
-import shutil
 import time
 from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import _native, jumps, maps, plant_mesh, walker, whole
+from . import _native, jumps, walker
+from . import parcels as fields
 from .errors import DesirePathError
-from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
+from .folder import FORMAT
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .output import Output
+from .parcels import Parcel
 from .passes import turns_of
-from .plants import as_plantings
-from .sim import LOAD_MODELS, TILE, Simulation, as_soils, check_cell
+from .share import Share
+from .sim import LOAD_MODELS, TILE, Ground, Simulation, check_cell
 from .version import VERSION
 
 SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are found at [1/s]
@@ -45,8 +44,7 @@ MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
 PASS_RATE = 60.0  # the same where a frame is a pass: there are many, and each print is trodden again [1/s]
 FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
-MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
-START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
+REACH = 0.3  # around a sole a step can change the ground so far away [m]
 BESIDE = "The walk passes beside the ground: move the walker or the ground so that one lies over the other."
 
 
@@ -62,6 +60,8 @@ class Bake:
     """One bake: make it, run it, read its report.
 
     gait: Gait; ground: Ground; soils as for Simulation; folder: where the files go.
+    ground may be a list of Parcels, as the tiles of a terrain, which are pressed as one: each has its own soils, folder,
+    plants and owner then, those named here are not asked for, and `shares` tells which were trodden.
     cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
     load_model: "inertia" or "impulse"; law, heap, rim_width, threads, plants: as for Simulation.
     plant_mesh: write the plants themselves as a mesh and its point cache, for close-ups.
@@ -86,15 +86,9 @@ class Bake:
         self.gait = gait = jumps.found(gait.check())
         self.passes = turns_of(gait)
         self.film = film or FILMS[len(self.passes) > 1]
-        self.ground = ground
-        self.soils = as_soils(soils)
-        self.plants = as_plantings(plants)
-        self.plant_mesh = bool(plant_mesh)
-        if self.plant_mesh and not self.plants:
-            raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
-        self.folder = os.path.abspath(os.fspath(folder))
-        self.owner, self.wait = str(owner), float(wait)
-        self.inputs = dict(inputs or {})
+        self.parcels = _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs)
+        self.folder = self.parcels[0].folder
+        self.wait = float(wait)
         self.frame_rate = float(gait.frame_rate)
         frames = (len(self.passes) - 1 if self.film == "passes"
                   else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
@@ -117,74 +111,105 @@ class Bake:
         self.threads = threads
         self.loads = None
         self.report = None
-        self.final = None  # the planes of maps_final.exr, when the bake is whole
+        self.shares = []  # a Share of each parcel that the walk reaches; when the bake is whole: that it has trodden
 
     # ---- what is baked --------------------------------------------------------------------------
 
-    def _parameters(self):
-        grown = {"plants": [planting.told() for planting in self.plants]} if self.plants else {}
+    def parameters(self, parcel):
+        """What is baked, for the report of a parcel."""
         return {
             "cell_size": self.cell_size,
             "frame_start": self.frame_start,
             "frame_end": self.frame_end,
             "frame_rate": self.frame_rate,
             "load_model": self.load_model,
-            "soils": [asdict(soil) for soil in self.soils],
-            "ground": self.ground.name,
-            **({"trail": self.ground.trail.path} if self.ground.trail else {}),
+            "soils": [asdict(soil) for soil in parcel.soils],
+            "ground": parcel.ground.name,
+            **({"trail": parcel.ground.trail.path} if parcel.ground.trail else {}),
             "walkers": list(self.gait.walker_name),
             "mass_kg": [float(mass) for mass in self.gait.mass],
             **self.options,
-            **grown,
+            **({"plants": [planting.told() for planting in parcel.plants]} if parcel.plants else {}),
             **({"film": self.film} if self.film != "frames" else {}),
         }
 
     def _signature(self):
         """The same for two bakes exactly when they write the same files."""
-        digest = hashlib.sha256(f"{VERSION} {FORMAT} {self._parameters()} {self.ground.native[0]}".encode())
+        digest = hashlib.sha256(f"{VERSION} {FORMAT}".encode())
         gait = self.gait
         arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut,
                   gait.jump]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
-        for planting in self.plants:
-            arrays += planting.arrays()
-        for array in arrays + self.ground.arrays():
+        for parcel in self.parcels:
+            digest.update(f"{self.parameters(parcel)} {parcel.ground.native[0]}".encode())
+            digest.update(repr([part for part in parcel.ground.native if isinstance(part, float)]).encode())
+            arrays += parcel.ground.arrays()
+            for planting in parcel.plants:
+                arrays += planting.arrays()
+        for array in arrays:
             digest.update(f"{array.shape} {array.dtype}".encode())
             digest.update(_native.digest(np.ascontiguousarray(array)))
-        digest.update(repr([part for part in self.ground.native if isinstance(part, float)]).encode())
         return digest.hexdigest()
 
-    def _simulation(self):
-        """The ground with the recording on it, at a whole number of samples a frame."""
+    def _simulations(self):
+        """The grounds with the recording on them, at a whole number of samples a frame: the Simulation of each storey,
+        and the Shares of those that the walk reaches."""
         least = PASS_RATE if self.film == "passes" else SAMPLE_RATE
         samples = max(1, math.ceil(least / self.frame_rate - 1e-6))
-        gait = self.gait.resample(self.frame_rate * samples)
+        gait = self.stepped = self.gait.resample(self.frame_rate * samples)
         self.times = gait.time - gait.time[0]
         self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]
-        sim = Simulation(self.ground, self.soils, self.cell_size, threads=self.threads,
-                         plants=self.plants, **self.options)
-        walks = walker.Walker(self.load_model, settle_time=self.soils[0].settle_time)  # tau of TRAIL (3)
-        self.loads = walks.loads(gait, sim.rest_height)
-        sim.load(gait, self.loads)
-        return sim
-
-    def _rectangle(self, sim):
-        """Tiles (x, y, nx, ny) the frames cover: what the walk can reach of the ground."""
-        i0, i1, j0, j1 = sim.reach()
-        if i0 >= i1:
+        storeys = [[self.parcels[number] for number in storey] for storey in fields.storeys(self.parcels, self.gait)]
+        sims = [self._simulation(storey) for storey in storeys]
+        walks = walker.Walker(self.load_model, settle_time=storeys[0][0].soils[0].settle_time)  # tau of TRAIL (3)
+        if len(sims) == 1:
+            self.loads = walks.loads(gait, sims[0].rest_height)
+            each = [self.loads]
+        else:
+            over, below = fields.treads(gait, [sim.rest_height for sim in sims])
+            self.loads = walks.loads(gait, below)
+            each = [fields.on(self.loads, over, number) for number in range(len(sims))]
+        self.shares = []
+        for sim, storey, loads in zip(sims, storeys, each):
+            sim.load(gait, loads)
+            for parcel in storey:
+                tiles = self._rectangle(sim, parcel, gait, loads)
+                if tiles is not None:
+                    self.shares.append(Share(self, parcel, sim, loads, tiles))
+        if not any(sim.reach()[0] < sim.reach()[1] for sim in sims):
             raise DesirePathError(
                 "No foot touches the ground in these frames: check that the walker stands on it and the scale is right."
             )
+        if not self.shares:
+            raise DesirePathError(BESIDE)
+        return sims
+
+    def _simulation(self, storey):
+        """Of parcels that lie beside each other."""
+        ground, soils = fields.sewn(storey, self.cell_size)
+        plants = [(planting, parcel.has) for parcel in storey for planting in parcel.plants]
+        return Simulation(ground, soils, self.cell_size, threads=self.threads, plants=[each for each, _ in plants],
+                          areas=[has for _, has in plants] if len(storey) > 1 else None, **self.options)
+
+    def _rectangle(self, sim, parcel, gait, loads):
+        """Tiles (x, y, nx, ny) the frames of a parcel cover: what the walk can reach of it; None: nothing."""
+        i0, i1, j0, j1 = sim.reach()
         x0, y0, x1, y1 = sim.bounds()
         cell, (ox, oy) = self.cell_size, self.options["origin"]
+        if len(self.parcels) > 1:
+            wide = REACH + max((each.kind.reach + each.kind.height for each in sim.plantings), default=0.0)
+            box = fields.under(parcel, gait, loads, wide)
+            if box is None:
+                return None
+            x0, y0, x1, y1 = max(x0, box[0] - cell), max(y0, box[1] - cell), min(x1, box[2] + cell), min(y1, box[3] + cell)
         if math.isfinite(x0):
             i0 = max(i0, math.floor((x0 - ox) / cell))
             i1 = min(i1, math.ceil((x1 - ox) / cell))
             j0 = max(j0, math.floor((y0 - oy) / cell))
             j1 = min(j1, math.ceil((y1 - oy) / cell))
         if i0 >= i1 or j0 >= j1:
-            raise DesirePathError(BESIDE)
+            return None
         tx0, ty0 = i0 // TILE, j0 // TILE
         tx1, ty1 = -(-i1 // TILE), -(-j1 // TILE)
         if (tx1 - tx0) * (ty1 - ty0) * TILE * TILE > MOST_PIXELS:
@@ -226,90 +251,80 @@ class Bake:
 
     def _run(self):
         check_cell(self.cell_size)
-        out = Output(self.folder, self.owner)
-        out.open(self.wait)
-        try:
-            yield from self._into(out)
-        finally:
-            out.release()
+        with contextlib.ExitStack() as folders:
+            for parcel in self.parcels:
+                out = Output(parcel.folder, parcel.owner)
+                out.open(self.wait)
+                folders.callback(out.release)
+            yield from self._into()
 
-    def _into(self, out):
+    def _into(self):
         seconds = {"total": time.perf_counter()}
         self._check_soles()
-        sim = self._simulation()
-        tiles = self._rectangle(sim)
-        picture = sim.open_frames(*tiles)
-        picture.open_maps([entry.name for entry in self._fields()], self._notes(tiles))
-        start = self._start_maps(sim, tiles)
+        sims = self._simulations()
         seconds["loads"] = time.perf_counter() - seconds["total"]
-
-        index = self._index(tiles, self._signature())
-        done, sums = self._prepare(out, index)
         seconds["step"] = seconds["write"] = 0.0
-        mesh = None
         try:
-            if self.plant_mesh:
-                mesh = plant_mesh.Writer(sim, out.new, self.frame_start, self.frame_end - self.frame_start + 1)
-            yield from self._frames(sim, picture, out, done, sums, mesh, seconds)
-            if mesh:
-                mesh.finish(sim)
-            self._end(sim, picture, out, tiles, start)
-            seconds["total"] = time.perf_counter() - seconds["total"]
-            self.report = self._report(sim, seconds)
-            whole.write_json(out.path("report.json"), self.report, "The report")
-            whole.write_json(out.path("frames", "index.json"), {**index, "complete": True}, "The index of the frames")
+            signature = self._signature()
+            for share in self.shares:
+                share.begin(signature)
+            yield from self._frames(sims, seconds)
+            self._end(sims, seconds)
         except BaseException:
-            with contextlib.suppress(OSError):
-                sim.flush()
-            sums.close()
-            if mesh:
-                mesh.close()
-            self.report = self.final = None
-            out.publish_stopped()
+            for sim in sims:
+                with contextlib.suppress(OSError):
+                    sim.flush()
+            self.report = None
+            for share in self.shares:
+                share.stop()
             raise
-        sums.close()
-        out.publish()
+        for share in self.shares:
+            share.publish()
 
-    def _frames(self, sim, picture, out, done, sums, mesh, seconds):
-        """Simulate and write; the first `done` frames are there already."""
+    def _frames(self, sims, seconds):
+        """Simulate and write."""
         count = self.frame_end - self.frame_start + 1
-        frames = out.path("frames")
-        if done < 0:
-            self._write(picture, frames, 0, 0.0, sums)
+        for share in self.shares:
+            share.write(0, 0.0)
         for number in range(1, count + 1):
             frame = self.frame_start + number - 1
             begun = time.perf_counter()
-            sim.run(self._sample(frame))
+            for sim in sims:
+                sim.run(self._sample(frame))
             stepped = time.perf_counter()
-            self._write(picture, frames if number > done else None, number, self._time(frame), sums)
-            if mesh:
-                mesh.add(sim)
-            if self.map_seconds:
-                self._second(picture, out, frame)
-            sums.look()
+            for share in self.shares:
+                share.write(number, self.time(frame))
+                if self.map_seconds:
+                    share.second(frame)
+                share.sums.look()
             seconds["step"] += stepped - begun
             seconds["write"] += time.perf_counter() - stepped
             yield Progress(frame, number / count)
-        sim.flush()
-        sums.look()
+        for sim in sims:
+            sim.flush()
+        for share in self.shares:
+            share.sums.look()
 
-    def _end(self, sim, picture, out, tiles, start):
-        """The first and the last maps."""
-        tx, ty, nx, ny = tiles
-        picture.write_maps(out.path("maps_final.exr"), self._time(self.frame_end))
-        maps.write(out.path("maps_start.exr"), start,
-                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(tiles))
-        self.final = {entry.name: sim.read(entry.name, tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-                      for entry in maps.MAPS}
-        sim.flush()
-
-    def _write(self, picture, fresh, number, seconds, sums):
-        """One frame of every film into the folder `fresh`; None: it is there already."""
-        picture.write_frame(fresh and frame_path(fresh, number), seconds)
-        if self.plants:
-            picture.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
-        if fresh:
-            sums.add(number, bool(self.plants))
+    def _end(self, sims, seconds):
+        """The last maps and the reports; grounds nobody has pressed are as they were."""
+        if len(self.parcels) > 1:
+            pressed = [share for share in self.shares if share.is_pressed()]
+            for share in self.shares:
+                if share not in pressed:
+                    for sim in sims:
+                        sim.flush()
+                    share.leave()
+            self.shares = pressed
+            if not pressed:
+                raise DesirePathError(BESIDE)
+        for share in self.shares:
+            share.end()
+        for sim in sims:
+            sim.flush()
+        seconds["total"] = time.perf_counter() - seconds["total"]
+        self.report = self._report(sims, seconds)
+        for share in self.shares:
+            share.tell(self._told(share))
 
     def _sample(self, frame):
         """Sample of the recording that shows this scene frame."""
@@ -318,113 +333,61 @@ class Bake:
             return self.ends[min(number, len(self.ends) - 1)]
         return int(np.searchsorted(self.times, number / self.frame_rate + 1e-6, "right")) - 1
 
-    def _index(self, tiles, signature):
-        tx, ty, nx, ny = tiles
-        ox, oy = self.options["origin"]
-        side = TILE * self.cell_size
-        return {
-            "format": FORMAT, "version": VERSION, "signature": signature,
-            "cell": self.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
-            "nx": nx * TILE, "ny": ny * TILE, "frame_start": self.frame_start,
-            "frame_end": self.frame_end, "frame_rate": self.frame_rate, "complete": False,
-            **({"lean": True} if self.plants else {}), **({OWNER: self.owner} if self.owner else {}),
-            **({INPUTS: self.inputs} if self.inputs else {}),
-        }
-
-    def _prepare(self, out, index):
-        """(how many frames of the very same bake are in bake.new already (-1 = none), the Sums of its frames)"""
-        fresh, shown = out.path("frames"), os.path.join(self.folder, "frames")
-        done, sound, place = -1, {}, None
-        for each in (fresh, shown):
-            old = told(each)
-            if (self.resume and old and not old.get("complete")
-                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER))):
-                there, found = frames_sound(each, bool(self.plants))
-                if there > done:
-                    done, sound, place = there, found, each
-        try:
-            out.fresh(keep=sound if place == fresh else ())
-            if place == shown:
-                for name in sound:  # what is shown stays until the bake is whole
-                    _link(os.path.join(shown, name), os.path.join(fresh, name))
-            whole.write_json(os.path.join(fresh, "index.json"), index, "The index of the frames")
-            return done, Sums(fresh, sound)
-        except OSError as problem:
-            raise DesirePathError(
-                f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one."
-            ) from None
-
-    # ---- maps, TRAIL 4.3 ------------------------------------------------------------------------
-
-    def _time(self, frame):
+    def time(self, frame):
         """Of a scene frame since the recording began [s]."""
         if self.film == "passes":
             return float(self.times[self._sample(frame)])
         return (frame - self.gait.frame_start) / self.frame_rate
 
-    def _notes(self, tiles):
-        tx, ty, _, _ = tiles
-        ox, oy = self.options["origin"]
-        side = TILE * self.cell_size
-        notes = [
-            ("software", f"Desire Path {VERSION}"), ("cell", self.cell_size), ("originX", ox + tx * side),
-            ("originY", oy + ty * side), ("parameters", json.dumps(self._parameters())),
-        ]
-        return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
-
-    def _fields(self):
-        return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
-
-    def _second(self, picture, out, frame):
-        """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
-        if self.film == "passes":
-            number = frame - self.gait.frame_start + 1
-            if number % -(-len(self.passes) // MOST_PASS_MAPS) == 0:
-                name = f"pass_{number:04d}.exr"
-                picture.write_maps(out.path("maps", name), self._time(frame))
-            return
-        elapsed = frame - self.frame_start
-        before, now = ((elapsed - 1) / self.frame_rate, elapsed / self.frame_rate)
-        if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
-            name = f"second_{math.floor(now + 1e-9):04d}.exr"
-            picture.write_maps(out.path("maps", name), self._time(frame))
-
-    def _start_maps(self, sim, tiles):
-        tx, ty, nx, ny = tiles
-        window = (tx * TILE, ty * TILE, nx * TILE, ny * TILE)
-        strength = sim.read("plant_strength", *window)
-        modulus = sim.read("young_modulus", *window)
-        planes = {maps.PICTURE: modulus, "young_modulus_in": modulus, "plant_strength_in": strength,
-                  "plant_strength": strength, "rest": sim.read("rest", *window)}
-        if self.plants:
-            planes.update({entry.name: sim.read(entry.name, *window) for entry in maps.LEAN})
-        return planes
-
-    def _report(self, sim, seconds):
-        found = sim.report()
-        warnings = list(self.gait.warnings) + list(self.loads.warnings) + sim.warnings
-        if found["deepest_m"] >= RIGID * min(soil.layer_depth for soil in self.soils):
+    def _report(self, sims, seconds):
+        found = [sim.report() for sim in sims]
+        total = {name: sum(each[name] for each in found) for name in found[0]}
+        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *(each for sim in sims for each in sim.warnings)]))
+        if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils)
+               for sim, each in zip(sims, found)):
             warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "
                             "or choose a firmer soil.")
-        if found["off_ground"] and walker.BESIDE not in warnings:
+        if total["off_ground"] and walker.BESIDE not in warnings:
             warnings.append(walker.BESIDE)
         return {
-            "passes": len(self.passes), "contacts": found["contacts"], "deepest_m": found["deepest_m"],
-            "pressed_m3": found["pressed_m3"], "pressed_heap_m3": found["pressed_heap_m3"],
-            "heaped_m3": found["heaped_m3"], "displaced_m3": found["displaced_m3"],
-            **({"plants": found["plants"], "broken_bends": found["broke"]} if self.plants else {}),
+            "passes": len(self.passes), "contacts": total["contacts"],
+            "deepest_m": max(each["deepest_m"] for each in found),
+            "pressed_m3": total["pressed_m3"], "pressed_heap_m3": total["pressed_heap_m3"],
+            "heaped_m3": total["heaped_m3"], "displaced_m3": total["displaced_m3"],
+            **({"plants": total["plants"], "broken_bends": total["broke"]}
+               if any(parcel.plants for parcel in self.parcels) else {}),
             "seconds": round(seconds["total"], 3),
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
-            "warnings": warnings, "version": VERSION, "parameters": self._parameters(),
+            "warnings": warnings, "version": VERSION, "parameters": self.parameters(self.parcels[0]),
         }
 
+    def _told(self, share):
+        """The report of a share: of several grounds what happened on it, and on all of them."""
+        if len(self.parcels) == 1:
+            return self.report
+        numbers = {"contacts": fields.contacts(share.parcel, self.stepped, share.loads, self._sample(self.frame_end) + 1),
+                   **share.numbers()}
+        whole = {name: self.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3",
+                                                      "heaped_m3", "displaced_m3")}
+        rest = {name: value for name, value in self.report.items() if name not in whole}
+        return {**numbers, "with": [each.parcel.name for each in self.shares if each is not share], "in_all": whole,
+                **rest, "parameters": self.parameters(share.parcel)}
 
-def _link(path, to):
-    """The same file under another name, too; a copy, where the disk has no such names."""
-    try:
-        os.link(path, to)
-    except OSError:
-        shutil.copy2(path, to)
+
+def _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs):
+    """The Parcels of a bake, from one ground or a list of them."""
+    if isinstance(ground, Ground):
+        return [Parcel(ground, soils, folder, plants=plants, plant_mesh=plant_mesh, owner=owner, inputs=dict(inputs or {}))]
+    parcels = list(ground)
+    if not parcels or not all(isinstance(each, Parcel) for each in parcels):
+        raise DesirePathError("A bake needs a Ground, or a list of Parcels.")
+    folders = {}
+    for each in parcels:
+        other = folders.setdefault(each.folder, each)
+        if other is not each:
+            raise DesirePathError(f"'{other.name}' and '{each.name}' bake into the same folder: choose another one for "
+                                  "either.")
+    return parcels
 
 
 def _plain(problem):

@@ -7,17 +7,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import functools
+import os
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from .errors import DesirePathError
+from .plants import as_plantings
 from .sim import Ground, Simulation, as_soils
 from .walker import point_places
 
 RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
 APART = 0.05  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
+BELOW, AROUND = 9, 17  # places looked at below and around a foot
 SEAM = 1e-3  # rims reach this far beyond, so that no place is lost between two [cells] ..
 ROUNDING = 4e-7  # .. or this share of where they lie: what single precision loses
 
@@ -27,7 +31,7 @@ class Parcel:
     """One ground of several that a walk crosses. Only grounds of triangles can lie beside each other.
 
     ground: Ground; soils, plants: as for Simulation, plants stand on this ground only.
-    folder: where its own files go; owner: as for Bake; name: for sentences, and its own among the others.
+    folder, plant_mesh, owner, inputs: as for Bake, of its own files; name: for sentences and reports.
     """
 
     ground: Ground
@@ -35,13 +39,29 @@ class Parcel:
     folder: str = "bake"
     name: str = "ground"
     plants: object = ()
+    plant_mesh: bool = False
     owner: str = ""
+    inputs: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        put = functools.partial(object.__setattr__, self)
+        put("soils", tuple(as_soils(self.soils)))
+        put("plants", tuple(as_plantings(self.plants)))
+        put("folder", os.path.abspath(os.fspath(self.folder)))
+        put("owner", str(self.owner))
+        if self.plant_mesh and not self.plants:
+            raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
 
     @cached_property
     def land(self):
         """A Simulation of its shape alone, to ask for heights."""
-        return Simulation(Ground((*self.ground.native[:-1], None) if self.ground.name != "flat" else self.ground.native,
-                                 self.ground.name))
+        native = self.ground.native
+        return Simulation(Ground(native if native[0] == "flat" else (*native[:-1], None), self.ground.name))
+
+    @property
+    def box(self):
+        """World box (x0, y0, x1, y1) [m]; infinite for flat ground."""
+        return self.land.bounds()
 
     def has(self, xy):
         """Whether it lies below places (n, 2)."""
@@ -51,18 +71,17 @@ class Parcel:
 # ---- what lies beside what ------------------------------------------------------------------------------
 
 
-def around(gait, reach=None):
-    """Places (n, 3) below and around the feet of a recording, at the height of the feet [m].
-
-    reach: how far around; None: as far as their soles are long
+def around(gait):
+    """Places (n, 3) below and around the feet of a recording, at the height of the feet [m]: BELOW of them as far as
+    half a sole is long, then the others, AROUND in all for each foot.
     """
     span = gait.time[-1] - gait.time[0]
     step = max(1, int(len(gait.time) / max(1.0, span * RATE)))
     at = point_places(gait)[:, ::step]
-    if reach is None:
-        reach = length(gait)
+    reach = length(gait)
     turn = np.arange(8) * np.pi / 4
-    ring = np.concatenate([np.zeros((1, 2)), reach * np.stack([np.cos(turn), np.sin(turn)], 1)])
+    ring = reach * np.stack([np.cos(turn), np.sin(turn)], 1)
+    ring = np.concatenate([np.zeros((1, 2)), 0.5 * ring, ring])
     out = np.repeat(at.reshape(-1, 3), len(ring), axis=0)
     out[:, :2] += np.tile(ring, (at.shape[0] * at.shape[1], 1))
     return out
@@ -81,8 +100,12 @@ def heights(parcels, xy):
 
 def nearest(height, z):
     """Which of several grounds (n,) is nearest in height to z, of heights (grounds, n); -1 where there is none."""
-    away = np.abs(height - z)
-    away[~np.isfinite(away)] = np.inf
+    return least(np.abs(height - z))
+
+
+def least(away):
+    """Which of several is the least at each place, of (grounds, n); -1 where all are NaN."""
+    away = np.where(np.isfinite(away), away, np.inf)
     found = away.argmin(axis=0)
     return np.where(np.isfinite(away.min(axis=0)), found, -1)
 
@@ -95,10 +118,17 @@ def storeys(parcels, gait):
     height = heights(parcels, at[:, :2])
     trodden = np.bincount(nearest(height, at[:, 2]) + 1, minlength=len(parcels) + 1)[1:]
     most = APART * length(gait)
+    there = np.isfinite(height)
+    below = there.reshape(len(parcels), -1, AROUND)[..., :BELOW]
+
+    def apart(a, b):
+        """Whether one lies over the other: at another height, or below all of a foot."""
+        return (np.abs(height[a] - height[b]) > most).any() or (below[a] & below[b]).all(axis=1).any()
+
     found = []
     for number in sorted(range(len(parcels)), key=lambda n: (-trodden[n], n)):
         for storey in found:
-            if not (np.abs(height[storey] - height[number]) > most).any():
+            if not any(apart(other, number) for other in storey):
                 storey.append(number)
                 break
         else:
@@ -131,13 +161,13 @@ def treads(gait, lands):
 def sewn(parcels, cell):
     """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names."""
     if len(parcels) == 1:
-        return parcels[0].ground, as_soils(parcels[0].soils)
+        return parcels[0].ground, list(parcels[0].soils)
     for parcel in parcels:
         if parcel.ground.native[0] != "mesh":
             raise DesirePathError(f"'{parcel.name}' is no mesh: only meshes can be baked together.")
     vertices = [parcel.ground.native[1] for parcel in parcels]
     triangles = [parcel.ground.native[2] for parcel in parcels]
-    soils = list(dict.fromkeys(soil for parcel in parcels for soil in as_soils(parcel.soils)))
+    soils = list(dict.fromkeys(soil for parcel in parcels for soil in parcel.soils))
     kinds = [_kinds(parcel, soils) for parcel in parcels]
     beyond = max(SEAM * cell, ROUNDING * max(np.abs(each[:, :2]).max() for each in vertices))
     boxes = [(each[:, :2].min(axis=0) - beyond, each[:, :2].max(axis=0) + beyond) for each in vertices]
@@ -162,7 +192,7 @@ def sewn(parcels, cell):
 
 def _kinds(parcel, soils):
     """Weights of all soils at the vertices of a parcel (soils, n): the heaviest of its own is still the same."""
-    own = as_soils(parcel.soils)
+    own = parcel.soils
     count = len(parcel.ground.native[1])
     weight = parcel.ground.native[3]
     if weight is None:
@@ -200,3 +230,51 @@ def _hem(vertices, triangles, rim, wide):
     q = p + len(a)
     faces = np.concatenate([np.stack(each, axis=1) for each in ((a, b, q), (a, q, p))]).astype(np.int32)
     return (fresh, np.concatenate([a, b])), faces
+
+
+# ---- what one of several bears -----------------------------------------------------------------------------
+
+
+def on(loads, over, storey):
+    """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
+    here = over == storey
+    return replace(loads, touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
+                   force=np.where(here[..., None], loads.force, 0.0), point=np.where(here[..., None], loads.point, np.nan))
+
+
+def under(parcel, gait, loads, wide):
+    """Rectangle (x0, y0, x1, y1) [m] of a parcel that feet which touch can change, `wide` [m] around their soles; None
+    where they do not reach it."""
+    touching = loads.touching != 0
+    touching[:, :-1] |= touching[:, 1:].copy()  # a step presses where either of its ends touches
+    touching[:, 1:] |= touching[:, :-1].copy()
+    part, sample = np.nonzero(touching)
+    if not len(part):
+        return None
+    size = np.array([np.linalg.norm(sole.vertices.astype(float), axis=1).max() for sole in gait.soles])
+    reach = size[part, None] + wide
+    at = gait.pose[part, sample, :2]
+    box = np.array(parcel.box)
+    low, high = np.maximum(at - reach, box[:2]), np.minimum(at + reach, box[2:])
+    there = (low < high).all(axis=1)
+    return (*low[there].min(axis=0), *high[there].max(axis=0)) if there.any() else None
+
+
+def contacts(parcel, gait, loads, end):
+    """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides."""
+    limbs = len(gait.limb_walker)
+    touching = np.zeros((limbs, end), bool)
+    here = np.zeros((limbs, end), bool)
+    part, sample = np.nonzero(loads.touching[:, :end])
+    point = loads.point[part, sample]
+    known = np.isfinite(point).all(axis=1)
+    bears = np.zeros(len(part), bool)
+    bears[known] = parcel.has(np.ascontiguousarray(point[known, :2]))
+    np.logical_or.at(touching, (gait.part_limb[part], sample), True)
+    np.logical_or.at(here, (gait.part_limb[part], sample), bears)
+    count = 0
+    for limb in range(limbs):
+        stands = np.flatnonzero(touching[limb])
+        for stance in np.split(stands, np.flatnonzero(np.diff(stands) > 2) + 1):  # as the core tells stances apart
+            count += bool(len(stance) and here[limb, stance].any())
+    return count

@@ -24,12 +24,12 @@ MOST_BYTES = 16 << 30  # of a point cache
 _HELD = 1  # rows in the ground
 
 
-def build(sim):
-    """The mesh of a Simulation's plants as they are now: the arrays of plants.npz, as a dict."""
+def build(sim, stands=None):
+    """The mesh of a Simulation's plants, of all `stands` or of some, as they are: the arrays of plants.npz, as a dict."""
     parts = {name: [] for name in ("vertices", "edges", "faces", "kind", "plant", "along", "unbroken")}
     first = plants = 0
     kinds = list(dict.fromkeys(planting.kind for planting in sim.plantings))
-    for stand, number, count in sim.stands:
+    for stand, number, count in sim.stands if stands is None else stands:
         rows, stems, a_sheet, _, _ = sim.plants_shape(stand)
         high = rows - _HELD
         corner = first + np.arange(count * stems * high).reshape(count, stems, high)
@@ -72,10 +72,12 @@ def _unbroken(sim, stand, rows):
 class Writer:
     """Writes both files into a folder while a bake runs: add() once a frame, then finish(); close() in any case."""
 
-    def __init__(self, sim, folder, frame_start, frames):
+    def __init__(self, sim, folder, frame_start, frames, plantings=None):
+        """plantings: the Plantings whose plants are written, default: all of the simulation"""
         self.folder, self.frames = folder, frames
+        self.stands = [stand for stand in sim.stands if plantings is None or sim.plantings[stand[1]] in plantings]
         sim.lay_plants()
-        self.mesh = build(sim)
+        self.mesh = build(sim, self.stands)
         count = len(self.mesh["vertices"])
         if 12 * count * frames > MOST_BYTES:
             raise DesirePathError(f"The plants as a mesh would take {12e-9 * count * frames:.0f} GB: choose fewer "
@@ -85,13 +87,13 @@ class Writer:
 
     def add(self, sim):
         """Where the plants are now, as the next frame."""
-        for stand, _, _ in sim.stands:
+        for stand, _, _ in self.stands:
             self._file.write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
 
     def finish(self, sim):
         """Both files are whole now."""
         self._file.close()
-        unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in sim.stands]
+        unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in self.stands]
         self.mesh["unbroken"] = np.concatenate(unbroken)
         with whole.file(os.path.join(self.folder, "plants.npz"), "The plants") as stream:
             np.savez_compressed(stream, **self.mesh)

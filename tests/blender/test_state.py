@@ -5,7 +5,7 @@ import shutil
 import bpy
 import numpy as np
 
-from desire_path.blender import axes, compat, op_bake, show
+from desire_path.blender import axes, compat, op_bake
 from scenes import meshes, people
 from test_bake import scene
 from test_home import files, opened, saved
@@ -156,7 +156,7 @@ def stopped(after):
     while job.fraction < after:
         next(steps)
     steps.close()
-    show.play(job.object(), job.surface)
+    job.play()
 
 
 def test_a_bake_that_was_stopped(folder):

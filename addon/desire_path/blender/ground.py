@@ -21,6 +21,10 @@ BLOCK = 1 << 16  # faces looked at in one go, at most
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
 
+class Beside(DesirePathError):
+    """No face of the ground lies near the walk."""
+
+
 @dataclass(frozen=True)
 class Surface:
     """A ground mesh read once."""
@@ -36,6 +40,7 @@ class Surface:
     drawn: np.ndarray  # the points the viewport has, in the world (m, 3) [m]
     mark: str  # another one when anything of the mesh, its place or its painted soils is
     finer: int = 1  # times as many points as were read are in renders
+    between: bool = False  # its points are to be shown between cells, as those of its neighbours are
 
 
 def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
@@ -86,8 +91,8 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         raise DesirePathError(f"Vertex {near.bad} of '{obj.name}' is NaN or infinite: move or remove "
                               "it in Edit Mode.")
     if not len(near.triangles):
-        raise DesirePathError(f"The walk passes beside the ground '{obj.name}': move the walker or "
-                              "the ground so that one lies over the other.")
+        raise Beside(f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one lies "
+                     "over the other.")
     vertices, triangles = near.vertices, near.triangles
     _faces_up(obj, world, vertices, triangles)
     kinds = _kinds([w[near.of] if w is not None else None for w in weights],
@@ -175,14 +180,11 @@ def land(surface, cell):
     return Simulation(Ground((*shape, None), surface.ground.name), cell_size=cell)
 
 
-def walked(scene, walkers, gait, surface, cell, frame_start, frame_end):
-    """A recording as it is on this ground: feet that lie on slopes have soles that do, and the feet of walkers
-    that ask for it are placed."""
+def walked(scene, walkers, gait, below, frame_start, frame_end):
+    """A recording as it is on a ground, `below` a Simulation of it: feet that lie on slopes have soles that do, and
+    the feet of walkers that ask for it are placed."""
     asks = [row for row, each in enumerate(walkers) if each.desire_path.place_feet]
-    if not asks and np.ptp(surface.vertices[:, 2]) < LEVEL:
-        return gait
     from .. import place, slope
-    below = land(surface, cell)
     if slope.steep(below, gait):
         gait = sample.gaits(scene, walkers, frame_start, frame_end, below)
     return place.place_feet(gait, below, walkers=asks) if asks else gait

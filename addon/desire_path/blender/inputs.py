@@ -1,69 +1,145 @@
-"""inputs.py - all a bake is made from, taken from Blender: the walk, the ground, its soils and plants.
+"""inputs.py - all a bake is made from, taken from Blender: the walk, the grounds, their soils and plants.
 
-    walkers --sample--> Gait --\\
-    ground mesh --read--> Surface --> Bake, which only has to be run
-    plants, settings ----------/
+    walkers --sample--> Gait --------------\\
+    ground meshes --read--> Surfaces -------> Bake, which only has to be run
+    plants, settings --> Parcels ----------/
 """
 from dataclasses import asdict, replace
 
+import numpy as np
+
 from .. import sole
 from ..errors import DesirePathError
-from . import axes, ground, moves, plants, sample, way
-from .op_walkers import walkers
+from . import axes, ground, plants, reach, sample, way
+
+ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 
 
-def taken(scene, obj, there, first, last, **more):
-    """Take them in steps, between which others may work; returns the Bake and the Surface it presses.
+def taken(scene, company, folders, **more):
+    """Take them in steps, between which others may work; returns the Bake and the Surface of each ground it presses, by
+    name.
 
-    there: the walkers; first, last: frames to bake; more: for the Bake
+    company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for the Bake
     """
     from ..bake import Bake  # the core is loaded when it is first needed
-    settings = obj.desire_path
-    cell = axes.typed(settings.cell_size)
-    if way.goes(there):
-        gait, surface = way.carried(scene, obj, there, cell, first, last)
+    from ..parcels import Parcel
+    from ..sim import check_cell
+    grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
+    settings = grounds[0].desire_path
+    check(grounds, walkers)
+    cell = min(axes.typed(each.desire_path.cell_size) for each in grounds)
+    check_cell(cell)
+    if way.goes(walkers):
+        found = {}
+
+        def land(box):
+            found.update(_read(scene, company, cell, box))
+            return _land(found, None, cell)
+        gait = way.carried(scene, walkers, first, last, land)
         last = None  # every pass is shown
     else:
-        gait = sample.gaits(scene, there, first, last)
+        gait = company.gait or sample.gaits(scene, walkers, first, last)
         yield
-        surface = ground.read(scene, obj, cell, first, last, box=ground.under(gait))
-        gait = ground.walked(scene, there, gait, surface, cell, first, last)
+        found = _read(scene, company, cell, ground.under(gait))
+        if (any(np.ptp(each.vertices[:, 2]) >= ground.LEVEL for each in found.values())
+                or any(each.desire_path.place_feet for each in walkers)):
+            gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
     gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell)))
+    origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
+    if len(found) > 1 and any(ground.smooth(each.vertices, cell, origin) for each in found.values()):
+        found = {name: replace(each, between=True) for name, each in found.items()}
     yield
-    grown = plants.plantings(scene, obj)
-    yield
-    return Bake(gait, surface.ground, ground.soils(obj), cell_size=cell, frame_start=first, frame_end=last,
-                load_model=there[0].desire_path.load_model, law=settings.law, heap=settings.heap,
-                threads=settings.threads, origin=surface.origin, plants=grown,
-                plant_mesh=settings.plant_mesh and bool(grown), **more), surface
+    parcels = []
+    for each, (path, owner) in zip(grounds, folders):
+        grown = plants.plantings(scene, each)
+        parcels.append(Parcel(found[each.name].ground, ground.soils(each), path, each.name, grown,
+                              each.desire_path.plant_mesh and bool(grown), owner))
+        yield
+    return Bake(gait, parcels, cell_size=cell, frame_start=first, frame_end=last,
+                load_model=walkers[0].desire_path.load_model, law=settings.law, heap=settings.heap,
+                threads=settings.threads, origin=origin, **more), found
 
 
 def now(scene, obj):
     """The marks of what a ground would be baked from now."""
-    there = walkers(scene, obj)
-    if not there:
+    company = _all(reach.company(scene, obj))
+    if not company.walkers:
         raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
-    steps = taken(scene, obj, there, *moves.frames(scene, obj, there))
+    made, found = _all(taken(scene, company, [("", "")] * len(company.grounds)))
+    return marks(obj, company, made, found)
+
+
+def _all(steps):
+    """What steps come to, taken at once."""
     while True:
         try:
             next(steps)
         except StopIteration as end:
-            return marks(obj, there, *end.value)
+            return end.value
 
 
-def marks(obj, there, made, surface):
-    """A word for each part a bake is made from, another one when that part is; names do not count."""
+def marks(obj, company, made, found):
+    """A word for each part a bake is made from, another one when that part is; names do not count.
+
+    made, found: the Bake and its Surfaces, as taken() gives them
+    """
     from .. import mesh
     gait, settings = made.gait, obj.desire_path
     walk = [gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
             gait.point_role, gait.cut]
     for sole in gait.soles:
         walk += [sole.vertices, sole.triangles]
-    grown = [each for planting in made.plants for each in planting.arrays()]
+    plantings = [planting for parcel in made.parcels for planting in parcel.plants]
+    grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
+    soils = [[asdict(soil) for soil in parcel.soils] for parcel in made.parcels]
     chosen = [made.cell_size, made.frame_start, made.frame_end, made.frame_rate, made.film, options,
-              sorted({each.desire_path.load_model for each in there}), [asdict(soil) for soil in made.soils],
-              made.plant_mesh, settings.attributes, settings.vertex_group]
-    return {"walk": mesh.mark(walk), "ground": surface.mark,
-            "plants": mesh.mark(grown, [planting.told() for planting in made.plants]),
+              sorted({each.desire_path.load_model for each in company.walkers}), soils,
+              settings.plant_mesh and bool(settings.plants), settings.attributes, settings.vertex_group]
+    return {"walk": mesh.mark(walk), "ground": mesh.mark((), [found[parcel.name].mark for parcel in made.parcels]),
+            "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
             "settings": mesh.mark((), chosen)}
+
+
+def check(grounds, walkers):
+    """Refuse grounds and walkers that cannot be baked together, in a sentence."""
+    if len({each.desire_path.load_model for each in walkers}) > 1:
+        raise DesirePathError("The walkers of one ground need the same load model: choose one "
+                              "for all of them.")
+    one = grounds[0]
+    for other in grounds[1:]:
+        for name, words in ALIKE.items():
+            if getattr(one.desire_path, name) != getattr(other.desire_path, name):
+                raise DesirePathError(f"The walk crosses '{one.name}' and '{other.name}', which need the same {words}: "
+                                      "choose one for both.")
+
+
+def told(company):
+    """Sentences about what grounds that are baked together do not keep of their own."""
+    cells = {each.name: axes.typed(each.desire_path.cell_size) for each in company.grounds}
+    finest = min(cells, key=cells.get)
+    coarser = [f"'{name}'" for name, cell in cells.items() if cell > cells[finest]]
+    if not coarser:
+        return []
+    return [f"The walk crosses '{finest}' with cells of {cells[finest]:g} m and {', '.join(coarser)} with larger ones: "
+            f"all are pressed in cells of {cells[finest]:g} m."]
+
+
+def _read(scene, company, cell, box):
+    """The Surface of each ground of a company within a box of the world, by name."""
+    wide = company.beside
+    box = (box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide)
+    return {each.name: ground.read(scene, each, cell, company.first, company.last, box=box)
+            for each in company.grounds}
+
+
+def _land(found, gait, cell):
+    """A Simulation of the shape of surfaces; of those over each other the ones that feet tread most."""
+    if len(found) == 1:
+        return ground.land(*found.values(), cell)
+    from .. import parcels
+    from ..sim import Simulation
+    there = [parcels.Parcel(each.ground, name=name) for name, each in found.items()]
+    if gait is not None:
+        there = [there[number] for number in parcels.storeys(there, gait)[0]]
+    return Simulation(parcels.sewn(there, cell)[0], cell_size=cell)

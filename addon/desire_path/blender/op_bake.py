@@ -14,11 +14,12 @@ import bpy
 
 from ..errors import DesirePathError
 from ..output import check_idle
-from . import home, inputs, moves, op_plants, way
+from . import home, inputs, moves, op_plants, reach, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import Refusal, active, sentence, walkers
 from .show import free, play
 
+NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
 _running = None  # the Job that runs in a window, for the panel and its Cancel button
@@ -40,19 +41,14 @@ class Job:
         if not settings.is_ground:
             raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
         there = walkers(scene, obj)
-        if not there:
-            raise DesirePathError(f"Nobody walks on '{obj.name}': select the armature and press "
-                                  "Add Walker.")
-        models = {each.desire_path.load_model for each in there}
-        if len(models) > 1:
-            raise DesirePathError("The walkers of one ground need the same load model: choose one "
-                                  "for all of them.")
+        if not there and not any(walkers(scene, each) for each in reach.others(scene, obj)):
+            raise DesirePathError(NOBODY.format(obj.name))
+        inputs.check((obj,), there)
         first, last = moves.follow(scene, obj, there)
-        if last <= first:
+        if there and last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
-        self.path = home.claim(obj)
-        check_idle(self.path)
+        check_idle(home.claim(obj))
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]
 
@@ -70,13 +66,22 @@ class Job:
         if None in there:
             raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake "
                                   "again.")
-        settings = obj.desire_path
-        made, self.surface = yield from inputs.taken(scene, obj, there, settings.frame_start, settings.frame_end,
-                                                     folder=self.path, owner=settings.bake_id, wait=0.0)
-        made.inputs = inputs.marks(obj, there, made, self.surface)
-        self.warnings += [*self.surface.warnings, *way.warnings(there)]
+        company = yield from reach.company(scene, obj)
+        if not company.walkers:
+            raise DesirePathError(NOBODY.format(obj.name))
+        folders = [(home.claim(each), each.desire_path.bake_id) for each in company.grounds]
+        for path, _ in folders:
+            check_idle(path)
+        reach.follow(company)
+        made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
+        for each, parcel in zip(company.grounds, made.parcels):
+            parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
+        for each in self.surfaces.values():
+            self.warnings += each.warnings
+        self.warnings += [*company.warnings, *inputs.told(company), *way.warnings(company.walkers)]
         self.recorded = time.perf_counter() - self.begun
-        self.warnings += op_plants.refresh(scene, obj)
+        for each in company.grounds:
+            self.warnings += op_plants.refresh(scene, each)
         yield
         self.bake = made
         self.text = "Baking"
@@ -90,23 +95,49 @@ class Job:
         """Play what was baked and say what it is; returns a sentence."""
         if self.bake is None:
             return "Nothing was baked."
-        obj = self.object()
-        settings = obj.desire_path
-        index, warnings = play(obj, self.surface, self.bake.final)
-        self.warnings += warnings
-        report = self.bake.report
-        if report is None:
+        settings = self.object().desire_path
+        if self.bake.report is None:
+            self.play()
             settings.summary = ""
             return settings.missing or "Stopped."
-        report = dict(report, seconds_recording=round(self.recorded, 3),
-                      seconds_in_all=round(time.perf_counter() - self.begun, 3))
-        self.warnings += [each for each in report["warnings"] if each not in self.warnings]
-        settings.summary = json.dumps({name: report[name] for name in (
-            "contacts", "deepest_m", "pressed_m3", "heaped_m3", "seconds_in_all")}
-            | {"frames": [index.frame_start, index.frame_end], "warnings": self.warnings})
-        return (f"Baked frames {index.frame_start} to {index.frame_end} in {report['seconds_in_all']:.1f} s: "
-                f"{report['contacts']} contacts, deepest print "
-                f"{1000 * report['deepest_m']:.0f} mm; files in {self.path}.")
+        spent = dict(seconds_recording=round(self.recorded, 3), seconds_in_all=round(time.perf_counter() - self.begun, 3))
+        self.warnings += [each for each in self.bake.report["warnings"] if each not in self.warnings]
+        shares = self.bake.shares
+        for share in shares:
+            obj = bpy.data.objects.get(share.parcel.name)
+            if obj is None:
+                raise DesirePathError(f"'{share.parcel.name}' is gone: bake again when it is back.")
+            index, warnings = play(obj, self.surfaces[obj.name], share.final)
+            self.warnings += warnings
+            obj.desire_path.summary = json.dumps(
+                {name: share.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "heaped_m3")}
+                | {"seconds_in_all": spent["seconds_in_all"], "frames": [index.frame_start, index.frame_end],
+                   "with": share.report.get("with", []), "warnings": self.warnings})
+        names = [share.parcel.name for share in shares]
+        if self.name not in names:
+            self.warnings.append(f"No foot has trodden '{self.name}': it is as it was.")
+        report = self.bake.report
+        return (f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent['seconds_in_all']:.1f} s: "
+                f"{report['contacts']} contacts, deepest print {1000 * report['deepest_m']:.0f} mm; files in "
+                f"{', '.join(share.out.folder for share in shares)}.")
+
+    def play(self):
+        """Play what a bake that was not whole has left, on all its grounds."""
+        for share in self.bake.shares:
+            obj = bpy.data.objects.get(share.parcel.name)
+            if obj is not None:
+                try:
+                    play(obj, self.surfaces[obj.name])
+                except DesirePathError:
+                    pass  # nothing was written
+
+
+def _on(names):
+    """Names of several grounds as a sentence has them; empty for one."""
+    if len(names) < 2:
+        return ""
+    *some, last = (f"'{name}'" for name in names)
+    return f" on {', '.join(some)} and {last}"
 
 
 def idle_ground(operator, context):
@@ -139,19 +170,12 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
                 window.progress_update(int(1000 * job.fraction))
         except DesirePathError as problem:
             if job.bake is not None:
-                self.salvage(job)
+                job.play()
             raise problem
         finally:
             window.progress_end()
         self.tell(job)
         return {"FINISHED"}
-
-    def salvage(self, job):
-        """What a failed bake left behind is played."""
-        try:
-            play(job.object(), job.surface)
-        except DesirePathError:
-            pass  # nothing was written
 
     def tell(self, job):
         text = job.finish()
@@ -200,7 +224,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         except (DesirePathError, OSError, MemoryError) as problem:
             self.leave(context)
             if job.bake is not None:
-                self.salvage(job)
+                job.play()
             self.report({"ERROR"}, sentence(problem))
             return {"CANCELLED"}
         context.window_manager.progress_update(int(1000 * job.fraction))
@@ -215,7 +239,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         self.steps.close()
         self.leave(context)
         if self.job.bake is not None:
-            self.salvage(self.job)
+            self.job.play()
             bpy.ops.ed.undo_push(message="Stopped Bake")
         obj = bpy.data.objects.get(self.job.name)
         text = obj.desire_path.missing if obj is not None else ""

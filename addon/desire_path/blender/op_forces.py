@@ -78,8 +78,9 @@ def read(scene, armature):
         yields = {"settle_time": SOILS[land.desire_path.soil].settle_time}  # as when it is baked
         cell = axes.typed(land.desire_path.cell_size)
         surface = ground.read(scene, land, cell, first, box=ground.under(gait))
-        gait = ground.walked(scene, [armature], gait, surface, cell, first, last)
-        below = ground.land(surface, cell).rest_height
+        shape = ground.land(surface, cell)
+        gait = ground.walked(scene, [armature], gait, shape, first, last)
+        below = shape.rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)
     forces = limbs(gait, loads, axes.unit_scale(scene), below)
     return Reading(gait, loads, forces, tuple(dict.fromkeys(gait.warnings + loads.warnings)))

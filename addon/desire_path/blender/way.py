@@ -87,8 +87,10 @@ def warnings(walkers):
             "its Path." for each in walkers if each.desire_path.path is None and each.desire_path.passes > 1]
 
 
-def carried(scene, obj, walkers, cell, first, last):
-    """Recording of walkers along their paths, and the Surface they walk on.
+def carried(scene, walkers, first, last, read):
+    """Recording of walkers along their paths.
+
+    read: gives a Simulation of the ground within a box (x0, y0, x1, y1) [m]
 
     Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
@@ -105,8 +107,7 @@ def carried(scene, obj, walkers, cell, first, last):
             boxes.append((*(line[:, :2].min(axis=0) - beside), *(line[:, :2].max(axis=0) + beside)))
     boxes = np.array(boxes)
     box = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
-    surface = ground.read(scene, obj, cell, first, last, box=box)
-    land = ground.land(surface, cell).rest_height
+    land = read(box).rest_height
     walked = []
     for each, line, gait in zip(walkers, lines, alone):
         settings = each.desire_path
@@ -116,4 +117,4 @@ def carried(scene, obj, walkers, cell, first, last):
         walked.append(gait)
     rate = max(gait.rate() or gait.frame_rate for gait in walked)
     walked = [gait if gait.rate() == rate else gait.resample(rate) for gait in walked]
-    return replace(in_turn(walked), frame_start=first, frame_rate=clock.frame_rate(scene)), surface
+    return replace(in_turn(walked), frame_start=first, frame_rate=clock.frame_rate(scene))

@@ -1,0 +1,201 @@
+"""reach.py - which grounds a walk reaches, and who else walks on those: what is baked together.
+
+    the active ground --walkers that tread it--> other grounds they tread --their walkers--> .. --> Company
+A terrain cut into objects is one ground to those who cross it. Grounds nobody goes over to are left alone.
+"""
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from ..errors import DesirePathError
+from ..gait import Gait
+from . import axes, ground, moves, props, sample, way
+from .op_walkers import grounds, walkers
+
+ROUGH = 0.5  # a ground this near to the feet is looked at [m]
+SAME = 1e-4  # grounds that differ less are in the same place [m]
+SCATTER = 3.0  # passes stray this far from their path [standard deviations]
+
+
+@dataclass(frozen=True)
+class Company:
+    """Grounds that are baked together, and who walks on them, in the order of the scene."""
+
+    grounds: tuple  # objects
+    walkers: tuple  # armatures
+    first: int  # scene frames
+    last: int
+    gait: object = None  # their recording, where it was made already
+    warnings: tuple = ()
+    beside: float = 0.0  # so far beside the feet some of the grounds may lie [m]
+
+
+@dataclass(frozen=True)
+class _Track:
+    """Where one walker goes in the frames of its ground."""
+
+    walker: object
+    first: int
+    last: int
+    gait: object = None
+    places: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))  # (n, 3) [m]
+    beside: float = 0.0  # so far beside the feet they are [m]
+    problem: object = None  # why they are not known
+
+
+def in_renders(scene, obj):
+    """Whether an object is shown in renders, by itself and by one of its collections."""
+    def shows(layer):
+        collection = layer.collection
+        if layer.exclude or collection.hide_render:
+            return False
+        return obj.name in collection.objects or any(shows(child) for child in layer.children)
+    return not obj.hide_render and any(shows(layer.layer_collection) for layer in scene.view_layers)
+
+
+def others(scene, obj):
+    """Grounds of the scene that a bake of this one could reach."""
+    return [each for each in grounds(scene) if each != obj and each.library is None and each.mode != "EDIT"
+            and in_renders(scene, each)]
+
+
+def company(scene, obj):
+    """The Company of a ground, in steps between which others may work."""
+    near = others(scene, obj)
+    there = walkers(scene, obj)
+    alone = Company((obj,), tuple(there), *moves.frames(scene, obj, there))
+    homes = {walker: home for home in (obj, *near) for walker in walkers(scene, home)}
+    if not near or not homes:
+        return alone
+    tracks = {}
+    for walker, home in homes.items():
+        tracks[walker] = _track(scene, walker, home, homes)
+        if tracks[walker].problem is not None and home == obj:
+            raise tracks[walker].problem
+        yield
+    parcels, warnings = {}, []
+    for each in (obj, *near):
+        try:
+            parcel = _parcel(scene, each, tracks.values())
+            if parcel is not None:
+                parcels[each] = parcel
+        except DesirePathError as problem:
+            if each == obj:
+                raise
+            warnings.append(f"{problem} It is left as it is.")
+        yield
+    trodden = _trodden(tracks.values(), parcels)
+    chosen, crew = _closure(obj, trodden)
+    crew |= {walker for walker in there if not trodden[walker]}  # who is told that nothing is there
+    for walker in crew:
+        if tracks[walker].problem is not None:
+            raise tracks[walker].problem
+    if len(chosen) == 1 and crew == set(there):
+        return alone
+    if not any(obj in trodden[walker] for walker in crew):
+        if not there:
+            return alone
+        raise ground.Beside(f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one "
+                            "lies over the other.")
+    # in an order that is the same for all of them
+    crew = [tracks[each] for each in scene.objects if each in crew]
+    chosen = tuple(each for each in scene.objects if each in chosen)
+    first, last = _frames(chosen, crew)
+    gait = None
+    if all((each.first, each.last) == (first, last) and each.gait is not None for each in crew):
+        gait = Gait.join([each.gait for each in crew])
+    return Company(chosen, tuple(each.walker for each in crew), first, last, gait, tuple(warnings),
+                   max(each.beside for each in crew))
+
+
+def follow(company):
+    """Show the frames of a company in the panels of its grounds from now on, until they are set by hand."""
+    for each in company.grounds:
+        if each.desire_path.frames_auto:
+            props.set_auto(each.desire_path, frame_start=company.first, frame_end=company.last)
+
+
+def _frames(chosen, crew):
+    """The frames of grounds that are baked together: those set by hand, else those of all walkers."""
+    hand = [each.desire_path for each in chosen if not each.desire_path.frames_auto]
+    spans = [(each.frame_start, each.frame_end) for each in hand] or [(each.first, each.last) for each in crew]
+    return min(span[0] for span in spans), max(span[1] for span in spans)
+
+
+def _track(scene, walker, home, all_walkers):
+    from .. import parcels  # the core is loaded when it is first needed
+    first, last = moves.frames(scene, home, walkers(scene, home))
+    try:
+        gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
+        if walker.desire_path.path is None:
+            return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
+        line = way.waypoints(scene, walker.desire_path.path)
+        return _Track(walker, first, last, None,
+                      _beside(line, parcels.length(gait) + SCATTER * walker.desire_path.lateral), parcels.length(gait))
+    except DesirePathError as problem:
+        return _Track(walker, first, last, problem=problem)
+
+
+def _beside(line, wide):
+    """Places along a line of points (n, 3), and `wide` [m] to both sides."""
+    places = []
+    for a, b in zip(line[:-1], line[1:]):
+        steps = max(1, int(np.ceil(np.linalg.norm(b - a) / max(0.5 * wide, 0.01))))
+        at = a + (b - a) * np.linspace(0.0, 1.0, steps + 1)[:, None]
+        side = np.array([a[1] - b[1], b[0] - a[0], 0.0])
+        side *= wide / max(np.linalg.norm(side), 1e-12)
+        places += [at, at + side, at - side]
+    return np.concatenate(places)
+
+
+def _parcel(scene, obj, tracks):
+    """The shape of a ground near the tracks; None: it is not near any."""
+    from ..parcels import Parcel
+    scale = axes.unit_scale(scene)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    world = np.array(seen.matrix_world, np.float64) * scale
+    box = np.array([world[:2, :3] @ np.array(each[:]) + world[:2, 3] for each in seen.bound_box])
+    close = [each.places[:, :2] for each in tracks if len(each.places)]
+    close = [each for each in close if (each.max(axis=0) + ROUGH >= box.min(axis=0)).all()
+             and (each.min(axis=0) - ROUGH <= box.max(axis=0)).all()]
+    if not close:
+        return None
+    close = np.concatenate(close)
+    settings = obj.desire_path
+    try:
+        surface = ground.read(scene, obj, axes.typed(settings.cell_size), settings.frame_start, None,
+                              box=(*close.min(axis=0), *close.max(axis=0)))
+    except ground.Beside:
+        return None
+    return Parcel(surface.ground, name=obj.name)
+
+
+def _trodden(tracks, parcels):
+    """The grounds each walker goes over: those that are nearest to its feet in height somewhere. Of two in the same
+    place it treads its own."""
+    from .. import parcels as fields
+    grounds_there = list(parcels)
+    found = {}
+    for track in tracks:
+        found[track.walker] = set()
+        if len(track.places) and grounds_there:
+            height = fields.heights(list(parcels.values()), track.places[:, :2])
+            away = np.abs(height - track.places[:, 2])
+            home = track.walker.desire_path.ground
+            if home in parcels:
+                away[grounds_there.index(home)] -= SAME
+            numbers = np.unique(fields.least(away))
+            found[track.walker] = {grounds_there[number] for number in numbers if number >= 0}
+    return found
+
+
+def _closure(obj, trodden):
+    """(grounds, walkers) that a ground is linked to: those who tread one of the grounds, and all they tread."""
+    chosen, crew = {obj}, set()
+    while True:
+        more = {walker for walker, grounds_there in trodden.items() if grounds_there & chosen} - crew
+        if not more:
+            return chosen, crew
+        crew |= more
+        chosen = chosen.union(*(trodden[walker] for walker in more))
