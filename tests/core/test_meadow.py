@@ -316,7 +316,7 @@ def test_frames_and_maps_show_the_plants(tmp_path):
     np.testing.assert_array_equal(maps.read(index.lean_path(index.frames)).planes["A"], last["G"])
     assert rest["R"].shape == pressed["R"].shape == (index.ny, index.nx)
     start, final = (maps.read(tmp_path / f"maps_{name}.exr") for name in ("start", "final"))
-    assert set(final.planes) == {entry.name for entry in maps.MAPS + maps.LEAN}
+    assert set(final.planes) == {"Y", *(entry.name for entry in maps.MAPS + maps.GROUND + maps.LEAN)}
     assert start.planes["young_modulus_in"].max() > 5e6 and start.planes["plant_strength_in"].mean() > 0.95
     np.testing.assert_array_equal(final.planes["plant_strength"], last["G"])
     assert {"plant_strength", "lean_x", "lean_y", "crushed"} <= set(start.planes)
