@@ -1,0 +1,54 @@
+"""The fuzzer of the parsers finds what it is there to find; scripts/test gives it many more files."""
+
+import itertools
+import random
+import time
+
+import pytest
+
+from desire_path import lane
+from desire_path.errors import DesirePathError
+
+from tests.fuzz import mutate, parsers
+
+
+@pytest.mark.parametrize("name", parsers.PARSERS)
+def test_damaged_files_are_read_or_told(name, tmp_path):
+    (tmp_path / "place").mkdir()
+    assert parsers.fuzz(name, 150, 2, tmp_path / "place", tmp_path) == []
+
+
+def raises(path):
+    raise ValueError("nobody caught this")
+
+
+def takes_long(path):
+    time.sleep(60)
+
+
+def mumbles(path):
+    raise DesirePathError("line 4711")
+
+
+@pytest.mark.parametrize("fault, words", [(raises, "nobody caught this"), (takes_long, "took longer than 1 s"),
+                                          (mumbles, "says 'line 4711'")])
+def test_faults_are_found_and_their_files_kept(fault, words, tmp_path, monkeypatch):
+    good = lane.read
+    monkeypatch.setattr(parsers, "LONG", 1)
+    monkeypatch.setattr(lane, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path))
+    (tmp_path / "place").mkdir()
+    found, = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
+    assert words in found
+    kept, = tmp_path.glob("fuzz_cover_*")
+    assert b"25,86.3" not in kept.read_bytes()
+
+
+@pytest.mark.parametrize("change", [mutate.any_bytes, mutate.text, mutate.tree, mutate.archive])
+def test_the_same_seed_damages_alike(change):
+    good = b'{"a": [1, 2.5], "b": {"c": "x"}}\n1,2,3\n'
+
+    def damaged(seed):
+        chance = random.Random(seed)
+        return [change(chance, good, good) for _ in range(200)]
+    assert damaged(3) == damaged(3) != damaged(4)
+    assert sum(a != b for a, b in itertools.pairwise(damaged(3))) > 190
