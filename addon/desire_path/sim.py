@@ -159,6 +159,7 @@ def _soil_rows(soils):
             soil.settle_time,
             soil.rest_angle,
             soil.push_threshold,
+            soil.shear_modulus,
         )
         for soil in soils
     ]

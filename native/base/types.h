@@ -75,7 +75,10 @@ typedef struct DpSoil
     float settle_time;     // tau, time to yield fully, SOFT22 (11)      [s]    > 0
     float rest_angle;      // gamma_r, steepest slope that stays         [rad]  0 < .. < pi/2
     float push_threshold;  // F_threshold, TRAIL (13); 0 = half the walker's weight [N] >= 0
+    float shear_modulus;   // K, shear before it carries sideways; 0 = none [m]    0..0.1
 } DpSoil;
+
+#define DP_SOIL_NUMBERS 7  // of a DpSoil, in this order
 
 // A dense window of ground, lent by the terrain to the kernels and handed back changed.
 // All grids are (ny, nx) with `row` cells from one row to the next.

@@ -7,7 +7,7 @@
 // Soils as rows of six floats in the order of DpSoil.
 DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count)
 {
-    DpShape shape = {2, {-1, 6}};
+    DpShape shape = {2, {-1, DP_SOIL_NUMBERS}};
     float*  row = dp_door_open(door, object, "soils", 'f', &shape, false);
     if (!row) return NULL;
     if (shape.n[0] < 1 || shape.n[0] > 255) {
@@ -21,7 +21,7 @@ DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count)
         return NULL;
     }
     for (int s = 0; s < *count; ++s, row += 6) {
-        soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5]};
+        soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
         if (dp_soil_check(&soils[s]) == DP_OK) continue;
         PyErr_Format(PyExc_ValueError, "soils: a number of soil %d is out of its range", s);
         dp_free(soils);

@@ -4,11 +4,11 @@
 //   soil_compress(patch, imprint, foot, law, dt)                          -> dict of DpPressed
 //   soil_accumulate(patch, imprint, foot, volume, law, rim_width, threshold, height) -> height
 //   soil_stabilize(patch, imprint | None, within | None, tolerance, most)  -> dict of DpSettled
-//   soil_anisotropy((x, y, z), threshold) -> beta;   soil_default() -> (6 numbers of DpSoil)
+//   soil_anisotropy((x, y, z), threshold) -> beta;   soil_default() -> (7 numbers of DpSoil)
 //
 // patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
 // soils) imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
-// float32 (ny, nx), kind uint8, ring int32, soils float32 (count, 6) in DpSoil's order.
+// float32 (ny, nx), kind uint8, ring int32, soils float32 (count, 7) in DpSoil's order.
 #include <math.h>
 #include <string.h>
 
@@ -36,7 +36,7 @@ static void close_call(Call* call)
 
 static int open_soils(Call* call, PyObject* object)
 {
-    DpShape      shape = {2, {-1, 6}};
+    DpShape      shape = {2, {-1, DP_SOIL_NUMBERS}};
     const float* value = dp_door_open(&call->door, object, "soils", 'f', &shape, false);
     if (!value) return -1;
     if (shape.n[0] < 1 || shape.n[0] > 255) {
@@ -48,8 +48,9 @@ static int open_soils(Call* call, PyObject* object)
         PyErr_NoMemory();
         return -1;
     }
-    for (Py_ssize_t k = 0; k < shape.n[0]; ++k, value += 6) {
-        call->soils[k] = (DpSoil){value[0], value[1], value[2], value[3], value[4], value[5]};
+    for (Py_ssize_t k = 0; k < shape.n[0]; ++k, value += DP_SOIL_NUMBERS) {
+        call->soils[k] =
+            (DpSoil){value[0], value[1], value[2], value[3], value[4], value[5], value[6]};
         if (dp_soil_check(&call->soils[k]) == DP_OK) continue;
         PyErr_Format(PyExc_ValueError, "soils: row %zd holds a number out of its range", k);
         return -1;
@@ -275,9 +276,9 @@ static PyObject* soil_default(PyObject* module, PyObject* arguments)
 {
     (void)module, (void)arguments;
     const DpSoil s = dp_soil_default();
-    return Py_BuildValue("(dddddd)", (double)s.layer_depth, (double)s.young_modulus,
+    return Py_BuildValue("(ddddddd)", (double)s.layer_depth, (double)s.young_modulus,
                          (double)s.poisson_ratio, (double)s.settle_time, (double)s.rest_angle,
-                         (double)s.push_threshold);
+                         (double)s.push_threshold, (double)s.shear_modulus);
 }
 
 PyMethodDef dp_py_soil_methods[] = {
@@ -285,5 +286,5 @@ PyMethodDef dp_py_soil_methods[] = {
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
-    {"soil_default", soil_default, METH_NOARGS, "The six numbers of the default soil."},
+    {"soil_default", soil_default, METH_NOARGS, "The seven numbers of the default soil."},
     {NULL, NULL, 0, NULL}};

@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "python/door.h"
+#include "soil/soil.h"
 #include "terrain/terrain.h"
 
 static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
@@ -28,7 +29,7 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     ground.kind = DP_GROUND_MESH;
     ground.vertex_count = (int)corners.n[0], ground.triangle_count = (int)faces.n[0];
     ground.vertex = vertex, ground.triangle = triangle;
-    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f};  // does not matter
+    const DpSoil           soil = dp_soil_default();  // does not matter
     const DpTerrainOptions options = {1.0, 0.0, 0.0, &soil, 1, 1};
     DpTerrain*             terrain = NULL;
     DpStatus               status;

@@ -19,6 +19,8 @@ typedef struct Limb
     double heap_height;  // T of the rest heap, from step to step of a stance          [m]
     double unlaid;       // displaced volume that found no border cell yet             [m^3]
     double sink;         // how far its soles stand below where they were recorded     [m]
+    DpVec3 slip;         // how far its soles have slipped along the ground in this stance [m]
+    DpVec3 sheared;      // of that, what the soil carries the push with as it is now       [m]
     double lowered;      // the same as plants saw it at the end of the last step      [m]
     Cells  trodden;      // cells its patches covered during this stance
 

@@ -39,6 +39,27 @@ static const DpSoil* soil_under(const DpSoilPatch* patch, DpVec3 point)
     return &patch->soils[inside ? patch->kind[j * patch->row + i] : 0];
 }
 
+// The sole slips as far as the soil has to shear to carry the push along the ground, in the time it
+// takes to yield, and never back: what pushes the other way shears it anew. A foot that only begins
+// to carry its body shears little of what it will press.
+// @param body  the weight of the whole body [N]
+static void slip(Limb* limb, const DpSoil* soil, const DpFootForce* foot, double body, double dt)
+{
+    const double weight = -dp_dot(foot->force, foot->normal);
+    const DpVec3 push = dp_add(foot->force, dp_scale(foot->normal, weight));
+    const double along = dp_length(push);
+    const double wanted = dp_soil_slip(soil, along, weight);
+    if (!(wanted > 0.0)) return;
+    const DpVec3 way = dp_scale(push, 1.0 / along);
+    const double held = fmax(dp_dot(limb->sheared, way), 0.0);
+    if (!(wanted > held)) return;
+    const double bears = fmin(weight / body, 1.0);
+    const double more = (wanted - held) * -expm1(-bears * dt / (double)soil->settle_time);
+    const DpVec3 slipped = dp_add(limb->slip, dp_scale(way, more));
+    limb->sheared = dp_scale(way, held + more);
+    if (dp_length(slipped) <= DP_SLIP_MOST) limb->slip = slipped;
+}
+
 // One sub-step: the sole as it stands at fraction w of the interval presses for dt.
 static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, int sample,
                       double w, double dt)
@@ -48,9 +69,12 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
     foot.normal =
         dp_terrain_normal(sim->terrain, foot.point.x, foot.point.y, sim->options.normal_radius);
 
+    slip(limb, soil_under(patch, foot.point), &foot, sim->mass[limb->walker] * DP_GRAVITY, dt);
+    foot.point = dp_add(foot.point, limb->slip);
     for (int p = 0; p < limb->part_count; ++p) {
         bench->sole[p] = sim->sole[limb->part[p]];
         bench->pose[p] = dp_limb_pose(sim, limb->part[p], sample, w);
+        bench->pose[p].at = dp_add(bench->pose[p].at, limb->slip);
     }
     DpStatus status = dp_imprint_foot(&bench->imprint, patch, bench->sole, bench->pose,
                                       limb->part_count, sim->samples, bench->imprint_scratch);

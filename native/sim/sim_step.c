@@ -12,6 +12,14 @@
 #define FEW_GROUPS 4      // with fewer, starting threads costs more than it gives ..
 #define MANY_CELLS 8000   // .. unless their patches are as large as this
 
+// how far soles may slip on any of the soils [m]
+static double slips(const DpSim* sim)
+{
+    for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+        if (dp_terrain_soils(sim->terrain)[s].shear_modulus > 0.0f) return DP_SLIP_MOST;
+    return 0.0;
+}
+
 // What a limb does in the interval from `sample` to the next, and on which cells.
 static void plan_limb(DpSim* sim, Limb* limb, int sample)
 {
@@ -24,6 +32,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
     if (presses && !limb->stands) {
         limb->heap_height = 0.0;
+        limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
         limb->trodden = (Cells){0, 0, 0, 0};
         ++sim->report.contacts;
     }
@@ -33,7 +42,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
         const double reach = 1.25 * limb->heap_height / slope + HEAP_SPARE * sim->cell;
-        limb->patch = dp_limb_cells(sim, limb, sample, fmax(HEAP_MARGIN, reach));
+        limb->patch = dp_limb_cells(sim, limb, sample, fmax(HEAP_MARGIN, reach) + slips(sim));
     } else {
         limb->patch = limb->trodden;
     }
@@ -206,7 +215,7 @@ DpStatus dp_sim_settle(DpSim* sim)
 void dp_sim_reach(const DpSim* sim, long reach[4])
 {
     Cells        cells = {0, 0, 0, 0};
-    const double margin = 3 * HEAP_MARGIN + dp_meadow_margin(sim);
+    const double margin = 3 * HEAP_MARGIN + slips(sim) + dp_meadow_margin(sim);
     for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
         for (int k = 0; k + 1 < sim->gait.times; ++k)
             if (dp_limb_touches(sim, &sim->limb[l], k) ||

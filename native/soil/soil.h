@@ -47,6 +47,17 @@ typedef struct DpPressed
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed);
 
+// ---- slip ---------------------------------------------------------------------------------------
+
+#define DP_SLIP_MOST 0.05  // a sole slips no farther in a stance [m]
+
+// How far soil shears under a sole before it carries a force along the ground: the j at which
+// F = N tan(gamma_r) (1 - exp(-j / K)), Janosi and Hanamoto 1961.
+// @param along   F, along the ground             [N] >= 0
+// @param weight  N, square to the ground         [N] >= 0
+// @return j  0 on soil that does not slip or without a load; no more than DP_SLIP_MOST  [m]
+double dp_soil_slip(const DpSoil* soil, double along, double weight);
+
 // ---- TRAIL (11)-(13): pushed aside ------------------------------------------------------------
 
 // How one-sided the heap is, TRAIL (13): 0 = even all round, 1 = only along the push.

@@ -11,6 +11,7 @@ DpSoil dp_soil_default(void)
         .settle_time = 0.05f,      // the same table
         .rest_angle = 0.5585054f,  // 32 degrees, dry sand
         .push_threshold = 0.0f,    // half the walker's weight
+        .shear_modulus = 0.0f,     // soles do not slip
     };
     return soil;
 }
@@ -28,7 +29,7 @@ DpStatus dp_soil_check(const DpSoil* soil)
         in_range(soil->layer_depth, tiny, 1e3f) && in_range(soil->young_modulus, tiny, 1e15f) &&
         in_range(soil->poisson_ratio, 0.0f, 0.5f) && in_range(soil->settle_time, tiny, 1e6f) &&
         in_range(soil->rest_angle, 1e-4f, 1.5533430f) &&  // 89 degrees
-        in_range(soil->push_threshold, 0.0f, 1e15f);
+        in_range(soil->push_threshold, 0.0f, 1e15f) && in_range(soil->shear_modulus, 0.0f, 0.1f);
     return good ? DP_OK : DP_BAD_ARGUMENT;
 }
 

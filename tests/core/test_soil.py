@@ -50,7 +50,7 @@ def test_the_core_takes_what_python_takes():
     for soil in [*SOILS.values(), Soil(), Soil(rest_angle=math.radians(88.9)), Soil(layer_depth=1e-4),
                  Soil(settle_time=1e-5), Soil(*_native.soil_default())]:
         row = np.array([[soil.layer_depth, soil.young_modulus, soil.poisson_ratio, soil.settle_time,
-                         soil.rest_angle, soil.push_threshold]], np.float32)
+                         soil.rest_angle, soil.push_threshold, soil.shear_modulus]], np.float32)
         patch = (0.01, 0.0, 0.0, grid, grid.copy(), grid.copy(), grid.copy(), grid + row[0, 1], grid + 1,
                  grid.astype(np.uint8), row)
         assert _native.soil_stabilize(patch, None, None, 0.001, 1)["at_rest"]

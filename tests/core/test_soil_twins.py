@@ -11,8 +11,8 @@ from tests.reference import soil as twin
 SOLE, UNIFORM = 0, 1
 REST, PAPER = 0, 1
 GRIDS = ("rest", "compression", "heap", "pressure_time", "modulus", "rest_slope", "kind", "soils")
-SOILS = np.array([[0.30, 0.4e6, 0.35, 0.10, 0.35, 0.0], [0.20, 1.1e6, 0.20, 0.05, 0.5, 0.0],
-                  [0.25, 0.2e6, 0.45, 0.20, 0.2, 0.0]], np.float32)
+SOILS = np.array([[0.30, 0.4e6, 0.35, 0.10, 0.35, 0.0, 0.0], [0.20, 1.1e6, 0.20, 0.05, 0.5, 0.0, 0.0],
+                  [0.25, 0.2e6, 0.45, 0.20, 0.2, 0.0, 0.0]], np.float32)
 
 
 class Both:

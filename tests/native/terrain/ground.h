@@ -3,9 +3,9 @@
 #include "check.h"
 #include "terrain/terrain.h"
 
-static const DpSoil ground_soils[3] = {{0.3f, 2e6f, 0.05f, 0.2f, 0.5585f, 0.0f},
-                                       {0.3f, 4e5f, 0.05f, 0.2f, 0.6632f, 0.0f},
-                                       {0.3f, 6e5f, 0.35f, 0.2f, 0.2618f, 0.0f}};
+static const DpSoil ground_soils[3] = {{0.3f, 2e6f, 0.05f, 0.2f, 0.5585f, 0.0f, 0.0f},
+                                       {0.3f, 4e5f, 0.05f, 0.2f, 0.6632f, 0.0f, 0.0f},
+                                       {0.3f, 6e5f, 0.35f, 0.2f, 0.2618f, 0.0f, 0.0f}};
 
 static inline DpTerrainOptions ground_options(double cell, double origin_x, double origin_y)
 {
