@@ -67,13 +67,9 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
             for frame in (frame_start + round(SOON * (frame_end - frame_start)), frame_end):
                 found = sample.evaluated(own, copy, frame)
                 later.append(compat.positions(found.data))
-            last = np.array(found.matrix_world)
         finer = stack.show(scene, copy, obj)
         found = sample.evaluated(own, copy, frame_start)
         world = axes.matrix(found.matrix_world, obj.name)
-        if frame_end is not None and np.isfinite(last).all() and not np.allclose(last, world):
-            warnings.append(f"'{obj.name}' moves between the frames: it is walked on as it lies "
-                            f"at frame {frame_start}.")
         if not len(found.data.polygons):
             raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
         if any(not _same(each, compat.positions(found.data)) for each in later):

@@ -36,6 +36,12 @@ def frame_range(scene, obj):
     return scene.frame_start, scene.frame_end
 
 
+def moves(obj):
+    """Whether an object may move at all."""
+    found = _Movers(obj)
+    return bool(found.spans or found.goes_on)
+
+
 def frames(scene, ground, walkers):
     """First and last frame a ground is baked over: those of all its walkers, until they are set by hand."""
     settings = ground.desire_path

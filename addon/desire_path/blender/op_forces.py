@@ -8,13 +8,13 @@ a plumb line down to the ground; a cross tells where all feet press together.
 """
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from . import axes, force_graph, ground, moves, sample
+from . import axes, force_graph, ground, moves, ride, sample
 from .op_walkers import WALKERS, Refusal, active, walkers
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
@@ -44,6 +44,14 @@ class Forces:
     reach: float  # length of one body weight in the scene's units
     frame_start: int
     frame_rate: float
+    carry: np.ndarray = None  # what a ground that moves has done since the first sample (T, 4, 4)
+
+    def lines(self, t, points):
+        """Pairs of points (2 n, 3) of a sample, where they are seen."""
+        points = np.array(points, np.float64).reshape(-1, 3)
+        if self.carry is not None:
+            points = points @ self.carry[t][:3, :3].T + self.carry[t][:3, 3]
+        return points.astype(np.float32)
 
     def sample(self, frame):
         """The sample at a scene frame, None before and after the recording."""
@@ -82,7 +90,8 @@ def read(scene, armature):
         gait = ground.walked(scene, [armature], gait, shape, first, last)
         below = shape.rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)
-    forces = limbs(gait, loads, axes.unit_scale(scene), below)
+    forces = replace(limbs(gait, loads, axes.unit_scale(scene), below),
+                     carry=ride.path(scene, land, gait.frame(np.arange(len(gait.time))).tolist()))
     return Reading(gait, loads, forces, tuple(dict.fromkeys(gait.warnings + loads.warnings)))
 
 
@@ -122,7 +131,7 @@ def arrows(forces, frame):
         lines += [point, tip]
         for barb in (side, -side, np.cross(along, side), -np.cross(along, side)):
             lines += [tip, tip - HEAD * forces.reach * size * (along - 0.4 * barb)]
-    return _pairs(lines)
+    return forces.lines(t, lines) if t is not None else _pairs(lines)
 
 
 def mass_marks(forces, frame):
@@ -135,7 +144,7 @@ def mass_marks(forces, frame):
     if np.isfinite(foot):
         below = np.array((centre[0], centre[1], foot))
         lines += [centre, below] + _ring(below, 0.5 * size, (0, 1))
-    return _pairs(lines)
+    return forces.lines(t, lines)
 
 
 def pressure_marks(forces, frame):
@@ -152,7 +161,7 @@ def pressure_marks(forces, frame):
     if np.isfinite(together).all():
         for arm in ((2.5 * size, 0.0, 0.0), (0.0, 2.5 * size, 0.0)):
             lines += [together - arm, together + arm]
-    return _pairs(lines)
+    return forces.lines(t, lines)
 
 
 def _ring(centre, radius, plane):

@@ -6,7 +6,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..errors import DesirePathError
-from . import axes, sample
+from . import axes, ride, sample
 
 LOCKED = 1e-4  # a locked channel may change by rounding only
 ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -17,7 +17,7 @@ class Bones:
     """What the bones of an armature do over the frames, in its own axes."""
 
     frames: list  # scene frames (T)
-    world: np.ndarray  # the object's matrix (T, 4, 4)
+    world: np.ndarray  # the object's matrix, as seen from the ground it rides on (T, 4, 4)
     pose: dict  # bone name -> (T, 4, 4)
     scale: float  # metres in a unit [m]
 
@@ -27,12 +27,13 @@ class Bones:
 
 
 def look(scene, armature, names, frames):
-    """Bones as they are seen at each frame, constraints and all."""
+    """Bones as they are seen at each frame, constraints and all; a ground that moves lies as at the first one."""
     world, pose = [], {name: [] for name in names}
-    with sample.still(armature), sample.private_scene(scene, armature) as own:
+    with (sample.still(armature), sample.private_scene(scene, armature) as own,
+          ride.on(own, armature.desire_path.ground, frames[0]) as carry):
         for frame in frames:
             seen = sample.evaluated(own, armature, frame)
-            world.append(np.array(seen.matrix_world, np.float64))
+            world.append(sample.world_of(seen, carry))
             for name in names:
                 pose[name].append(np.array(seen.pose.bones[name].matrix, np.float64))
     return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()},

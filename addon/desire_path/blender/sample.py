@@ -16,7 +16,7 @@ from .. import body, mass, rigs, solid
 from ..errors import DesirePathError
 from ..foot import FootShape
 from ..gait import Gait
-from . import axes, clock, playback
+from . import axes, clock, compat, playback, ride
 from .private import evaluated, private_scene
 from .worn import skin, tread
 
@@ -61,12 +61,18 @@ def skeleton(armature, world, scale):
                          np.linalg.norm(reach, axis=1) * scale, bool(np.linalg.det(size[:3, :3]) < 0.0))
 
 
-def motion(own, armature, names, frames, rate, scale):
-    """World matrices of bones at frames (floats), scale taken out; time counts from the first."""
+def world_of(found, carry=None):
+    """An evaluated object's matrix, as seen from the ground it rides on."""
+    world = np.array(found.matrix_world, np.float64)
+    return world if carry is None else carry.now() @ world
+
+
+def motion(own, armature, names, frames, rate, scale, carry=None):
+    """World matrices of bones at frames (floats), scale taken out; time counts from the first. carry: a Ride."""
     out = np.empty((len(frames), len(names), 4, 4))
     for t, frame in enumerate(frames):
         pose = evaluated(own, armature, frame)
-        world = np.array(pose.matrix_world, np.float64)
+        world = world_of(pose, carry)
         bones = pose.pose.bones
         for b, name in enumerate(names):
             out[t, b] = world @ np.array(bones[name].matrix, np.float64)
@@ -175,7 +181,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     if armature.type == "MESH":
         return _solid(scene, armature, frames, samples, rate, scale)
-    with still(armature), private_scene(scene, armature) as own:
+    with still(armature), private_scene(scene, armature) as own, ride.on(own, settings.ground, frame_start) as carry:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found, volume = rig(armature, shape), None
@@ -186,22 +192,24 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
                 found = found if settings.mass_center else replace(found, segments=full[0])
                 volume = full[1]
         kilograms, told = weight(armature, shape, found, volume)
-        moved = motion(own, armature, found.bones, frames, rate, scale)
+        moved = motion(own, armature, found.bones, frames, rate, scale, carry)
     worn = skin(scene, armature, found.feet, world, scale, frames)
     gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
                                 tread=tread(scene, armature, found.feet, world, scale, frames),
                                 frame_rate=rate, frame_start=frame_start, land=land,
                                 shapes=placed(armature))
-    return replace(gait, warnings=gait.warnings + told)
+    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    return replace(gait, warnings=gait.warnings + told + rode)
 
 
 def _solid(scene, obj, frames, samples, rate, scale):
     """What a mesh did as one rigid body, as it is at the first frame, with its modifiers."""
-    with still(obj), private_scene(scene, obj) as own:
+    with still(obj), private_scene(scene, obj) as own, ride.on(own, obj.desire_path.ground, frames[0]) as carry:
         (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
-        placed = np.array([np.array(evaluated(own, obj, frame).matrix_world, np.float64) for frame in frames])
+        placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
     if simulated(obj):
         placed = _fallen(scene, obj, frames, samples)
+        placed = placed if carry is None else np.array(carry.back) @ placed
     bad = ~(np.abs(placed) < axes.FAR).all(axis=(1, 2)) | ~(np.linalg.norm(placed[:, :3, :3], axis=1) > 0.0).all(axis=1)
     if bad.any():
         raise DesirePathError(f"'{obj.name}' has no usable transform at frame {frames[bad.argmax()]:g} (NaN, infinite, "
@@ -218,8 +226,10 @@ def _solid(scene, obj, frames, samples, rate, scale):
                     f"{frames[0]:g}.")
     kilograms, estimated = _solid_weight(obj, vertices, faces)
     time = (np.asarray(frames) - frames[0]) / rate
-    return solid.gait_from_solid(time, turned, vertices, faces, mass=kilograms, name=obj.name,
+    gait = solid.gait_from_solid(time, turned, vertices, faces, mass=kilograms, name=obj.name,
                                  frame_rate=rate, frame_start=round(frames[0]), warnings=told + estimated)
+    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    return replace(gait, warnings=gait.warnings + rode)
 
 
 def _shape(found):

@@ -13,15 +13,26 @@ from . import axes, clock, ground, sample
 BESIDE = 1.0  # ground this far beside the path is read, and five times the scatter [m]
 
 
-def waypoints(scene, obj):
-    """Places in the world along a curve, the edges of a mesh, or an empty's children by name, (n, 3) [m]."""
+def waypoints(scene, obj, frame=None):
+    """Places in the world along a curve, the edges of a mesh, or an empty's children by name, (n, 3) [m]; at a frame,
+    else as they are now."""
+    frame = scene.frame_current if frame is None else frame
     scale = axes.unit_scale(scene)
     if obj.type == "EMPTY":
         there = sorted((child for child in obj.children if child.type == "EMPTY"), key=lambda each: each.name)
         if len(there) < 2:
             raise DesirePathError(f"The path '{obj.name}' is an empty without empties: parent two or more to it, named "
                                   "in the order they are walked to.")
-        return np.array([each.matrix_world.translation[:] for each in there], np.float64) * scale
+        copies = [each.copy() for each in there]
+        try:
+            for each in copies:
+                each.hide_viewport = False
+            with sample.private_scene(scene, *copies) as own:
+                places = [sample.evaluated(own, each, frame).matrix_world.translation[:] for each in copies]
+        finally:
+            for each in copies:
+                bpy.data.objects.remove(each)
+        return np.array(places, np.float64) * scale
     if obj.type not in {"CURVE", "MESH"}:
         raise DesirePathError(f"'{obj.name}' is no path: choose a curve, a mesh of edges, or an empty with empties.")
     copy = obj.copy()
@@ -35,7 +46,7 @@ def waypoints(scene, obj):
             if data.dimensions == "2D":
                 data.fill_mode = "NONE"
         with sample.private_scene(scene, copy) as own:
-            found = sample.evaluated(own, copy, scene.frame_current)
+            found = sample.evaluated(own, copy, frame)
             world = axes.matrix(found.matrix_world, obj.name)
             mesh = found.to_mesh()
             there = mesh is not None  # a curve without splines has none
@@ -96,7 +107,7 @@ def carried(scene, walkers, first, last, read):
     """
     from ..passes import in_turn
     alone = [sample.record(scene, each, first, last) for each in walkers]
-    lines = [waypoints(scene, each.desire_path.path) if each.desire_path.path is not None else None
+    lines = [waypoints(scene, each.desire_path.path, first) if each.desire_path.path is not None else None
              for each in walkers]
     boxes = []
     for each, line, gait in zip(walkers, lines, alone):
