@@ -4,7 +4,8 @@ import json
 import bpy
 import numpy as np
 
-from desire_path.blender import op_walkers, panels, sample
+import desire_path
+from desire_path.blender import panels, sample
 from desire_path.errors import DesirePathError
 from scenes import beasts, meshes, people
 
@@ -161,40 +162,64 @@ def test_slots_that_name_no_bone():
 
 
 def overridden(file):
-    """The library override of a walker in a file, on a ground of this one."""
+    """Library overrides of a walker and a ground in a file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(file, link=True) as (_, wanted):
-        wanted.objects = ["Walker"]
-    linked = wanted.objects[0]
-    bpy.context.scene.collection.objects.link(linked)
-    obj = linked.override_create(remap_local_usages=True)
-    meshes.grid(20, 20, 0.1, -1, -1)
-    operator.desire_path_ground_add()
-    meshes.activate(obj)
+        wanted.objects = ["Walker", "Ground"]
+    found = []
+    for linked in wanted.objects:
+        bpy.context.scene.collection.objects.link(linked)
+        meshes.activate(linked)
+        add = operator.desire_path_walker_add if linked.type == "ARMATURE" else operator.desire_path_ground_add
+        refused(add, "is linked from another file", "library override")
+        found.append(linked.override_create(remap_local_usages=True))
+    meshes.activate(found[1])
+    assert operator.desire_path_ground_add() == {"FINISHED"}
+    meshes.activate(found[0])
     assert operator.desire_path_walker_add() == {"FINISHED"}
-    return obj
+    return found
 
 
-def test_a_library_override_keeps_what_it_was_told(folder):
-    people.walk(people.biped())
+def test_library_overrides_keep_what_they_were_told(folder):
     file = str(folder / "library.blend")
+    desire_path.unregister()
+    meshes.grid(40, 60, 0.05, -1, -2).vertex_groups.new(name="wet").add(list(range(300)), 1.0, "REPLACE")
+    people.walk(people.biped(), frames=8)
     bpy.ops.wm.save_as_mainfile(filepath=file)
-    obj = overridden(file)
-    assert len(op_walkers.forgotten(obj)) == (bpy.app.version >= (5, 0))
-    bpy.ops.wm.open_mainfile(filepath=file)
-    meshes.activate(bpy.data.objects["Walker"])
-    operator.desire_path_rig_detect()
-    bpy.ops.wm.save_as_mainfile(filepath=file)
-    obj = overridden(file)
-    assert op_walkers.forgotten(obj) == ()
-    assert operator.desire_path_rig_detect() == {"FINISHED"}
-    assert [foot[1] for foot in slots(obj)] == ["foot.L", "foot.R"]  # found anew, none twice
-    obj.desire_path.mass, obj.desire_path.feet[1].toe = 50.0, ""
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "shot.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(folder / "shot.blend"))
-    obj = next(each for each in bpy.context.scene.objects if each.override_library)
-    assert obj.desire_path.is_walker and obj.desire_path.mass == 50.0 and obj.desire_path.ground.name == "Ground"
-    assert slots(obj) == [("left", "foot.L", "toe.L", ""), ("right", "foot.R", "", "")]
+    desire_path.register()
+    for once_told in (False, True):  # whether the library knows of walkers and grounds itself
+        shot = str(folder / f"shot{once_told:d}.blend")
+        walker, ground = overridden(file)
+        assert operator.desire_path_rig_detect() == {"FINISHED"}
+        assert [foot[1] for foot in slots(walker)] == ["foot.L", "foot.R"]  # found anew, none twice
+        walker.desire_path.mass, walker.desire_path.feet[1].toe = 50.0, ""
+        ground.desire_path.cell_size, ground.desire_path.soil = 0.03, "snow"
+        meshes.activate(ground)
+        assert operator.desire_path_paint_add() == {"FINISHED"}
+        assert operator.desire_path_plants_add(kind="moss", density=20.0, grass=False) == {"FINISHED"}
+        assert operator.desire_path_bake() == {"FINISHED"}
+        bpy.ops.wm.save_as_mainfile(filepath=shot)
+        legs = [(each.thigh, each.shank) for each in walker.desire_path.feet]
+        for _ in range(2):
+            bpy.ops.wm.open_mainfile(filepath=shot)
+            walker, ground = (next(each for each in bpy.context.scene.objects if each.override_library
+                                   and each.type == kind) for kind in ("ARMATURE", "MESH"))
+            settings = walker.desire_path
+            assert settings.is_walker and settings.mass == 50.0 and settings.ground == ground
+            assert slots(walker) == [("left", "foot.L", "toe.L", ""), ("right", "foot.R", "", "")]
+            assert [(each.thigh, each.shank) for each in settings.feet] == legs
+            settings = ground.desire_path
+            assert settings.is_ground and settings.soil == "snow" and abs(settings.cell_size - 0.03) < 1e-6
+            assert settings.frames_auto and settings.folder_auto and settings.folder == f"//desire_path/shot{once_told:d}/Ground"
+            assert [each.vertex_group for each in settings.painted] == ["wet"]
+            assert [(each.kind, each.density, each.count > 10) for each in settings.plants] == [("moss", 20.0, True)]
+            assert settings.bake_state == "FRESH", settings.missing
+            bpy.ops.wm.save_mainfile()
+        bpy.ops.wm.open_mainfile(filepath=file)
+        for name, add in (("Ground", operator.desire_path_ground_add), ("Walker", operator.desire_path_walker_add)):
+            meshes.activate(bpy.data.objects[name])
+            add()
+        bpy.ops.wm.save_as_mainfile(filepath=file)
 
 
 def test_no_rig_to_speak_of():

@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, playback, show, state
+from . import ground, home, op_forces, op_plants, overrides, playback, show, state
 
 
 _unsaved = False  # whether the file that is being saved never was before
@@ -44,6 +44,7 @@ def after_load(*_):
     op_forces.hide()  # of the file before
     home.forget()
     state.doubt()
+    overrides.restore()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:
@@ -70,6 +71,7 @@ def before_save(*_):
     for obj in bpy.data.objects:
         if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground and home.is_own(obj):
             home.sign(obj)
+    overrides.keep()
 
 
 @persistent

@@ -38,8 +38,8 @@ def active(cls, context, kind, words, *, changed=True):
         cls.poll_message_set("Leave Edit Mode first")
         return False
     if changed and obj.library is not None:
-        cls.poll_message_set(f"'{obj.name}' is linked from another file: open that file, or make it "
-                             "local")
+        cls.poll_message_set(f"'{obj.name}' is linked from another file: make a library override of it "
+                             "(Object > Library Override > Make), or open that file")
         return False
     return True
 
@@ -103,15 +103,6 @@ def detect(scene, obj, keep=False):
     return found
 
 
-def forgotten(obj):
-    """Sentences about what a library override will not keep."""
-    own = obj.override_library
-    if own is None or own.reference is None or bpy.app.version < (5, 0) or own.reference.is_property_set("desire_path"):
-        return ()
-    return (f"'{obj.name}' is a library override: Blender forgets its feet and ground when this file is read again, "
-            "until Find Feet was pressed once in the file it is linked from.",)
-
-
 class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
     """Find the feet, toes, heels and hips of the active armature; each can be changed by hand then"""
 
@@ -126,7 +117,7 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
     def work(self, context):
         obj = context.object
         found = detect(context.scene, obj)
-        for each in found.warnings + forgotten(obj):
+        for each in found.warnings:
             self.report({"WARNING"}, each)
         feet = "; ".join(
             f"{foot.limb}: " + ", ".join(name for name in (foot.foot, foot.toe, foot.heel) if name)
@@ -204,7 +195,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         means, told = self.means(scene, obj)
         settings.is_walker = True
         settings.ground = ground
-        for each in told + forgotten(obj):
+        for each in told:
             self.report({"WARNING"}, each)
         moves.follow(scene, ground, walkers(scene, ground))
         self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' {means}.")

@@ -1,0 +1,84 @@
+"""overrides.py - what library overrides were told outlives the file, where Blender would forget it.
+
+From 5.0 on Blender drops what an override adds to a property group that its library never had. The file therefore
+keeps it a second time, on a scene, and gives it back when it is read.
+"""
+import json
+from contextlib import suppress
+
+import bpy
+
+from . import op_plants
+
+KEPT = "desire_path_overrides"  # on a scene: what each of them was told, as JSON by name
+
+
+def at_risk():
+    """Overrides whose library says nothing of them."""
+    return [obj for obj in bpy.data.objects if obj.override_library is not None and obj.library is None
+            and obj.override_library.reference is not None
+            and not obj.override_library.reference.is_property_set("desire_path")
+            and (obj.desire_path.is_ground or obj.desire_path.is_walker)]
+
+
+def keep():
+    """Before the file is saved."""
+    scenes = [scene for scene in bpy.data.scenes if scene.library is None]
+    kept = {obj.name: told(obj.desire_path) for obj in at_risk()}
+    for scene in scenes:
+        if KEPT in scene:
+            del scene[KEPT]
+    if kept and scenes:
+        scenes[0][KEPT] = json.dumps(kept)
+
+
+def restore():
+    """After it was read."""
+    for scene in bpy.data.scenes:
+        if scene.library is None and KEPT in scene:
+            with suppress(ValueError, AttributeError):  # somebody else's
+                kept = json.loads(scene[KEPT])
+                for obj in bpy.data.objects:
+                    if obj.override_library is not None and obj.name in kept:
+                        tell(obj.desire_path, kept[obj.name])
+
+
+def told(group):
+    """The numbers, words and names of a property group, by name."""
+    out = {}
+    for name, each in type(group).__annotations__.items():
+        value = getattr(group, name)
+        if each.function is bpy.props.CollectionProperty:
+            out[name] = [told(one) | {"name": one.name} for one in value]
+        elif each.function is bpy.props.PointerProperty:
+            out[name] = [value.bl_rna.identifier, value.name, value.library and value.library.filepath] if value else None
+        else:
+            out[name] = value
+    return out
+
+
+def tell(group, kept):
+    """Set those that differ; whatever follows by itself last, since setting something by hand ends that."""
+    kinds = type(group).__annotations__
+    with op_plants.quietly():
+        for name in sorted((each for each in kinds if each in kept), key=lambda name: name.endswith("_auto")):
+            value, kind = kept[name], kinds[name].function
+            if kind is bpy.props.CollectionProperty:
+                there = getattr(group, name)
+                for number, one in enumerate(value):
+                    each = there[number] if number < len(there) else there.add()
+                    each.name = one["name"]
+                    tell(each, one)
+            elif kind is bpy.props.PointerProperty:
+                tell_pointer(group, name, value)
+            elif getattr(group, name) != value:
+                with suppress(TypeError):  # an enum that is no more
+                    setattr(group, name, value)
+
+
+def tell_pointer(group, name, value):
+    data = {"Image": bpy.data.images}.get(value[0], bpy.data.objects) if value else ()
+    for each in data:
+        if each.name == value[1] and (each.library and each.library.filepath) == value[2]:
+            with suppress(TypeError):
+                setattr(group, name, each)
