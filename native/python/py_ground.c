@@ -20,7 +20,7 @@ DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count)
         PyErr_NoMemory();
         return NULL;
     }
-    for (int s = 0; s < *count; ++s, row += 6) {
+    for (int s = 0; s < *count; ++s, row += DP_SOIL_NUMBERS) {
         soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
         if (dp_soil_check(&soils[s]) == DP_OK) continue;
         PyErr_Format(PyExc_ValueError, "soils: a number of soil %d is out of its range", s);

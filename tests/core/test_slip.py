@@ -72,3 +72,19 @@ def test_a_foot_that_stands_on_a_slope_slides_down_it():
 def test_loose_grains_slip_and_hard_ground_does_not():
     assert SOILS["dry-sand"].shear_modulus > 0.0 and SOILS["snow"].shear_modulus > 0.0
     assert SOILS["soil"].shear_modulus == 0.0
+
+
+def test_every_soil_of_a_ground_slips_by_its_own():
+    """Painted soils: the second is loose, the first is not, and the other way round."""
+    gait, loads = gaits.pressed([gaits.box(0.2, 0.1)], [[0, 0, 0.0, 1, 0, 0, 0]], [[150.0, 0, -600.0]])
+    widths = []
+    for slips in ((0.0, 0.02), (0.02, 0.0)):
+        weight = np.zeros((2, 9, 9))
+        weight[1] = 1.0  # all of it is the second soil
+        ground = Ground.heights(np.zeros((9, 9)), 0.1, -0.4, -0.4, weight)
+        sim = Simulation(ground, [replace(SAND, shear_modulus=modulus) for modulus in slips], CELL)
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        i0, i1, j0, j1 = sim.reach()
+        widths.append((sim.read("compression", i0, j0, i1 - i0, j1 - j0) > 1e-5).any(axis=0).sum() * CELL)
+    assert widths[0] > widths[1] + 0.006
