@@ -9,6 +9,7 @@ import sys
 from . import fit, jumps, lane, plot, walker
 from . import path as paths
 from .bake import FILMS, Bake
+from .bounds import ADVICE, Limits
 from .errors import DesirePathError
 from .gait import Gait
 from .place import place_feet
@@ -86,13 +87,14 @@ def _bar(fraction, what):
 
 
 def _bake(args):
+    limits = Limits.read(args.limit)
     gait, ground = _walk(args.walk), _ground(args.ground, args.spacing)
     plants = [_planting(text, args.seed) for text in args.plants]
     cell, origin = _cells(args, ground)
     bake = Bake(
         _along(args, gait, ground), ground, args.soil, args.out, cell_size=cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, threads=args.threads, origin=origin, plants=plants, film=args.film,
+        heap=args.heap, threads=args.threads, origin=origin, plants=plants, film=args.film, limits=limits,
     )
     word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
@@ -188,6 +190,8 @@ def _parser():
     bake.add_argument("--law", choices=LAWS, default="sole", help="how a sole presses")
     bake.add_argument("--heap", choices=HEAPS, default="rest", help="how displaced soil is laid")
     bake.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
+    bake.add_argument("--limit", nargs="+", action="extend", default=[], metavar="NAME=NUMBER",
+                      help=f"how much a bake may take before it is refused: {', '.join(ADVICE)} (GB of memory and disk)")
     bake.set_defaults(task=_bake)
 
     loads = tasks.add_parser("loads", help="write the forces of every part as a table")
@@ -235,6 +239,9 @@ def main(arguments=None):
         args.task(args)
     except DesirePathError as problem:
         print(problem, file=sys.stderr)
+        return 1
+    except MemoryError:
+        print("There is not enough memory: choose a larger cell size, fewer frames or a shorter walk.", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("Stopped; what was baked so far is kept, and the same command goes on from there.", file=sys.stderr)

@@ -26,8 +26,9 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import _native, jumps, walker
+from . import _native, bounds, jumps, plant_mesh, walker
 from . import parcels as fields
+from .bounds import Limits
 from .errors import DesirePathError
 from .folder import FORMAT
 from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
@@ -40,7 +41,6 @@ from .version import VERSION
 
 SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are found at [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
-MOST_PIXELS = 1 << 27  # of one frame
 MOST_SOLE = 1_000_000  # cells one sole may cover
 PASS_RATE = 60.0  # the same where a frame is a pass: there are many, and each print is trodden again [1/s]
 FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
@@ -71,12 +71,14 @@ class Bake:
     inputs: words for what it is made from, kept in index.json for whoever wants to know whether that has changed.
     wait: so long run() lets another program end its bake into the folder before it refuses, which it does at once where
     this program bakes there [s].
+    limits: what it may take of memory, disk and so on: run() refuses more before anything is written.
     """
 
     def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
                  frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
                  rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False, film=None, owner="", inputs=None, wait=30.0):
+                 plants=(), plant_mesh=False, film=None, owner="", inputs=None, wait=30.0,
+                 limits=Limits()):
         if load_model not in LOAD_MODELS:
             raise DesirePathError(
                 f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
@@ -88,7 +90,7 @@ class Bake:
         self.film = film or FILMS[len(self.passes) > 1]
         self.parcels = _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs)
         self.folder = self.parcels[0].folder
-        self.wait = float(wait)
+        self.wait, self.limits = float(wait), limits
         self.frame_rate = float(gait.frame_rate)
         frames = (len(self.passes) - 1 if self.film == "passes"
                   else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
@@ -152,12 +154,36 @@ class Bake:
             digest.update(_native.digest(np.ascontiguousarray(array)))
         return digest.hexdigest()
 
+    def _rate(self):
+        """Samples a second: a whole number of them a frame [1/s]."""
+        least = PASS_RATE if self.film == "passes" else SAMPLE_RATE
+        return self.frame_rate * max(1, math.ceil(least / self.frame_rate - 1e-6))
+
+    def _check_walk(self):
+        """Refuse what is too long, before its samples are made."""
+        seconds = float(self.gait.time[-1] - self.gait.time[0])
+        self.limits.check("frames", self.frame_end - self.frame_start + 1)
+        self.limits.check("seconds", seconds)
+        parts = len(self.gait.part_limb)
+        self.limits.check("memory", bounds.SAMPLE_BYTES * parts * (seconds * self._rate() + 1.0))
+
+    def _check_grounds(self):
+        """Refuse what is too large, before its pictures are made."""
+        cells = [share.tiles[2] * share.tiles[3] * TILE * TILE for share in self.shares]
+        self.limits.check("cells", max(cells))
+        self.limits.check("memory", bounds.CELL_BYTES * sum(cells))
+        count, taken = self.frame_end - self.frame_start + 1, 0.0
+        for share, held in zip(self.shares, cells):
+            pressed = bounds.pressed_area(self.gait, share.loads.touching) / self.cell_size ** 2
+            taken += count * bounds.frame_bytes(held, pressed / len(self.shares), bool(share.plants))
+            if share.parcel.plant_mesh:
+                taken += plant_mesh.size(share.sim, count, share.plants)
+        self.limits.check("disk", taken, self.folder)
+
     def _simulations(self):
         """The grounds with the recording on them, at a whole number of samples a frame: the Simulation of each storey,
         and the Shares of those that the walk reaches."""
-        least = PASS_RATE if self.film == "passes" else SAMPLE_RATE
-        samples = max(1, math.ceil(least / self.frame_rate - 1e-6))
-        gait = self.stepped = self.gait.resample(self.frame_rate * samples)
+        gait = self.stepped = self.gait.resample(self._rate())
         self.times = gait.time - gait.time[0]
         self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]
         storeys = [[self.parcels[number] for number in storey] for storey in fields.storeys(self.parcels, self.gait)]
@@ -190,7 +216,8 @@ class Bake:
         ground, soils = fields.sewn(storey, self.cell_size)
         plants = [(planting, parcel.has) for parcel in storey for planting in parcel.plants]
         return Simulation(ground, soils, self.cell_size, threads=self.threads, plants=[each for each, _ in plants],
-                          areas=[has for _, has in plants] if len(storey) > 1 else None, **self.options)
+                          areas=[has for _, has in plants] if len(storey) > 1 else None, limits=self.limits,
+                          **self.options)
 
     def _rectangle(self, sim, parcel, gait, loads):
         """Tiles (x, y, nx, ny) the frames of a parcel cover: what the walk can reach of it; None: nothing."""
@@ -212,10 +239,6 @@ class Bake:
             return None
         tx0, ty0 = i0 // TILE, j0 // TILE
         tx1, ty1 = -(-i1 // TILE), -(-j1 // TILE)
-        if (tx1 - tx0) * (ty1 - ty0) * TILE * TILE > MOST_PIXELS:
-            raise DesirePathError(
-                "The walk covers more cells than one picture can hold: choose a larger cell size or a shorter walk."
-            )
         return tx0, ty0, tx1 - tx0, ty1 - ty0
 
     # ---- the bake -------------------------------------------------------------------------------
@@ -251,8 +274,9 @@ class Bake:
 
     def _run(self):
         check_cell(self.cell_size)
+        self._check_walk()
         with contextlib.ExitStack() as folders:
-            for parcel in self.parcels:
+            for parcel in sorted(self.parcels, key=lambda each: each.folder):  # in one order, so that no two wait in turn
                 out = Output(parcel.folder, parcel.owner)
                 out.open(self.wait)
                 folders.callback(out.release)
@@ -262,6 +286,7 @@ class Bake:
         seconds = {"total": time.perf_counter()}
         self._check_soles()
         sims = self._simulations()
+        self._check_grounds()
         seconds["loads"] = time.perf_counter() - seconds["total"]
         seconds["step"] = seconds["write"] = 0.0
         try:

@@ -20,7 +20,6 @@ from . import whole
 from .errors import DesirePathError
 from .plants import KINDS
 
-MOST_BYTES = 16 << 30  # of a point cache
 _HELD = 1  # rows in the ground
 
 
@@ -69,19 +68,26 @@ def _unbroken(sim, stand, rows):
     return np.concatenate([np.ones_like(held[:, :, :1]), held], axis=2)
 
 
+def _of(sim, plantings):
+    return [stand for stand in sim.stands if plantings is None or sim.plantings[stand[1]] in plantings]
+
+
+def size(sim, frames, plantings=None):
+    """Bytes of a point cache of the plants of a Simulation; plantings as for Writer."""
+    shapes = ((sim.plants_shape(stand), count) for stand, _, count in _of(sim, plantings))
+    return 12 * frames * sum(count * stems * (rows - _HELD) for (rows, stems, *_), count in shapes)
+
+
 class Writer:
     """Writes both files into a folder while a bake runs: add() once a frame, then finish(); close() in any case."""
 
     def __init__(self, sim, folder, frame_start, frames, plantings=None):
         """plantings: the Plantings whose plants are written, default: all of the simulation"""
         self.folder, self.frames = folder, frames
-        self.stands = [stand for stand in sim.stands if plantings is None or sim.plantings[stand[1]] in plantings]
+        self.stands = _of(sim, plantings)
         sim.lay_plants()
         self.mesh = build(sim, self.stands)
         count = len(self.mesh["vertices"])
-        if 12 * count * frames > MOST_BYTES:
-            raise DesirePathError(f"The plants as a mesh would take {12e-9 * count * frames:.0f} GB: choose fewer "
-                                  "frames, a lower density or a smaller rectangle.")
         self._file = open(os.path.join(folder, "plants.pc2"), "xb")  # noqa: SIM115  (open as long as the bake runs)
         self._file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames))
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from . import _native, whole
+from .bounds import PLANT_BYTES, Limits
 from .errors import DesirePathError
 
 FORMS = ("surface", "tuft")
@@ -248,8 +249,9 @@ class Planting:
         """Roots (n, 2) float32 [m] of the squares that a rectangle [m] meets: what may stand there."""
         return self.in_squares(self.squares(x0, y0, x1, y1))
 
-    def squares(self, x0, y0, x1, y1):
-        """Squares (column, row) of `side` that a rectangle [m] and the planting's own have in common."""
+    def squares(self, x0, y0, x1, y1, limits=Limits()):
+        """Squares (column, row) of `side` that a rectangle [m] and the planting's own have in common, if their plants
+        keep the limits."""
         if self.roots is not None:
             return []
         if self.rectangle is not None:
@@ -260,9 +262,9 @@ class Planting:
         side = self.side
         columns = range(math.floor(x0 / side), math.ceil(x1 / side))
         rows = range(math.floor(y0 / side), math.ceil(y1 / side))
-        if len(columns) * len(rows) * side ** 2 * self.density > MOST_PLANTS:
-            raise DesirePathError(f"The walk would meet more than {MOST_PLANTS} plants: choose a lower density, or "
-                                  "plant a rectangle.")
+        plants = len(columns) * len(rows) * side ** 2 * self.density
+        limits.check("plants", plants)
+        limits.check("memory", PLANT_BYTES * plants)
         return [(column, row) for row in rows for column in columns]
 
     def in_squares(self, squares):

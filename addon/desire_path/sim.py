@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import _native, maps, trail
+from .bounds import Limits
 from .errors import DesirePathError
 from .plants import as_plantings, seed_of
 from .soil import SOILS, Soil
@@ -183,11 +184,12 @@ class Simulation:
     threads: 0 = as many as the machine has; the result is the same for any number.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.
+    limits: how many plants, and how much memory for them.
     areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.
     """
 
     def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
-                 heap="rest", rim_width=0.04, threads=0, plants=(), areas=None):
+                 heap="rest", rim_width=0.04, threads=0, plants=(), areas=None, limits=Limits()):
         check_cell(cell_size)
         if law not in LAWS:
             raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
@@ -199,6 +201,7 @@ class Simulation:
             raise DesirePathError(f"A rim width of {rim_width:g} m cannot be used: choose more than 0 (0.04 is usual).")
         if not (math.isfinite(origin[0]) and math.isfinite(origin[1])):
             raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
+        self.limits = limits
         self.cell_size = float(cell_size)
         self.origin = (float(origin[0]), float(origin[1]))
         self.soils = as_soils(soils)
@@ -250,7 +253,7 @@ class Simulation:
             wide = planting.kind.reach + planting.kind.height
             box = (ox + i0 * cell - wide, oy + j0 * cell - wide, ox + i1 * cell + wide, oy + j1 * cell + wide)
             box = (*np.maximum(box[:2], bounds[:2]), *np.minimum(box[2:], bounds[2:]))
-            fresh = [at for at in planting.squares(*box) if at not in self._planted[number]]
+            fresh = [at for at in planting.squares(*box, self.limits) if at not in self._planted[number]]
             self._planted[number].update(fresh)
             roots = planting.in_squares(fresh)
             if len(roots):

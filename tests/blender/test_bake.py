@@ -289,6 +289,14 @@ def test_frames_that_went_back_to_the_making_play(folder):
     assert shown(bpy.data.objects["Ground"], 12)[0].tobytes() == wanted.tobytes()
 
 
+def test_frames_without_end_are_refused_at_once(folder):
+    ground, _ = scene(folder, frames=6)
+    ground.desire_path.frame_end = 100_000_000
+    begun = time.monotonic()
+    refused(bpy.ops.object.desire_path_bake, "100,000,000 frames", "250,000 are the limit")
+    assert time.monotonic() - begun < 5.0 and not (folder / "bake").exists()
+
+
 def test_a_folder_that_is_baked_into_is_refused(folder):
     """As by another Blender with the same file; nothing is recorded first."""
     ground, _ = scene(frames=12)

@@ -12,6 +12,7 @@ from contextlib import closing
 
 import bpy
 
+from ..bounds import Limits
 from ..errors import DesirePathError
 from ..output import check_idle
 from . import home, inputs, moves, op_plants, reach, way
@@ -48,6 +49,7 @@ class Job:
         if there and last <= first:
             raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
                                   "an end after the start.")
+        Limits().check("frames", last - first + 1)
         check_idle(home.claim(obj))
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]

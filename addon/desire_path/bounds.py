@@ -1,0 +1,119 @@
+"""What a bake will take, estimated before anything is written, and what it may take.
+
+    Bake(.., limits=Limits(frames=1_000_000, memory=32e9))      python -m desire_path bake .. --limit frames=1000000
+
+Memory and disk are those the computer has free, unless a limit says otherwise. Estimates are of what will be needed
+at least, about: a bake that is refused could not have ended.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from dataclasses import dataclass, fields
+
+from . import disk
+from .errors import DesirePathError
+
+MOST_PIXELS = 1 << 27  # of one frame
+SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
+CELL_BYTES = 60  # of memory, for each cell of a frame
+PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
+REST_BYTES = 0.028  # of a frame's file, for each cell of untouched ground
+PRINT_BYTES = 8.0  # of a frame's file, for each cell of a print
+ADVICE = {  # name: (unit, what to do)
+    "frames": ("frames", "let it end earlier"),
+    "seconds": ("seconds of walking", "let it end earlier"),
+    "cells": ("cells in a picture", "choose a larger cell size or a shorter walk"),
+    "plants": ("plants", "choose a lower density, or plant a rectangle"),
+    "memory": ("GB of memory", "choose a larger cell size, fewer frames or fewer plants"),
+    "disk": ("GB on the disk", "choose a larger cell size or fewer frames, or make room"),
+}
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one bake may take; what would take more is refused."""
+
+    frames: float = 250_000  # files it writes for playback, one a frame
+    seconds: float = 86_400.0  # of the walk
+    cells: float = MOST_PIXELS  # of one frame
+    plants: float = 4_000_000  # of one planting
+    memory: float | None = None  # [bytes]; None = what is free
+    disk: float | None = None  # [bytes]; None = what is free where the files go
+
+    def __post_init__(self):
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if value is None and each.default is None:
+                continue
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
+                raise DesirePathError(f"A limit of {str(value)[:40]} {each.name} cannot be kept: give a number above 0.")
+
+    @staticmethod
+    def read(words):
+        """Limits from words NAME=NUMBER; memory and disk in GB."""
+        found = {}
+        for word in words:
+            name, _, number = word.partition("=")
+            try:
+                found[name] = float(number) * (1e9 if name in ("memory", "disk") else 1.0)
+            except ValueError:
+                name = ""
+            if name not in ADVICE:
+                raise DesirePathError(f"There is no limit '{word}': write one of {', '.join(ADVICE)} and a number, as in "
+                                      "frames=1000000; memory and disk in GB.")
+        return Limits(**found)
+
+    def check(self, name, amount, folder=None):
+        """Refuse a bake that takes more of something than it may.
+
+        folder: where the files go, for `disk`
+        """
+        most, free = getattr(self, name), False
+        if most is None:
+            most, free = _free(name, folder), True
+        if amount <= most:
+            return
+        unit, advice = ADVICE[name]
+        size = 1e9 if name in ("memory", "disk") else 1.0
+        has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
+        raise DesirePathError(f"The bake would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
+                              f"{has}: {advice}, or raise the limit of {name}.")
+
+
+def _number(value):
+    if not value < 1e15:
+        return f"{value:.3g}"
+    return f"{value:,.0f}" if value >= 100 or value == int(value) else f"{value:.3g}"
+
+
+def _free(name, folder):
+    """Bytes of memory or disk that may still be had; no end of them where nobody knows."""
+    if name == "memory":
+        return disk.memory_free()
+    while not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    try:
+        return shutil.disk_usage(folder).free
+    except OSError:
+        return math.inf
+
+
+def frame_bytes(cells, pressed, lean):
+    """Bytes of an average frame's files. pressed: cells of all prints together; lean: with a second picture of grass."""
+    return (2.0 if lean else 1.0) * (REST_BYTES * cells + 0.5 * PRINT_BYTES * min(pressed, cells))
+
+
+def pressed_area(gait, touching):
+    """Of all prints of a walk together, about [m^2]: each time a part comes down it leaves its sole's.
+
+    touching: (P, T), whether each part of the recording's feet is on the ground
+    """
+    area = 0.0
+    for sole, down in zip(gait.soles, touching):
+        size = sorted((sole.vertices.max(axis=0) - sole.vertices.min(axis=0)).tolist())
+        times = int(down[0] != 0) + int(((down[1:] != 0) & (down[:-1] == 0)).sum())
+        area += 0.7 * size[1] * size[2] * times
+    return area
