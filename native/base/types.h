@@ -110,6 +110,8 @@ typedef struct DpImprint
     float*   cover;   // share of the cell the sole covers                            [-] 0..1
     int32_t* ring;    // 0 = touched, 1 = border, 2.. outward, DP_RING_FAR beyond     [-]
 
+    const float* met;  // heap - compression as this contact met them; NULL = as they are [m]
+
     int i0, i1, j0, j1;  // columns with cover > 0: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
 } DpImprint;
 

@@ -35,7 +35,7 @@ typedef struct DpPressed
     double firm;       // V_c, volume pressed out of firm ground                [m^3] >= 0
     double loose;      // V_b, volume pressed out of loose heaps                [m^3] >= 0
     double displaced;  // 2 nu (V_c + V_b), to be laid down around, SOFT22 (12) [m^3] >= 0
-    double area;       // A_contact, TRAIL (10)                                 [m^2] >= 0
+    double area;       // A_contact, TRAIL (10), over no ground too             [m^2] >= 0
     double sink;       // s: how far the sole was lowered (> 0) from imprint->bottom [m]
     double deepest;    // largest compression of a touched cell                 [m]   >= 0
 } DpPressed;
@@ -43,6 +43,7 @@ typedef struct DpPressed
 // Press the sole into the patch for dt seconds with the force's part along -normal.
 // Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap
 // and pressure_time of touched cells only. Loose heap is used up before firm ground yields.
+// What of the sole stands over no ground carries its share of the load all the same, and presses nothing.
 // With no load, or no ground under the sole: nothing touched, all zero, DP_OK.
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed);
@@ -74,12 +75,12 @@ typedef enum DpHeapLaw
 typedef struct DpHeapOptions
 {
     DpHeapLaw law;
-    double    rim_width;  // `paper`: reach of the rim, at least one cell [m] > 0
+    double    rim_width;  // `paper`: how wide the rim is, at least one cell [m] > 0
     double    threshold;  // F_threshold, TRAIL (13)                      [N] > 0
 } DpHeapOptions;
 
 // Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,
-// at least 1). Adds to patch->heap only, never on touched cells; the heaps' sum grows by
+// 1 is enough). Adds to patch->heap only, never on touched cells; the heaps' sum grows by
 // volume / cell^2 up to rounding. `height` is T of the rest law, kept by the caller from step to
 // step of one stance as the first guess; 0 at touch-down.
 // Without a border cell: DP_NO_GROUND, patch untouched.

@@ -12,6 +12,10 @@
 //     is cut to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
 //     frame_rate_does_not_matter.
 //   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
+//   What of a sole stands over no ground carries its share, as if the ground went on: the rest of the
+//     sole does not get it. test_soil_compress.c, over_an_edge.
+//   `uniform` touches the ground as the contact met it, not its own print and rim: else the area, and
+//     with it the depth, would depend on nu (SOFT22 Fig. 7). test_soil_compress.c, met_ground_counts.
 //   A cell that the sole covers by the share a is pressed by a times its column, so that volume
 //     and stress do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
 #include <string.h>
@@ -24,29 +28,41 @@
 #define CHUNKS 40            // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
+#define NOWHERE SIZE_MAX
 #define MOST_ROUNDS 100
 #define FLOOR_CELLS 4.0   // least contact area: so many cells
 #define FLOOR_SHARE 0.05  // .. or this share of the sole
 #define PRESS_GRID \
     ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
-// Columns of ground under the sole; lanes that hold none have share and spring 0.
+// Columns of ground under the sole, and of what would be ground; lanes that hold none have share and spring 0.
 typedef struct Columns
 {
     double gap[LANES];      // g = h0 - underside of the sole, before it sinks     [m]
-    double pressed[LANES];  // e = compression - heap                              [m]
+    double pressed[LANES];  // e = compression - heap as the sole met them         [m]
     double rigid[LANES];    // 0.95 L0                                             [m]
     double share[LANES];    // a                                                   [-]
     double spring[LANES];   // a E/L0 cell^2                                       [N/m]
-    size_t cell[LANES];     // where in the patch
+    size_t cell[LANES];     // where in the patch; NOWHERE = beyond the ground
     int    count;           // lanes in use
 } Columns;
+
+// The ground under a sole as it would go on where there is none: the mean of what there is, level with it.
+typedef struct Beyond
+{
+    double rest, met;         // at (i, j) [m]
+    double i, j;              // [cells]
+    double slope_i, slope_j;  // [m per cell]
+    double stiffness, depth;  // E/L0 [Pa/m], L0 [m]
+    bool   is_there;          // some of the sole has ground
+} Beyond;
 
 // The columns of a sole, as many at a time as there is room for.
 typedef struct Sole
 {
     const DpSoilPatch* patch;
     const DpImprint*   imprint;
+    Beyond             beyond;
     int                i, j;    // where to read on
     int                filled;  // chunks that hold columns
     bool               whole;   // all of the sole is held: no need to read again
@@ -62,7 +78,7 @@ typedef struct Balance
     double highest;                 // largest gap                              [m]
     double springs;                 // of all columns                           [N/m]
     double hanging;                 // their forces if the sole hung at its highest gap [N]
-    double sole;                    // area of the sole over ground             [m^2]
+    double sole;                    // area of the sole                         [m^2]
 } Balance;
 
 // What the ground answers when the sole has sunk by s.
@@ -73,19 +89,34 @@ typedef struct Answer
     double area;   // of the columns that carry [m^2]
 } Answer;
 
-static void put_column(Columns* columns, const DpSoilPatch* patch, const DpImprint* imprint,
-                       size_t p)
+// how far below h0 the ground stood when the sole met it
+static double met_at(const DpSoilPatch* patch, const DpImprint* imprint, size_t p)
 {
-    const int    k = columns->count++;
-    const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
-    const double e = (double)patch->compression[p] - (double)patch->heap[p];
-    const double stiffness = (double)patch->modulus[p] / depth * (patch->cell * patch->cell);
-    columns->gap[k] = (double)patch->rest[p] - (double)imprint->bottom[p];
-    columns->pressed[k] = e;
+    if (imprint->met) return -(double)imprint->met[p];
+    return (double)patch->compression[p] - (double)patch->heap[p];
+}
+
+static void put_column(Columns* columns, const Sole* sole, size_t p)
+{
+    const DpSoilPatch* patch = sole->patch;
+    const Beyond*      beyond = &sole->beyond;
+    const int          k = columns->count++;
+    const bool         ground = soil_is_ground(patch->rest[p]);
+    double             depth = beyond->depth, met = beyond->met, stiffness = beyond->stiffness;
+    double             rest = beyond->rest + beyond->slope_i * ((double)sole->i - beyond->i) +
+                  beyond->slope_j * ((double)sole->j - beyond->j);
+    if (ground) {
+        depth = (double)patch->soils[patch->kind[p]].layer_depth;
+        stiffness = (double)patch->modulus[p] / depth;
+        met = met_at(patch, sole->imprint, p);
+        rest = (double)patch->rest[p];
+    }
+    columns->gap[k] = rest - (double)sole->imprint->bottom[p];
+    columns->pressed[k] = met;
     columns->rigid[k] = SOIL_RIGID * depth;
-    columns->share[k] = (double)imprint->cover[p];
-    columns->spring[k] = (double)imprint->cover[p] * stiffness;
-    columns->cell[k] = p;
+    columns->share[k] = (double)sole->imprint->cover[p];
+    columns->spring[k] = columns->share[k] * (stiffness * (patch->cell * patch->cell));
+    columns->cell[k] = ground ? p : NOWHERE;
 }
 
 static void fill_up(Columns* columns)
@@ -122,12 +153,50 @@ static bool read_columns(Sole* sole)
     for (; sole->j < imprint->j1; ++sole->j, sole->i = imprint->i0)
         for (; sole->i < imprint->i1; ++sole->i) {
             const size_t p = soil_at(sole->patch, sole->i, sole->j);
-            if (!(imprint->cover[p] > 0.0f) || !soil_is_ground(sole->patch->rest[p])) continue;
+            if (!(imprint->cover[p] > 0.0f)) continue;
             Columns* columns = with_room(sole);
             if (!columns) return false;
-            put_column(columns, sole->patch, imprint, p);
+            put_column(columns, sole, p);
         }
     return true;
+}
+
+static void look_beyond(Sole* sole, DpVec3 normal)
+{
+    const DpSoilPatch* patch = sole->patch;
+    const DpImprint*   imprint = sole->imprint;
+    Beyond             sum = {0};
+    double             share = 0.0;
+    bool               needed = false;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            const double a = (double)imprint->cover[p];
+            if (!(a > 0.0)) continue;
+            if (!soil_is_ground(patch->rest[p])) {
+                needed = true;
+                continue;
+            }
+            const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
+            share += a;
+            sum.rest += a * (double)patch->rest[p];
+            sum.met += a * met_at(patch, imprint, p);
+            sum.i += a * i, sum.j += a * j;
+            sum.stiffness += a * ((double)patch->modulus[p] / depth);
+            sum.depth += a * depth;
+        }
+    sole->beyond = (Beyond){.is_there = share > 0.0};
+    if (!needed || !sole->beyond.is_there) return;
+    const double level = normal.z > 0.0 ? patch->cell / normal.z : 0.0;
+    sole->beyond = (Beyond){.rest = sum.rest / share,
+                            .met = sum.met / share,
+                            .i = sum.i / share,
+                            .j = sum.j / share,
+                            .slope_i = -normal.x * level,
+                            .slope_j = -normal.y * level,
+                            .stiffness = sum.stiffness / share,
+                            .depth = sum.depth / share,
+                            .is_there = true};
 }
 
 // have the next columns at hand; false when all have been handed out since from_the_start()
@@ -348,6 +417,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
                 const double x = spring_length(t, rigid);
                 if (x <= 0.0) continue;
                 const size_t p = columns->cell[k];
+                if (p == NOWHERE) continue;
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
                 press_cell(patch, p, (Target){soil_least(t, rigid), stress, columns->share[k]}, dt,
@@ -379,7 +449,8 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
             for (int k = 0; k < sole->chunk[c].count; ++k) {
                 if (overlap(&sole->chunk[c], k) < highest - TOUCH_GAP) continue;
                 area += soil_on_grid(sole->chunk[c].share[k], share_grid);
-                imprint->ring[sole->chunk[c].cell[k]] = 0;
+                const size_t p = sole->chunk[c].cell[k];
+                if (p != NOWHERE) imprint->ring[p] = 0;
             }
     area *= patch->cell * patch->cell;
     stress = balance->load / soil_most(area, least_area(sole, balance));  // SOFT22 (9)
@@ -389,7 +460,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
             for (int k = 0; k < sole->chunk[c].count; ++k) {
                 const Columns* columns = &sole->chunk[c];
                 const size_t   p = columns->cell[k];
-                if (imprint->ring[p] != 0) continue;
+                if (p == NOWHERE || imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
                 const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
                 press_cell(patch, p, (Target){soil_least(depth, rigid), stress, columns->share[k]},
@@ -417,8 +488,9 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     sole.patch = patch;
     sole.imprint = imprint;
     sole.whole = false;
+    look_beyond(&sole, foot->normal);
     Balance balance = {0};
-    if (load <= 0.0 || !weigh(&balance, &sole, load)) return DP_OK;
+    if (load <= 0.0 || !sole.beyond.is_there || !weigh(&balance, &sole, load)) return DP_OK;
 
     if (law == DP_CONTACT_UNIFORM)
         press_uniform(patch, imprint, &sole, &balance, dt, pressed);

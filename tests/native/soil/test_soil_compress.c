@@ -321,6 +321,61 @@ TEST(mirrored_to_the_bit)
     for (int m = 0; m < 4; ++m) ground_free(&g[m]);
 }
 
+// a sole with half of it over no ground is as deep as a whole one, and what is left of it gets no more
+TEST(over_an_edge)
+{
+    const BoxSole flat = {.length = 0.24, .width = 0.10};
+    const DpSoil  soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f};
+    for (int law = 0; law < 2; ++law)
+        for (int tilted = 0; tilted < 2; ++tilted) {
+            Ground  whole = ground_make(50, 40, 0.01, soil), half = ground_make(50, 40, 0.01, soil);
+            BoxSole sole = flat;
+            DpPressed on_whole, on_half;
+            for (int j = 0; j < 40; ++j)
+                for (int i = 25; i < 50; ++i) half.rest[j * 50 + i] = NAN;
+            sole.pitch = tilted ? -0.1 : 0.0;  // its front, over no ground, is the lower end
+            ground_sole(&whole, sole), ground_sole(&half, sole);
+            const DpFootForce foot = ground_load(700.0);
+            CHECK(dp_soil_compress(&whole.patch, &whole.imprint, &foot, (DpContactLaw)law, 1.0,
+                                   &on_whole) == DP_OK);
+            CHECK(dp_soil_compress(&half.patch, &half.imprint, &foot, (DpContactLaw)law, 1.0,
+                                   &on_half) == DP_OK);
+            for (int j = 0; j < 40; ++j)
+                for (int i = 0; i < 25; ++i)
+                    CHECK_CLOSE(half.compression[j * 50 + i], whole.compression[j * 50 + i], 1e-6);
+            for (int k = 0; k < 2000; ++k)
+                CHECK(!isnan(half.rest[k]) || half.compression[k] == 0.0f);
+            CHECK(on_whole.deepest > 0.005);
+            CHECK_CLOSE(on_half.area, on_whole.area, 1e-9);
+            if (!tilted) CHECK_CLOSE(on_half.firm, 0.5 * on_whole.firm, 1e-9);
+            ground_free(&whole), ground_free(&half);
+        }
+}
+
+// `uniform` asks where the body meets the ground that was there before it came
+TEST(met_ground_counts)
+{
+    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f};
+    Ground       ground = ground_make(50, 40, 0.01, soil);
+    float        met[2000] = {0.0f};
+    ground_sole(&ground, (BoxSole){.length = 0.24, .width = 0.10});
+    DpPressed         fresh, now;
+    const DpFootForce foot = ground_load(700.0);
+    CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_UNIFORM, 0.02,
+                           &fresh) == DP_OK);
+    for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 50; ++i)
+            if (i < 20) ground.heap[j * 50 + i] += 0.03f;  // its own rim falls under the sole
+    CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_UNIFORM, 0.02, &now) ==
+          DP_OK);
+    CHECK(now.area < 0.5 * fresh.area);
+    ground.imprint.met = met;
+    CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_UNIFORM, 0.02, &now) ==
+          DP_OK);
+    CHECK_CLOSE(now.area, fresh.area, 1e-9);
+    ground_free(&ground);
+}
+
 int main(void)
 {
     RUN(flat_sole_is_trail_10);
@@ -340,5 +395,7 @@ int main(void)
     RUN(large_soles);
     RUN(nothing_to_press);
     RUN(mirrored_to_the_bit);
+    RUN(over_an_edge);
+    RUN(met_ground_counts);
     return check_done();
 }
