@@ -180,7 +180,7 @@ class Simulation:
 
     ground: Ground; soils: a preset's name, a Soil, or a list (painted ground counts through it).
     cell_size: side of a cell [m], 0.0005 to 1.
-    law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: reach of a "paper" heap.
+    law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: how wide the rim of a "paper" heap is laid.
     threads: 0 = as many as the machine has; the result is the same for any number.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.

@@ -67,6 +67,7 @@ static void drop_recording(DpSim* sim)
 {
     dp_meadow_drop(sim);
     sim->ahead.planned = false, sim->ahead.count = 0;
+    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l) dp_free(sim->limb[l].met);
     void* const blocks[] = {sim->time,  sim->pose,        sim->mass,           sim->sole,
                             sim->force, sim->limb,        sim->sole_vertex,    sim->sole_triangle,
                             sim->group, sim->order,       sim->pressure_point, sim->touching,
@@ -100,6 +101,7 @@ void dp_sim_destroy(DpSim* sim)
         dp_free(bench->imprint.bottom);
         dp_free(bench->imprint.cover);
         dp_free(bench->imprint.ring);
+        dp_free(bench->met);
     }
     for (int n = 0; n < AHEAD_MOST; ++n) dp_loan_destroy(sim->ahead.loan[n]);
     dp_free(sim->bench);

@@ -17,12 +17,15 @@ typedef struct Limb
     int*   part;         // its parts, in the order of the recording (part_count)
     bool   stands;       // in a stance
     double heap_height;  // T of the rest heap, from step to step of a stance          [m]
+    double margin;       // of ground around its soles that a step may change        [m]
     double unlaid;       // displaced volume that found no border cell yet             [m^3]
     double sink;         // how far its soles stand below where they were recorded     [m]
     DpVec3 slip;         // how far its soles have slipped along the ground in this stance [m]
     DpVec3 sheared;      // of that, what the soil carries the push with as it is now       [m]
     double lowered;      // the same as plants saw it at the end of the last step      [m]
     Cells  trodden;      // cells its patches covered during this stance
+    float* met;          // `uniform`: heap - compression on `met_at` as this stance met them [m]
+    Cells  met_at;
 
     // this step's work and what came of it
     Cells  patch;   // cells this step's patch covers
@@ -51,6 +54,7 @@ typedef struct Bench
     DpSoilScratch*    soil_scratch;
     DpImprint         imprint;
     size_t            imprint_cells;  // room in the imprint's grids
+    float*            met;            // likewise
     DpMesh*           sole;           // of the limb at hand (most parts of a limb)
     DpPose*           pose;
     DpStatus          status;

@@ -1,4 +1,6 @@
 // sim/sim_press.c - one limb's step in the paper's order: imprint, compress, accumulate, stabilize.
+#include <string.h>
+
 #include "base/alloc.h"
 #include "base/assert.h"
 #include "base/vec.h"
@@ -18,16 +20,29 @@ static DpStatus fit_imprint(Bench* bench, const DpSoilPatch* patch)
         dp_free(bench->imprint.bottom);
         dp_free(bench->imprint.cover);
         dp_free(bench->imprint.ring);
+        dp_free(bench->met);
         bench->imprint.bottom = dp_alloc(cells, sizeof(float));
         bench->imprint.cover = dp_alloc(cells, sizeof(float));
         bench->imprint.ring = dp_alloc(cells, sizeof(int32_t));
+        bench->met = dp_alloc(cells, sizeof(float));
         bench->imprint_cells = cells;
-        if (!bench->imprint.bottom || !bench->imprint.cover || !bench->imprint.ring) {
+        if (!bench->imprint.bottom || !bench->imprint.cover || !bench->imprint.ring ||
+            !bench->met) {
             bench->imprint_cells = 0;
             return DP_NO_MEMORY;
         }
     }
     return DP_OK;
+}
+
+// the ground as the limb's stance met it, in the patch's rows
+static const float* met_on(const DpSoilPatch* patch, const Limb* limb, Bench* bench)
+{
+    if (!limb->met) return NULL;
+    const size_t nx = (size_t)patch->nx;
+    for (size_t j = 0; j < (size_t)patch->ny; ++j)
+        memcpy(bench->met + j * (size_t)patch->row, limb->met + j * nx, nx * sizeof(float));
+    return bench->met;
 }
 
 // The soil under a point of the patch; the first soil where the point lies outside.
@@ -117,6 +132,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, B
     const int    substeps = dp_limb_substeps(sim, limb, sample);
     const double dt = (sim->time[sample + 1] - sim->time[sample]) / substeps;
     bench->imprint.i0 = bench->imprint.i1 = 0;
+    bench->imprint.met = met_on(patch, limb, bench);
     for (int u = 0; u < substeps && status == DP_OK; ++u) {
         status = dp_pressing_open(pressing, limb, patch);
         if (status == DP_OK)
@@ -129,8 +145,9 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, B
     if (stands_here)
         pressing->at = (Cells){pressing->i0 + bench->imprint.i0, pressing->i0 + bench->imprint.i1,
                                pressing->j0 + bench->imprint.j0, pressing->j0 + bench->imprint.j1};
-    const int most =
-        sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps : SLIDING_SWEEPS;
+    const bool rests = sim->options.heap_law == DP_HEAP_PAPER;
+    const int  most = rests || sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps
+                                                                         : SLIDING_SWEEPS;
     status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
                                sim->options.tolerance, most, bench->soil_scratch, &settled);
     if (status != DP_OK) return status;

@@ -3,14 +3,17 @@
 // Limbs whose patches meet form a group and are worked on in the recording's order by one thread;
 // groups do not touch each other, so they may run at once and the result stays the same. On planted
 // ground the next step's soil is worked out while the plants still move: sim_ahead.c.
+#include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
 #define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
-#define HEAP_SPARE 4      // cells beyond the foot of the heap
-#define FEW_GROUPS 4      // with fewer, starting threads costs more than it gives ..
-#define MANY_CELLS 8000   // .. unless their patches are as large as this
+#define SPILL_GROWTH \
+    1.5               // .. so many times more, after a step whose loose soil wanted to go farther
+#define HEAP_SPARE 4  // cells beyond the foot of the heap
+#define FEW_GROUPS 4  // with fewer, starting threads costs more than it gives ..
+#define MANY_CELLS 8000  // .. unless their patches are as large as this
 
 // how far soles may slip on any of the soils [m]
 static double slips(const DpSim* sim)
@@ -28,12 +31,14 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     const bool presses = now || then;
     limb->lifts = limb->stands && !presses;
     limb->active = presses || limb->lifts;
+    const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;
     limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
     if (presses && !limb->stands) {
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
-        limb->trodden = (Cells){0, 0, 0, 0};
+        limb->margin = HEAP_MARGIN;
+        limb->trodden = limb->met_at = (Cells){0, 0, 0, 0};
         ++sim->report.contacts;
     }
     limb->stands = presses;
@@ -41,8 +46,10 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         double slope = INFINITY;  // the flattest heap reaches farthest
         for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
-        const double reach = 1.25 * limb->heap_height / slope + HEAP_SPARE * sim->cell;
-        limb->patch = dp_limb_cells(sim, limb, sample, fmax(HEAP_MARGIN, reach) + slips(sim));
+        const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
+        const double reach = fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->cell;
+        if (spilled) limb->margin *= SPILL_GROWTH;
+        limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, reach) + slips(sim));
     } else {
         limb->patch = limb->trodden;
     }
@@ -131,6 +138,27 @@ static void count(DpSim* sim)
     }
 }
 
+// Remember the ground under a patch as this stance met it: what the stance has covered all along is
+// known, the rest is met now.
+static DpStatus meet(DpSim* sim, Limb* limb)
+{
+    const Cells  at = limb->patch, was = limb->met_at;
+    const int    nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    float* const met = dp_alloc((size_t)nx * (size_t)ny, sizeof *met);
+    if (!met) return DP_NO_MEMORY;
+    const DpStatus status =
+        dp_terrain_read(sim->terrain, DP_FIELD_HEIGHT_CHANGE, at.i0, at.j0, nx, ny, met);
+    const long i0 = at.i0 > was.i0 ? at.i0 : was.i0, i1 = at.i1 < was.i1 ? at.i1 : was.i1;
+    for (long j = at.j0; limb->met && j < at.j1; ++j)
+        for (long i = i0; i < i1 && j >= was.j0 && j < was.j1; ++i)
+            met[(j - at.j0) * nx + (i - at.i0)] =
+                limb->met[(j - was.j0) * (was.i1 - was.i0) + (i - was.i0)];
+    dp_free(limb->met);
+    limb->met = met;
+    limb->met_at = at;
+    return status;
+}
+
 // what every limb does in a step, and room for it on the terrain
 DpStatus dp_step_plan(DpSim* sim, int sample)
 {
@@ -143,10 +171,12 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
     }
     if (any) sim->groups = make_groups(sim);
     for (int l = 0; any && l < sim->gait.limbs; ++l) {
-        const Limb* limb = &sim->limb[l];
+        Limb* limb = &sim->limb[l];
         if (!limb->active || dp_cells_empty(limb->patch)) continue;
-        const DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
-                                                 limb->patch.j0, limb->patch.j1);
+        DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
+                                           limb->patch.j0, limb->patch.j1);
+        if (status == DP_OK && sim->options.law == DP_CONTACT_UNIFORM && !limb->lifts)
+            status = meet(sim, limb);
         if (status != DP_OK) return status;
     }
     return DP_OK;
@@ -215,7 +245,8 @@ DpStatus dp_sim_settle(DpSim* sim)
 void dp_sim_reach(const DpSim* sim, long reach[4])
 {
     Cells        cells = {0, 0, 0, 0};
-    const double margin = 3 * HEAP_MARGIN + slips(sim) + dp_meadow_margin(sim);
+    const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
+    const double margin = 3 * fmax(HEAP_MARGIN, rim) + slips(sim) + dp_meadow_margin(sim);
     for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
         for (int k = 0; k + 1 < sim->gait.times; ++k)
             if (dp_limb_touches(sim, &sim->limb[l], k) ||

@@ -84,7 +84,7 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
     if (volume <= 0.0) return DP_OK;
 
     if (options->law == DP_HEAP_PAPER)
-        return soil_heap_paper(patch, imprint, &shares, volume, options->rim_width);
+        return soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);
     const double slope = slope_under(patch, &shares);
     return soil_heap_rest(patch, imprint, &shares, volume, slope, height, scratch);
 }

@@ -1,43 +1,115 @@
-// soil/soil_heap_paper.c - a rim of fixed width around the touched cells. TRAIL (12), SOFT22 (13).
+// soil/soil_heap_paper.c - a rim of fixed width around the sole. TRAIL (12), SOFT22 (13).
 //
 // Departures
-//   TRAIL (12) fills ring 1 only, a rim that gets thinner with the cell. Here the rim has a width
-//   in
-//     metres, and a cell's share falls linearly to zero over it. test_soil_accumulate.c,
-//     paper_falls_off.
+//   TRAIL (12) fills ring 1 only, a rim that gets thinner with the cell. Here the rim is `width` metres
+//     wide. As in ring 1 all of it is filled alike, but over its outer fifth what cells get falls to zero,
+//     so that a rim of one cell is nearly as high as one of many. test_soil_accumulate.c, paper_falls_off.
+//   Cells that the sole covers in part take no soil. A rim from its true edge on would lose its inner
+//     side to them and grow high, one from their outer side on would be long and low: it begins midway.
+//     test_oracles.py, test_a_paper_rim_does_not_depend_on_the_cell.
 //   SOFT22 (14) lets the rim grow at a rate of its own; here what is displaced in a step is laid
-//   down
-//     in that step, so no soil is in the air.
+//     down in that step, so no soil is in the air.
 #include "soil/soil_heaps.h"
 
-// 1 at the sole, 0 at the rim's outer side
-static double falloff(int ring, double cell, double width)
+#define STEPS 65536      // of one cell: distances are whole numbers, alike from any side
+#define DIAGONAL 92682   // sqrt(2) cells
+#define FAR (1 << 30)    // farther than any rim reaches
+#define FALLS 0.2        // outer share of the width over which the rim falls to zero
+#define MOST_WIDE 16000  // cells that a rim can be wide
+
+// The part of the patch a rim can reach, with a frame of one far cell; distances from where it begins.
+typedef struct Reach
 {
-    if (ring == 1) return 1.0;
-    return fmax(1.0 - (double)(ring - 1) * cell / width, 0.0);
+    int      i0, j0, nx, ny;
+    size_t   row;
+    int32_t* far;  // of a cell's centre [steps] (ny + 2, row)
+} Reach;
+
+static int32_t* far_at(const Reach* reach, int i, int j)
+{
+    return reach->far + (size_t)(j - reach->j0 + 1) * reach->row + (size_t)(i - reach->i0 + 1);
+}
+
+static void nearer(int32_t* far, int32_t other, int32_t way)
+{
+    if (other + way < *far) *far = other + way;
+}
+
+// from the cells under the sole outward: two passes with straight and slanting steps
+static void measure(const Reach* reach, const DpImprint* imprint, const DpSoilPatch* patch)
+{
+    const size_t row = reach->row, cells = row * (size_t)(reach->ny + 2);
+    for (size_t k = 0; k < cells; ++k) reach->far[k] = FAR;
+    for (int j = reach->j0; j < reach->j0 + reach->ny; ++j)
+        for (int i = reach->i0; i < reach->i0 + reach->nx; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (imprint->ring[p] != 0) continue;
+            *far_at(reach, i, j) = (int32_t)lround(-0.5 * (double)imprint->cover[p] * STEPS);
+        }
+    for (int pass = 0; pass < 2; ++pass)
+        for (int n = 0; n < reach->ny; ++n) {
+            const int j = reach->j0 + (pass ? reach->ny - 1 - n : n);
+            int32_t*  far = far_at(reach, reach->i0, j);
+            int32_t*  past = pass ? far + row : far - row;
+            for (int i = 0; i < reach->nx; ++i) {
+                nearer(&far[i], past[i], STEPS);
+                nearer(&far[i], past[i - 1], DIAGONAL);
+                nearer(&far[i], past[i + 1], DIAGONAL);
+            }
+            for (int i = 1; i < reach->nx; ++i) nearer(&far[i], far[i - 1], STEPS);
+            for (int i = reach->nx - 2; i >= 0; --i) nearer(&far[i], far[i + 1], STEPS);
+        }
+}
+
+// area under the profile of a rim of width 1 from its inner side to x
+static double profile_to(double x)
+{
+    if (x <= 0.0) return 0.0;
+    if (x >= 1.0) return 1.0 - 0.5 * FALLS;
+    const double over = soil_most(x - (1.0 - FALLS), 0.0);
+    return x - over * over / (2.0 * FALLS);
+}
+
+// how full a cell is: the profile over its side; 1 at the sole, 0 beyond the rim
+static double falloff(int32_t far, double wide)
+{
+    const double at = (double)far / STEPS;
+    return wide * (profile_to((at + 0.5) / wide) - profile_to((at - 0.5) / wide));
+}
+
+static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* imprint,
+                       double wide, DpSoilScratch* scratch)
+{
+    const int more = 2 + (int)ceil(wide);
+    const int i0 = imprint->i0 > more ? imprint->i0 - more : 0;
+    const int j0 = imprint->j0 > more ? imprint->j0 - more : 0;
+    const int i1 = patch->nx - imprint->i1 > more ? imprint->i1 + more : patch->nx;
+    const int j1 = patch->ny - imprint->j1 > more ? imprint->j1 + more : patch->ny;
+    *reach = (Reach){i0, j0, i1 - i0, j1 - j0, (size_t)(i1 - i0) + 2, NULL};
+    const size_t cells = reach->row * ((size_t)reach->ny + 2);
+    reach->far = dp_soil_scratch_block(scratch, cells * sizeof *reach->far);
+    return reach->far != NULL;
 }
 
 DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                         double volume, double width)
+                         double volume, double width, DpSoilScratch* scratch)
 {
     if (!(width > 0.0)) return DP_BAD_ARGUMENT;
-    const double wide = fmin(ceil(width / patch->cell), 30000.0);
-    const int    reach = 1 + (int)wide;
-    const int    i0 = imprint->i0 > reach ? imprint->i0 - reach : 0;
-    const int    j0 = imprint->j0 > reach ? imprint->j0 - reach : 0;
-    const int    i1 = imprint->i1 + reach < patch->nx ? imprint->i1 + reach : patch->nx;
-    const int    j1 = imprint->j1 + reach < patch->ny ? imprint->j1 + reach : patch->ny;
+    const double wide = soil_least(soil_most(width / patch->cell, 1.0), MOST_WIDE);
     const double coarse = ldexp(1.5, 52 - 30), area = patch->cell * patch->cell;
+    Reach        reach;
+    if (!open_reach(&reach, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
+    measure(&reach, imprint, patch);
 
     double total = 0.0;
     for (int pass = 0; pass < 2; ++pass)  // the blended shares are normalised as a whole
-        for (int j = j0; j < j1; ++j)
-            for (int i = i0; i < i1; ++i) {
+        for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
+            for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
                 const size_t p = soil_at(patch, i, j);
-                const int    ring = imprint->ring[p];
-                if (ring < 1 || ring > reach || !soil_is_ground(patch->rest[p])) continue;
-                const double weight = soil_on_grid(
-                    soil_heap_share(shares, i, j) * falloff(ring, patch->cell, width), coarse);
+                if (imprint->ring[p] == 0 || !soil_is_ground(patch->rest[p])) continue;
+                const double full = falloff(*far_at(&reach, i, j), wide);
+                if (!(full > 0.0)) continue;
+                const double weight = soil_on_grid(soil_heap_share(shares, i, j) * full, coarse);
                 if (pass == 0)
                     total += weight;
                 else if (total > 0.0)

@@ -20,4 +20,4 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
 
 // Lay `volume` [m^3] > 0 on a rim `width` [m] wide.
 DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                         double volume, double width);
+                         double volume, double width, DpSoilScratch* scratch);

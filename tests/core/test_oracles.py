@@ -173,6 +173,60 @@ def test_volume_and_rim_do_not_depend_on_the_cell(turn):
         assert maps["heap"].max() == pytest.approx(fine_maps["heap"].max(), rel=0.10)
 
 
+def rim(cell, *, sole=FOOT, load=75 * G, soil=FIRM, width=0.04, turn=0.0):
+    """The height of a `paper` rim while the foot still stands [m], and how far it reaches beyond the sole [m]."""
+    sim = Simulation(Ground.flat(), soil, cell, heap="paper", rim_width=width)
+    gait, loads = gaits.pressed([sole], [[0.013, 0.021, 0, *gaits.turn_z(turn)]], [[0, 0, -load]])
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 20)
+    half = int(round(0.8 / cell))
+    heap = sim.read("heap", -half, -half, 2 * half, 2 * half)
+    along = (np.flatnonzero(heap[half] > 0.05 * heap.max()) + 0.5 - half) * cell
+    return float(heap.max()), along.max() - 0.013 - np.ptp(sole.vertices[:, 0]) / 2
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.4, 1.1])
+def test_a_paper_rim_does_not_depend_on_the_cell(turn):
+    heights = [rim(cell, turn=turn)[0] for cell in (0.04, 0.02, 0.01, 0.005)]
+    assert max(heights) < 1.1 * min(heights)
+
+
+def test_a_paper_rim_is_as_wide_as_it_is_told_in_metres():
+    steep = replace(FIRM, rest_angle=math.radians(60))
+    for width in (0.02, 0.04, 0.08, 0.15):
+        for cell in (0.01, 0.005):
+            height, reach = rim(cell, soil=steep, width=width)
+            assert reach == pytest.approx(width, abs=0.005 + cell)
+    assert rim(0.01, soil=steep, width=0.02)[0] > 2.5 * rim(0.01, soil=steep, width=0.08)[0]
+
+
+def test_a_paper_rim_too_high_for_its_width_slides_out_to_rest_while_the_foot_stands():
+    mud = replace(SOILS["mud"], poisson_ratio=0.45)
+    height, reach = rim(0.01, sole=gaits.box(0.5, 0.4), load=8000, soil=mud)
+    assert reach > 2 * 0.04
+    assert height == pytest.approx(reach * math.tan(mud.rest_angle), rel=0.15)
+
+
+def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
+    """A ledge along y = 0: of a foot that crosses it, and of one whose toe hangs over it."""
+    ledge = Ground.mesh([[-2, 0, 0], [2, 0, 0], [2, 2, 0], [-2, 2, 0]], [[0, 1, 2], [0, 2, 3]])
+    gait, loads = gaits.pressed([FOOT], [AT_ORIGIN], [[0, 0, -75 * G]])
+    tip = gait.pose.copy()
+    tip[0, :, 3:] = [math.cos(0.06), math.sin(0.06), 0, 0]  # the side over the edge hangs down
+    tip[0, :, 3], tip[0, :, 4] = math.cos(-0.06), math.sin(-0.06)
+    for pose in (gait.pose, tip, tip * [1, 1, 1, 1, -1, 1, 1]):
+        for law in ("sole", "uniform"):
+            found = []
+            for ground in (Ground.flat(), ledge):
+                sim = Simulation(ground, FIRM, 0.01, law=law)
+                sim.load(replace(gait, pose=pose), loads)
+                sim.run(len(gait.time) - 1)
+                found.append(sim.read("compression", -50, 1, 100, 50))
+            whole, half = found
+            assert half.max() <= whole.max() + 1e-4
+            assert half.sum() == pytest.approx(whole.sum(), rel=0.02, abs=0.01)
+
+
 def test_a_foot_s_volume_does_not_depend_on_the_cell():
     turned = [0.013, 0.021, 0, *gaits.turn_z(0.4)]
     runs = [press([FOOT], [turned], [[0, 0, -75 * G]], cell=cell)[1] for cell in (0.04, 0.02, 0.01, 0.005)]
@@ -193,11 +247,11 @@ def falling_sphere(mass=50.0, height=2.5, radius=0.15):
                 frame_rate=rate)
 
 
-def drop(mass=50.0, modulus=1e6, nu=0.35):
+def drop(mass=50.0, modulus=1e6, nu=0.35, law="sole"):
     soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2,
                 rest_angle=math.radians(30))
     gait = falling_sphere(mass)
-    sim = Simulation(Ground.flat(), soil, 0.01)
+    sim = Simulation(Ground.flat(), soil, 0.01, law=law)
     loads = walker.loads(gait, "impulse", ground=sim.rest_height, settle_time=soil.settle_time)
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
@@ -218,8 +272,10 @@ def test_a_dropped_sphere_goes_deeper_with_mass_and_shallower_with_stiffness():
     assert depth[0] > depth[1] > depth[2]
 
 
-def test_a_dropped_sphere_s_rim_grows_with_poisson_s_ratio_and_its_depth_does_not():
-    runs = [drop(nu=nu) for nu in (0.1, 0.25, 0.45)]
+@pytest.mark.parametrize("law", ["sole", "uniform"])
+def test_a_dropped_sphere_s_rim_grows_with_poisson_s_ratio_and_its_depth_does_not(law):
+    """SOFT22 Fig. 7"""
+    runs = [drop(nu=nu, law=law) for nu in (0.1, 0.25, 0.45)]
     depths = [report["deepest_m"] for _, report, _ in runs]
     rims = [float(heap.max()) for _, _, heap in runs]
     assert depths[0] == pytest.approx(depths[2], rel=1e-3) and depths[0] == pytest.approx(depths[1], rel=1e-3)

@@ -1,4 +1,8 @@
-"""Slow, literal twins of native/soil: one cell, one neighbour, one step at a time, in float64.
+"""Slow twins of native/soil: one cell, one neighbour, one step at a time, in float64.
+
+First the papers' equations as printed, each by itself; test_soil_twins.py holds the kernels against them where
+both speak of the same, and names where the kernels leave them. Then what is ours (a rigid sole on springs, heaps
+in their resting shape, a sweep that keeps volume), written down again from the design and without its ways.
 
 Patches are dicts of float64 arrays (ny, nx): rest, compression, heap, pressure_time, modulus, rest_slope,
 depth (L0), tau, nu; and `cell`. Functions change them in place, as the kernels do.
@@ -8,6 +12,68 @@ import heapq
 import math
 
 import numpy as np
+
+# ---- as printed ---------------------------------------------------------------------------------
+
+
+def stress(force, normal, hits, cell):
+    """TRAIL (10), SOFT22 (9): sigma = (F.n)/A_contact, A_contact = hits cell^2; F.n of the ground's answer."""
+    return -np.dot(force, normal) / (hits * cell**2)
+
+
+def depth(sigma, layer, modulus):
+    """TRAIL (10), SOFT22 (10): dL = sigma L_0/E."""
+    return sigma * layer / modulus
+
+
+def frame(accumulated, whole, layer, dt, tau):
+    """SOFT22 (11): c_frame = dt/tau dL if c_acc < dL <= L_0, else 0."""
+    return dt / tau * whole if accumulated < whole <= layer else 0.0
+
+
+def pushed_aside(pressed, nu):
+    """SOFT22 (12), its sign mended: of V_0 dL/L_0 that is pressed the share 1 - 2 nu is lost, the rest is displaced."""
+    return pressed - (1.0 - 2.0 * nu) * pressed
+
+
+def border_shares(cells, point, force, normal, threshold):
+    """TRAIL (11)-(13): w_i/sum_k w_k of border cells at positions (n, 3)."""
+    parallel = force - np.dot(force, normal) * normal
+    size = math.sqrt(np.dot(parallel, parallel))
+    beta = min(size / threshold, 1.0)  # TRAIL (13)
+    w = []
+    for at in cells:
+        u = (at - point) / math.sqrt(np.dot(at - point, at - point))
+        w_cos = max(np.dot(parallel, u), 0.0) / size if size else 0.0  # TRAIL (11)
+        w.append(beta * w_cos + (1.0 - beta))  # TRAIL (12)
+    return np.array(w) / sum(w)
+
+
+def slide(h, cell, rest_angle, step, passes):
+    """TRAIL (14)-(16) on loose ground, but h_step leaves a cell once, not once for each neighbour (no volume is lost)."""
+    ny, nx = h.shape
+    for _ in range(passes):
+        moved = False
+        for j in range(ny):
+            for i in range(nx):
+                near = [(j + dj, i + di) for dj in (-1, 0, 1) for di in (-1, 0, 1)
+                        if (dj or di) and 0 <= j + dj < ny and 0 <= i + di < nx]
+                lower = {q: h[j, i] - h[q] for q in near if h[q] < h[j, i]}
+                steep = [q for q, fall in lower.items()
+                         if math.atan(fall / (cell * math.hypot(q[0] - j, q[1] - i))) >= rest_angle]  # TRAIL (14)
+                if not steep:
+                    continue
+                moved = True
+                down = min(step, h[j, i])
+                whole = sum(lower[q] for q in steep)
+                h[j, i] -= down  # TRAIL (16)
+                for q in steep:
+                    h[q] += lower[q] / whole * down  # TRAIL (15)
+        if not moved:
+            return
+
+
+# ---- ours: how a sole is carried, design 6.2 ----------------------------------------------------
 
 RIGID = 0.95  # share of L0 that can be pressed
 STIFFER = 100.0  # how much harder the ground is below it
@@ -20,43 +86,50 @@ def spring(t, depth):
     return max(x, 0.0)
 
 
-def _columns(patch, bottom, cover):
-    for j, i in np.argwhere((cover > 0) & ~np.isnan(patch["rest"])):
-        e = patch["compression"][j, i] - patch["heap"][j, i]
-        yield j, i, cover[j, i], patch["rest"][j, i] - bottom[j, i], e
+class Columns:
+    """The cells under a sole; where there is no ground it goes on level, as the ground there is on average."""
 
+    def __init__(self, patch, bottom, cover):
+        at = np.argwhere(cover > 0)
+        self.j, self.i = at.T
+        self.cover, self.area = cover[self.j, self.i], cover[self.j, self.i] * patch["cell"] ** 2
 
-def _push_back(patch, bottom, cover, sink):
-    """Force of the ground on the sole, and the area that carries."""
-    force = area = 0.0
-    for j, i, a, gap, e in _columns(patch, bottom, cover):
-        x = spring(gap + sink, patch["depth"][j, i])
-        sigma = patch["modulus"][j, i] / patch["depth"][j, i] * x
-        force += a * sigma * patch["cell"] ** 2
-        area += a * patch["cell"] ** 2 * (x > 0)
-    return force, area
+        def column(grid):
+            value = grid[self.j, self.i].copy()
+            value[~self.ground] = np.average(value[self.ground], weights=self.cover[self.ground])
+            return value
 
+        self.ground = ~np.isnan(patch["rest"][self.j, self.i])
+        self.gap = column(patch["rest"]) - bottom[self.j, self.i]
+        self.e = column(patch["compression"] - patch["heap"])
+        self.depth = column(patch["depth"])
+        self.stiffness = column(patch["modulus"] / patch["depth"])  # E/L0
 
-def balance(patch, bottom, cover, load):
-    """The sink s at which the columns carry the load: bisection."""
-    low = -max(gap for _, _, _, gap, _ in _columns(patch, bottom, cover))
-    high = low + 1e-3
-    while _push_back(patch, bottom, cover, high)[0] < load:
-        high = low + 2 * (high - low)
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        if _push_back(patch, bottom, cover, middle)[0] < load:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+    def answer(self, sink):
+        """Force of the ground on the sole, and the area that carries."""
+        x = np.array([spring(gap + sink, depth) for gap, depth in zip(self.gap, self.depth)])
+        return (self.stiffness * x * self.area).sum(), self.area[x > 0].sum()
+
+    def sink(self, load):
+        """The s at which the columns carry the load: bisection."""
+        low = -self.gap.max()
+        high = low + 1e-3
+        while self.answer(high)[0] < load:
+            high = low + 2 * (high - low)
+        for _ in range(200):
+            middle = 0.5 * (low + high)
+            if self.answer(middle)[0] < load:
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high)
 
 
 def _yield(patch, j, i, a, t, sigma, dt):
     """Lower one cell for dt seconds; returns what came from firm ground, what from the heap."""
     t = min(t, RIGID * patch["depth"][j, i])
     e = patch["compression"][j, i] - patch["heap"][j, i]
-    press = max(min(a * t * min(dt / patch["tau"][j, i], 1.0), a * t - e), 0.0)  # SOFT22 (11)
+    press = max(min(a * t * min(dt / patch["tau"][j, i], 1.0), a * t - e), 0.0)  # SOFT22 (11), cut at the end
     loose = min(press, patch["heap"][j, i])
     patch["heap"][j, i] -= loose
     patch["compression"][j, i] += press - loose
@@ -65,44 +138,39 @@ def _yield(patch, j, i, a, t, sigma, dt):
 
 
 def compress(patch, bottom, cover, load, dt, law="sole"):
-    """TRAIL (9) (10), SOFT22 (9)-(12). Returns (touched, firm, loose, displaced, sink)."""
+    """One step of either law. Returns (touched, firm, loose, displaced, sink)."""
     cell2 = patch["cell"] ** 2
-    sole = sum(a for _, _, a, _, _ in _columns(patch, bottom, cover)) * cell2
+    columns = Columns(patch, bottom, cover)
+    sole = columns.area.sum()
     least = min(max(4 * cell2, 0.05 * sole), sole)
     touched = np.zeros(cover.shape, bool)
     firm = loose = displaced = 0.0
     if law == "sole":
-        sink = balance(patch, bottom, cover, load)
-        area = _push_back(patch, bottom, cover, sink)[1]
+        sink = columns.sink(load)
+        area = columns.answer(sink)[1]
         if 0 < area < least:
-            sink = balance(patch, bottom, cover, load * area / least)
+            sink = columns.sink(load * area / least)
+        depths = columns.gap + sink
+        stresses = [k * spring(t, d) for k, t, d in zip(columns.stiffness, depths, columns.depth)]
+        carries = depths > 0
     else:
-        def overlap(a, gap, e, j, i):
-            return gap - (min(e / a, RIGID * patch["depth"][j, i]) if e > 0 else e)
-        high = max(overlap(a, gap, e, j, i) for j, i, a, gap, e in _columns(patch, bottom, cover))
-        lowest = [(j, i) for j, i, a, gap, e in _columns(patch, bottom, cover)
-                  if overlap(a, gap, e, j, i) >= high - 0.01]
-        area = sum(cover[j, i] for j, i in lowest) * cell2
-        sigma_all = load / max(area, least)  # SOFT22 (9)
-        sink = -high
-    for j, i, a, gap, e in list(_columns(patch, bottom, cover)):
-        stiffness = patch["modulus"][j, i] / patch["depth"][j, i]  # E/L0
-        if law == "sole":
-            t = gap + sink
-            sigma = stiffness * spring(t, patch["depth"][j, i])
-            carries = sigma > 0
-        else:
-            sigma = sigma_all
-            t = sigma / stiffness  # TRAIL (10)
-            carries = (j, i) in lowest
-        if not carries:
-            continue
+        e = columns.e
+        overlap = columns.gap - np.where(e > 0, np.minimum(e / columns.cover, RIGID * columns.depth), e)
+        sink = -overlap.max()
+        carries = overlap >= overlap.max() - 0.01
+        stresses = np.full(len(overlap), load / max(columns.area[carries].sum(), least))
+        depths = stresses / columns.stiffness
+    for k in np.flatnonzero(carries & columns.ground):
+        j, i = columns.j[k], columns.i[k]
         touched[j, i] = True
-        c, b = _yield(patch, j, i, a, t, sigma, dt)
+        c, b = _yield(patch, j, i, columns.cover[k], depths[k], stresses[k], dt)
         firm += c * cell2
         loose += b * cell2
-        displaced += 2 * patch["nu"][j, i] * (c + b) * cell2  # SOFT22 (12)
+        displaced += pushed_aside((c + b) * cell2, patch["nu"][j, i])
     return touched, firm, loose, displaced, sink
+
+
+# ---- ours: how heaps are laid, design 6.3 -------------------------------------------------------
 
 
 def rings(touched, most):
@@ -131,16 +199,21 @@ def shares(cells, patch, force, point, normal, threshold):
     return np.array(found)
 
 
-def accumulate_paper(patch, ring, foot, volume, width, threshold):
-    """TRAIL (11)-(13) on a rim `width` wide."""
-    cells = [(j, i) for j, i in np.argwhere((ring >= 1) & (ring < 32767)) if not np.isnan(patch["rest"][j, i])]
-    falloff = np.array([1.0 if ring[c] == 1 else max(1 - (ring[c] - 1) * patch["cell"] / width, 0.0)
-                        for c in map(tuple, cells)])
-    edge = [c for c in cells if ring[tuple(c)] == 1]
+def accumulate_paper(patch, ring, cover, foot, volume, width, threshold):
+    """TRAIL (11)-(13) on a rim `width` wide, full but for its outer fifth, from midway through the cells that the
+    sole covers in part."""
+    wide = max(width / patch["cell"], 1.0)
+    far = np.full(ring.shape, np.inf)
+    for c in map(tuple, np.argwhere(ring == 0)):
+        far = np.minimum(far, _distances(c, np.zeros(ring.shape, bool), 1.0) - 0.5 * cover[c])
+    cells = [tuple(c) for c in np.argwhere((ring > 0) & ~np.isnan(patch["rest"]))]
+    steps = (np.arange(2000) + 0.5) / 2000 - 0.5  # across a cell
+    full = np.array([np.mean(np.where((x := (far[c] + steps) / wide) > 0, np.clip((1 - x) / 0.2, 0, 1), 0))
+                     for c in cells])
     omega = shares(cells, patch, *foot, threshold)
-    if not shares(edge, patch, *foot, threshold).any():
+    if not any(w > 0 for c, w in zip(cells, omega) if ring[c] == 1):
         omega[:] = 1.0
-    weight = omega * falloff
+    weight = omega * full
     for (j, i), w in zip(cells, weight):
         patch["heap"][j, i] += w / weight.sum() * volume / patch["cell"] ** 2
 
@@ -216,8 +289,11 @@ def accumulate_rest(patch, ring, cover, foot, volume, threshold, slope):
     return high
 
 
+# ---- ours: how they come to rest, design 6.4 ----------------------------------------------------
+
+
 def sweep(patch, touched=None, tolerance=1e-5):
-    """One sweep of TRAIL (14)-(16) with both stencils, by loops."""
+    """One sweep with both stencils, by loops."""
     slack = math.tan(tolerance) * patch["cell"]
     ny, nx = patch["rest"].shape
     height = patch["rest"] - patch["compression"] + patch["heap"]

@@ -192,10 +192,18 @@ TEST(paper_falls_off)
     CHECK(lay(&ground, ground_load(700.0), 1e-4, &paper, &height) == DP_OK);
     const float* row = ground.heap + 30 * 60;
     CHECK(row[35] > 0.0f);
-    CHECK_CLOSE(row[36], 0.75 * (double)row[35], 1e-5);
-    CHECK_CLOSE(row[37], 0.50 * (double)row[35], 1e-5);
-    CHECK_CLOSE(row[38], 0.25 * (double)row[35], 1e-5);
+    CHECK_CLOSE(row[36], row[35], 1e-5);
+    CHECK_CLOSE(row[37], row[35], 1e-5);
+    CHECK_CLOSE(row[38], 0.6 * (double)row[35],
+                1e-5);  // of its centimetre 2 mm are full, 8 mm fall to 0
     CHECK(row[39] == 0.0f);
+    for (int n = 1; n < 5; ++n) {  // the width is what is said, in metres
+        memset(ground.heap, 0, 3600 * sizeof(float));
+        const DpHeapOptions wide = {DP_HEAP_PAPER, 0.01 * n, 367.0};
+        CHECK(lay(&ground, ground_load(700.0), 1e-4, &wide, &height) == DP_OK);
+        CHECK(row[34 + n] > 0.0f && row[35 + n] == 0.0f);
+        CHECK_CLOSE(ground_sum(&ground, ground.heap), 1e-4, 1e-6);
+    }
     DpFootForce foot = ground_load(700.0);
     foot.force.x = 183.5;  // beta 0.5: behind half of it, ahead 0.5 cos + 0.5
     memset(ground.heap, 0, 3600 * sizeof(float));

@@ -325,7 +325,7 @@ TEST(mirrored_to_the_bit)
 TEST(over_an_edge)
 {
     const BoxSole flat = {.length = 0.24, .width = 0.10};
-    const DpSoil  soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f};
+    const DpSoil  soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
     for (int law = 0; law < 2; ++law)
         for (int tilted = 0; tilted < 2; ++tilted) {
             Ground  whole = ground_make(50, 40, 0.01, soil), half = ground_make(50, 40, 0.01, soil);
@@ -355,7 +355,7 @@ TEST(over_an_edge)
 // `uniform` asks where the body meets the ground that was there before it came
 TEST(met_ground_counts)
 {
-    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f};
+    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
     Ground       ground = ground_make(50, 40, 0.01, soil);
     float        met[2000] = {0.0f};
     ground_sole(&ground, (BoxSole){.length = 0.24, .width = 0.10});
