@@ -12,6 +12,7 @@ from . import axes, compat, playback
 
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
+PRINTS, WHERE = "the prints in", "where the prints are"  # words of few_points
 COARSE = 4.0  # nor does what is farther apart than this show what was baked [cells]
 
 
@@ -108,20 +109,24 @@ def few_points(obj, surface, index, planes):
     render, drawn = (_apart(points, index, printed) for points in (surface.vertices, surface.drawn))
     render /= np.sqrt(surface.finer)
     wide = WIDE * cells / edges  # in cells
-    metres = lambda apart: f"{apart * index.cell:.2g} m" if np.isfinite(apart) else "farther than the prints are long"
+    apart = lambda cells: f"{cells * index.cell:.2g} m apart" if np.isfinite(cells) else "too far apart"
     if min(render, drawn) > wide:
-        return [f"'{obj.name}' has hardly a point where the prints are, so that they cannot be seen: "
-                f"subdivide it there, to about {index.cell:g} m."]
+        return [f"'{obj.name}' has hardly a point {WHERE}, so that they cannot be seen: subdivide it there, to about {index.cell:g} m."]
     if render > wide:
-        return [f"The viewport shows the prints in '{obj.name}', renders do not, where its points lie {metres(render)} "
-                "apart: let its modifiers make it as fine in renders."]
+        return [f"The viewport shows {PRINTS} '{obj.name}', renders do not, where its points lie "
+                f"{apart(render)}: let its modifiers make it as fine in renders."]
     if drawn > wide:
-        return [f"Renders show the prints in '{obj.name}', the viewport does not, where its points lie {metres(drawn)} "
-                "apart: let its modifiers make it as fine in the viewport if you want to see them there."]
+        return [f"Renders show {PRINTS} '{obj.name}', the viewport does not, where its points lie "
+                f"{apart(drawn)}: let its modifiers make it as fine in the viewport if you want to see them there."]
     if render > COARSE:
-        return [f"The points of '{obj.name}' lie {metres(render)} apart where the prints are, which are baked in cells "
-                f"of {index.cell:g} m: make it as fine as those there to see prints as they are."]
+        return [f"The points of '{obj.name}' lie {apart(render)} {WHERE}, which are baked in cells of "
+                f"{index.cell:g} m: make it as fine as those there to see prints as they are."]
     return []
+
+
+def is_of_points(sentence):
+    """Whether few_points said it."""
+    return any(words in sentence for words in (PRINTS, WHERE))
 
 
 def _apart(points, index, printed):

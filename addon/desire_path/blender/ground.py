@@ -3,7 +3,7 @@
 The mesh is taken as renders have it at the first frame, with the modifiers that come before the one that plays
 our own bake: a subdivided or displaced ground is walked on as it looks, without the hair that grows on it.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import bpy
@@ -97,6 +97,16 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
                    np.array(list(product(*zip(near.low, near.high))), np.float64),
                    _cell_corner(vertices, cell), (*warnings, *place.warnings), place,
                    vertices if drawn is None else drawn, mark, finer)
+
+
+def laid(surface, world):
+    """A ground as if its object had another matrix."""
+    if np.array_equal(surface.world, world):
+        return surface
+    move = world @ np.linalg.inv(surface.world)
+    move[:3, 3] *= surface.scale
+    vertices, drawn = (axes.points(move, each, 1.0) for each in (surface.vertices, surface.drawn))
+    return replace(surface, world=world, vertices=vertices, drawn=drawn)
 
 
 def _same(one, other):

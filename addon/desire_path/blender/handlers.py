@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, overrides, playback, show, state
+from . import ground, home, op_forces, op_plants, overrides, playback, show, state, watch
 
 
 _unsaved = False  # whether the file that is being saved never was before
@@ -43,12 +43,14 @@ def refresh(scene, obj):
 def after_load(*_):
     op_forces.hide()  # of the file before
     home.forget()
+    watch.forget()
     state.doubt()
     overrides.restore()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:
                 refresh(scene, obj)
+        watch.all_of(scene)
 
 
 @persistent
@@ -62,6 +64,7 @@ def after_undo(*_):
             if obj.type == "MESH" and obj.desire_path.is_ground and obj.library is None:
                 with suppress(DesirePathError):  # the next bake says what is wrong
                     op_plants.refresh(scene, obj)
+        watch.all_of(scene)
 
 
 @persistent
@@ -90,6 +93,7 @@ def after_save(*_):
 
 
 def register():
+    watch.register()
     bpy.app.handlers.load_post.append(after_load)
     bpy.app.handlers.save_pre.append(before_save)
     bpy.app.handlers.save_post.append(after_save)
@@ -101,6 +105,7 @@ def register():
 
 def unregister():
     state.unregister()
+    watch.unregister()
     bpy.app.handlers.redo_post.remove(after_undo)
     bpy.app.handlers.undo_post.remove(after_undo)
     bpy.app.handlers.save_post.remove(after_save)

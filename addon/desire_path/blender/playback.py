@@ -19,6 +19,8 @@ from . import axes, clock, compat
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
+STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
+SAMPLES = 24  # points of the mesh that tell whether it was changed
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
 ROUNDED = 0.01  # of a frame is lost where time is stretched
@@ -75,7 +77,42 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     ours = compat.nodes_modifier(obj, MODIFIER, tree)
     ours.show_expanded = False
     compat.move_modifier(obj, ours, place.before if place is not None else before)
+    keep(obj, tree, world)
     return ours
+
+
+def keep(obj, tree, world):
+    """Write down on a tree for which modifiers, points and place of the ground it was made."""
+    tree[STACK] = stacked(obj)
+    tree[LIE] = [float(each) for part in (world, samples(obj)) for each in np.asarray(part, np.float64).ravel()]
+
+
+def made_for(tree):
+    """(the object's matrix (4, 4), the samples of its points (n, 3)) a tree was made for."""
+    numbers = np.array(tree[LIE], np.float64)
+    return numbers[:16].reshape(4, 4), numbers[16:].reshape(-1, 3)
+
+
+def samples(obj):
+    """Some points of an object's mesh, always the same ones (n, 3)."""
+    vertices = obj.data.vertices
+    if not len(vertices):
+        return np.zeros((0, 3))
+    return np.array([vertices[k].co for k in np.unique(np.linspace(0, len(vertices) - 1, SAMPLES).astype(int))], np.float64)
+
+
+def stacked(obj):
+    """All that the place of our modifier, and which points there are, follow from, in a word."""
+    out = [str(len(obj.data.vertices))]
+    for each in obj.modifiers:
+        tree = each.node_group if each.type == "NODES" else None
+        if tree is not None and TAG in tree:
+            out.append("ours")
+            continue
+        levels = [getattr(each, name) for name in ("levels", "render_levels", "subdivision_type") if hasattr(each, name)]
+        out.append(f"{each.name} {each.type} {each.show_viewport} {each.show_render} "
+                   f"{tree.name if tree is not None else ''} {levels}")
+    return "; ".join(out)
 
 
 def detach(obj):

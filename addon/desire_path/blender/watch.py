@@ -1,0 +1,137 @@
+"""watch.py - a baked ground that is changed goes on showing its prints where they were pressed.
+
+    a modifier added, moved, switched, applied --> ours goes to its place again, for the points there now
+    scale, rotation, location or origin applied --> the points' numbers have changed, not where they are: so do ours
+
+What our tree was made for is kept on it, so that nothing is done where nothing has changed, and undo brings it back.
+"""
+import json
+from contextlib import suppress
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ..errors import DesirePathError
+from . import axes, compat, cover, ground, home, playback, show, stack
+
+NEAR = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
+
+_lay = {}  # name of a ground -> its matrix when it was seen last
+_waiting = set()  # names of grounds to look at
+_working = False
+
+
+def look(scene, obj):
+    """Let a ground show its bake where it belongs, whatever was done to it since."""
+    global _working
+    ours = playback.modifier(obj)
+    if ours is None or obj.mode == "EDIT" or playback.STACK not in ours.node_group:
+        return
+    tree, now = ours.node_group, np.array(obj.matrix_world, np.float64)
+    before, _lay[obj.name_full] = _lay.get(obj.name_full), now
+    made_for, was = playback.made_for(tree)
+    world = _applied(obj, made_for, was, before, now)
+    _working = True
+    try:
+        if world is not None or tree[playback.STACK] != playback.stacked(obj):
+            _again(scene, obj, made_for if world is None else world)
+        elif before is not None and np.array_equal(before, now):
+            playback.keep(obj, tree, made_for)  # the mesh may have been edited
+    finally:
+        _working = False
+
+
+def _applied(obj, made_for, was, before, now):
+    """The matrix our tree is to be made for, where what an object's transform did was given to its mesh; else None."""
+    there = playback.samples(obj)
+    if len(there) != len(was) or np.array_equal(there, was):
+        return None
+    at = axes.points(now, there, 1.0)
+    for old in (before, made_for):
+        if old is not None and np.abs(axes.points(old, was, 1.0) - at).max() <= NEAR * np.abs(at).max():
+            with suppress(np.linalg.LinAlgError):
+                return made_for @ np.linalg.inv(old) @ now
+    return None
+
+
+def _again(scene, obj, world):
+    """Play anew, on a ground that was at a place when it was baked."""
+    from ..bake import read_index
+    try:
+        index = read_index(home.played(obj))
+        surface = ground.read(scene, obj, index.cell, index.frame_start)
+        _, told = show.play(obj, ground.laid(surface, world))
+        summary = obj.desire_path.summary
+        if summary:
+            found = json.loads(summary)
+            found["warnings"] = [each for each in found["warnings"] if not cover.is_of_points(each)]
+            found["warnings"] += [each for each in told if cover.is_of_points(each)]
+            obj.desire_path.summary = json.dumps(found)
+    except DesirePathError:  # the state says what is wrong
+        place = stack.find(scene, obj, scene.frame_current)
+        ours = playback.modifier(obj)
+        compat.move_modifier(obj, ours, place.before)
+        playback.keep(obj, ours.node_group, playback.made_for(ours.node_group)[0])
+
+
+# ---- handlers -----------------------------------------------------------------------------------------
+
+
+def _grounds(scene):
+    return [obj for obj in scene.objects if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground]
+
+
+def all_of(scene):
+    """Look at all grounds of a scene."""
+    for obj in _grounds(scene):
+        look(scene, obj)
+
+
+@persistent
+def changed(scene, depsgraph):
+    """Something was changed, or another frame is shown."""
+    if _working or _renders():
+        return
+    for each in depsgraph.updates:
+        obj = each.id.original
+        if isinstance(obj, bpy.types.Object) and obj.type == "MESH" and obj.library is None \
+                and obj.desire_path.is_ground and obj.name in scene.objects:
+            if bpy.app.background:
+                look(scene, obj)
+            else:
+                _waiting.add((scene.name, obj.name))
+    if _waiting and not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=0.0)
+
+
+def _look():
+    """Look at what waits, outside of whatever Blender was doing."""
+    while _waiting:
+        scene, obj = _waiting.pop()
+        scene, obj = bpy.data.scenes.get(scene), bpy.data.objects.get(obj)
+        if scene is not None and obj is not None:
+            look(scene, obj)
+
+
+def _renders():
+    return bpy.app.is_job_running("RENDER")
+
+
+def forget():
+    """Another file was opened."""
+    _lay.clear()
+    _waiting.clear()
+
+
+def register():
+    bpy.app.handlers.depsgraph_update_post.append(changed)
+    bpy.app.handlers.frame_change_post.append(changed)
+
+
+def unregister():
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    bpy.app.handlers.frame_change_post.remove(changed)
+    bpy.app.handlers.depsgraph_update_post.remove(changed)
+    forget()
