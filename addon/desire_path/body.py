@@ -3,16 +3,17 @@
     Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import foot as feet_of, jumps, rigs, rotation, slope
+from . import foot as feet_of, freeze, jumps, rigs, rotation, size as sizes, slope, stays
 from .errors import DesirePathError
 from .gait import Gait
 
 
 LEAST_SPAN = 0.005  # of a walker's joints [m]
+LEG_OF_TOP = 0.55  # hips over the ankles in shares of the highest joint's height over them; Winter, figure 4.1
 
 
 @dataclass(frozen=True)
@@ -116,12 +117,31 @@ def _check(skeleton, motion, rig, mass, frame_rate, frame_start):
 # ---- the mass centre --------------------------------------------------------------------------------------
 
 
-def mass_centre(bones, rig):
-    """(T, 3): the segments' centres weighted by their masses; the hips bone without segments."""
+def leg_length(bones, rig, up):
+    """Hips to ankles in the rest pose [m]; where hips tell none by what is above the feet, else by the feet."""
+    ankles = np.array([bones.rest_point(f.foot) for f in rig.feet]) @ up
+    top = float((bones.rest[:, :3, 3] @ up).max() - ankles.mean())
+    leg = float(bones.rest_point(rig.hips) @ up - np.median(ankles)) if rig.hips else 0.0
+    if leg > 0.1 * top:
+        return leg
+    foot = float(np.median([bones.length[bones.row[f.foot]] for f in rig.feet]))
+    return LEG_OF_TOP * top if top > 0.1 * foot else foot / feet_of.GUESS[0]
+
+
+def stretched_leg(bones, rig, leg):
+    """From hip joint to ankle along the bones of a leg [m]; as given where a foot has none."""
+    if not all(f.thigh for f in rig.feet):
+        return leg
+    joints = [[bones.rest_point(name) for name in (f.thigh, f.shank, f.foot) if name] for f in rig.feet]
+    return float(np.mean([np.linalg.norm(np.diff(each, axis=0), axis=1).sum() for each in joints]))
+
+
+def mass_centre(bones, rig, leg):
+    """(T, 3): the segments' centres weighted by their masses; the hips bone without segments, else over the feet."""
     if not rig.segments:
         if rig.hips:
             return bones.point(rig.hips).copy()
-        return np.mean([bones.point(f.foot) for f in rig.feet], axis=0) + (0.0, 0.0, 0.9)
+        return np.mean([bones.point(f.foot) for f in rig.feet], axis=0) + (0.0, 0.0, leg)
     total = sum(s.mass for s in rig.segments)
     com = 0.0
     ahead = _facing(bones, rig) if any(s.knee for s in rig.segments) else None
@@ -189,21 +209,27 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     bones = _Bones(skeleton, motion)
     time = np.asarray(motion.time, float)
     warnings = list(rig.warnings)
-    com = mass_centre(bones, rig)
+    up_rest = rest_up(bones, rig)
+    leg = leg_length(bones, rig, up_rest)
+    com = mass_centre(bones, rig, leg)
     leaps = jumps.between(time, com, np.array([bones.point(f.foot) for f in rig.feet]), frame_rate, time[0])
     cut = [sample for a, b, _ in leaps for sample in range(a + 1, b + 1)]
     warnings += jumps.sentences(name, [(*(frame_start + time[[a, b]] * frame_rate), size) for a, b, size in leaps])
     bones.tell = ~jumps.alone(len(time), cut)
-    up_rest = rest_up(bones, rig)
+    own_leg = stretched_leg(bones, rig, leg)
+    clip = time, com
+    time, com, bones, again, rests = _moving(skeleton, motion, rig, bones, time, com, cut, own_leg / sizes.LEG)
     ankles = np.array([bones.rest_point(f.foot) for f in rig.feet])
-    leg = float(np.median(ankles @ -up_rest)) + float(
-        bones.rest_point(rig.hips) @ up_rest if rig.hips else ankles.mean(axis=0) @ up_rest + 0.9)
     person = len(rig.feet) == 2 and bool(rig.hips)
     shapes = shapes or {}
     feet = [feet_of.Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
     square = _square(bones, feet, up_rest, -1.0 if skeleton.mirrored else 1.0)
-    if person and square is not None:
-        for foot in feet:
+    held = stays.still(com, time, own_leg / sizes.LEG)
+    held &= ~np.all([foot.low(~held) for foot in feet], axis=0)  # who stands on all feet shows them flat
+    held |= rests
+    for foot in feet:
+        foot.held, foot.size = held, own_leg / sizes.LEG
+        if person and square is not None:
             foot.face(square, up_rest)
     ahead_rest = _ahead(feet, up_rest, square)
     left_axis = np.cross(up_rest, ahead_rest)
@@ -237,13 +263,34 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
             points.append(at)
             point_part.append(first + part)
             point_role.append(role)
+    time, com = clip
     return Gait(
-        time=time, com=com[None], mass=np.array([mass]), pose=np.array(poses),
+        time=time, com=com[None], mass=np.array([mass]), pose=np.array(poses)[:, again],
         limb_walker=np.zeros(len(feet)), part_limb=part_limb, soles=soles, point=np.array(points),
         point_part=point_part, point_role=point_role, limb_name=[f.foot for f in rig.feet],
         part_name=["heel", "toe"] * len(feet), walker_name=[name], frame_rate=frame_rate,
         frame_start=frame_start, warnings=warnings, cut=cut,
-        jump=[(sample, 0) for sample in cut]).check()
+        jump=[(sample, 0) for sample in cut], leg=[own_leg]).check()
+
+
+def _moving(skeleton, motion, rig, bones, time, com, cut, size):
+    """The clip without the poses that are held in mid-step: what they interrupt is one motion.
+
+    (times, mass centre, bones, the sample of theirs for each of the clip, which of them hold a pose at rest)
+    """
+    poses = [(bones.point(name), bones.turn(name)) for name in rig.bones]
+    held, rests = [], np.zeros(len(time), bool)
+    for first, after in zip([0, *cut], [*cut, len(time)]):
+        piece = time[first:after], com[first:after], [(at[first:after], turn[first:after]) for at, turn in poses], size
+        held += [(first + a, first + b) for a, b in freeze.stops(*piece)]
+        for a, b in freeze.stops(*piece, rests=True):
+            rests[first + a + 1:first + b + 1] = True
+    keep = freeze.kept(len(time), held)
+    if held:
+        tell, bones = bones.tell[keep], _Bones(skeleton, Motion(time[keep], motion.bones, np.asarray(motion.matrix)[keep]))
+        bones.tell = tell
+    again = np.searchsorted(keep, np.arange(len(time)), side="right") - 1
+    return freeze.closed(time, held)[keep], com[keep], bones, again, rests[keep]
 
 
 def _square(bones, feet, up, sign):

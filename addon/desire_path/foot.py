@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import rig_names, rotation, sole, tread as treads
+from . import rig_names, rotation, size as sizes, sole, stays, tread as treads
 from .errors import DesirePathError
 from .gait import BALL, HEEL, TIP, Sole
 
@@ -30,9 +30,12 @@ PAW_PAD = 0.3  # such a foot presses this share of the toes' length behind the b
 PAW_SKIN = 0.06  # the paw's sole lies this share of its length under its lowest joint
 BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
 STIFF = np.radians(3.0)  # a toe bone that turns less than this against its foot never bends
-FLAT_SPEED = 0.25  # a flat foot moves slower than this [m/s]
+FLAT_SPEED = 0.25  # a grown person's flat foot moves slower than this [m/s]
 FLAT_RISE = 0.12  # rises and falls slower [m/s]
 FLAT_TURN = 1.0  # and turns slower [rad/s]
+LOW = 0.10  # it is low within this of its lowest, in shares of the leg
+DOWN = 0.03  # and stands within this
+HEEL_DOWN = 0.03  # its heel is down when the ankle is no more than this over its usual height over the ball
 
 
 @dataclass
@@ -66,6 +69,8 @@ class Foot:
                 raise DesirePathError(f"Bone {foot.foot} has no length up to {self.toe}: choose "
                                       "another toe bone or none.")
         self.leg = leg
+        self.size = leg / sizes.LEG  # its leg in those of a grown person
+        self.held = None  # samples at which the body keeps its pose: what other ones tell goes before them (T,)
         self.person = person  # walks on two legs below its hips
         self.made = None  # ball and tip seen from the ankle in the foot bone's axes, where the bone tells nothing
         self.ahead = None if beast or not self.toe else self._ahead()
@@ -136,43 +141,62 @@ class Foot:
         apart = np.einsum("tij,ij->t", between, between[0])
         return bool(np.arccos(np.clip((apart.min() - 1) / 2, -1, 1)) > STIFF)
 
+    def low(self, told):
+        """Where ankle and ball are as low as where they stand in the samples of a mask, if it has any (T,)."""
+        return self._height(told if told.any() else ~told) < DOWN * self.leg
+
+    def _height(self, told):
+        """Of ankle and ball over their lowest places in the samples of a mask, the greater (T,)."""
+        return np.maximum(*(joint[:, 2] - np.quantile(joint[told, 2], 0.02) for joint in self.joints()[:2]))
+
     def flat(self, time):
         """Samples at which the foot stands flat: low or slow, neither rising nor turning.
 
+        A pose that is held in mid-step says least of that, since a foot in the air is as still in it as one that
+        stands: where the rest of the clip shows the foot flat, what is held is left out.
+        """
+        if len(time) < 3:
+            return np.zeros(len(time), bool)
+        tell = self.bones.tell
+        if self.held is not None and self.held.any():
+            flat = self._flat(time, tell & ~self.held)
+            if stays.votes(flat, time, self.size).sum() >= stays.VOTE * np.sqrt(self.size):
+                return flat
+        return self._flat(time, tell)
+
+    def _flat(self, time, told):
+        """flat() of the samples in a mask.
+
         A runner's foot is hardly ever still: where nothing is found, up to four times as much goes.
         """
-        none = np.zeros(len(time), bool)
-        if len(time) < 3:
-            return none
         ankle, ball, _ = self.joints()
-        v_ankle, v_ball = rotation.rate_of(ankle, time), rotation.rate_of(ball, time)
+        pace = np.sqrt(self.size)
+        v_ankle, v_ball = rotation.rate_of(ankle, time) / pace, rotation.rate_of(ball, time) / pace
         turn = self.bones.turn(self.slots.foot)
-        spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0)
+        spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0) * pace
         speed = np.maximum(np.linalg.norm(v_ankle, axis=1), np.linalg.norm(v_ball, axis=1))
         rise = np.maximum(abs(v_ankle[:, 2]), abs(v_ball[:, 2]))
-        tell = self.bones.tell
-        height = np.maximum(ankle[:, 2] - np.quantile(ankle[tell, 2], 0.02),
-                            ball[:, 2] - np.quantile(ball[tell, 2], 0.02))
-        low = height < 0.10 * max(self.leg, 0.1)
+        low = self._height(told) < LOW * self.leg
         over_ball = ankle[:, 2] - ball[:, 2]
         for more in (1.0, 2.0, 4.0):
             slow = (speed < more * FLAT_SPEED) | (low & (rise < more * 0.5 * FLAT_RISE))
-            flat = tell & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
+            flat = told & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
             if more > 1.0:
                 flat &= low
             if flat.any():  # of those, the ones with the heel down
-                flat &= over_ball < np.quantile(over_ball[flat], 0.5) + 0.03 * max(self.leg, 0.1)
+                usual = stays.median(over_ball, stays.votes(flat, time, self.size))
+                flat &= over_ball < usual + HEEL_DOWN * self.leg
             if flat.sum() >= 3:
                 return flat
-        return none
+        return np.zeros(len(time), bool)
 
-    def _heel(self, foot_turn, frame, heel_x, tip_x):
+    def _heel(self, foot_turn, frame, weight, heel_x, tip_x):
         """x of the heel's end: a heel bone tells it, where it lies behind the ankle."""
         if not self.slots.heel:
             return heel_x
         bones, foot = self.bones, self.slots.foot
         rest = rotation.square(bones.rest[bones.row[foot], :3, :3])
-        turn = rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame)
+        turn = rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame, weight)
         ends = [turn.T @ rest.T @ (bones.rest_point(self.slots.heel, along) - bones.rest_point(foot))
                 for along in (0.0, 1.0)]
         behind = min(end[0] for end in ends)
@@ -188,24 +212,25 @@ class Foot:
             row = self.bones.row
             foot_turn = rotation.square(self.bones.rest[row[self.slots.foot], :3, :3])[None]
             toe_turn = rotation.square(self.bones.rest[row[self.toe], :3, :3])[None] if self.toe else None
-            up, ahead = up_rest, ahead_rest
+            up, ahead, weight = up_rest, ahead_rest, np.ones(1)
         else:
+            weight = stays.votes(flat, time, self.size)[flat]
             ankle, ball, tip = (j[flat] for j in self.joints())
             foot_turn = self.bones.turn(self.slots.foot)[flat]
             toe_turn = self.bones.turn(self.toe)[flat] if self.toe else None
             up, ahead = np.array([0.0, 0.0, 1.0]), None
         forward = tip - ankle
         across = forward - (forward @ up)[:, None] * up
-        if np.median(np.linalg.norm(across, axis=1) / np.linalg.norm(forward, axis=1)) < 0.3:
+        if stays.median(np.linalg.norm(across, axis=1) / np.linalg.norm(forward, axis=1), weight) < 0.3:
             if ahead is None:  # the foot bone stands upright: face the way of the rest pose
                 rest = rotation.square(self.bones.rest[self.bones.row[self.slots.foot], :3, :3])
                 ahead = foot_turn @ (rest.T @ ahead_rest)
             across = np.broadcast_to(ahead, forward.shape)
         frame = rotation.frame(across, up)
-        inside = lambda p: np.median(np.einsum("tji,tj->ti", frame, p - ankle), axis=0)
+        inside = lambda p: stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
         ball_in, tip_in = inside(ball), inside(tip)
-        turns = (rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame),
-                 None if toe_turn is None else rotation.mean_turn(np.swapaxes(toe_turn, 1, 2) @ frame))
+        turns = tuple(None if each is None else rotation.mean_turn(np.swapaxes(each, 1, 2) @ frame, weight)
+                      for each in (foot_turn, toe_turn))
         if self.beast and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
             return self._paw(ball_in, tip_in, turns), flat
         reach = ball_in[0]
@@ -222,7 +247,7 @@ class Foot:
             tip_x, heel_x = tip_x + 0.55 * more, heel_x - 0.45 * more
             length += more
         if not skinned:
-            heel_x = self._heel(foot_turn, frame, heel_x, tip_x)
+            heel_x = self._heel(foot_turn, frame, weight, heel_x, tip_x)
         # the sole lies under the lowest joint, the ankle no lower over it than in people
         ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
         return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2], *turns, ball_in[1]), flat
@@ -278,7 +303,8 @@ def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, wa
         toe_at = ball - toe_turn @ np.array([0.0, shape.ball_side, shape.ball_height])
     else:
         under = heel_at + heel_turn @ ball_in_foot
-        rest_height = np.median(under[flat, 2]) if flat.any() else np.quantile(under[bones.tell, 2], 0.05)
+        rest_height = (stays.median(under[:, 2], stays.votes(flat, time, foot.size)) if flat.any()
+                       else np.quantile(under[bones.tell, 2], 0.05))
         low = 0.25 * (shape.tip - shape.heel)
         toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
         toe_at = under

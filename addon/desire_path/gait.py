@@ -64,6 +64,7 @@ class Gait:
     warnings: tuple = ()
     cut: np.ndarray = ()  # samples at which a new piece begins: the motion jumps there (C,), rising
     jump: np.ndarray = ()  # those of them at which one walker only jumps: sample, walker (J, 2)
+    leg: np.ndarray = ()  # from hips to ankles (W,) [m] > 0; empty: as size.legs() finds it
 
     def __post_init__(self):
         for name, kind, _ in _NUMBERS:
@@ -71,6 +72,7 @@ class Gait:
             object.__setattr__(self, name, value)
         object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
         object.__setattr__(self, "jump", np.array(self.jump, "i8").reshape(-1, 2))
+        object.__setattr__(self, "leg", np.array(self.leg, "f8").reshape(-1))
         object.__setattr__(self, "soles", tuple(self.soles))
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in _NAMES:
@@ -170,6 +172,9 @@ class Gait:
                     f"The mass centre of {self.walker_name[w]} has no finite position at frame "
                     f"{self.frame(bad.argmax()):g}: mend the animation there or leave the frame "
                     "out.")
+        if len(self.leg) not in (0, len(self.mass)) or not ((self.leg > 0) & np.isfinite(self.leg)).all():
+            raise DesirePathError("The recording's legs have no length above 0 for each walker: record the "
+                                  "walk again.")
         for p in range(len(self.part_limb)):
             bad = ~np.isfinite(self.pose[p]).all(axis=1)
             if bad.any():
@@ -213,6 +218,7 @@ class Gait:
         jump[:, 1] = np.searchsorted(walkers, jump[:, 1])
         return replace(
             self, cut=self.cuts_of(walkers), jump=jump, com=self.com[walkers], mass=self.mass[walkers], pose=self.pose[parts],
+            leg=self.leg[walkers] if len(self.leg) else (),
             limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
             part_limb=np.searchsorted(limbs, self.part_limb[parts]), soles=[self.soles[p] for p in parts],
             point=self.point[points], point_part=np.searchsorted(parts, self.point_part[points]),
@@ -227,7 +233,7 @@ class Gait:
         arrays = {name: getattr(self, name) for name, _, _ in _NUMBERS}
         for name in ("limb_name", "part_name", "walker_name", "warnings"):
             arrays[name] = np.array(getattr(self, name), dtype="U")
-        arrays["cut"], arrays["jump"] = self.cut, self.jump
+        arrays["cut"], arrays["jump"], arrays["leg"] = self.cut, self.jump, self.leg
         arrays["version"] = np.array(_VERSION)
         arrays["frame_rate"] = np.array(self.frame_rate)
         arrays["frame_start"] = np.array(self.frame_start)
@@ -263,7 +269,7 @@ class Gait:
                 wanted[name] = tuple(arrays[name].tolist())
             gait = Gait(soles=_unstack(arrays), frame_rate=float(arrays["frame_rate"]),
                         frame_start=int(arrays["frame_start"]), cut=arrays.get("cut", ()),
-                        jump=arrays.get("jump", ()), **wanted)
+                        jump=arrays.get("jump", ()), leg=arrays.get("leg", ()), **wanted)
         except DesirePathError:
             raise
         except (KeyError, ValueError, TypeError, IndexError, OverflowError) as error:
@@ -278,6 +284,8 @@ class Gait:
     @staticmethod
     def join(gaits):
         """Several walkers of the same time base as one recording."""
+        from . import size
+
         gaits = list(gaits)
         if not gaits:
             raise DesirePathError("There is no walker to record: choose an armature first.")
@@ -303,7 +311,8 @@ class Gait:
             walker_name=chain("walker_name"), frame_rate=first.frame_rate,
             frame_start=first.frame_start, warnings=tuple(dict.fromkeys(chain("warnings"))),
             cut=np.unique(np.concatenate([g.cut for g in gaits])),
-            jump=np.concatenate([g.jump + (0, first) for g, first in zip(gaits, walkers)]))
+            jump=np.concatenate([g.jump + (0, first) for g, first in zip(gaits, walkers)]),
+            leg=np.concatenate([size.legs(g) for g in gaits]) if any(len(g.leg) for g in gaits) else ())
 
     def rate(self):
         """Samples a second if they are even within every piece, else None."""
@@ -314,14 +323,24 @@ class Gait:
         return 1.0 / step if abs(steps - step).max() < 1e-3 * step else None
 
     def resample(self, rate):
-        """The same recording at an even rate [1/s]: cubic positions and rotations."""
-        from . import _native
+        """The same recording at an even rate [1/s]: cubic positions and rotations.
+
+        A pose that is held in mid-step is held, and the motion on either side of it is one: see freeze.
+        """
+        from . import freeze
 
         if not (np.isfinite(rate) and rate > 0):
             raise DesirePathError(f"A rate of {rate:g} samples a second cannot be used: give one "
                                   "above 0.")
         if len(self.cut):
             return self._resampled_pieces(rate)
+        held = freeze.holds(self)
+        return freeze.resampled(self, rate, held) if any(held) else self.evenly(rate)
+
+    def evenly(self, rate):
+        """resample() of a recording without cuts and holds."""
+        from . import _native
+
         count = _native.resample_count(self.time[0], self.time[-1], float(rate))
         time = np.empty(count)
         com = np.empty((len(self.mass), count, 3))

@@ -46,13 +46,13 @@ def square(turn):
     return (u * flip[..., None, :]) @ vt
 
 
-def mean_turn(turns):
-    """The mean of rotations, counting those far from it for little."""
-    mean = square(turns.mean(axis=0))
+def mean_turn(turns, weight):
+    """The mean of rotations by their weights (T,), counting those far from it for little."""
+    mean = square(np.average(turns, axis=0, weights=weight))
     for _ in range(4):
         apart = np.sqrt(np.maximum(3.0 - np.einsum("tij,ij->t", turns, mean), 0.0))  # the angle, if small
-        weight = 1.0 / np.maximum(apart, 0.01)
-        mean = square(np.einsum("t,tij->ij", weight, turns) / weight.sum())
+        near = weight / np.maximum(apart, 0.01)
+        mean = square(np.einsum("t,tij->ij", near, turns) / near.sum())
     return mean
 
 

@@ -23,6 +23,7 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 LOAD_MODELS = ("inertia", "impulse")
+HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
 
 _FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
     "compression": 0,
@@ -284,6 +285,10 @@ class Simulation:
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
+        touching = np.array(loads.touching, np.uint8)
+        held = getattr(loads, "held", None)
+        if held is not None:
+            touching[held & (touching != 0)] |= HELD
         vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
         triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
         self._core.load(
@@ -293,7 +298,7 @@ class Simulation:
             np.array([len(sole.vertices) for sole in gait.soles], np.int32),
             np.ascontiguousarray(triangles),
             np.array([len(sole.triangles) for sole in gait.soles], np.int32),
-            np.ascontiguousarray(loads.touching, np.uint8), np.ascontiguousarray(loads.force),
+            np.ascontiguousarray(touching), np.ascontiguousarray(loads.force),
             np.ascontiguousarray(loads.point),
         )
         if self.plantings:

@@ -8,18 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import whole
+from . import freeze, size as sizes, whole
 from .errors import DesirePathError
 
-RATE = 240.0  # loads are found at this rate at least, the least multiple of the recording's own [1/s]
+RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
-SLIDE = 0.4  # feet that stand do not slide faster [m/s]
-HOVER = 0.1  # feet that stand do not do so farther from the ground [m]
+SLIDE = 0.4  # a person's feet that stand do not slide faster [m/s]
+STILL = 0.25  # who stands moves no foot faster [m/s]
+HOVER = 0.1  # a person's feet that stand do not do so farther from the ground [m]
 ASIDE = 0.3  # a walker put aside is farther up or down than this share of its mass centre's height over its feet
 BESIDE = "Some steps land beside the ground and leave no print there."
 
+# Those of a grown person: lengths go with a walker's leg, times and speeds with its root (see size).
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
 LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
           "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
@@ -39,6 +41,7 @@ class FootForce:
     clearance: np.ndarray  # resting height of each contact point over the ground (K,) [m]
     mean: np.ndarray = None  # mean vertical force of each walker (W,) [body weights]
     warnings: tuple = ()
+    held: np.ndarray = None  # from these samples to the next parts are held in mid-step and press no deeper (P, T)
 
 
 def native_gait(gait):
@@ -81,15 +84,15 @@ def ground_below(gait, ground):
     return np.ascontiguousarray(np.broadcast_to(heights, shape), "f8").copy()
 
 
-def _even(gait):
+def _even(gait, size):
     """(gait at a rate fit for filters, each how many samples of which are the recording's; 0: they lie elsewhere)."""
-    rate = gait.rate()
+    rate, least = gait.rate(), RATE / np.sqrt(size)
     if len(gait.time) == 1:
         return gait, 1
     if rate is None:
-        return gait.resample(RATE), 0
-    finer = int(np.ceil(RATE / rate - 1e-6))
-    return (gait.resample(rate * finer), finer) if finer > 1 else (gait, 1)
+        return gait.evenly(least), 0
+    finer = int(np.ceil(least / rate - 1e-6))
+    return (gait.evenly(rate * finer), finer) if finer > 1 else (gait, 1)
 
 
 def _frames(gait):
@@ -110,15 +113,28 @@ def _find_contacts(gait, below, limits, frame_rate):
 
 def contacts(gait, ground_height=None, *, limits=None):
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
-    gait.check()
-    if len(gait.cut):
-        return _contacts_by_piece(gait, ground_height, limits)
-    even, every = _even(gait)
-    below = _on_even(gait, even, ground_height)
-    touching, clearance = _find_contacts(even, _carried_on(even, below), limits, _frames(gait))
+    gait = sizes.known(gait.check())
+    touching, clearance = np.zeros((len(gait.part_limb), len(gait.time)), "u1"), []
+    known = ((turn, *_contacts_of(turn.gait, turn.ground, limits)) for turn in _turns(gait, ground_height))
+    for turn, on, rest in _standing(gait, known):
+        touching[np.ix_(turn.parts, turn.samples)] = on
+        clearance.append(turn.known(on, rest))
+        for first, last in turn.holds:
+            touching[np.ix_(turn.parts, range(first + 1, last + 1))] = touching[turn.parts, first][:, None]
+    return _let_go(gait, touching), _middle(clearance, len(gait.point))
+
+
+def _contacts_of(gait, ground, limits):
+    """contacts() of walkers of one size, in one turn."""
+    size = gait.leg[0] / sizes.LEG
+    even, every = _even(gait, size)
+    below = _on_even(gait, even, ground)
+    person = sizes.as_person(even, size)
+    touching, clearance = _find_contacts(person, _carried_on(even, below) / size, limits,
+                                         _frames(gait) * np.sqrt(size))
     touching[_beside(even, below)] = 0
     pick = slice(None, None, every) if every else _nearest(even.time, gait.time)
-    return np.ascontiguousarray(touching[:, pick]), clearance
+    return touching[:, pick], clearance * size
 
 
 def _on_even(gait, even, ground):
@@ -171,32 +187,40 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
     tau [s], half_sine spreads the landing as a half-sine). ground: see ground_below.
     """
-    from . import _native
-
-    gait.check()
+    gait = sizes.known(gait.check())
     if model not in MODELS:
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
     if not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
-    if len(gait.cut):
-        def find(piece, heights):
-            try:
-                return loads(piece, model, heights, settle_time=settle_time, half_sine=half_sine, limits=limits,
-                             options=options)
-            except _Sunk as problem:
-                return problem
 
-        return _loads_by_piece(gait, ground, find)
-    even, every = _even(gait)
+    def find(turn):
+        try:
+            return _loads_of(turn.gait, model, turn.ground, settle_time, half_sine, limits, options)
+        except _Sunk as problem:
+            if len(gait.cut):
+                return problem
+            raise
+
+    return _together(gait, _side_by_side(_turns(gait, ground), find, ground))
+
+
+def _loads_of(gait, model, ground, settle_time, half_sine, limits, options):
+    """loads() of walkers of one size, in one turn."""
+    from . import _native
+
+    size = gait.leg[0] / sizes.LEG
+    even, every = _even(gait, size)
     below = _on_even(gait, even, ground)
     beside, below = _beside(even, below), _carried_on(even, below)
-    touching, clearance = _find_contacts(even, below, limits, _frames(gait))
+    person, floor = sizes.as_person(even, size), below / size
+    touching, clearance = _find_contacts(person, floor, limits, _frames(gait) * np.sqrt(size))
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
-    _native.foot_force(native_gait(even), touching, below, MODELS[model], float(settle_time),
+    _native.foot_force(native_gait(person), touching, floor, MODELS[model], settle_time / np.sqrt(size),
                        bool(half_sine), force, point, _numbers(OPTIONS, options))
-    mean, warnings = _weigh(even, touching, force) if model == "inertia" else (None, [])
-    warnings = (_sinks(even, below) + _hovers(even, touching, clearance) + _slides(even, touching)
+    point, clearance = point * size, clearance * size
+    mean, warnings = _weigh(person, touching, force) if model == "inertia" else (None, [])
+    warnings = (_sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, touching, size)
                 + warnings)
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
@@ -208,7 +232,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
 
 
-# ---- a recording in pieces: every piece for itself, nothing carries over a cut -----------------------
+# ---- a recording in turns: every piece for itself, each size for itself, nothing carries over a cut ---------
 
 
 def _spans(gait):
@@ -219,18 +243,50 @@ def _spans(gait):
     for who in [others, *jumpers[:, None]]:
         for first, after in gait.pieces(gait.cuts_of(who)):
             there = np.intersect1d(gait.there(first, after), who)
-            if len(there) and after - first > 1:
+            if len(there) and (after - first > 1 or len(gait.time) == 1):
                 yield there, first, after
 
 
-def _pieces(gait, ground):
-    """(samples, walkers, parts, points, recording of them, its ground) for each piece that has any."""
+@dataclass(frozen=True)
+class _Turn:
+    """Walkers of one size between two cuts, without the holds that interrupt them."""
+
+    gait: object  # their recording
+    ground: object
+    walkers: np.ndarray
+    parts: np.ndarray
+    points: np.ndarray
+    samples: np.ndarray  # of the whole recording
+    holds: tuple  # (first, last) sample of the whole recording
+    whole: bool  # no other turn is theirs
+    count: int  # points of the whole recording
+
+    def known(self, touching, rest):
+        """Clearances (K,), NaN for points that are not there, or whose part never touches where others tell more."""
+        clearance = np.full(self.count, np.nan)
+        on = self.whole | touching[self.gait.point_part].any(axis=1)
+        clearance[self.points] = np.where(on, rest, np.nan)
+        return clearance
+
+
+def _turns(gait, ground):
+    one = ground is None or callable(ground) or np.ndim(ground) == 0
+    heights = None if one else ground_below(gait, ground)
     for there, first, after in _spans(gait):
-        parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], there))
-        points = np.flatnonzero(np.isin(gait.point_part, parts))
-        one = ground is None or callable(ground) or np.ndim(ground) == 0
-        heights = ground if one else np.asarray(ground)[points, first:after]
-        yield slice(first, after), there, parts, points, gait.piece(first, after).only(there), heights
+        piece = gait.piece(first, after)
+        alike = {}
+        for walker in there:
+            leg = gait.leg[walker]
+            alike.setdefault((leg, freeze.frozen(piece, walker, leg / sizes.LEG)), []).append(walker)
+        for (_, stops), walkers in alike.items():
+            own = piece if len(walkers) == len(gait.mass) else piece.only(np.array(walkers))
+            parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], walkers))
+            points = np.flatnonzero(np.isin(gait.point_part, parts))
+            samples = first + freeze.kept(after - first, stops)
+            yield _Turn(freeze.without(own, stops) if stops else own,
+                        ground if one else heights[np.ix_(points, samples)], np.array(walkers), parts,
+                        points, samples, tuple((first + a, first + b) for a, b in stops), not len(gait.cut),
+                        len(gait.point))
 
 
 def _let_go(gait, touching):
@@ -243,22 +299,6 @@ def _let_go(gait, touching):
     return touching
 
 
-def _contacts_by_piece(gait, ground, limits):
-    touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
-    clearance = []
-    known = ((each, *contacts(*each[4:], limits=limits)) for each in _pieces(gait, ground))
-    for (samples, _, parts, points, *_), touching[parts, samples], rest in _standing(gait, known):
-        clearance.append(_known(gait, points, touching[gait.point_part[points], samples], rest))
-    return _let_go(gait, touching), _middle(clearance, len(gait.point))
-
-
-def _known(gait, points, touching, rest):
-    """Clearances (K,) from one piece, NaN for points that are not there or whose part never touches."""
-    clearance = np.full(len(gait.point), np.nan)
-    clearance[points] = np.where(touching.any(axis=1), rest, np.nan)
-    return clearance
-
-
 def _middle(clearance, points):
     """Clearance of each point (K,) over all pieces; 0 where none knows."""
     clearance = np.array(clearance).reshape(-1, points)
@@ -267,64 +307,77 @@ def _middle(clearance, points):
     return np.nanmedian(clearance, axis=0)
 
 
-def _side_by_side(pieces, find, ground):
-    """(piece, what find() tells of it) in their order; a ground that has to be asked is asked by one at a time."""
-    pieces = list(pieces)
-    if callable(ground):
-        yield from ((piece, find(*piece[4:])) for piece in pieces)
+def _side_by_side(turns, find, ground):
+    """(turn, what find() tells of it) in their order; a ground that has to be asked is asked by one at a time."""
+    turns = list(turns)
+    if callable(ground) or len(turns) == 1:
+        yield from ((turn, find(turn)) for turn in turns)
         return
     with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
-        yield from zip(pieces, workers.map(lambda piece: find(*piece[4:]), pieces))
+        yield from zip(turns, workers.map(find, turns))
 
 
-def _standing(gait, pieces):
-    """Those pieces, each with its touching and clearance, in which feet stand as high over the ground as in the
+def _standing(gait, turns):
+    """Those turns, each with its touching and clearance, in which feet stand as high over the ground as in the
     longest stay of the same walker, if it jumps: put aside above or below the ground it presses nothing."""
     jumpers = set(gait.jump[:, 1].tolist())
     if not jumpers:
-        return pieces
-    pieces, main = list(pieces), {}
+        return turns
+    turns, main = list(turns), {}
 
-    def height(piece, touching, clearance):
-        rest = clearance[touching[piece.point_part].any(axis=1)]
+    def height(turn, touching, clearance):
+        rest = clearance[touching[turn.gait.point_part].any(axis=1)]
         return float(np.median(rest)) if len(rest) else 0.0
 
-    for (_, there, _, _, piece, _), touching, clearance, *_ in pieces:
+    for turn, touching, clearance, *_ in turns:
         stay = int(np.count_nonzero(touching))
-        main[there[0]] = max(main.get(there[0], (0, 0.0)), (stay, height(piece, touching, clearance)))
-    return [(each, touching, clearance, *more) for each, touching, clearance, *more in pieces
-            if each[1][0] not in jumpers or abs(height(each[4], touching, clearance) - main[each[1][0]][1])
-            <= ASIDE * np.median(each[4].com[0, :, 2] - each[4].pose[..., 2].min(axis=0))]
+        main[turn.walkers[0]] = max(main.get(turn.walkers[0], (0, 0.0)), (stay, height(turn, touching, clearance)))
+    return [(turn, touching, clearance, *more) for turn, touching, clearance, *more in turns
+            if turn.walkers[0] not in jumpers
+            or abs(height(turn, touching, clearance) - main[turn.walkers[0]][1])
+            <= ASIDE * np.median(turn.gait.com[0, :, 2] - turn.gait.pose[..., 2].min(axis=0))]
 
 
-def _loads_by_piece(gait, ground, find):
-    """FootForce of the whole recording; find(piece, ground) gives that of a piece, or why there is none."""
+def _together(gait, turns):
+    """FootForce of the whole recording from those of its turns, or why there is none."""
     shape = (len(gait.part_limb), len(gait.time))
     touching, force, point = np.zeros(shape, "u1"), np.zeros(shape + (3,)), np.full(shape + (3,), np.nan)
-    clearance, told, sunk = [], [], []
+    clearance, told, sunk, held = [], [], [], np.zeros(shape, bool)
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
 
     def known():
-        for piece, found in _side_by_side(_pieces(gait, ground), find, ground):
+        for turn, found in turns:
             if isinstance(found, _Sunk):
                 sunk.append(found)
             else:
-                yield piece, found.touching, found.clearance, found
+                yield turn, found.touching, found.clearance, found
 
-    for (samples, there, parts, points, piece, _), *_, found in _standing(gait, known()):
-        touching[parts, samples] = found.touching
-        force[parts, samples], point[parts, samples] = found.force, found.point
-        clearance.append(_known(gait, points, touching[gait.point_part[points], samples], found.clearance))
+    for turn, *_, found in _standing(gait, known()):
+        at = np.ix_(turn.parts, turn.samples)
+        touching[at], force[at], point[at] = found.touching, found.force, found.point
+        for first, last in turn.holds:
+            held[turn.parts, first:last] = True
+            stay = np.ix_(turn.parts, range(first + 1, last + 1))
+            touching[stay], point[stay] = touching[turn.parts, first][:, None], point[turn.parts, first][:, None]
+            force[stay] = _weighing(force[turn.parts, first], turn.gait.mass[0])[:, None]
+            force[turn.parts, last] = force[turn.parts, first]  # and goes on as it came
+        clearance.append(turn.known(found.touching, found.clearance))
         told += found.warnings
         if found.mean is not None:
-            weighed[there] += len(piece.time) * found.mean
-            span[there] += len(piece.time)
+            weighed[turn.walkers] += len(turn.samples) * found.mean
+            span[turn.walkers] += len(turn.samples)
     if sunk and not clearance:
         raise sunk[0]
     _let_go(gait, touching)
     force[touching == 0], point[touching == 0] = 0.0, np.nan
     return FootForce(gait.time, touching, force, point, _middle(clearance, len(gait.point)),
-                     weighed / np.maximum(span, 1.0) if span.any() else None, _once(told))
+                     weighed / np.maximum(span, 1.0) if span.any() else None, _once(told), held)
+
+
+def _weighing(force, mass):
+    """Forces (P, 3) of one who stands in the middle of what he did: no more than his weight, straight down."""
+    down = np.minimum(force * (0.0, 0.0, 1.0), 0.0)
+    return down * min(1.0, mass * GRAVITY / max(-down[:, 2].sum(), 1e-9))
 
 
 def _once(warnings):
@@ -371,32 +424,35 @@ def _sinks(gait, below):
     return []
 
 
-def _hovers(gait, touching, clearance):
+def _hovers(gait, touching, clearance, size):
     """A sentence for each walker whose feet stand far from the ground."""
     warnings = []
     part = gait.point_part
     for w, name in enumerate(gait.walker_name):
         mine = (gait.limb_walker[gait.part_limb[part]] == w) & touching[part].any(axis=1)
         height = float(np.median(clearance[mine])) if mine.any() else 0.0
-        if height > HOVER:
+        if height > HOVER * size:
             warnings.append(f"{name} walks {height:.2f} m above the ground: lower it or raise the ground.")
-        elif height < -HOVER:
+        elif height < -HOVER * size:
             warnings.append(f"{name} walks {-height:.2f} m deep in the ground: raise it or lower the "
                             "ground.")
     return warnings
 
 
-def _slides(gait, touching):
+def _slides(gait, touching, size):
     """A sentence for each walker whose feet slide while they carry: it walks in place."""
     warnings = []
     if len(gait.time) < 3:
         return warnings
     rush = np.linalg.norm(np.gradient(point_places(gait)[..., :2], gait.time, axis=1), axis=2)
-    on = touching[gait.point_part] != 0
+    on, pace = touching[gait.point_part] != 0, np.sqrt(size)
     for w, name in enumerate(gait.walker_name):
-        mine = (gait.limb_walker[gait.part_limb[gait.point_part]] == w)[:, None] & on
+        own = gait.limb_walker[gait.part_limb[gait.point_part]] == w
+        mine = own[:, None] & on
+        still = (rush[own] < STILL * pace).all(axis=0)  # all of it stands: no step is taken
+        mine = mine & ~still if (mine & ~still).any() else mine
         speed = float(np.median(rush[mine])) if mine.any() else 0.0
-        if speed > SLIDE:
+        if speed > SLIDE * pace:
             warnings.append(f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
                             "that walks in place: move the character forward at that speed.")
     return warnings

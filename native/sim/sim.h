@@ -73,7 +73,10 @@ DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position);
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_rest(DpSim* sim, double seconds);
 
+#define DP_HELD 128  // in `touching`: no time passes for the part from this sample to the next
+
 // Take a recording, evenly sampled, with what its parts touch and press (walker/walker.h). Copied.
+// A limb that is held, as DP_HELD in `touching` says, stays in its print and presses no deeper.
 // Pressed prints stay: recordings may follow each other on the same ground.
 DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
                      const double* pressure_point);

@@ -166,6 +166,7 @@ static inline bool dp_cells_meet(Cells a, Cells b)
 
 // sim_limb.c: where a limb is and what it does at fraction `w` between samples k and k + 1
 bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
+bool        dp_limb_held(const DpSim* sim, const Limb* limb, int sample);
 DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
 Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);

@@ -16,6 +16,15 @@ bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
     return false;
 }
 
+bool dp_limb_held(const DpSim* sim, const Limb* limb, int sample)
+{
+    for (int p = 0; p < limb->part_count; ++p)
+        if (sim->touching[(size_t)limb->part[p] * (size_t)sim->gait.times + (size_t)sample] &
+            DP_HELD)
+            return true;
+    return false;
+}
+
 static DpPose pose_at(const DpSim* sim, int part, int sample)
 {
     const double* p = sim->pose + 7 * ((size_t)part * (size_t)sim->gait.times + (size_t)sample);

@@ -125,6 +125,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
 
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench)
 {
+    if (dp_limb_held(sim, limb, sample)) return DP_OK;
     DpStatus status = fit_imprint(bench, patch);
     if (status != DP_OK) return status;
 

@@ -28,7 +28,7 @@ static bool begins(const uint8_t* on, int t)
     return t > 0 && on[t] && !on[t - 1];
 }
 
-// median time between touch-downs of one limb, of any limbs if none comes down twice; 0 if unknown
+// lower median time between touch-downs of one limb, of any limbs if none comes down twice; 0 if unknown
 static double step_time(const uint8_t* limb_on, int limbs, int times, double rate, double* scratch)
 {
     int count = 0;
@@ -56,7 +56,7 @@ static double step_time(const uint8_t* limb_on, int limbs, int times, double rat
     }
     if (count == 0) return 0.0;
     qsort(scratch, (size_t)count, sizeof *scratch, by_value);
-    return scratch[count / 2];
+    return scratch[(count - 1) / 2];  // of two the shorter: who waits between steps steps no slower
 }
 
 // where no limb touches; is that anywhere?

@@ -10,6 +10,8 @@
 //   would begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
 //   TRAIL (4): limits tell that a foot stands, not since when; foot_edge.c moves the edges.
 //   test_foot_contact.c, the_ground_marks_the_edges.
+//   TRAIL (4): the clearance is that of stays, not of samples: a pose that is held for long is one.
+//   test_foot_contact.c, a_long_stay_is_one_stay.
 //   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.
 #include <math.h>
 #include <stdlib.h>
@@ -21,6 +23,7 @@
 
 #define SUPPORT_CUTOFF 8.0   // low-pass of a_com for the question whether it falls        [Hz]
 #define CLEARANCE_MOST 0.08  // a foot at rest this far above the lowest one hangs in the air [m]
+#define STAY 0.2             // longer stays of a foot tell no more of its height than this  [s]
 #define IN_PLACE 0.4         // feet of a walker that stays slide at least this fast     [m/s]
 
 DpContactLimits dp_contact_limits_default(void)
@@ -40,6 +43,12 @@ DpContactLimits dp_contact_limits_default(void)
     return limits;
 }
 
+// where a point was, and how much that counts
+typedef struct Vote
+{
+    double height, weight;
+} Vote;
+
 // what is known of the points and walkers over the clip
 typedef struct Watch
 {
@@ -57,6 +66,7 @@ typedef struct Watch
     uint8_t*               flown;    // nothing touched shortly before         (W, T)
     double*                scratch;  // for the low-pass
     double*                line;     // three signals                          (3, T)
+    Vote*                  vote;     // heights of one point                   (T)
 } Watch;
 
 static void close_watch(Watch* w)
@@ -64,7 +74,7 @@ static void close_watch(Watch* w)
     dp_free(w->height), dp_free(w->speed), dp_free(w->drop), dp_free(w->rise), dp_free(w->gate),
         dp_free(w->fall);
     dp_free(w->belt);
-    dp_free(w->on), dp_free(w->flown), dp_free(w->scratch), dp_free(w->line);
+    dp_free(w->on), dp_free(w->flown), dp_free(w->scratch), dp_free(w->line), dp_free(w->vote);
 }
 
 static bool open_watch(Watch* w)
@@ -82,8 +92,9 @@ static bool open_watch(Watch* w)
     w->flown = dp_alloc(walkers * times, 1);
     w->scratch = dp_alloc(walker_fly_scratch(w->gait->times) + 8, sizeof(double));
     w->line = dp_alloc(3 * times, sizeof(double));
+    w->vote = dp_alloc(times, sizeof(Vote));
     return w->height && w->speed && w->drop && w->rise && w->belt && w->gate && w->fall && w->on &&
-           w->flown && w->scratch && w->line;
+           w->flown && w->scratch && w->line && w->vote;
 }
 
 static int limb_of(const DpGait* gait, int point)
@@ -150,30 +161,47 @@ static double median(double* value, size_t count)
     return value[count / 2];
 }
 
+// Samples at which a foot of a walker moves, and how many: while all stand, nothing tells of a belt.
+static int find_steps(Watch* w, int walker, const double* ground, uint8_t* moves)
+{
+    const int times = w->gait->times;
+    int       count = 0;
+    memset(moves, 0, (size_t)times);
+    for (int k = 0; k < w->gait->points; ++k) {
+        if (walker_of(w->gait, k) != walker) continue;
+        watch_places(w, k, ground);
+        for (int t = 0; t < times; ++t)
+            moves[t] |= dp_length(line_velocity(w, t)) > w->limits->slow_speed;
+    }
+    for (int t = 0; t < times; ++t) count += moves[t];
+    return count;
+}
+
 // A walker that stays while its low feet slide walks in place: the surface moves as they do.
 static DpStatus find_belt(Watch* w, int walker, const double* ground)
 {
     const DpGait* gait = w->gait;
     const int     times = gait->times;
     const DpVec3  way = dp_sub(walker_com(gait, walker, times - 1), walker_com(gait, walker, 0));
-    const double  lasts = (double)(times - 1) / w->rate;
+    uint8_t*      moves = w->flown + (size_t)walker * (size_t)times;
     if (times < 3) return DP_OK;
     double* low = dp_alloc(3 * (size_t)gait->points * (size_t)times, sizeof(double));
     if (!low) return DP_NO_MEMORY;
-    double *x = low, *y = low + (size_t)gait->points * (size_t)times, *sorted = y + (y - x);
-    size_t  count = 0;
+    double *     x = low, *y = low + (size_t)gait->points * (size_t)times, *sorted = y + (y - x);
+    size_t       count = 0;
+    const double lasts = (double)find_steps(w, walker, ground, moves) / w->rate;
     for (int k = 0; k < gait->points; ++k) {
         if (walker_of(gait, k) != walker) continue;
         const double* height = w->height + (size_t)k * (size_t)times;
         size_t        n = 0;
         watch_places(w, k, ground);
         for (int t = 0; t < times; ++t)
-            if (isfinite(height[t])) sorted[n++] = height[t];
+            if (moves[t] && isfinite(height[t])) sorted[n++] = height[t];
         if (n == 0) continue;
         qsort(sorted, n, sizeof *sorted, by_value);
         const double most = sorted[n / 20] + 0.5 * w->limits->touch_height;
         for (int t = 0; t < times; ++t) {
-            if (!(height[t] <= most)) continue;
+            if (!moves[t] || !(height[t] <= most)) continue;
             const DpVec3 v = line_velocity(w, t);
             x[count] = v.x, y[count++] = v.y;
         }
@@ -210,24 +238,49 @@ static void watch_walker(Watch* w, int walker)
 // ---- the clip's own resting clearance
 // ------------------------------------------------------------
 
-// median of the lowest band of heights at slow samples; NaN if the point is never slow
-static double resting_height(const Watch* w, int k, const double* gate)
+static int by_height(const void* a, const void* b)
+{
+    return by_value(&((const Vote*)a)->height, &((const Vote*)b)->height);
+}
+
+// Heights at which a point rests, each stay counting as much as any other, however long it was.
+static int gather_votes(const Watch* w, int k, const double* gate, Vote* vote)
 {
     const int     times = w->gait->times;
     const double* height = w->height + (size_t)k * (size_t)times;
     const double* speed = w->speed + (size_t)k * (size_t)times;
-    double*       slow = w->line;
-    size_t        count = 0;
-    for (int t = 0; t < times; ++t) {
-        const double most = gate ? gate[t] : w->limits->slow_speed;
-        if (!isnan(height[t]) && speed[t] < most) slow[count++] = height[t];
+    int           count = 0;
+    for (int t = 0; t < times;) {
+        int end = t;
+        for (; end < times && !isnan(height[end]) &&
+               speed[end] < (gate ? gate[end] : w->limits->slow_speed);
+             ++end)
+            vote[count + end - t].height = height[end];
+        const double weight = fmin(1.0, STAY * w->rate / (double)(end - t));
+        for (; t < end; ++t) vote[count++].weight = weight;
+        ++t;
     }
+    qsort(vote, (size_t)count, sizeof *vote, by_height);
+    return count;
+}
+
+// median of the lowest band of heights at slow samples; NaN if the point is never slow
+static double resting_height(const Watch* w, int k, const double* gate)
+{
+    Vote*     vote = w->vote;
+    const int count = gather_votes(w, k, gate, vote);
+    double    sum = 0.0, below = 0.0;
     if (count == 0) return NAN;
-    qsort(slow, count, sizeof *slow, by_value);
-    const double lowest = slow[count / 20];
-    size_t       band = count / 20;
-    while (band < count && slow[band] <= lowest + w->limits->touch_height) ++band;
-    return slow[band / 2];
+    for (int n = 0; n < count; ++n) sum += vote[n].weight;
+    int lowest = 0, middle = 0;
+    for (double s = vote[0].weight; lowest < count - 1 && s <= 0.05 * sum;)
+        s += vote[++lowest].weight;
+    for (int n = 0; n < count; ++n)
+        if (vote[n].height <= vote[lowest].height + w->limits->touch_height)
+            below += vote[n].weight;
+    for (double s = vote[0].weight; middle < count - 1 && s <= 0.5 * below;)
+        s += vote[++middle].weight;
+    return vote[middle].height;
 }
 
 // the lowest a walker's points rest; if none ever does, the lowest they go

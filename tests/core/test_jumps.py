@@ -65,7 +65,7 @@ def test_soles_lie_as_they_do_without_a_pose_that_stands_alone():
     plain = body.gait_from_bones(skeleton, found, mass=75.0, frame_rate=rate)
     other = body.gait_from_bones(skeleton, posed, mass=75.0, frame_rate=rate)
     assert other.cut.tolist() == [1] and "jumps" in " ".join(other.warnings)
-    np.testing.assert_allclose(other.pose[:, 1:], plain.pose, atol=2e-3)
+    np.testing.assert_allclose(other.pose[:, 1:], plain.pose, atol=4e-3)
 
 
 @pytest.mark.parametrize("fps", (12, 24, 60, 120))

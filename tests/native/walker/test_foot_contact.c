@@ -69,6 +69,61 @@ TEST(hovering_clip_touches)
     check_walk(-0.03, 0.0, 0.0);
 }
 
+TEST(a_long_stay_is_one_stay)
+{
+    // four steps on the ground, and between the second and the third a wait on the ball of the foot
+    enum
+    {
+        N = 3600
+    };
+    Scene s = scene_make(N, RATE, 2, 1);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE, wait = fmin(fmax(now - 2.0, 0.0), 26.0);
+        const double at = now - wait, u = at - floor(at);
+        const double swing = u < 0.6 ? 0.0 : (u - 0.6) / 0.4, lift = sin(3.14159265 * swing);
+        const double high = wait > 0.0 && wait < 26.0 ? 0.02 : 0.15 * lift * lift;
+        scene_com(&s, t, 1.2 * at, 0.0, 1.0);
+        scene_put(&s, N, 0, t, 1.2 * (floor(at) + swing * swing * (3.0 - 2.0 * swing)), 0.1, high);
+        scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);
+    }
+    uint8_t               on[2 * N];
+    double                clearance[2];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    CHECK_NEAR(clearance[0], 0.0, 2e-3);
+    scene_free(&s);
+}
+
+TEST(waiting_before_a_walk_in_place_hides_no_belt)
+{
+    Scene s = walking(0.0, 0.0);
+    enum
+    {
+        N = 3 * T
+    };
+    Scene                 w = scene_make(N, RATE, LIMBS, 1);
+    uint8_t               there[LIMBS * T], here[LIMBS * N];
+    double                clearance[LIMBS];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, there, clearance) ==
+          DP_OK);
+    for (int t = 0; t < N; ++t) {
+        const int from = t < 2 * T ? 0 : t - 2 * T;
+        scene_com(&w, t, 0.0, 0.0, s.com[3 * from + 2]);
+        for (int p = 0; p < LIMBS; ++p) {
+            const double* at = s.pose + 7 * (p * T + from);
+            scene_put(&w, N, p, t, at[0] - s.com[3 * from], at[1], at[2]);
+        }
+    }
+    CHECK(dp_foot_contact(scene_gait(&w, N, LIMBS, 1), w.ground, &limits, here, clearance) ==
+          DP_OK);
+    int other = 0;
+    for (int p = 0; p < LIMBS; ++p)
+        for (int t = 10; t < T; ++t) other += there[p * T + t] != here[p * N + 2 * T + t];
+    CHECK(other < 12);
+    scene_free(&s), scene_free(&w);
+}
+
 TEST(slope_given_as_ground_touches)
 {
     check_walk(0.01, 0.2, 0.0);
@@ -378,7 +433,7 @@ TEST(refuses_uneven_times_and_missing_memory)
     double                clearance[LIMBS];
     const DpContactLimits limits = dp_contact_limits_default();
     const DpGait*         gait = scene_gait(&s, T, LIMBS, 1);
-    for (long k = 0; k < 12; ++k) {
+    for (long k = 0; k < 13; ++k) {
         dp_alloc_fail_after(k);
         CHECK(dp_foot_contact(gait, s.ground, &limits, on, clearance) == DP_NO_MEMORY);
     }
@@ -396,6 +451,8 @@ int main(void)
 {
     RUN(resting_foot_touches);
     RUN(hovering_clip_touches);
+    RUN(a_long_stay_is_one_stay);
+    RUN(waiting_before_a_walk_in_place_hides_no_belt);
     RUN(slope_given_as_ground_touches);
     RUN(leaning_floor_touches);
     RUN(walker_in_place_touches);

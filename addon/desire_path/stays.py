@@ -1,0 +1,55 @@
+"""How long a pose is held tells nothing: what is known of a clip counts stays, not samples.
+
+    still    samples at which the whole body keeps its pose: one who holds it there, or waits for his turn
+    votes    a weight for each sample of a mask, so that each stay in it counts the same
+"""
+
+import numpy as np
+
+HELD = 0.3  # a pose is held when the mass centre keeps its place for so long [s] ..
+SPOT = 0.01  # .. within this, of a grown person [m]
+VOTE = 0.2  # longer stays count as much as one of this [s]
+
+
+def still(com, time, size=1.0):
+    """Samples (T,) within a stretch over which the mass centre (T, 3) keeps its place.
+
+    size: leg length in those of a grown person; lengths go with it, times with its root.
+    """
+    held = np.zeros(len(time), bool)
+    if len(time) < 3:
+        return held
+    after = np.searchsorted(time, time + HELD * np.sqrt(size) - 1e-9)
+    for first in np.flatnonzero(after < len(time)):
+        here = com[first:after[first] + 1]
+        if np.ptp(here, axis=0).max() < SPOT * size:
+            held[first:after[first] + 1] = True
+    return held
+
+
+def votes(mask, time, size=1.0):
+    """Weights (T,) [s] of the samples in a mask (T,): every run of them sums to its length, to VOTE at most."""
+    weight = np.zeros(len(mask))
+    if len(time) < 2:
+        return mask * 1.0
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
+    for first, after in zip(edge[::2], edge[1::2]):
+        weight[first:after] = min(step, VOTE * np.sqrt(size) / (after - first))
+    return weight
+
+
+def median(values, weight):
+    """The weighted median of values (T, ...) along their first axis."""
+    values, weight = np.asarray(values, float), np.asarray(weight, float)
+    keep = weight > 0.0
+    values, weight = values[keep], weight[keep]
+    flat = values.reshape(len(values), -1)
+    order = np.argsort(flat, axis=0, kind="stable")
+    share = np.cumsum(weight[order], axis=0) / weight.sum()
+    row = (share < 0.5 - 1e-9).sum(axis=0)
+    column = np.arange(flat.shape[1])
+    low = flat[order[row, column], column]
+    even = abs(share[row, column] - 0.5) < 1e-9  # half way between two, as ever
+    high = flat[order[np.minimum(row + 1, len(flat) - 1), column], column]
+    return np.where(even, (low + high) / 2.0, low).reshape(values.shape[1:])
