@@ -63,7 +63,8 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
             random = np.random.default_rng([int(seed), w, number])
             scatter = _Scatter(even % 1.0, random, *((0.0,) * 3 if number == 0 else (lateral, timing, stride)))
             turns.append((w, *_one(cycle, way, rate, scatter, ground)))
-    walks = [replace(cycle.gait, frame_start=gait.frame_start) for cycle in cycles]
+    told = tuple(dict.fromkeys(gait.warnings + tuple(each for cycle in cycles for each in cycle.gait.warnings)))
+    walks = [replace(cycle.gait, frame_start=gait.frame_start, warnings=told) for cycle in cycles]
     return _chained(walks, turns, rate, [pause if n else 0.0 for n in range(len(turns))])
 
 

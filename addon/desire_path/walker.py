@@ -290,7 +290,8 @@ def _turns(gait, ground):
 
 
 def _let_go(gait, touching):
-    """Nothing touches at the samples on either side of a cut, nobody who jumps there."""
+    """Nothing touches at the samples on either side of a cut, nobody who jumps there: a sole presses all the way
+    between two samples if it touches at either."""
     owner = gait.limb_walker[gait.part_limb]
     for w in range(len(gait.mass)):
         cut = gait.cuts_of([w])

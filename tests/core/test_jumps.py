@@ -181,3 +181,12 @@ def test_jumps_are_kept_in_the_file(tmp_path):
     again = Gait.load(tmp_path / "walk.npz")
     assert again.jump.tolist() == cut.jump.tolist() and again.cut.tolist() == cut.cut.tolist()
     assert jumps.found(again) is again
+
+
+def test_passes_are_of_one_piece_and_tell_of_the_jump():
+    gait = recorded()
+    plain = gait.along([(0, 0), (4, 0)], 2)
+    passes = jumps.found(before(gait, 1, (1.7, 0.0, 0.0))).along([(0, 0), (4, 0)], 2)
+    assert passes.frame_start == gait.frame_start and not len(passes.jump) and len(passes.cut) == len(plain.cut) == 1
+    assert any("jumps 1.7 m" in each for each in passes.warnings)
+    np.testing.assert_allclose(passes.com, plain.com, atol=1e-6)
