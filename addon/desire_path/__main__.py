@@ -14,6 +14,7 @@ from .errors import DesirePathError
 from .gait import Gait
 from .place import place_feet
 from .report import sentences, summary, write_contacts
+from .output import check_idle
 from .plants import KINDS, Kind, Planting
 from .sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
 from .soil import SOILS
@@ -96,6 +97,10 @@ def _bake(args):
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
         heap=args.heap, threads=args.threads, origin=origin, plants=plants, film=args.film, limits=limits,
     )
+    try:
+        check_idle(args.out)
+    except DesirePathError as problem:
+        print(f"{problem}\nWaiting for up to {bake.wait:g} s.", file=sys.stderr)
     word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
         _bar(progress.fraction, f"{word} {progress.frame}")

@@ -95,8 +95,11 @@ class Bake:
         frames = (len(self.passes) - 1 if self.film == "passes"
                   else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
         last = gait.frame_start + frames
-        self.frame_start = gait.frame_start if frame_start is None else int(frame_start)
-        self.frame_end = last if frame_end is None else int(frame_end)
+        try:
+            self.frame_start = gait.frame_start if frame_start is None else int(frame_start)
+            self.frame_end = last if frame_end is None else int(frame_end)
+        except (ValueError, OverflowError, TypeError):
+            raise DesirePathError(f"Frames {frame_start} to {frame_end} cannot be baked: give whole numbers.") from None
         if self.frame_end <= self.frame_start and self.film == "frames" or self.frame_end < self.frame_start:
             raise DesirePathError(
                 f"The frame range {self.frame_start} to {self.frame_end} holds no motion: let it end after it starts."
@@ -161,7 +164,7 @@ class Bake:
 
     def _check_walk(self):
         """Refuse what is too long, before its samples are made."""
-        seconds = float(self.gait.time[-1] - self.gait.time[0])
+        seconds = sum(float(self.gait.time[after - 1] - self.gait.time[first]) for first, after in self.gait.pieces())
         self.limits.check("frames", self.frame_end - self.frame_start + 1)
         self.limits.check("seconds", seconds)
         parts = len(self.gait.part_limb)

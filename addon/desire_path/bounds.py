@@ -79,7 +79,7 @@ class Limits:
         unit, advice = ADVICE[name]
         size = 1e9 if name in ("memory", "disk") else 1.0
         has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
-        raise DesirePathError(f"The bake would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
+        raise DesirePathError(f"This would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
                               f"{has}: {advice}, or raise the limit of {name}.")
 
 

@@ -10,12 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import npz, whole
+from .bounds import Limits
 from .errors import DesirePathError
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
 AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]
 
 MOST_FRAME = 1 << 31  # a frame's number may be
+MOST_TIME, MOST_RATE = 1e12, 1e6  # [s], [1/s]
 MOST_MASS = 1e7  # of a walker; the heaviest machines on feet would weigh less [kg]
 _VERSION = 1
 _NUMBERS = (  # name, type, shape by letters
@@ -156,6 +158,9 @@ class Gait:
             raise DesirePathError("The recording's jumps are not among its cuts and walkers: record the walk again.")
         if not np.isfinite(self.time).all() or (np.diff(self.time) <= 0).any():
             raise DesirePathError("The recording's times do not increase: record the walk again.")
+        if abs(self.time).max() > MOST_TIME or not self.frame_rate <= MOST_RATE:
+            raise DesirePathError(f"The recording reaches {abs(self.time).max():.3g} s at {self.frame_rate:g} frames a "
+                                  "second, which no scene does: record the walk again.")
         if abs(self.frame_start) > MOST_FRAME:
             raise DesirePathError(f"The recording begins at frame {self.frame_start}, where no scene is: record the "
                                   "walk again.")
@@ -341,6 +346,8 @@ class Gait:
         """resample() of a recording without cuts and holds."""
         from . import _native
 
+        asked = (self.time[-1] - self.time[0]) * rate + 1.0
+        Limits().check("memory", asked * (24.0 * len(self.mass) + 56.0 * len(self.part_limb)))
         count = _native.resample_count(self.time[0], self.time[-1], float(rate))
         time = np.empty(count)
         com = np.empty((len(self.mass), count, 3))

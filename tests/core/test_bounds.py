@@ -8,6 +8,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from desire_path import bounds, disk, walker
@@ -50,9 +51,34 @@ def test_frames_without_end_are_refused(tmp_path):
 
 def test_a_walk_without_end_is_refused_before_its_samples_are_made(tmp_path):
     text = refused(tmp_path / "bake", striding(1e7), frame_end=20)
-    assert "1e+07" in text or "10,000,000 seconds" in text
+    assert "10,000,000 seconds of walking, and 86,400 are the limit" in text
     text = refused(tmp_path / "bake", striding(1e7), frame_end=20, limits=Limits(seconds=1e12, memory=8e9))
     assert "GB of memory, and 8 are the limit" in text
+    with pytest.raises(DesirePathError, match="GB of memory"):
+        striding(1e10).resample(240.0)
+
+
+def test_pauses_between_passes_are_no_walking(tmp_path):
+    """A week in which nobody comes is not simulated."""
+    week = 7 * 86400.0
+    bake = Bake(Gait.load(WALK).along([[0, 0], [3, 0]], 2, pause=week), Ground.flat(), "mud", tmp_path, cell_size=0.05)
+    assert bake.gait.time[-1] > week
+    for _ in bake.run():
+        pass
+    assert read_index(tmp_path).complete
+
+
+@pytest.mark.parametrize("frames", [(1, math.inf), (math.nan, 5), ("x", 5), (1, [2])])
+def test_frames_that_are_no_numbers_are_a_sentence(tmp_path, frames):
+    assert "whole numbers" in refused(tmp_path / "bake", frame_start=frames[0], frame_end=frames[1])
+
+
+def test_a_recording_out_of_all_time_is_a_sentence():
+    gait = standing()
+    for wrong in (replace(gait, time=np.linspace(0.0, 1e308, len(gait.time))), replace(gait, frame_rate=1e300)):
+        with pytest.raises(DesirePathError, match="which no scene does") as error:
+            wrong.check()
+        sentence(error)
 
 
 def test_a_picture_that_is_too_large_is_refused(tmp_path):

@@ -236,6 +236,23 @@ def test_a_stopped_bake_is_shown_while_it_goes_on(tmp_path):
     assert content(tmp_path).items() > before.items() and read_index(tmp_path).complete
 
 
+def test_a_stopped_second_bake_goes_on_where_it_was_stopped(tmp_path):
+    """The first one is shown all the time; frames of the second that are there are not written again."""
+    baked(tmp_path)
+    first = content(tmp_path)
+    run = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    kept = tmp_path / "bake.new" / "frames" / "trail_0005.exr"
+    written = kept.stat().st_mtime_ns
+    assert content(tmp_path) == first and read_index(tmp_path).complete
+    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run():
+        pass
+    assert content(tmp_path) != first and (tmp_path / "frames" / "trail_0005.exr").stat().st_mtime_ns == written
+    assert not (tmp_path / "bake.new").exists()
+
+
 def test_a_frame_damaged_inside_is_written_again(tmp_path):
     """One bit of what the tiles hold: the file's form is whole, its checksum tells."""
     baked(tmp_path / "good")
