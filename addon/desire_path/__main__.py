@@ -95,7 +95,7 @@ def _bake(args):
     bake = Bake(
         _along(args, gait, ground), ground, args.soil, args.out, cell_size=cell,
         frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, threads=args.threads, origin=origin, plants=plants, film=args.film, limits=limits,
+        heap=args.heap, rim_width=args.rim_width, threads=args.threads, origin=origin, plants=plants, film=args.film, limits=limits,
     )
     try:
         check_idle(args.out)
@@ -194,6 +194,7 @@ def _parser():
     bake.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     bake.add_argument("--law", choices=LAWS, default="sole", help="how a sole presses")
     bake.add_argument("--heap", choices=HEAPS, default="rest", help="how displaced soil is laid")
+    bake.add_argument("--rim-width", type=float, default=0.04, metavar="METRES", help="how wide the rim of a paper heap is")
     bake.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
     bake.add_argument("--limit", nargs="+", action="extend", default=[], metavar="NAME=NUMBER",
                       help=f"how much a bake may take before it is refused: {', '.join(ADVICE)} (GB of memory and disk)")

@@ -123,3 +123,17 @@ def test_a_damaged_recording_is_one_sentence(tmp_path, walk, cut):
     broken.write_bytes(data[:cut] if cut else bytes(reversed(data)))
     done = run("bake", broken, "--out", tmp_path / "x")
     assert done.returncode == 1 and "broken.npz" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_law_heap_and_rim_reach_the_bake(tmp_path, walk):
+    def baked(name, *choice):
+        done = run("bake", walk, "--ground", "flat", "--soil", "mud", "--out", tmp_path / name, *choice)
+        assert done.returncode == 0, done.stderr
+        report = json.loads((tmp_path / name / "report.json").read_text())
+        return report["parameters"], maps.read(tmp_path / name / "maps_final.exr").planes["heap"]
+
+    chosen, wide = baked("wide", "--heap", "paper", "--rim-width", "0.15", "--law", "uniform")
+    assert (chosen["heap"], chosen["rim_width"], chosen["law"]) == ("paper", 0.15, "uniform")
+    usual, narrow = baked("narrow", "--heap", "paper")
+    assert (usual["rim_width"], usual["law"]) == (0.04, "sole")
+    assert (wide > 1e-4).sum() > 1.5 * (narrow > 1e-4).sum()
