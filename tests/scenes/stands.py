@@ -3,6 +3,8 @@ numbers, under a mass centre that stays where it is put. Baked by the public ope
 """
 import json
 import math
+import os
+import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -39,7 +41,8 @@ def ground(cell=0.01, half=(0.6, 0.6), name="dry-soil", folder=None):
     assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
     obj.desire_path.cell_size, obj.desire_path.soil = cell, name
     if folder is not None:
-        obj.desire_path.folder = str(folder)
+        os.makedirs(folder, exist_ok=True)
+        obj.desire_path.folder = tempfile.mkdtemp(dir=folder)  # one of its own: each scene is another file
     return obj
 
 

@@ -27,8 +27,10 @@ def taken(scene, company, folders, **more):
     grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
     settings = grounds[0].desire_path
     check(grounds, walkers)
-    cell = min(axes.typed(each.desire_path.cell_size) for each in grounds)
-    check_cell(cell)
+    cells = [axes.typed(each.desire_path.cell_size) for each in grounds]
+    for each in cells:
+        check_cell(each)
+    cell = min(cells)
     if way.goes(walkers):
         found = {}
 
