@@ -17,7 +17,7 @@ __version__ = ".".join(str(part) for part in bl_info["version"])
 
 _HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "place_feet": "place", "Soil": "soil",
          "SOILS": "soil", "Kind": "plants", "KINDS": "plants", "Planting": "plants", "Ground": "sim",
-         "Simulation": "sim", "Bake": "bake", "read_index": "bake", "DesirePathError": "errors"}
+         "Simulation": "sim", "Bake": "bake", "Parcel": "parcels", "read_index": "bake", "DesirePathError": "errors"}
 
 
 def __getattr__(name):

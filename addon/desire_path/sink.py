@@ -44,6 +44,17 @@ class Film:
         return out
 
 
+class Films:
+    """The same of several grounds that were baked together: each place is seen where it is pressed deepest."""
+
+    def __init__(self, films):
+        self.films = films
+
+    def at(self, frame, xy):
+        seen = np.array([film.at(frame, xy) for film in self.films])
+        return np.take_along_axis(seen, seen[:, 1].argmax(axis=0)[None, None], axis=0)[0]
+
+
 def depths(gait, touching, film, rest_height):
     """How far each limb has to come down to rest on the ground it has pressed (L, T) >= 0 [m]; NaN in the air.
 

@@ -4,8 +4,8 @@ import json
 import bpy
 import numpy as np
 
-from desire_path import bake, maps
-from desire_path.blender import playback
+from desire_path import bake, sim
+from desire_path.blender import op_forces, op_place, playback
 from scenes import meshes, people
 from test_bake import refused
 from test_playback import shown
@@ -238,3 +238,81 @@ def test_a_path_over_tiles(folder):
     assert min(seen(each, last)[:, 2].min() for each in (north, south)) < -0.005
     upper, lower = seam(north, south, last)
     assert np.abs(upper - lower).max() < 1e-6
+
+
+def test_forces_and_places_are_those_of_the_whole_ground(folder):
+    def look(ground):
+        obj = walker(ground)
+        read = op_forces.read(bpy.context.scene, obj)
+        gait, placed, _ = op_place.read(bpy.context.scene, obj, ground, list(range(1, 51)), False)
+        return read.loads.force, placed.pose
+
+    force, pose = look(tile(folder, "whole", -3.2, 0.6, height=hill))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    north = tile(folder, "north", -1.2, 0.6, height=hill)
+    tile(folder, "south", -3.2, -1.2, height=hill)
+    both = look(north)
+    assert force.any() and np.abs(both[0] - force).max() < 1e-3 * np.abs(force).max()
+    assert np.abs(both[1] - pose).max() < 1e-5
+
+
+def test_feet_go_down_into_the_prints_of_both(folder):
+    north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
+    obj = walker(north)
+    bake_it(north)
+    _, placed, _ = op_place.read(bpy.context.scene, obj, north, list(range(1, 51)), True)
+    _, level, _ = op_place.read(bpy.context.scene, obj, north, list(range(1, 51)), False)
+    down = level.pose[..., 2] - placed.pose[..., 2]
+    for side in (placed.pose[..., 1] > -1.0, placed.pose[..., 1] < -1.4):
+        assert down[side].max() > 0.004, down[side].max()
+
+
+def test_state_of_all_tiles(folder):
+    north, south, beside = (tile(folder, *each) for each in (
+        ("north", -1.2, 0.6), ("south", -3.2, -1.2), ("beside", -6.0, -3.2)))
+    obj = walker(north)
+    bake_it(north)
+    assert [each.desire_path.bake_state for each in (north, south, beside)] == ["FRESH", "FRESH", "NONE"], [
+        each.desire_path.missing for each in (north, south, beside)]
+    bake_it(south)
+    assert [each.desire_path.bake_state for each in (north, south, beside)] == ["FRESH", "FRESH", "NONE"], [
+        each.desire_path.missing for each in (north, south, beside)]
+    south.desire_path.soil = "mud"
+    assert [each.desire_path.bake_state for each in (north, south)] == ["OUTDATED", "OUTDATED"]
+    south.desire_path.soil = north.desire_path.soil
+    obj.desire_path.mass = 60.0
+    assert north.desire_path.bake_state == south.desire_path.bake_state == "OUTDATED"
+
+
+def test_a_copy_in_the_same_place_is_left_alone(folder):
+    ground = tile(folder, "ground", -3.2, 0.6)
+    copy = tile(folder, "copy", -3.2, 0.6)
+    walker(ground)
+    assert not bake_it(ground)["with"]
+    assert playback.modifier(copy) is None
+    meshes.activate(copy)
+    refused(bpy.ops.object.desire_path_bake, "Nobody walks on 'copy'")
+
+
+def test_what_fails_in_the_middle_plays_on_all_tiles(folder):
+    north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
+    walker(north)
+    real = sim.Film.write_frame
+
+    def full(self, path, moment):
+        if path is not None and path.endswith("trail_0045.exr"):
+            raise OSError(28, "No space left on device", path)
+        real(self, path, moment)
+
+    sim.Film.write_frame = full
+    try:
+        meshes.activate(north)
+        refused(bpy.ops.object.desire_path_bake, "No space left")
+    finally:
+        sim.Film.write_frame = real
+    for each in (north, south):
+        assert playback.modifier(each) is not None and each.desire_path.bake_state == "PARTIAL"
+        index = bake.read_index(str(folder / each.name))
+        assert 40 < index.frames < 50 and not index.complete
+    assert bake_it(south)["with"] == ["north"]
+    assert all(bake.read_index(str(folder / each.name)).complete for each in (north, south))

@@ -67,7 +67,7 @@ def now(scene, obj):
     company = _all(reach.company(scene, obj))
     if not company.walkers:
         raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
-    made, found = _all(taken(scene, company, [("", "")] * len(company.grounds)))
+    made, found = _all(taken(scene, company, [(str(number), "") for number in range(len(company.grounds))]))
     return marks(obj, company, made, found)
 
 

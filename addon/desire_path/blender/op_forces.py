@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from . import axes, force_graph, ground, moves, ride, sample
+from . import axes, force_graph, ground, moves, reach, ride, sample
 from .op_walkers import WALKERS, Refusal, active, walkers
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
@@ -84,9 +84,7 @@ def read(scene, armature):
     below, yields = None, {}
     if land is not None:
         yields = {"settle_time": SOILS[land.desire_path.soil].settle_time}  # as when it is baked
-        cell = axes.typed(land.desire_path.cell_size)
-        surface = ground.read(scene, land, cell, first, box=ground.under(gait))
-        shape = ground.land(surface, cell)
+        shape, _, _ = reach.under(scene, armature, land, gait, first)
         gait = ground.walked(scene, [armature], gait, shape, first, last)
         below = shape.rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)

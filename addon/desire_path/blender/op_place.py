@@ -15,7 +15,7 @@ from bpy.props import BoolProperty
 
 from .. import place, slope
 from ..errors import DesirePathError
-from . import axes, compat, controls, footing, ground, home, moves, posing, sample
+from . import axes, compat, controls, footing, home, moves, playback, posing, reach, sample
 from .op_walkers import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
@@ -36,17 +36,16 @@ def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
     from .. import bake as baking, sink, walker
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
-    cell = axes.typed(land.desire_path.cell_size)
-    surface = ground.read(scene, land, cell, frames[0], box=ground.under(gait))
-    below = ground.land(surface, cell)
+    below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
-        film = sink.Film(baking.read_index(home.folder(land)))
+        film = sink.Films([sink.Film(baking.read_index(home.folder(each))) for each in (land, *beside)
+                           if each == land or playback.modifier(each) is not None])
         loads = walker.loads(placed, armature.desire_path.load_model, ground=below.rest_height)
         placed = sink.into_prints(placed, loads, film, below.rest_height)
-    return gait, placed, surface.warnings
+    return gait, placed, warnings
 
 
 def source(armature):

@@ -90,6 +90,9 @@ def draw_result(layout, context, settings):
     _lines(column, f"{baked}{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
                    f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
                    f"rims, baked in {found['seconds_in_all']:.1f} s", "CHECKMARK", width)
+    if found.get("with"):
+        names = ", ".join(f"'{name}'" for name in found["with"])
+        _lines(column, f"Baked together with {names}", "LINKED", width)
     for each in found["warnings"]:
         _lines(column, each, "ERROR", width)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..gait import Gait
-from . import axes, ground, moves, props, sample, way
+from . import axes, ground, moves, props, sample, way, worn
 from .op_walkers import grounds, walkers
 
 ROUGH = 0.5  # a ground this near to the feet is looked at [m]
@@ -44,20 +44,10 @@ class _Track:
     problem: object = None  # why they are not known
 
 
-def in_renders(scene, obj):
-    """Whether an object is shown in renders, by itself and by one of its collections."""
-    def shows(layer):
-        collection = layer.collection
-        if layer.exclude or collection.hide_render:
-            return False
-        return obj.name in collection.objects or any(shows(child) for child in layer.children)
-    return not obj.hide_render and any(shows(layer.layer_collection) for layer in scene.view_layers)
-
-
 def others(scene, obj):
     """Grounds of the scene that a bake of this one could reach."""
     return [each for each in grounds(scene) if each != obj and each.library is None and each.mode != "EDIT"
-            and in_renders(scene, each)]
+            and worn.drawn(scene, each)]
 
 
 def company(scene, obj):
@@ -107,6 +97,28 @@ def company(scene, obj):
         gait = Gait.join([each.gait for each in crew])
     return Company(chosen, tuple(each.walker for each in crew), first, last, gait, tuple(warnings),
                    max(each.beside for each in crew))
+
+
+def under(scene, walker, home, gait, frame):
+    """(a Simulation of what lies below the recording of a walker of a ground, grounds it treads besides, sentences)."""
+    from .. import parcels
+    from ..sim import Simulation
+    cell = axes.typed(home.desire_path.cell_size)
+    near = others(scene, home)
+    track = _Track(walker, frame, frame, gait, parcels.around(gait), parcels.length(gait))
+    found = {}
+    for each in (home, *near) if near else ():
+        parcel = _parcel(scene, each, [track])
+        if parcel is not None:
+            found[each] = parcel
+    trodden = _trodden([track], found)[walker] if found else set()
+    beside = tuple(each for each in scene.objects if each in trodden and each != home)
+    if not beside:
+        surface = ground.read(scene, home, cell, frame, box=ground.under(gait))
+        return ground.land(surface, cell), (), surface.warnings
+    there = [found[each] for each in scene.objects if each in trodden]
+    there = [there[number] for number in parcels.storeys(there, gait)[0]]
+    return Simulation(parcels.sewn(there, cell)[0], cell_size=cell), beside, ()
 
 
 def follow(company):
@@ -165,7 +177,7 @@ def _parcel(scene, obj, tracks):
     settings = obj.desire_path
     try:
         surface = ground.read(scene, obj, axes.typed(settings.cell_size), settings.frame_start, None,
-                              box=(*close.min(axis=0), *close.max(axis=0)))
+                              box=(*(close.min(axis=0) - ROUGH), *(close.max(axis=0) + ROUGH)))
     except ground.Beside:
         return None
     return Parcel(surface.ground, name=obj.name)
