@@ -316,3 +316,33 @@ def test_what_fails_in_the_middle_plays_on_all_tiles(folder):
         assert 40 < index.frames < 50 and not index.complete
     assert bake_it(south)["with"] == ["north"]
     assert all(bake.read_index(str(folder / each.name)).complete for each in (north, south))
+
+
+def test_keys_that_move_no_tile_do_not_part_it(folder):
+    north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
+    for frame, z in ((1, 0.0), (50, 0.0)):
+        south.location.z = z
+        south.keyframe_insert("location", frame=frame)
+    walker(north)
+    assert bake_it(north)["with"] == ["south"]
+
+
+def test_tiles_that_ride_together_are_one_deck(folder):
+    """A deck of two on a ship, and a quay that stays where it is."""
+    north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
+    quay = tile(folder, "quay", -3.2, 0.6, x0=0.6, x1=3.0)
+    ship = bpy.data.objects.new("ship", None)
+    bpy.context.scene.collection.objects.link(ship)
+    for frame, x in ((1, 0.0), (50, 1.5)):
+        ship.location.x = x
+        ship.keyframe_insert("location", frame=frame)
+    obj = walker(north)
+    for each in (north, south, obj):
+        each.parent = ship
+    bpy.context.scene.frame_set(1)
+    assert bake_it(south)["with"] == ["north"]
+    assert playback.modifier(quay) is None
+    for frame in (25, 50):
+        upper, lower = seam(north, south, frame)
+        assert len(upper) == 61 and np.abs(upper - lower).max() < 1e-6
+    assert seen(north, 50)[:, 2].min() < -0.005 and seen(south, 50)[:, 2].min() < -0.005

@@ -10,10 +10,12 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..gait import Gait
-from . import axes, ground, moves, props, sample, way, worn
+from . import axes, ground, moves, props, ride, sample, way, worn
 from .op_walkers import grounds, walkers
 
 ROUGH = 0.5  # a ground this near to the feet is looked at [m]
+LOOKS = 8  # at how many frames grounds are looked at to see whether they move together ..
+ALIKE = 1e-5  # .. that is, by the same but for rounding
 SAME = 1e-4  # grounds that differ less are in the same place [m]
 SCATTER = 3.0  # passes stray this far from their path [standard deviations]
 
@@ -45,9 +47,19 @@ class _Track:
 
 
 def others(scene, obj):
-    """Grounds of the scene that a bake of this one could reach."""
+    """Grounds of the scene that a bake of this one could reach: a walk is taken as its ground sees it, so that one that
+    moves is left to those that move with it."""
     return [each for each in grounds(scene) if each != obj and each.library is None and each.mode != "EDIT"
-            and worn.drawn(scene, each)]
+            and worn.drawn(scene, each) and _move_alike(scene, obj, each)]
+
+
+def _move_alike(scene, one, other):
+    if not (moves.moves(one) or moves.moves(other)):
+        return True
+    first, last = moves.frames(scene, one, walkers(scene, one))
+    frames = sorted({first, *(round(first + k * (last - first) / LOOKS) for k in range(LOOKS + 1))})
+    paths = [ride.path(scene, each, frames) if moves.moves(each) else np.eye(4) for each in (one, other)]
+    return bool(np.abs(paths[0] - paths[1]).max() < ALIKE * max(1.0, np.abs(paths[0]).max()))
 
 
 def company(scene, obj):
@@ -174,9 +186,9 @@ def _parcel(scene, obj, tracks):
     if not close:
         return None
     close = np.concatenate(close)
-    settings = obj.desire_path
+    first = min(each.first for each in tracks)
     try:
-        surface = ground.read(scene, obj, axes.typed(settings.cell_size), settings.frame_start, None,
+        surface = ground.read(scene, obj, axes.typed(obj.desire_path.cell_size), first, None,
                               box=(*(close.min(axis=0) - ROUGH), *(close.max(axis=0) + ROUGH)))
     except ground.Beside:
         return None
