@@ -305,10 +305,11 @@ def settle(folder):
         out.release()
 
 
-def free(folder, owner=""):
+def free(folder, owner="", aside=""):
     """Delete the files a bake wrote, and the folders they leave empty; nothing else is touched.
 
     owner: id of the ground that frees; another one's bake is refused, and so is a folder that is being baked into
+    aside: a folder beside it that takes the bake in, for bring_back()
     """
     folder = os.path.abspath(os.fspath(folder))
     if not os.path.isdir(folder):
@@ -316,6 +317,9 @@ def free(folder, owner=""):
     out = Output(folder, owner)
     try:
         out.open()
+        if aside:
+            with contextlib.suppress(OSError):  # no room for it there
+                _shift(folder, aside)
         for name, patterns in INSIDE.items():
             delete(os.path.join(folder, name), patterns, itself=bool(name))
         out.drop()
@@ -327,6 +331,37 @@ def free(folder, owner=""):
         out.release()
     with contextlib.suppress(OSError):  # not there, or holds somebody else's files
         os.rmdir(folder)
+
+
+def bring_back(aside, folder, owner=""):
+    """Undo free(): the bake that was put aside lies in its folder again, if no other one does; returns whether."""
+    if owner_of(aside) != owner or owner_of(folder):
+        return False
+    out = Output(folder, owner)
+    try:
+        out.open()
+        _shift(aside, folder)
+    except OSError as problem:
+        raise DesirePathError(f"The bake in {aside} cannot be moved ({problem.strerror}): move it to {folder} by hand."
+                              ) from None
+    finally:
+        out.release()
+    with contextlib.suppress(OSError):
+        os.rmdir(aside)
+    return True
+
+
+def _shift(folder, into):
+    """Move the files of a bake to another folder of the same disk."""
+    for name, patterns in INSIDE.items():
+        source = os.path.join(folder, name)
+        if os.path.isdir(source) and not os.path.islink(source):
+            os.makedirs(os.path.join(into, name), exist_ok=True)
+            for each in os.listdir(source):
+                if any(fnmatch.fnmatchcase(each, pattern) for pattern in patterns):
+                    os.rename(os.path.join(source, each), os.path.join(into, name, each))
+            with contextlib.suppress(OSError):  # holds somebody else's files
+                os.rmdir(source)
 
 
 def delete(folder, patterns, keep=(), itself=True):

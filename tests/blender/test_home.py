@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from desire_path import bake
-from desire_path.blender import compat, home, playback
+from desire_path.blender import compat, home, playback, trash
 from scenes import meshes
 from test_bake import PLAYS, refused, scene
 from test_playback import fresh, shown
@@ -26,6 +26,12 @@ def opened(path):
     ground = bpy.data.objects["Ground"]
     meshes.activate(ground)
     return ground
+
+
+def free():
+    """Free the active ground, for good."""
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    trash.empty()
 
 
 def owner(place):
@@ -49,7 +55,7 @@ def test_two_files_in_one_folder(folder):
     walker.desire_path.mass = 30.0
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert ground.desire_path.folder == "//desire_path/two/Ground"
-    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    free()
     assert files(folder / "desire_path") == {f"one/Ground/{name}": data for name, data in kept.items()}
     assert shown(opened(folder / "one.blend"), 12)[0].tobytes() == wanted.tobytes()
 
@@ -64,7 +70,7 @@ def test_save_as_makes_the_next_bake_its_own(folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "two.blend"))
     ground = opened(folder / "two.blend")
     assert shown(ground, 12)[0].tobytes() == wanted.tobytes()  # it plays the bake there is
-    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    free()
     assert files(first) == kept
     bpy.data.objects["Walker"].desire_path.mass = 30.0
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
@@ -94,11 +100,11 @@ def test_a_folder_chosen_by_hand_holds_one_bake(folder):
         bpy.ops.wm.save_as_mainfile(filepath=str(other))
         ground = opened(other)
         refused(bpy.ops.object.desire_path_bake, str(folder / "bake"), "another file", "choose another folder")
-        assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+        free()
         assert files(folder / "bake") == kept
         ground.desire_path.folder = str(folder / "other")
         assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-        assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+        free()
         opened(folder / "one.blend")
     ground = opened(folder / "one.blend")
     ground.desire_path.folder = str(folder / "other")  # to and fro
@@ -130,7 +136,7 @@ def test_copies_in_one_file(folder):
         assert shown(ground, 8)[0].tobytes() == wanted.tobytes() != shown(copy, 8)[0].tobytes()
         assert files(folder / "desire_path").items() >= kept.items()
         assert copy.desire_path.bake_id != ground.desire_path.bake_id
-        assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+        free()
         assert files(folder / "desire_path") == kept
         bpy.data.objects.remove(copy)
     walker.desire_path.ground = ground
@@ -157,7 +163,7 @@ def test_appended_grounds_leave_the_files_where_they_come_from(folder):
     meshes.activate(ground)
     bpy.data.objects["Walker"].desire_path.mass = 30.0
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    free()
     assert files(folder / "desire_path") == kept
 
 
@@ -172,7 +178,7 @@ def test_moved_and_renamed_it_keeps_its_folder(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert ground.desire_path.folder == "//desire_path/one/Ground"
     assert owner(folder / "there" / "desire_path" / "one" / "Ground") == before
-    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    free()
     assert not (folder / "there" / "desire_path").exists()
 
 

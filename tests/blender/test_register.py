@@ -21,7 +21,7 @@ def there():
 
 def test_comes_and_goes():
     first = there()
-    assert first[1] and first[2] == 7
+    assert first[1] and first[2] == 8
     for name in OPERATORS:
         getattr(bpy.ops.object, f"desire_path_{name}").get_rna_type()
     for _ in range(3):

@@ -5,7 +5,8 @@ import shutil
 import bpy
 import numpy as np
 
-from desire_path.blender import axes, compat, op_bake
+import desire_path
+from desire_path.blender import axes, compat, op_bake, playback
 from scenes import meshes, people
 from test_bake import scene
 from test_home import files, opened, saved
@@ -192,3 +193,48 @@ def test_undone_bakes(folder):
     bpy.ops.ed.redo()
     bpy.ops.ed.redo()
     assert told() == "FRESH"
+
+
+def test_free_is_undone_until_the_file_is_saved(folder):
+    ground, _ = saved(folder / "one.blend", frames=8, cell=0.03)
+    place = folder / "desire_path" / "one" / "Ground"
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    kept, before = files(place), shown(ground, 8)[0].tobytes()
+    (place / "frames" / "mine.txt").write_text("keep")
+    bpy.ops.ed.undo_push(message="baked")
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="freed")
+    rest = shown(ground, 8)[0].tobytes()
+    for _ in range(2):
+        ground = bpy.data.objects["Ground"]
+        assert ground.desire_path.bake_state == "NONE" and shown(ground, 8)[0].tobytes() == rest != before
+        assert list(files(place)) == ["frames/mine.txt"]
+        bpy.ops.ed.undo()
+        ground = bpy.data.objects["Ground"]
+        assert ground.desire_path.bake_state == "FRESH" and shown(ground, 8)[0].tobytes() == before
+        assert files(place) == kept | {"frames/mine.txt": b"keep"}
+        assert not place.with_name("Ground.freed").exists()
+        bpy.ops.ed.redo()
+    bpy.ops.wm.save_mainfile()
+    assert list(files(folder / "desire_path")) == ["one/Ground/frames/mine.txt"]
+    bpy.ops.ed.undo_push(message="saved")
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    ground = bpy.data.objects["Ground"]
+    assert playback.modifier(ground) is not None and ground.desire_path.bake_state == "MISSING"
+    assert "bake" in ground.desire_path.missing and shown(ground, 8)[0].tobytes() == rest
+
+
+def test_what_was_freed_goes_with_the_file(folder):
+    ground, _ = saved(folder / "one.blend", frames=8, cell=0.03)
+    for leave in (lambda: bpy.ops.wm.read_factory_settings(use_empty=True), desire_path.unregister):
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        bpy.ops.wm.save_mainfile()
+        assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+        assert files(folder / "desire_path")
+        leave()
+        assert not (folder / "desire_path").exists()
+        if leave is desire_path.unregister:
+            desire_path.register()
+        ground = opened(folder / "one.blend")
+        assert ground.desire_path.bake_state == "MISSING"

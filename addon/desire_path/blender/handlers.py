@@ -3,13 +3,14 @@
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
+import atexit
 from contextlib import suppress
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, overrides, playback, show, state, watch
+from . import ground, home, op_forces, op_plants, overrides, playback, show, state, trash, watch
 
 
 _unsaved = False  # whether the file that is being saved never was before
@@ -24,19 +25,27 @@ def refresh(scene, obj):
     home.find(obj)
     if not settings.folder or home.lost(obj):
         return
+    ours = playback.modifier(obj)
     try:
+        if ours is not None and home.is_own(obj) and trash.back(home.folder(obj), settings.bake_id):
+            for image in playback.images(ours.node_group).values():
+                image.reload()  # Blender has looked for the files already
         index = read_index(home.folder(obj))
     except DesirePathError:
         return  # its state says so
     if index.owner and settings.bake_id and index.owner != settings.bake_id:
         return  # of another ground, whose folder it is now
-    ours = playback.modifier(obj)
     mark = playback.mark(index.folder, index, index.frames)
     if ours is not None and ours.node_group[playback.TAG] == mark:
         return
     box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
     with suppress(DesirePathError):  # its state says what is wrong
         show.play(obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
+
+
+@persistent
+def before_load(*_):
+    trash.empty()
 
 
 @persistent
@@ -58,12 +67,15 @@ def after_undo(*_):
     state.doubt()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
-            if (obj.type == "MESH" and obj.desire_path.is_ground
-                    and playback.modifier(obj) is not None):
+            if obj.type != "MESH" or obj.library is not None or not obj.desire_path.is_ground:
+                continue
+            if playback.modifier(obj) is not None:
                 refresh(scene, obj)
-            if obj.type == "MESH" and obj.desire_path.is_ground and obj.library is None:
-                with suppress(DesirePathError):  # the next bake says what is wrong
-                    op_plants.refresh(scene, obj)
+            elif home.may_free(obj):
+                with suppress(DesirePathError):  # it stays, and nothing shows it
+                    trash.again(home.folder(obj), obj.desire_path.bake_id)
+            with suppress(DesirePathError):  # the next bake says what is wrong
+                op_plants.refresh(scene, obj)
         watch.all_of(scene)
 
 
@@ -82,6 +94,8 @@ def after_save(*_):
     """A file saved for the first time: what was baked before moves beside it, and the file is to say so."""
     global _unsaved
     first, _unsaved = _unsaved and bool(bpy.data.filepath), False
+    if bpy.data.filepath:
+        trash.empty()
     there = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground
              and obj.desire_path.bake_id and not obj.desire_path.bake_file] if first else []
     for obj in there:
@@ -94,7 +108,9 @@ def after_save(*_):
 
 def register():
     watch.register()
+    bpy.app.handlers.load_pre.append(before_load)
     bpy.app.handlers.load_post.append(after_load)
+    atexit.register(trash.empty)
     bpy.app.handlers.save_pre.append(before_save)
     bpy.app.handlers.save_post.append(after_save)
     bpy.app.handlers.undo_post.append(after_undo)
@@ -111,3 +127,6 @@ def unregister():
     bpy.app.handlers.save_post.remove(after_save)
     bpy.app.handlers.save_pre.remove(before_save)
     bpy.app.handlers.load_post.remove(after_load)
+    bpy.app.handlers.load_pre.remove(before_load)
+    atexit.unregister(trash.empty)
+    trash.empty()

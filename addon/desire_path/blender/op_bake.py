@@ -15,9 +15,9 @@ import bpy
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..output import check_idle
-from . import home, inputs, moves, op_plants, reach, way
+from . import home, inputs, moves, op_plants, reach, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
-from .op_walkers import Refusal, active, sentence, walkers
+from .op_walkers import AsksFirst, Refusal, active, sentence, walkers
 from .show import free, play
 
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
@@ -85,6 +85,8 @@ class Job:
         for each in company.grounds:
             self.warnings += op_plants.refresh(scene, each)
         yield
+        for path, _ in folders:
+            trash.drop(path)  # another bake takes its place
         self.bake = made
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
@@ -279,8 +281,8 @@ class OBJECT_OT_desire_path_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_desire_path_free(Refusal, bpy.types.Operator):
-    """Give the ground back as it was before the bake, and delete the baked files"""
+class OBJECT_OT_desire_path_free(AsksFirst, Refusal, bpy.types.Operator):
+    """Give the ground back as it was before the bake, and delete the baked files once the file is saved or closed"""
 
     bl_idname = "object.desire_path_free"
     bl_label = "Free Bake"

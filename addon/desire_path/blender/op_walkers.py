@@ -4,7 +4,7 @@ from bpy.props import IntProperty, StringProperty
 
 from .. import rigs
 from ..errors import DesirePathError
-from . import axes, moves, plants, props, sample
+from . import axes, moves, playback, plants, props, sample
 
 
 WALKERS = {"ARMATURE", "MESH"}
@@ -19,6 +19,20 @@ class Refusal:
         except (DesirePathError, OSError, MemoryError) as problem:
             self.report({"ERROR"}, sentence(problem))
             return {"CANCELLED"}
+
+
+class AsksFirst:
+    """Operators that give up the bake of the active ground: in a window they ask."""
+
+    def invoke(self, context, event):
+        obj = context.object
+        if bpy.app.background or context.window is None or obj.type != "MESH" or playback.modifier(obj) is None:
+            return self.execute(context)
+        ask = context.window_manager.invoke_confirm
+        words = {"title": f"Free the bake of '{obj.name}'?", "confirm_text": "Free",
+                 "message": "Undo brings it back until the file is saved or closed."}
+        known = bpy.types.WindowManager.bl_rna.functions["invoke_confirm"].parameters
+        return ask(self, event, **{name: text for name, text in words.items() if name in known})
 
 
 def sentence(problem):
@@ -234,7 +248,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         return there[0]
 
 
-class OBJECT_OT_desire_path_remove(Refusal, bpy.types.Operator):
+class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
     """Let the active object be a ground or walker no more; frees its bake"""
 
     bl_idname = "object.desire_path_remove"

@@ -3,7 +3,7 @@ import os
 
 import bpy
 
-from . import cover, ground, home, playback, plants, stems
+from . import cover, ground, home, playback, plants, stems, trash
 from .home import folder
 
 
@@ -64,14 +64,11 @@ def was_whole(index):
 
 def free(obj):
     """Give the mesh back as it was and delete the files of its bake; those of another ground or file stay."""
-    from .. import bake
     settings = obj.desire_path
     playback.detach(obj)
     plants.show(obj)
     stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
     if settings.folder and home.may_free(obj):
-        bake.free(folder(obj), settings.bake_id)
-        if settings.folder_auto:
-            home.leave(folder(obj))
+        trash.free(folder(obj), settings.bake_id, home.leave if settings.folder_auto else str)
     settings.summary = ""
