@@ -30,7 +30,6 @@ def test_whatever_is_changed_and_changed_back(folder):
     ground, walker = baked(folder)
     settings, wears = ground.desire_path, walker.desire_path
     key = keys(walker)[0].keyframe_points[3]
-    point = ground.data.vertices[0]
     bump = ground.modifiers.new("Bump", "DISPLACE")
     bump.strength, bump.show_viewport, bump.show_render = 0.01, False, False
     bone = walker.data.bones["foot.L"]
@@ -42,18 +41,19 @@ def test_whatever_is_changed_and_changed_back(folder):
         (wears, "subframes", 2, "walk"), (wears, "ground", None, "Nobody walks"),
         (key, "co", (key.co[0], key.co[1] + 0.004), "walk"), (walker.location, "x", 0.01, "walk"),
         (bpy.context.scene.render, "fps", 31, "settings"), (ground.location, "z", -0.01, "ground"),
-        (ground, "rotation_euler", (0.0, 0.0, 0.01), "ground"), (point.co, "z", 0.02, "ground"),
+        (ground, "rotation_euler", (0.0, 0.0, 0.01), "ground"), (lambda: ground.data.vertices[0].co, "z", 0.02, "ground"),
         (bone, "use_deform", bone.use_deform, None), (walker, "hide_viewport", True, None),
         (walker, "name", "Somebody", None), (ground, "name", "Beach", None), (settings, "threads", 1, None))
     for who, what, value, words in changes:
+        who = who() if callable(who) else who
         before = getattr(who, what)
         before = tuple(before) if hasattr(before, "__len__") and not isinstance(before, str) else before
         setattr(who, what, value)  # and nobody updates anything
         told = settings.missing
-        assert settings.bake_state == ("OUTDATED" if words else "FRESH"), (what, told)
-        assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (what, told)
+        assert settings.bake_state == ("OUTDATED" if words else "FRESH"), (who, what, told)
+        assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (who, what, told)
         setattr(who, what, before)
-        assert settings.bake_state == "FRESH", (what, settings.missing)
+        assert settings.bake_state == "FRESH", (who, what, settings.missing)
     known = ids()
     bump.show_viewport = bump.show_render = True
     assert settings.bake_state == "OUTDATED" and "ground" in settings.missing
