@@ -35,10 +35,10 @@ def carried(gait):
     if not any(shift is not None for shift in shifts):
         return gait
     com, pose, told = gait.com.copy(), gait.pose.copy(), list(gait.warnings)
-    since = np.concatenate([gait.time[a:b] - gait.time[a] for a, b in gait.pieces()])
     for w, shift in enumerate(shifts):
         if shift is None:
             continue
+        since = np.concatenate([gait.time[a:b] - gait.time[a] for a, b in gait.pieces(gait.cuts_of([w]))])
         way = since[:, None] * -shift
         com[w, :, :2] += way
         pose[gait.limb_walker[gait.part_limb] == w, :, :2] += way

@@ -110,6 +110,10 @@ class Gait:
         own = self.jump[np.isin(self.jump[:, 1], walkers), 0]
         return self.cut[~np.isin(self.cut, self.jump[:, 0]) | np.isin(self.cut, own)]
 
+    def by_piece(self, work, values):
+        """work() of the samples of each piece of values (T, ..), together again."""
+        return np.concatenate([work(values[first:after]) for first, after in self.pieces()])
+
     def there(self, first, after):
         """Numbers of the walkers that are there in samples first..after-1, rising."""
         return np.flatnonzero(self.com[:, first:after, 2].min(axis=1) < AWAY)

@@ -85,10 +85,11 @@ def tilt(gait, placed, row=0):
     size = np.trace(spread, axis1=1, axis2=2)[:, None, None]
     rate = np.linalg.solve(spread + (1e-4 * size + 1e-12) * np.eye(2), np.einsum("lti,lt->ti", at, rise)[..., None])
     ahead = rotation.matrix(gait.pose[lead, :, 3:])[..., :2, 0].mean(axis=0)
-    ahead = _calm(ahead, round(SWAY * gait.frame_rate))
+    calm = lambda values: _calm(values, round(SWAY * gait.frame_rate))
+    ahead = gait.by_piece(calm, ahead)
     ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
     along = np.sum(rate[..., 0] * ahead, axis=1, keepdims=True) * ahead
-    rate = _calm(along + ROLL * (rate[..., 0] - along), round(SWAY * gait.frame_rate))
+    rate = gait.by_piece(calm, along + ROLL * (rate[..., 0] - along))
     up = np.zeros((len(rate), 3))
     up[:, 2] = 1.0
     return leg.turn_between(up, rotation.unit(np.concatenate([-rate, up[:, 2:]], axis=1)))

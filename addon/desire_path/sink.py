@@ -100,7 +100,7 @@ def into_prints(gait, loads, film, rest_height):
     depth = depths(gait, loads.touching, film, rest_height)
     if not (depth > 0.0).any():
         raise DesirePathError("No foot stands on ground that is pressed: bake the trail of this walk first.")
-    down = eased(depth, gait.time)
+    down = np.concatenate([eased(depth[:, a:b], gait.time[a:b]) for a, b in gait.pieces()], axis=1)
     pose, com = gait.pose.copy(), gait.com.copy()
     pose[..., 2] -= down[gait.part_limb]
     force, _ = foot_loads(gait, loads)
@@ -113,7 +113,8 @@ def into_prints(gait, loads, film, rest_height):
         known = np.isfinite(mean)
         if known.any():
             sample = np.arange(len(mean))
-            com[w, :, 2] -= _smooth(np.interp(sample, sample[known], mean[known]), count)
+            mean = np.interp(sample, sample[known], mean[known])
+            com[w, :, 2] -= gait.by_piece(lambda part: _smooth(part, count), mean)
     return replace(gait, pose=pose, com=com)
 
 

@@ -302,3 +302,25 @@ def test_a_pose_before_the_walk_is_cut_off(folder):
         bpy.ops.wm.read_factory_settings(use_empty=True)
     assert found[0][0] == found[1][0] == found[2][0], found
     assert abs(found[0][1] - found[1][1]) < 2e-3, found
+
+
+def test_placed_feet_and_hips_know_nothing_of_a_pose_before_the_walk():
+    hips = []
+    for pose in (False, True):
+        ground = meshes.grid(30, 40, 0.12, -1.8, -3.2, height=lambda x, y: -0.2 * y)
+        meshes.activate(ground)
+        assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
+        walker = people.walk(people.biped(), frames=30)
+        if pose:
+            walker.location.z = 0.0
+            walker.keyframe_insert("location", index=2, frame=1)
+            for curve in compat.curves(walker.animation_data, walker):  # far ahead, its feet high over the ground
+                curve.keyframe_points.insert(0, {1: -2.0, 2: 3.0}.get(curve.array_index, 0.0)
+                                             if curve.data_path == "location" else 0.0)
+                curve.update()
+        meshes.activate(walker)
+        assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+        assert bpy.ops.object.desire_path_place_feet() == {"FINISHED"}
+        hips.append(posing.look(bpy.context.scene, walker, ["hips"], list(range(1, 31))).at("hips")[:, :3, 3])
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert np.abs(hips[1] - hips[0]).max() < 0.01, np.abs(hips[1] - hips[0]).max(axis=1).round(3)

@@ -51,6 +51,7 @@ def test_soles_lie_on_the_ground_they_pressed(baked):
     np.testing.assert_array_equal(sunk.pose[..., :2], gait.pose[..., :2])
     np.testing.assert_array_equal(sunk.pose[..., 3:], gait.pose[..., 3:])
     body = gait.com[0, :, 2] - sunk.com[0, :, 2]
+    body = body[gait.cut.max(initial=0):]  # not the pose the clip begins with
     assert 0.2 * down.max() < body.mean() < down.max() and np.abs(np.diff(body)).max() < 0.001
 
 

@@ -132,7 +132,7 @@ class Plan:
                 continue
             goal = _at(self._foot_move(limb, gait, placed), self.heads(foot.foot))
             down = np.maximum(down, leg.drop(*(self.carried(n) for n in (foot.thigh, foot.shank, foot.foot)), goal))
-        self.body[:, 2, 3] -= leg.eased(down, round(EASE * gait.frame_rate))
+        self.body[:, 2, 3] -= gait.by_piece(lambda part: leg.eased(part, round(EASE * gait.frame_rate)), down)
         for root in self.roots:
             self._key(root, self.body, "location", *(("rotation",) if lean is not None else ()))
 
