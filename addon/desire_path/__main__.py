@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from . import fit, jumps, lane, plot, walker
+from . import fit, jumps, lane, plot, walker, whole
 from . import path as paths
 from .bake import FILMS, Bake
 from .bounds import ADVICE, Limits
@@ -242,6 +242,9 @@ def main(arguments=None):
     """Run one command; 0 when it worked, 1 with one sentence on stderr when it did not."""
     args = _parser().parse_args(arguments)
     try:
+        for path in (args.out, getattr(args, "contacts", None)):
+            if path is not None and args.task is not _bake:
+                whole.check(path, "The result")  # before minutes of work
         args.task(args)
     except DesirePathError as problem:
         print(problem, file=sys.stderr)

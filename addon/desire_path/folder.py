@@ -12,7 +12,7 @@ import os
 import struct
 from dataclasses import dataclass, field
 
-from . import whole
+from . import disk, whole
 from .errors import DesirePathError
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
 
@@ -160,7 +160,8 @@ def frames_sound(frames, lean):
     while True:
         names = [frame_name(number + 1, film) for film in _films(lean)]
         try:
-            if any(_sum(os.path.join(frames, name)) != known[name] for name in names):
+            paths = [os.path.join(frames, name) for name in names]
+            if any(not disk.is_plain(path) or _sum(path) != known[name] for path, name in zip(paths, names)):
                 return number, sound
         except (OSError, KeyError):
             return number, sound

@@ -98,9 +98,9 @@ class Output:
             place = os.path.dirname(place)
         try:
             os.makedirs(self.folder, exist_ok=True)
-        except OSError as problem:
-            raise DesirePathError(
-                f"The folder {self.folder} cannot be made ({problem.strerror}): choose another one.") from None
+        except (OSError, ValueError) as problem:
+            raise DesirePathError(f"The folder {self.folder} cannot be made "
+                                  f"({getattr(problem, 'strerror', None) or problem}): choose another one.") from None
         try:
             self._take(time.monotonic() + wait)
             self._check_places()
@@ -163,7 +163,7 @@ class Output:
             self._clear(NEW)  # nothing there to go on with
         for name, patterns in EARLIER.items():
             delete(os.path.join(self.folder, name), patterns)
-        delete(self.folder, PARTS, itself=False)
+        delete(os.path.join(self.folder, ""), PARTS, itself=False)
 
     def fresh(self, keep=()):
         """Make bake.new with its folders; what is in it goes, but the files of `frames` in `keep`."""

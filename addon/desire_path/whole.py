@@ -39,6 +39,9 @@ def check(path, what):
         found = kind_of(path)
     except (OSError, ValueError) as problem:
         raise DesirePathError(_sentence(what, path, problem)) from None
+    if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
+        raise DesirePathError(f"{what} cannot be written to {path}, whose folder is not there: make it or choose "
+                              "another one.")
     if found not in ("", "file"):
         raise DesirePathError(f"{what} cannot be written to {path}, which is a {found}: choose the name of a file.")
 
@@ -66,7 +69,8 @@ def file(path, what, mode="wb", **more):
     check(path, what)
     temporary, folder = None, os.path.dirname(os.path.abspath(path))
     try:
-        handle, temporary = tempfile.mkstemp(".part", f"{os.path.basename(path)[:100]}.", folder)
+        name = os.fsdecode(os.fsencode(os.path.basename(path))[:100])  # names may have 255 bytes
+        handle, temporary = tempfile.mkstemp(".part", f"{name}.", folder)
         with os.fdopen(handle, mode, **more) as stream:
             yield stream
             stream.flush()

@@ -150,6 +150,17 @@ def test_a_killed_bake_leaves_the_old_one_whole_and_the_next_leaves_nothing_of_i
     assert not folder.exists()
 
 
+@pytest.mark.parametrize("frames", [1, 20, 36])
+def test_free_takes_away_what_a_killed_bake_left(tmp_path, frames):
+    child = in_a_process(tmp_path / "bake", "snow")
+    for _ in range(frames):
+        child.stdout.readline()
+    child.kill()
+    child.wait()
+    free(tmp_path / "bake")
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_second_bake_into_a_folder_is_refused(tmp_path):
     """In this process or another one, and so is freeing it; the first one goes on."""
     run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
@@ -330,6 +341,33 @@ def test_no_command_replaces_a_pipe(tmp_path, words):
     assert done.returncode == 1 and len(done.stderr.strip().splitlines()) == 1, done
     assert str(pipe) in done.stderr and "Traceback" not in done.stderr
     assert pipe.is_fifo() and {path.name for path in tmp_path.iterdir()} <= {pipe.name, "table"}
+
+
+def test_names_may_be_long_and_folders_missing(tmp_path):
+    long = tmp_path / ("\u8db3" * 80 + ".csv")  # 244 bytes
+    with whole.file(long, "The table", "w") as stream:
+        stream.write("1")
+    assert long.read_text() == "1"
+    for wrong in (tmp_path / "none" / "x.csv", f"{tmp_path}/a\0b.csv"):
+        with pytest.raises(DesirePathError, match="cannot be written") as error:
+            with whole.file(wrong, "The table", "w"):
+                pass
+        sentence(error)
+    with pytest.raises(DesirePathError, match="cannot be made"):
+        baked(f"{tmp_path}/a\0b")
+
+
+def test_a_link_in_place_of_a_frame_is_no_frame_to_go_on_from(tmp_path):
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path / "bake", threads=1).run()
+    for _ in range(10):
+        next(run)
+    run.close()
+    frame, moved = tmp_path / "bake" / "frames" / "trail_0004.exr", tmp_path / "theirs.exr"
+    frame.rename(moved)
+    frame.symlink_to(moved)
+    before = moved.read_bytes()
+    baked(tmp_path / "bake")
+    assert not frame.is_symlink() and frame.read_bytes() == before == moved.read_bytes()
 
 
 def test_maps_never_replace_what_is_no_file(tmp_path):

@@ -196,8 +196,8 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         context.view_layer.update()
         try:
             self.job = Job(context.scene, context.object)
-        except DesirePathError as problem:
-            self.report({"ERROR"}, str(problem))
+        except (DesirePathError, OSError, MemoryError) as problem:
+            self.report({"ERROR"}, sentence(problem))
             return {"CANCELLED"}
         _running = self.job
         self.steps = self.job.run()
