@@ -63,6 +63,11 @@ class Ground:
         spacing: distance of samples [m] > 0; sample (0, 0) lies at (x0, y0).
         kind_weight: (kinds, ny, nx) >= 0, how much of each soil; the heaviest wins.
         """
+        heights, base = np.asarray(heights), 0.0
+        if heights.dtype == np.float64 and heights.size and np.isfinite(heights).any():
+            # what a float32 has no digits for, far up, counts from a height of the ground's own
+            base = 16.0 * round(float(heights[np.isfinite(heights)][0]) / 16.0)
+            heights = heights - base
         heights = np.ascontiguousarray(heights, np.float32)
         if heights.ndim != 2 or min(heights.shape) < 2:
             raise DesirePathError("A ground of heights needs at least 2 x 2 samples.")
@@ -78,7 +83,7 @@ class Ground:
                 raise DesirePathError(
                     f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height.")
             kind_weight = kind_weight.reshape(len(kind_weight), -1)
-        native = ("heights", heights, float(spacing), float(x0), float(y0), kind_weight)
+        native = ("heights", heights, float(spacing), float(x0), float(y0), base, kind_weight)
         return Ground(native, "heights")
 
     @staticmethod

@@ -88,7 +88,7 @@ typedef struct DpSoilPatch
     double cell;    // side of a cell                                    [m]
     double x0, y0;  // world position of the centre of cell (0, 0)       [m]
 
-    const float*   rest;           // h0, ground before any walker; NaN = no ground here [m]
+    const float*   rest;  // h0, ground before any walker, over the terrain's base; NaN = none [m]
     float*         compression;    // h_c, pressed below h0              [m]  >= 0
     float*         heap;           // h_a, loose soil piled on top       [m]  >= 0
     float*         pressure_time;  // sigma_acc, TRAIL (17)              [Pa s] >= 0

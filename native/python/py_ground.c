@@ -40,7 +40,7 @@ static bool read_kinds(DpDoor* door, PyObject* object, Py_ssize_t n, DpGround* g
     return ground->kind_weight != NULL;
 }
 
-// ("flat", z) | ("heights", array, spacing, x0, y0, kinds) | ("mesh", vertices, triangles, kinds)
+// ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds)
 bool dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
 {
     const char* kind = NULL;
@@ -58,8 +58,8 @@ bool dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
     }
     if (strcmp(kind, "heights") == 0) {
         ground->kind = DP_GROUND_HEIGHTS;
-        if (!PyArg_ParseTuple(tuple, "sOdddO;ground", &kind, &a, &ground->spacing, &ground->x0,
-                              &ground->y0, &kinds))
+        if (!PyArg_ParseTuple(tuple, "sOddddO;ground", &kind, &a, &ground->spacing, &ground->x0,
+                              &ground->y0, &ground->height, &kinds))
             return false;
         DpShape shape = {2, {-1, -1}};
         ground->heights = dp_door_open(door, a, "heights", 'f', &shape, false);

@@ -122,7 +122,8 @@ PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
         for (int k = 0; k < (int)count; ++k) {
             float*  at = position ? position + 3 * (size_t)k * (size_t)shape.particles : NULL;
             double* of = strength ? strength + (size_t)k * (size_t)shape.bends : NULL;
-            if (at || of) dp_plants_read(self->plants, stand, first + k, at, NULL, of);
+            if (at) dp_sim_stands(self->sim, stand, first + k, at);
+            if (of) dp_plants_read(self->plants, stand, first + k, NULL, NULL, of);
             if (alpha) alpha[k] = dp_plants_alpha(self->plants, stand, first + k);
         }
         Py_END_ALLOW_THREADS

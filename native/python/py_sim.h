@@ -28,7 +28,7 @@ static inline bool dp_py_enter(Simulation* self)
 
 // py_ground.c: what arrays and tuples say; NULL or false with an exception.
 // Soils are rows of six floats in the order of DpSoil; the caller frees them. A ground is
-// ("flat", z) | ("heights", array, spacing, x0, y0, kinds) | ("mesh", vertices, triangles, kinds).
+// ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds).
 DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count);
 bool    dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground);
 

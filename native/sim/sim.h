@@ -69,6 +69,8 @@ DpStatus dp_sim_lay(DpSim* sim);
 // One plant's particles (particles, 3) [m] as they are to be shown: trodden stems down for as long
 // as the grass lies, see plants.h. Before dp_sim_lay: as they are.
 DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position);
+// The same as they are now.
+DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position);
 
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_rest(DpSim* sim, double seconds);

@@ -209,6 +209,20 @@ static DpStatus make_limbs(DpSim* sim, const DpGait* gait)
     return DP_OK;
 }
 
+// heights count from the terrain's base, which is where the walker first treads
+static void lower(DpSim* sim, size_t samples)
+{
+    size_t first = 0;
+    while (first < samples && !sim->touching[first]) ++first;
+    if (first < samples && !sim->meadow.plants)
+        dp_terrain_move_base(sim->terrain, sim->pose[7 * first + 2]);
+    const double base = dp_terrain_base(sim->terrain);
+    for (size_t k = 0; k < samples; ++k) {
+        sim->pose[7 * k + 2] -= base;
+        sim->pressure_point[3 * k + 2] -= base;
+    }
+}
+
 DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
                      const double* pressure_point)
 {
@@ -240,6 +254,7 @@ DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, co
                          .mass = sim->mass,
                          .pose = sim->pose,
                          .sole = sim->sole};
+    lower(sim, samples);
     sim->next = 0;
     return DP_OK;
 }

@@ -62,13 +62,32 @@ static double surface(const void* terrain, double x, double y)
     return dp_terrain_surface_at(terrain, x, y);
 }
 
+// from heights over the terrain's base
+static void in_the_world(const DpSim* sim, int stand, float* position)
+{
+    const double base = dp_terrain_base(sim->terrain);
+    const int    count = dp_plants_shape(sim->meadow.plants, stand).particles;
+    for (int n = 0; n < count; ++n)
+        position[3 * n + 2] = (float)((double)position[3 * n + 2] + base);
+}
+
 DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position)
 {
     const Meadow* m = &sim->meadow;
     if (!m->plants) return DP_BAD_ARGUMENT;
-    if (!m->laid) return dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
     const DpPlantGround ground = {.cell = sim->cell, .at = surface, .context = sim->terrain};
-    return dp_laid_read(m->laid, &ground, stand, plant, position);
+    const DpStatus      status = m->laid ? dp_laid_read(m->laid, &ground, stand, plant, position)
+                                         : dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
+    if (status == DP_OK) in_the_world(sim, stand, position);
+    return status;
+}
+
+DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position)
+{
+    if (!sim->meadow.plants) return DP_BAD_ARGUMENT;
+    const DpStatus status = dp_plants_read(sim->meadow.plants, stand, plant, position, NULL, NULL);
+    if (status == DP_OK) in_the_world(sim, stand, position);
+    return status;
 }
 
 Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1)
@@ -107,7 +126,7 @@ static bool stand_on(const DpSim* sim, const DpPlantKind* kind, const float xy[2
     double       z[5];
     dp_terrain_rest(sim->terrain, 5, at, z);
     if (!isfinite(z[0])) return false;
-    root[0] = xy[0], root[1] = xy[1], root[2] = (float)z[0];
+    root[0] = xy[0], root[1] = xy[1], root[2] = (float)(z[0] - dp_terrain_base(sim->terrain));
     for (int k = 0; k < 2; ++k) {  // one-sided at an edge
         const double low = z[1 + 2 * k], high = z[2 + 2 * k];
         const double across = (high - low) / (2.0 * d);

@@ -37,6 +37,7 @@ Shadow* dp_shadow_way(DpSim* sim, int part, int sample)
     const double xy[2] = {0.25 * (from->x0 + from->x1 + to->x0 + to->x1),
                           0.25 * (from->y0 + from->y1 + to->y0 + to->y1)};
     dp_terrain_rest(sim->terrain, 1, xy, &shadow->ground);
+    shadow->ground -= dp_terrain_base(sim->terrain);
     return shadow;
 }
 

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "terrain/terrain_inside.h"
 
+#define BASE_STEP 16.0                 // [m]: floats over the base are good to half a micrometre
 #define MOST_TILES_AT_ONCE (1L << 16)  // 4.5 GB: nobody means that
 
 static bool is_soil(const DpSoil* soil)
@@ -55,6 +56,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     for (size_t s = 0; s < soils; ++s)
         made->slope[s] = (float)tan((double)made->soils[s].rest_angle);
     *terrain = made;
+    dp_terrain_move_base(made, made->rest.somewhere);
     return DP_OK;
 }
 
@@ -80,6 +82,17 @@ void dp_terrain_origin(const DpTerrain* terrain, double origin[2])
 {
     origin[0] = terrain->origin_x;
     origin[1] = terrain->origin_y;
+}
+
+double dp_terrain_base(const DpTerrain* terrain)
+{
+    return terrain->base;
+}
+
+void dp_terrain_move_base(DpTerrain* terrain, double height)
+{
+    if (terrain->tiles == 0 && !terrain->cover)
+        terrain->base = BASE_STEP * rint(height / BASE_STEP);
 }
 
 int dp_terrain_soil_count(const DpTerrain* terrain)
@@ -123,8 +136,8 @@ Tile* tile_find(const DpTerrain* terrain, long tx, long ty)
 
 TileGrid tile_grid(const DpTerrain* terrain, long tx, long ty)
 {
-    const TileGrid grid = {terrain->origin_x, terrain->origin_y, terrain->cell, tx * DP_TILE,
-                           ty * DP_TILE};
+    const TileGrid grid = {terrain->origin_x, terrain->origin_y, terrain->cell,
+                           terrain->base,     tx * DP_TILE,      ty * DP_TILE};
     return grid;
 }
 

@@ -23,7 +23,7 @@ typedef enum DpGroundKind
 typedef struct DpGround
 {
     DpGroundKind kind;
-    double       height;  // flat: its height [m]
+    double       height;  // flat: its height; heights: added to every sample [m]
 
     int          nx, ny;           // heights: samples
     double       x0, y0, spacing;  // heights: position of sample (0, 0), step        [m]
@@ -58,6 +58,11 @@ int           dp_terrain_soil_count(const DpTerrain* terrain);
 const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4]);
+
+// Heights on tiles are floats, and count from here [m], a whole multiple of 16 near the ground: so prints are as
+// exact far up as at sea level. While there is neither a tile nor a plant it can be moved near to `height`.
+double dp_terrain_base(const DpTerrain* terrain);
+void   dp_terrain_move_base(DpTerrain* terrain, double height);
 
 // Height of the rest ground at `count` points xy (count, 2) [m]; NaN where there is none.
 void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, double* height);
@@ -145,7 +150,7 @@ void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
                      int stride);
 
-// Heights of the current surface, h0 - compression + heap [m], NaN = no ground, of a rectangle of
+// Heights of the current surface over the base, h0 - compression + heap [m], NaN = no ground, of a rectangle of
 // cells whose tiles were touched; out (ny, nx).
 void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out);
 

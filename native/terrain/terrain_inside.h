@@ -37,6 +37,7 @@ typedef struct MeshGround
     int32_t* start;        // (bins + 1)
     int32_t* item;         // triangles, ascending within a bin
     bool     level;        // all vertices lie equally high
+    double   somewhere;    // height of a corner of one that faces up or down [m]
 } MeshGround;
 
 // rest ground as it was given; kind_weight goes by mesh vertex or height sample
@@ -52,6 +53,7 @@ typedef struct Rest
     size_t       weights;      // of each kind
     float*       kind_weight;  // (kind_count, weights)
     double       bounds[4];    // {x0, y0, x1, y1} [m]
+    double       somewhere;    // height of some point of it [m]
     bool         level;        // all of it lies equally high, to the bit
 } Rest;
 
@@ -65,11 +67,12 @@ double rest_at(const Rest* rest, double x, double y, uint8_t* kind);
 // and a point query see the same numbers.
 typedef struct TileGrid
 {
-    double origin_x, origin_y, cell;
+    double origin_x, origin_y, cell, base;
     long   i0, j0;  // world cell of the tile's cell (0, 0)
 } TileGrid;
 
-// Heights and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)rest_at at cell centres.
+// Heights over the base and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)(rest_at - base) at
+// cell centres.
 void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
 
 DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4]);
@@ -90,7 +93,7 @@ static inline double cell_at(double origin, double cell, long index)
 
 typedef struct Tile
 {
-    float      rest[TILE_CELLS];           // NaN = no ground [m]
+    float      rest[TILE_CELLS];           // over the base, NaN = no ground [m]
     float      compression[TILE_CELLS];    // [m]
     float      heap[TILE_CELLS];           // [m]
     float      pressure_time[TILE_CELLS];  // [Pa s]
@@ -102,7 +105,7 @@ typedef struct Tile
 
 struct DpTerrain
 {
-    double  cell, origin_x, origin_y;
+    double  cell, origin_x, origin_y, base;
     int     soil_count, workers;
     DpSoil* soils;
     float*  slope;  // tan(rest_angle) of each soil

@@ -286,6 +286,9 @@ static void read_row(const View* view, DpField field, size_t at, int count, floa
     const float* grid = there ? grid_of(tile, view->rest, field) : NULL;
     if (grid) {
         memcpy(out, grid + at, (size_t)count * sizeof *out);
+        if (field != DP_FIELD_REST) return;
+        const double base = view->terrain->base;
+        for (int i = 0; i < count; ++i) out[i] = (float)((double)out[i] + base);
         return;
     }
     const float*     plant = view->plant ? view->plant + at : NULL;

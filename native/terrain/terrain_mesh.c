@@ -317,6 +317,11 @@ DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, doub
     DpStatus status = DP_NO_MEMORY;
     if (mesh->vertex && mesh->triangle && binning.place && binning.share)
         status = take_mesh(&binning, workers, bounds, &facing);
+    if (status == DP_OK) {
+        int32_t t = 0;
+        while (binning.place[t] == NOWHERE) ++t;
+        mesh->somewhere = mesh->vertex[3 * (size_t)mesh->triangle[3 * (size_t)t] + 2];
+    }
     if (status == DP_OK && !fill_bins(mesh, binning.place, facing)) status = DP_NO_MEMORY;
     dp_free(binning.place);
     dp_free(binning.share);
@@ -473,7 +478,7 @@ void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
         for (int i = 0; i < DP_TILE; ++i) {
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
             const int    n = j * DP_TILE + i;
-            height[n] = (float)top[n].z;
+            height[n] = (float)(top[n].z - grid->base);
             kind[n] = kind_of(rest, top[n].triangle, x, y);
         }
     }

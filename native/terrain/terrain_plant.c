@@ -79,7 +79,8 @@ static double surface_of(const DpTerrain* terrain, const Tile* tile, long i, lon
 {
     if (!tile)
         return rest_at(&terrain->rest, cell_at(terrain->origin_x, terrain->cell, i),
-                       cell_at(terrain->origin_y, terrain->cell, j), NULL);
+                       cell_at(terrain->origin_y, terrain->cell, j), NULL) -
+               terrain->base;
     const long p = (j - tile->ty * DP_TILE) * DP_TILE + (i - tile->tx * DP_TILE);
     return (double)(tile->rest[p] - tile->compression[p] + tile->heap[p]);
 }

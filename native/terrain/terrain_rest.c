@@ -11,7 +11,8 @@
 static DpStatus check_heights(const DpGround* ground)
 {
     if (ground->nx < 2 || ground->ny < 2 || !ground->heights || !(ground->spacing > 0.0) ||
-        !isfinite(ground->spacing) || !isfinite(ground->x0) || !isfinite(ground->y0))
+        !isfinite(ground->spacing) || !isfinite(ground->x0) || !isfinite(ground->y0) ||
+        !isfinite(ground->height))
         return DP_BAD_ARGUMENT;
     const size_t row = (size_t)ground->nx, count = row * (size_t)ground->ny;
     for (size_t n = 0; n < count; ++n)
@@ -32,6 +33,12 @@ static DpStatus copy_heights(Rest* rest, const DpGround* ground)
     rest->heights = dp_alloc(count, sizeof(float));
     if (!rest->heights) return DP_NO_MEMORY;
     memcpy(rest->heights, ground->heights, count * sizeof(float));
+    rest->height = rest->somewhere = ground->height;
+    for (size_t n = 0; n < count; ++n)
+        if (!isnan(ground->heights[n])) {
+            rest->somewhere += (double)ground->heights[n];
+            break;
+        }
     rest->level = true;
     for (size_t n = 1; n < count && rest->level; ++n)
         rest->level = ground->heights[n] == ground->heights[0];
@@ -68,7 +75,7 @@ DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
     switch (ground->kind) {
         case DP_GROUND_FLAT:
             if (!isfinite(ground->height)) return DP_BAD_ARGUMENT;
-            rest->height = ground->height;
+            rest->height = rest->somewhere = ground->height;
             rest->level = true;
             rest->bounds[0] = rest->bounds[1] = -INFINITY;
             rest->bounds[2] = rest->bounds[3] = INFINITY;
@@ -81,6 +88,7 @@ DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
             status = mesh_create(&rest->mesh, ground, workers, rest->bounds);
             weights = (size_t)rest->mesh.vertex_count;
             rest->level = rest->mesh.level;
+            rest->somewhere = rest->mesh.somewhere;
             break;
         default:
             return DP_BAD_ARGUMENT;
@@ -152,7 +160,7 @@ static double heights_at(const Rest* rest, double x, double y, uint8_t* kind)
         const double whole = 1.0;
         *kind = heaviest_kind(rest, 1, &nearest, &whole);
     }
-    return height;
+    return height + rest->height;
 }
 
 double rest_at(const Rest* rest, double x, double y, uint8_t* kind)
@@ -174,7 +182,8 @@ void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
         const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
         for (int i = 0; i < DP_TILE; ++i) {
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
-            height[j * DP_TILE + i] = (float)rest_at(rest, x, y, &kind[j * DP_TILE + i]);
+            height[j * DP_TILE + i] =
+                (float)(rest_at(rest, x, y, &kind[j * DP_TILE + i]) - grid->base);
         }
     }
 }

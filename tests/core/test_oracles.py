@@ -227,6 +227,41 @@ def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
             assert half.sum() == pytest.approx(whole.sum(), rel=0.02, abs=0.01)
 
 
+@pytest.mark.parametrize("plants", [(), "carex"])
+@pytest.mark.parametrize("kind", ["flat", "heights", "mesh"])
+def test_a_print_far_up_is_that_of_one_at_sea_level(kind, plants):
+    """On a slope, at the height of ships, of planes, and of the edge of space."""
+    def ground(up):
+        x, y = np.meshgrid(np.arange(-2, 2.01, 0.5), np.arange(-2, 2.01, 0.5))
+        z = up + 0.1 * x
+        if kind == "flat":
+            return Ground.flat(up)
+        if kind == "heights":
+            return Ground.heights(z, 0.5, -2.0, -2.0)
+        n = x.shape[1]
+        at = np.arange(x.size).reshape(x.shape)[:-1, :-1].ravel()
+        faces = np.concatenate([np.stack([at, at + 1, at + n + 1], -1), np.stack([at, at + n + 1, at + n], -1)])
+        return Ground.mesh(np.stack([x.ravel(), y.ravel(), z.ravel()], -1), faces)
+
+    found = {}
+    for up in (0.0, 0.37, -11.0, 12e3 + 0.37, 90e3 + 0.1, -90e3):
+        sim = Simulation(ground(up), FIRM, 0.01, plants=plants)
+        tilt = 0.0 if kind == "flat" else math.atan(0.1) / 2
+        gait, loads = gaits.pressed([FOOT], [[0, 0, up, math.cos(tilt), 0, -math.sin(tilt), 0]], [[20, 0, -75 * G]])
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        found[up] = sim.report()["pressed_m3"], sim.read("heap", -50, -50, 100, 100)
+        assert sim.read("rest", 5, 5, 1, 1)[0, 0] == np.float32(sim.rest_height([[0.055, 0.055]])[0])
+        if plants:
+            broken = [sim.plants_alpha(stand[0]).sum() for stand in sim.stands]
+            assert abs(sim.plants_positions(sim.stands[0][0])[:, :, 2] - up).max() < 1.0
+            found[up] += (sum(broken),)
+    for up in found:
+        assert found[up][0] == pytest.approx(found[0.0][0], rel=1e-5)
+        assert np.abs(found[up][1] - found[0.0][1]).max() < 1e-4
+        assert found[up][2:] == pytest.approx(found[0.0][2:], rel=1e-3)
+
+
 def test_a_foot_s_volume_does_not_depend_on_the_cell():
     turned = [0.013, 0.021, 0, *gaits.turn_z(0.4)]
     runs = [press([FOOT], [turned], [[0, 0, -75 * G]], cell=cell)[1] for cell in (0.04, 0.02, 0.01, 0.005)]

@@ -59,7 +59,7 @@ def test_two_walks_in_turn_are_one_walk_and_then_the_other_on_its_map(tmp_path, 
     assert before["compression"].max() > 0.01 and before["heap"].max() > 0.002
     assert ground.name == "flat" or np.isnan(before["rest"]).any()
     walked(sim, second)
-    for name, most in (("compression", 1e-5), ("heap", 1e-5), ("pressure_time", 1.0)):
+    for name, most in (("compression", 1e-5), ("heap", 5e-5), ("pressure_time", 1.0)):
         there, wanted = sim.read(name, *WINDOW), whole.read(name, *WINDOW)
         assert np.abs(there - wanted).max() <= most, name
         assert np.abs(wanted - before[name]).max() > most  # the second walk did something
@@ -117,7 +117,7 @@ def test_a_bake_tells_what_a_map_does_not_hold(tmp_path):
 def test_heights_go_by_their_names(tmp_path, name):
     height = np.random.default_rng(1).normal(size=(9, 12)).astype(np.float32)
     maps.write(tmp_path / "h.exr", {"A": np.ones_like(height), name: height}, {"cell": 0.5, "originX": 1.0, "originY": 2.0})
-    _, there, spacing, x0, y0, _ = Ground.read(tmp_path / "h.exr").native
+    _, there, spacing, x0, y0, _, _ = Ground.read(tmp_path / "h.exr").native
     assert np.array_equal(there, height) and (spacing, x0, y0) == (0.5, 1.25, 2.25)
 
 
