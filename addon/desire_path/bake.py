@@ -35,12 +35,15 @@ from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by t
 from .output import Output
 from .parcels import Parcel
 from .passes import turns_of
+from .rotation import turned
 from .share import Share
 from .sim import LOAD_MODELS, TILE, Ground, Simulation, check_cell
 from .version import VERSION
 
 SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are found at [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
+SOLE_STEP = 0.0025  # soles are sampled so closely, or four times a cell [m]
+LEAST_SAMPLES = 4  # a sole that fewer fall on leaves no print
 MOST_SOLE = 1_000_000  # cells one sole may cover
 PASS_RATE = 60.0  # the same where a frame is a pass: there are many, and each print is trodden again [1/s]
 FILMS = ("frames", "passes")  # what a frame is: a scene frame | a whole pass of a walk along a path
@@ -267,13 +270,31 @@ class Bake:
             ) from None
 
     def _check_soles(self):
-        """Refuse feet of so many cells that a step would take minutes, as of a rig in the wrong unit."""
+        """Refuse feet of so many cells that a step would take minutes, as of a rig in the wrong unit, and walkers whose
+        every foot is lost between cells; name single feet that are."""
+        area = np.zeros(len(self.gait.soles))
         for part, sole in enumerate(self.gait.soles):
             size = np.sort(np.ptp(sole.vertices.astype(float), axis=0))
+            lowest = self.gait.pose[part, self.gait.pose[part, :, 2].argmin(), 3:]
+            area[part] = np.prod(np.ptp(turned(lowest, sole.vertices.astype(float))[:, :2], axis=0))
             if size[1] * size[2] > MOST_SOLE * self.cell_size ** 2:
                 raise DesirePathError(
                     f"The sole of bone {self.gait.bone(part)} is {size[2]:.1f} m long, too large for cells of {self.cell_size:g} m: check the walker's scale or choose a larger cell size."
                 )
+        step = self.cell_size / min(max(round(self.cell_size / SOLE_STEP), 1), 4)  # as the core samples soles
+        self.lost = []
+        for walker_number, name in enumerate(self.gait.walker_name):
+            limbs = np.flatnonzero(np.asarray(self.gait.limb_walker) == walker_number)
+            largest = [max(np.flatnonzero(np.asarray(self.gait.part_limb) == limb), key=lambda part: area[part])
+                       for limb in limbs]
+            lost = [part for part in largest if area[part] < LEAST_SAMPLES * step**2]
+            if lost and len(lost) == len(largest):
+                least = max(math.sqrt(area[lost].max()) / 8, 0.0005)
+                raise DesirePathError(
+                    f"The feet of {name} are lost between cells of {self.cell_size:g} m: choose a cell size of {least:.1g} m or so, or check the walker's scale."
+                )
+            self.lost += [f"The sole of bone {self.gait.bone(part)} is lost between cells of {self.cell_size:g} m and leaves no print: choose smaller cells."
+                          for part in lost]
 
     def _run(self):
         check_cell(self.cell_size)
@@ -370,7 +391,7 @@ class Bake:
     def _report(self, sims, seconds):
         found = [sim.report() for sim in sims]
         total = {name: sum(each[name] for each in found) for name in found[0]}
-        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *(each for sim in sims for each in sim.warnings)]))
+        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *self.lost, *(each for sim in sims for each in sim.warnings)]))
         if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils)
                for sim, each in zip(sims, found)):
             warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "

@@ -99,7 +99,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
     status = dp_soil_compress(patch, &bench->imprint, &foot, sim->options.law, dt, &pressed);
     if (status != DP_OK) return status;
     if (pressed.area <= 0.0) {
-        limb->off_ground = true;
+        limb->off_ground = bench->imprint.i0 < bench->imprint.i1;  // not if no cell saw the sole
         return DP_OK;
     }
     limb->sink = pressed.sink;

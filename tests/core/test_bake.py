@@ -40,6 +40,29 @@ def content(folder):
     return {path.name: path.read_bytes() for path in Path(folder, "frames").glob("*.exr")}
 
 
+@pytest.mark.parametrize("length, cell, good", [(0.25, 0.5, False), (0.25, 0.2, True), (0.002, 0.01, False),
+                                                (0.002, 0.0005, True), (0.25, 0.05, True)])
+def test_feet_lost_between_cells_are_named_before_the_bake(tmp_path, length, cell, good):
+    """Not as a walk beside the ground; the cell size that is proposed shows them."""
+    gait, _ = gaits.pressed([gaits.box(length, 0.44 * length)], [[0.011, 0.007, 0, 1, 0, 0, 0]], [[0, 0, -7]], rate=24.0,
+                            mass=70 * (length / 0.25) ** 2)
+    if not good:
+        with pytest.raises(DesirePathError, match=f"lost between cells of {cell:g} m: choose a cell size of") as said:
+            baked(tmp_path, gait, cell_size=cell)
+        cell = float(str(said.value).split("cell size of ")[1].split(" m")[0])
+        assert not list(tmp_path.glob("frames*"))
+    bake, _ = baked(tmp_path, gait, cell_size=max(cell, 0.0005))
+    assert bake.report["pressed_m3"] > 0 and not any("beside" in each for each in bake.report["warnings"])
+
+
+def test_one_foot_of_many_that_is_lost_is_a_warning(tmp_path):
+    gait, _ = gaits.pressed([gaits.box(0.25, 0.11), gaits.box(0.003, 0.003)],
+                            [[0, 0, 0, 1, 0, 0, 0], [0, 0.3, 0, 1, 0, 0, 0]], [[0, 0, -7]] * 2, rate=24.0)
+    bake, _ = baked(tmp_path, gait)
+    assert [each for each in bake.report["warnings"] if "lost between cells of 0.01 m" in each]
+    assert not any("beside" in each for each in bake.report["warnings"])
+
+
 def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
     bake, frames = baked(tmp_path)
     index = read_index(tmp_path)
