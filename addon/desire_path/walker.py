@@ -4,11 +4,11 @@ import csv
 import os
 import re
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import freeze, size as sizes, whole
+from . import freeze, jumps, size as sizes, whole
 from .errors import DesirePathError
 
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
@@ -113,7 +113,7 @@ def _find_contacts(gait, below, limits, frame_rate):
 
 def contacts(gait, ground_height=None, *, limits=None):
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
-    gait = sizes.known(gait.check())
+    gait = sizes.known(jumps.found(gait.check()))
     touching, clearance = np.zeros((len(gait.part_limb), len(gait.time)), "u1"), []
     known = ((turn, *_contacts_of(turn.gait, turn.ground, limits)) for turn in _turns(gait, ground_height))
     for turn, on, rest in _standing(gait, known):
@@ -187,7 +187,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
     tau [s], half_sine spreads the landing as a half-sine). ground: see ground_below.
     """
-    gait = sizes.known(gait.check())
+    told, gait = len(gait.warnings), sizes.known(jumps.found(gait.check()))
     if model not in MODELS:
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
     if not (np.isfinite(settle_time) and settle_time > 0):
@@ -201,7 +201,8 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
                 return problem
             raise
 
-    return _together(gait, _side_by_side(_turns(gait, ground), find, ground))
+    found = _together(gait, _side_by_side(_turns(gait, ground), find, ground))
+    return replace(found, warnings=gait.warnings[told:] + found.warnings)
 
 
 def _loads_of(gait, model, ground, settle_time, half_sine, limits, options):

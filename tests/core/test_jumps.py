@@ -190,3 +190,11 @@ def test_passes_are_of_one_piece_and_tell_of_the_jump():
     assert passes.frame_start == gait.frame_start and not len(passes.jump) and len(passes.cut) == len(plain.cut) == 1
     assert any("jumps 1.7 m" in each for each in passes.warnings)
     np.testing.assert_allclose(passes.com, plain.com, atol=1e-6)
+
+
+def test_loads_of_a_recording_are_cut_where_it_jumps():
+    gait = recorded()
+    whole, loads = walker.loads(gait), walker.loads(before(gait, 1, (1.7, 0.3, 0.0)))
+    assert "jumps 1.7 m" in loads.warnings[0] and loads.warnings[1:] == whole.warnings
+    np.testing.assert_allclose(loads.force[:, 2:], whole.force[:, 1:], atol=1e-6)
+    np.testing.assert_array_equal(walker.contacts(before(gait, 1, (1.7, 0.3, 0.0)))[0], loads.touching)
