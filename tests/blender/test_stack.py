@@ -231,3 +231,21 @@ def test_our_modifier_comes_before_pinned_ones(folder):
         last.use_pin_to_last = True
     trodden(ground, folder)
     assert deepest(ground) < -0.01
+
+
+def test_instances_that_no_node_makes_are_named():
+    ground = meshes.grid(21, 21, 0.1)
+    tile = meshes.grid(3, 3, 0.05, name="Tile")
+    tile.parent = ground
+    assert not read(ground).warnings
+    ground.instance_type = "FACES"
+    assert len(read(ground).warnings) == 1 and "instances" in read(ground).warnings[0]
+    shown = meshes.link(bpy.data.objects.new("Shown", None))
+    shown.instance_type, shown.instance_collection = "COLLECTION", bpy.data.collections.new("Tiles")
+    meshes.activate(shown)
+    try:
+        operator.desire_path_ground_add()
+    except RuntimeError as problem:
+        assert "instances" in str(problem) and "Make Instances Real" in str(problem)
+    else:
+        raise AssertionError("not refused")

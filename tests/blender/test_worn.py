@@ -244,6 +244,54 @@ def test_a_shoe_of_nodes_moves_with_its_bone():
     same(found.vertices, plain)
 
 
+def test_looking_leaves_nothing_to_be_done():
+    """What a user's scene has to work out again afterwards would look like a change."""
+    obj = walker()
+    weighted(obj)
+    skin_of(obj)
+    seen = []
+    handler = lambda _scene, depsgraph: seen.extend(
+        each.id.name for each in depsgraph.updates if not isinstance(each.id, (bpy.types.Scene, bpy.types.Collection))
+        and (each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object)))
+    bpy.app.handlers.depsgraph_update_post.append(handler)
+    try:
+        world = axes.matrix(obj.matrix_world, obj.name)
+        feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
+        assert sample.skin(bpy.context.scene, obj, feet, world, 1.0) is not None
+        seen.clear()
+        bpy.context.view_layer.update()
+        assert not seen, seen
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(handler)
+
+
+def test_an_object_that_is_given_to_nodes_is_followed():
+    obj = walker()
+    mesh = weighted(obj)
+    plain = skin_of(obj).vertices
+    holder = meshes.grid(2, 2, 0.02, name="Holder")
+    modifier = tree_of(holder, "shows", lambda wire, geometry: geometry)
+    tree = modifier.node_group
+    if hasattr(tree, "interface"):
+        identifier = tree.interface.new_socket("Shown", in_out="INPUT", socket_type="NodeSocketObject").identifier
+    else:
+        identifier = tree.inputs.new("NodeSocketObject", "Shown").identifier
+    wire = playback.Wiring(tree)
+    enter = next(node for node in tree.nodes if node.bl_idname == "NodeGroupInput")
+    info = wire.add("GeometryNodeObjectInfo", {"transform_space": "RELATIVE"}, Object=enter.outputs["Shown"])
+    leave = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    tree.links.new(info.outputs["Geometry"], leave.inputs[0])
+    if hasattr(modifier, "properties"):
+        getattr(modifier.properties.inputs, identifier).value = mesh
+    else:
+        modifier[identifier] = mesh
+    holder.update_tag()
+    bpy.context.view_layer.update()
+    mesh.hide_render = True
+    assert worn.hanging(bpy.context.scene, obj) == [mesh, holder]
+    same(skin_of(obj).vertices, plain)
+
+
 def test_a_character_of_a_library_wears_its_shoes(folder):
     obj = walker()
     mesh = weighted(obj)

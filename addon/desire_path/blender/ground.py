@@ -58,6 +58,9 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         if name not in obj.vertex_groups:
             raise DesirePathError(f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
                                   "choose another group or remove the soil from the list.")
+    if obj.instance_type in {"VERTS", "FACES"} and obj.children:
+        warnings.append(f"'{obj.name}' shows instances of its children, in which there are no prints: make them real "
+                        "(Object > Apply > Make Instances Real) if they are walked on.")
     place = stack.find(scene, obj, frame_start)
     trees = [stack.realised()] if place.realise else []
     trees += [weights_tree(groups)] if groups else []

@@ -77,6 +77,11 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
+        obj = context.object
+        if obj is not None and obj.type == "EMPTY" and obj.instance_collection is not None:
+            cls.poll_message_set(f"'{obj.name}' shows instances of a collection: make them real (Object > Apply > Make "
+                                 "Instances Real) and select the mesh that is walked on")
+            return False
         return active(cls, context, {"MESH"}, "the mesh that is walked on")
 
     def work(self, context):

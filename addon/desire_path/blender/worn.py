@@ -6,6 +6,7 @@ Bones that are named by vertex groups of an armature modifier move what the grou
 (Surface Deform, constraints, lattices, parents of parents) is watched at some frames: a point belongs to the bone
 that carries it along.
 """
+import functools
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
@@ -135,13 +136,18 @@ def _led_by(obj):
         yield from filter(None, [getattr(each, "target", None)])
         yield from (target.target for target in getattr(each, "targets", ()) if target.target is not None)
     for each in obj.modifiers:
-        if not (each.show_render and hasattr(each, "bl_rna")):
+        if not each.show_render:
             continue
-        for prop in each.bl_rna.properties:
-            if prop.type == "POINTER" and prop.fixed_type.identifier == "Object":
-                yield from filter(None, [getattr(each, prop.identifier)])
+        yield from filter(None, (getattr(each, name) for name in _pointers(type(each))))
         if each.type == "NODES" and each.node_group is not None:
             yield from compat.node_objects(each)
+
+
+@functools.cache
+def _pointers(kind):
+    """Names of the properties of a kind of modifier that are objects."""
+    return [prop.identifier for prop in kind.bl_rna.properties
+            if prop.type == "POINTER" and prop.fixed_type.identifier == "Object"]
 
 
 # ---- points and bones ----------------------------------------------------------------------------------
@@ -280,6 +286,7 @@ def _resting(armature):
     finally:
         if before != "REST":
             data.pose_position = before
+            bpy.context.view_layer.update()  # nothing is left to be done that looks like a change later
 
 
 def _placed(piece, copies):
