@@ -45,14 +45,14 @@ def test_whatever_is_changed_and_changed_back(folder):
         (bone, "use_deform", bone.use_deform, None), (walker, "hide_viewport", True, None),
         (walker, "name", "Somebody", None), (ground, "name", "Beach", None), (settings, "threads", 1, None))
     for who, what, value, words in changes:
-        who = who() if callable(who) else who
-        before = getattr(who, what)
+        find = who if callable(who) else lambda who=who: who
+        before = getattr(find(), what)
         before = tuple(before) if hasattr(before, "__len__") and not isinstance(before, str) else before
-        setattr(who, what, value)  # and nobody updates anything
+        setattr(find(), what, value)  # and nobody updates anything
         told = settings.missing
         assert settings.bake_state == ("OUTDATED" if words else "FRESH"), (who, what, told)
         assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (who, what, told)
-        setattr(who, what, before)
+        setattr(find(), what, before)
         assert settings.bake_state == "FRESH", (who, what, settings.missing)
     known = ids()
     bump.show_viewport = bump.show_render = True

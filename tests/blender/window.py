@@ -13,7 +13,7 @@ bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 desire_path.register()
 from desire_path import bake, sim  # noqa: E402
-from desire_path.blender import op_bake, op_forces, playback  # noqa: E402
+from desire_path.blender import op_bake, op_forces, playback, state  # noqa: E402
 from scenes import meshes, people  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
@@ -98,7 +98,7 @@ def story():
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 18
     assert f"frames 1 to {index.frames} play" in ground.desire_path.missing
-    assert playback.modifier(ground) is not None
+    assert playback.modifier(ground) is not None and ground.desire_path.bake_state == "PARTIAL"
     yield 0.3
 
     # the Cancel button, then once more to the end
@@ -115,8 +115,26 @@ def story():
     ground = bpy.data.objects["Ground"]
     assert bake.read_index(str(FOLDER / "bake")).complete
     assert not ground.desire_path.missing and "contacts" in ground.desire_path.summary
-    yield 0.5
+    yield from until(lambda: state.last(ground) == state.Told("FRESH"))
     shot("done")
+
+    # a change is seen without anybody asking; Free asks, and nothing is lost before the answer
+    walker = bpy.data.objects["Walker"]
+    walker.location.x = 0.1
+    yield from until(lambda: (state.last(ground) or state.Told("")).state == "OUTDATED")
+    yield 0.5
+    shot("outdated")
+    walker.location.x = 0.0
+    yield from until(lambda: state.last(ground) == state.Told("FRESH"))
+    with bpy.context.temp_override(window=window(), area=window().screen.areas[0]):
+        bpy.ops.object.desire_path_free("INVOKE_DEFAULT")
+    yield 0.5
+    shot("asked")
+    assert playback.modifier(ground) is not None and bake.read_index(str(FOLDER / "bake")).complete
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type="ESC", value=value, x=10, y=10)
+    yield 0.5
+    assert playback.modifier(ground) is not None
     meshes.activate(bpy.data.objects["Walker"])
     yield 0.5
     shot("walker")

@@ -32,7 +32,7 @@ def draw_ground(layout, context, obj):
         return
     column = _column(layout)
     column.prop(settings, "soil")
-    column.prop(settings, "cell_size")
+    column.prop(settings, "cell_size", text="Cell [m]")  # all that fits into the sidebar
     frames = column.column(align=True)
     frames.prop(settings, "frame_start", text="Frame Start")
     frames.prop(settings, "frame_end")
@@ -89,7 +89,7 @@ def draw_result(layout, context, settings):
     baked = "Frames {} to {}: ".format(*found["frames"]) if "frames" in found else ""  # not in older files
     _lines(column, f"{baked}{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
                    f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
-                   f"rims, baked in {found['seconds_in_all']:.1f} s", "CHECKMARK", width)
+                   f"rims, baked in {found['seconds_in_all']:.1f} s", "BLANK1", width)
     if found.get("with"):
         names = ", ".join(f"'{name}'" for name in found["with"])
         _lines(column, f"Baked together with {names}", "LINKED", width)
@@ -99,7 +99,8 @@ def draw_result(layout, context, settings):
 
 def _letters(context):
     """About how many letters fit into a line of the panel."""
-    return max(16, int((context.region.width / context.preferences.system.ui_scale - 60) / 6.0))
+    beside = 80 if context.region.type == "UI" else 60  # the sidebar has tabs
+    return max(16, int((context.region.width / context.preferences.system.ui_scale - beside) / 6.0))
 
 
 def _lines(layout, text, icon, width):

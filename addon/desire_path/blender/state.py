@@ -23,7 +23,7 @@ LOOKS = {  # the word and the icon of each in the panel
     PARTIAL: ("Partly Baked", "PAUSE"), MISSING: ("Files Missing", "ERROR")}
 PARTS = {"walk": "the walk", "ground": "the ground", "plants": "the plants", "settings": "the settings"}
 REST = 0.3  # without a change before the timer looks [s]
-SHARE = 10.0  # looking takes a tenth of the time at most
+SHARE = 4.0  # looking takes a fifth of the time at most
 
 
 @dataclass(frozen=True)
@@ -118,16 +118,20 @@ def last(obj):
     if changes == _changes and glance == _glance(obj):
         return told
     _waiting.add(obj.name_full)
-    if not bpy.app.timers.is_registered(_look):
-        bpy.app.timers.register(_look, first_interval=REST)
     if _scene_changed not in bpy.app.handlers.depsgraph_update_post:
         bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
+    _wake()
     return None
+
+
+def _wake():
+    if not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=REST)
 
 
 def _glance(obj):
     """What can be seen at once of a ground, its walkers and its files."""
-    there = [each for each in bpy.data.objects if each.type == "ARMATURE" and each.desire_path.ground == obj]
+    there = [each for each in bpy.data.objects if each.type in {"ARMATURE", "MESH"} and each.desire_path.ground == obj]
     path = home.played(obj)
     ages = []
     for place in (("frames",), ("frames", "index.json"), ("bake.new",)) if path else ():
@@ -158,6 +162,7 @@ def _scene_changed(_scene, depsgraph):
             continue
         if each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object):
             _changes, _changed_at = _changes + 1, time.monotonic()
+            _wake()
             return
 
 
@@ -171,19 +176,17 @@ def _look():
     """Look at one ground that waits, when Blender rests."""
     global _not_before
     now = time.monotonic()
-    if not _waiting:
-        return None
     if now < max(_not_before, _changed_at + REST) or _busy():
         return REST
-    obj = bpy.data.objects.get(_waiting.pop())
+    obj = bpy.data.objects.get(_waiting.pop()) if _waiting else None
     if obj is not None:
         ask(obj)
         _not_before = time.monotonic() + SHARE * (time.monotonic() - now)
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type in {"PROPERTIES", "VIEW_3D"}:
-                    area.tag_redraw()
-    return REST
+    for window in bpy.context.window_manager.windows:  # a panel that is drawn asks again
+        for area in window.screen.areas:
+            if area.type in {"PROPERTIES", "VIEW_3D"}:
+                area.tag_redraw()
+    return REST if _waiting else None
 
 
 def _busy():
