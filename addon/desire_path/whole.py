@@ -40,8 +40,8 @@ def check(path, what):
     except (OSError, ValueError) as problem:
         raise DesirePathError(_sentence(what, path, problem)) from None
     if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
-        raise DesirePathError(f"{what} cannot be written to {path}, whose folder is not there: make it or choose "
-                              "another one.")
+        raise DesirePathError(f"{what} cannot be written to {path}, whose folder is not there: choose another folder "
+                              "or make this one.")
     if found not in ("", "file"):
         raise DesirePathError(f"{what} cannot be written to {path}, which is a {found}: choose the name of a file.")
 
