@@ -71,10 +71,8 @@ def _along(args, gait, ground):
         if args.passes != 1:
             raise DesirePathError("--passes needs a path to walk on: add --along PATH.csv with the columns x,y.")
         return place_feet(gait, ground) if args.place_feet else gait
-    if args.place_feet:
-        raise DesirePathError("--along lays the feet on the ground's slope itself: leave out --place-feet.")
     cell, origin = _cells(args, ground)
-    below = Simulation(ground, args.soil, cell, origin=origin).rest_height
+    below = Simulation(ground, args.soil, cell, origin=origin)
     return gait.along(paths.read(args.along)[:, :2], args.passes, back_and_forth=not args.one_way,
                       lateral=args.lateral, timing=args.timing, stride=args.stride, seed=args.seed, pause=args.pause,
                       ground=below)
@@ -176,7 +174,8 @@ def _parser():
                       "the trail that goes on); a report.json says where another bake's did")
     bake.add_argument("--out", required=True, help="folder for the files")
     bake.add_argument("--place-feet", action="store_true",
-                      help="turn the feet to the ground's slope first; a walk of a level floor is carried there")
+                      help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
+                      "is always done")
     bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
     bake.add_argument("--passes", type=int, default=1, help="how often it goes along the path (1)")
     bake.add_argument("--one-way", action="store_true", help="every pass from the start, not there and back")

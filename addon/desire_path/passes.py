@@ -10,11 +10,12 @@ from statistics import NormalDist
 
 import numpy as np
 
-from . import rotation
+from . import place as placing, rotation
 from .cycle import find
 from .errors import DesirePathError
 from .gait import AWAY, Gait
 from .path import Path
+from .sim import Ground, Simulation
 
 RATE = 60.0  # at least so many samples a second [1/s]
 MOST_SAMPLES = 20_000_000  # of all parts together
@@ -36,9 +37,14 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
     lateral: how far passes scatter to the side, standard deviation [m]; timing, stride: by how much their
     pace and the length of their strides differ, standard deviation as a share. The first pass scatters in
     nothing; the others are the same for the same seed, however many follow.
-    pause: time between passes [s]. ground: a function of points (n, 2) -> heights (n,) [m] to walk on.
+    pause: time between passes [s]. ground: what is walked on, a Ground or a Simulation of one: feet are placed on its
+    slopes, TRAIL (1) (2); or a function of points (n, 2) -> heights (n,) [m], on whose slopes they lie flat.
     """
     gait.check()
+    if isinstance(ground, Ground):
+        ground = Simulation(ground)
+    if isinstance(ground, Simulation) and not np.isfinite(ground.bounds()).any():
+        ground = ground.rest_height  # level without end: there are no slopes to place feet on
     line = path if isinstance(path, Path) else Path(path)
     if not _is_whole(passes, 1):
         raise DesirePathError(f"A walk of {passes} passes cannot be made: give a whole number from 1 on.")
@@ -124,7 +130,8 @@ def _one(cycle, line, rate, scatter, ground):
     over[..., 2] -= cycle.floor
     turn = rotation.about_z(heading)
     height = cycle.floor
-    if ground is not None or line.has_height:
+    placed = isinstance(ground, Simulation)
+    if not placed and (ground is not None or line.has_height):
         below = _Below(line, scatter, ground)
         height, tilt = below.feet(place, heading, feet[..., 0])
         turn = rotation.product(tilt, turn)
@@ -138,9 +145,13 @@ def _one(cycle, line, rate, scatter, ground):
     speed = cycle.speed * scale * pace
     lean = speed ** 2 * line.bend_at(s) * (com[:, 2] - cycle.floor) / GRAVITY
     body, _ = _laid(line, scatter, np.stack([s, com[:, 1] + lean], axis=-1))
-    if ground is not None or line.has_height:
+    if not placed and (ground is not None or line.has_height):
         com[:, 2] += below.body(s) - cycle.floor
     com[:, :2] = body
+    if placed:
+        level = replace(cycle.gait, time=np.arange(count) / rate, com=com[None], pose=pose, cut=())
+        level = placing.place_feet(level, ground, carry=True, floor=cycle.floor)
+        com, pose = level.com[0], level.pose
     return com, pose
 
 

@@ -13,7 +13,7 @@ import pytest
 from desire_path import body, cycle, lane, maps, passes, path, walker
 from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.gait import Gait
+from desire_path.gait import HEEL, Gait
 from desire_path.path import Path
 from desire_path.plants import KINDS
 from desire_path.sim import Ground, Simulation
@@ -215,6 +215,34 @@ def test_a_walk_follows_the_ground(walk):
     assert over[loads.touching[gait.point_part] != 0].max() < 0.2 and over.min() > -0.08
 
 
+def heels(gait, land):
+    """How high heels are over the ground while their toes carry, in the middle of stances (n,) [m]."""
+    loads = walker.loads(gait, ground=land.rest_height)
+    at = walker.point_places(gait)
+    over = at[..., 2] - land.rest_height(at[..., :2].reshape(-1, 2)).reshape(at.shape[:2])
+    found = []
+    for limb in range(len(gait.limb_walker)):
+        mine = gait.part_limb[gait.point_part] == limb
+        on = (loads.touching[gait.part_limb == limb] != 0).any(axis=0)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], on, [0]])))
+        middle = [(a + b) // 2 for a, b in zip(edges[::2], edges[1::2]) if b - a > 0.4 * gait.rate()]
+        found += over[mine & (gait.point_role == HEEL)][:, middle].min(axis=0).tolist()
+    return np.array(found)
+
+
+@pytest.mark.parametrize("steep, high, low", [(0.0, 0.02, -0.02), (25.0, 0.12, 0.02), (-25.0, 0.02, -0.03)])
+def test_passes_up_a_hill_go_on_their_toes(walk, steep, high, low):
+    """TRAIL (2): heels stay up on slopes of more than 15 degrees, and only up the hill."""
+    step = np.linspace(-3.0, 9.0, 49)
+    hill = Ground.heights(np.broadcast_to(np.tan(np.radians(steep)) * step, (49, 49)), 0.25, -3.0, -6.0)
+    land = Simulation(hill)
+    gait = walk.along([(0, 0), (6, 0)], 3, back_and_forth=False, ground=hill)
+    there = heels(gait, land)
+    assert len(there) > 12 and np.quantile(there, 0.2) > low and np.quantile(there, 0.8) < high, there.round(3)
+    flat = heels(walk.along([(0, 0), (6, 0)], 3, back_and_forth=False, ground=land.rest_height), land)
+    assert np.median(abs(flat)) < 0.015  # by heights alone they lie flat
+
+
 def test_holes_in_the_ground_do_no_harm(walk):
     ground = lambda xy: np.where(xy[:, 0] < 4, 0.3, np.nan)
     gait = walk.along([(0, 0), (8, 0)], ground=ground).check()
@@ -373,9 +401,19 @@ def test_the_command_line_walks_passes(walk, tmp_path):
     assert {"compression", "heap", "pressure_time", "plant_strength", "lean_x", "lean_y", "crushed"} <= set(final)
 
 
+def test_feet_are_placed_along_a_path_whether_asked_or_not(walk, tmp_path):
+    walk.save(tmp_path / "walk.npz")
+    (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n")
+    for more in ((), ("--place-feet",)):
+        done = command("bake", "walk.npz", "--along", "path.csv", *more, "--out", f"out{len(more)}", cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+    one, two = (maps.read(tmp_path / f"out{k}" / "maps_final.exr").planes["compression"] for k in (0, 1))
+    assert np.array_equal(one, two) and one.max() > 0.005
+
+
 @pytest.mark.parametrize("words, told", [
     (("--passes", 3), "--along"), (("--along", "nothing.csv"), "nothing.csv"),
-    (("--along", "path.csv", "--passes", 0), "0 passes"), (("--along", "path.csv", "--place-feet"), "--place-feet"),
+    (("--along", "path.csv", "--passes", 0), "0 passes"),
     (("--plants", "nettle"), "nettle"), (("--plants", "carex:many"), "carex:many"),
     (("--along", "path.csv", "--seed", -1), "seed of -1"),
 ])

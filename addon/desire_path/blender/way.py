@@ -118,7 +118,7 @@ def carried(scene, walkers, first, last, read):
             boxes.append((*(line[:, :2].min(axis=0) - beside), *(line[:, :2].max(axis=0) + beside)))
     boxes = np.array(boxes)
     box = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
-    land = read(box).rest_height
+    land = read(box)
     walked = []
     for each, line, gait in zip(walkers, lines, alone):
         settings = each.desire_path
