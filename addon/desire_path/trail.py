@@ -18,6 +18,8 @@ from .errors import DesirePathError
 
 LEFT = ("compression", "heap", "pressure_time")  # of a trail, beside the height before it
 HEIGHTS = ("height", "Z", "V", "Y")  # what a height may be called
+CELLS = (0.0005, 1.0)  # sides of cells that a bake works with [m]
+FAR = 1e9  # ground lies nearer than this [m]
 SAME = 1e-6  # cells nearer to each other than this are the same [cell]
 
 
@@ -102,8 +104,8 @@ def read(path, spacing=None):
 
 def _place(path, picture):
     found = [picture.notes.get(name, 0.0) for name in ("originX", "originY")]
-    if not all(isinstance(each, float) and math.isfinite(each) for each in found):
-        raise DesirePathError(f"{path} says in words where it lies: give originX and originY as numbers [m].")
+    if not all(isinstance(each, float) and abs(each) < FAR for each in found):
+        raise DesirePathError(f"{path} does not say where it lies: give originX and originY as numbers [m].")
     return found
 
 
@@ -113,7 +115,7 @@ def _trail(path, picture):
         raise DesirePathError(
             f"{path} is a map without the height before the walk (no rest.V): bake it again, and go on from that.")
     cell = notes.get("cell")
-    if not isinstance(cell, float) or not (math.isfinite(cell) and cell > 0):
+    if not isinstance(cell, float) or not CELLS[0] <= cell <= CELLS[1]:
         raise DesirePathError(f"{path} does not say how large its cells are: give the map as the bake wrote it.")
     nothing = np.zeros_like(planes["rest"])
     left = {name: planes.get(name, nothing) for name in LEFT}

@@ -131,7 +131,10 @@ def test_heights_go_by_their_names(tmp_path, name):
     (("R", "G", "B", "A"), {"channelR": "height change [m]"}, "a frame for playback"),
     (("height",), {}, "does not say how far"),
     (("height",), {"cell": "wide"}, "does not say how far"),
-    (("height",), {"cell": 1.0, "originX": "left"}, "says in words"),
+    (("height",), {"cell": 1.0, "originX": "left"}, "does not say where it lies"),
+    (("height",), {"cell": 1.0, "originY": 1e300}, "does not say where it lies"),
+    (("rest", "compression"), {"cell": 1.0, "originX": -1e12}, "does not say where it lies"),
+    (("rest", "compression"), {"cell": 1e-300}, "does not say how large its cells"),
     (("rest", "compression"), {}, "does not say how large its cells"),
     (("rest", "compression"), {"cell": -1.0}, "does not say how large its cells"),
 ])

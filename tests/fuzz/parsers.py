@@ -30,12 +30,12 @@ for folder in (ROOT, ROOT / "addon"):
         sys.path.insert(0, str(folder))
 
 from desire_path import folder as bake_folder  # noqa: E402
-from desire_path import lane, maps, path, trail  # noqa: E402
+from desire_path import lane, maps, path  # noqa: E402
 from desire_path.bake import Bake  # noqa: E402
 from desire_path.errors import DesirePathError  # noqa: E402
 from desire_path.gait import Gait  # noqa: E402
 from desire_path.plants import KINDS, Kind  # noqa: E402
-from desire_path.sim import Ground  # noqa: E402
+from desire_path.sim import Ground, Simulation  # noqa: E402
 from tests.fuzz import mutate  # noqa: E402
 from tests.scenes import gaits  # noqa: E402
 
@@ -118,10 +118,9 @@ def picture(place):
         made.append((place / "good.exr").read_bytes())
 
     def read():
-        found = trail.read(place / "map.exr")
-        if isinstance(found, trail.Trail):
-            found.on(found.cell, (0.0, 0.0))
-            found.on(2.5 * found.cell, (0.0, 0.0))
+        ground = Ground.read(place / "map.exr")
+        for cell in (0.1, 0.25):  # the good trail's own, and others
+            Simulation(ground, cell_size=cell, threads=1)
     return made, place / "map.exr", read, mutate.any_bytes
 
 
