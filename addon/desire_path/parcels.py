@@ -20,7 +20,7 @@ from .sim import Ground, Simulation, as_soils
 from .walker import point_places
 
 RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
-APART = 0.05  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
+APART = 0.25  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
 BELOW, AROUND = 9, 17  # places looked at below and around a foot
 SEAM = 1e-3  # rims reach this far beyond, so that no place is lost between two [cells] ..
 ROUNDING = 4e-7  # .. or this share of where they lie: what single precision loses

@@ -318,6 +318,19 @@ def test_what_fails_in_the_middle_plays_on_all_tiles(folder):
     assert all(bake.read_index(str(folder / each.name)).complete for each in (north, south))
 
 
+def test_a_linked_tile_is_told(folder):
+    tile(folder, "south", -3.2, -1.2)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "tiles.blend"))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(folder / "tiles.blend"), link=True) as (_, wants):
+        wants.objects = ["south"]
+    meshes.link(wants.objects[0])
+    north = tile(folder, "north", -1.2, 0.6)
+    walker(north)
+    summary = bake_it(north)
+    assert not summary["with"] and any("'south' is linked" in each for each in summary["warnings"]), summary
+
+
 def test_keys_that_move_no_tile_do_not_part_it(folder):
     north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
     for frame, z in ((1, 0.0), (50, 0.0)):

@@ -3,7 +3,7 @@
     the active ground --walkers that tread it--> other grounds they tread --their walkers--> .. --> Company
 A terrain cut into objects is one ground to those who cross it. Grounds nobody goes over to are left alone.
 """
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -49,8 +49,18 @@ class _Track:
 def others(scene, obj):
     """Grounds of the scene that a bake of this one could reach: a walk is taken as its ground sees it, so that one that
     moves is left to those that move with it."""
-    return [each for each in grounds(scene) if each != obj and each.library is None and each.mode != "EDIT"
-            and worn.drawn(scene, each) and _move_alike(scene, obj, each)]
+    return [each for each in grounds(scene) if each != obj and worn.drawn(scene, each)
+            and _move_alike(scene, obj, each)]
+
+
+def _barred(obj):
+    """Why a ground takes no prints now; empty: it does."""
+    if obj.library is not None:
+        return f"'{obj.name}' is linked from another file, and what is trodden of it stays as it is: make a library " \
+               "override of it."
+    if obj.mode == "EDIT":
+        return f"'{obj.name}' is in Edit Mode, and what is trodden of it stays as it is: leave Edit Mode."
+    return ""
 
 
 def _move_alike(scene, one, other):
@@ -88,13 +98,15 @@ def company(scene, obj):
             warnings.append(f"{problem} It is left as it is.")
         yield
     trodden = _trodden(tracks.values(), parcels)
-    chosen, crew = _closure(obj, trodden)
+    barred = {each for each in parcels if each != obj and _barred(each)}
+    chosen, crew = _closure(obj, {walker: those - barred for walker, those in trodden.items()})
+    warnings += [_barred(each) for each in barred if any(each in trodden[walker] for walker in crew)]
     crew |= {walker for walker in there if not trodden[walker]}  # who is told that nothing is there
     for walker in crew:
         if tracks[walker].problem is not None:
             raise tracks[walker].problem
     if len(chosen) == 1 and crew == set(there):
-        return alone
+        return replace(alone, warnings=tuple(warnings))
     if not any(obj in trodden[walker] for walker in crew):
         if not there:
             return alone
