@@ -26,7 +26,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from . import _native, bounds, jumps, plant_mesh, walker
+from . import _native, bounds, jumps, plant_mesh, size, walker
 from . import parcels as fields
 from .bounds import Limits
 from .errors import DesirePathError
@@ -40,7 +40,7 @@ from .share import Share
 from .sim import LOAD_MODELS, TILE, Ground, Simulation, check_cell
 from .version import VERSION
 
-SAMPLE_RATE = 120.0  # at least so many steps a second, as many as forces are found at [1/s]
+SAMPLE_RATE = 120.0  # at least so many steps a second, more for small creatures (size.hurry) [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 SOLE_STEP = 0.0025  # soles are sampled so closely, or four times a cell [m]
 LEAST_SAMPLES = 4  # a sole that fewer fall on leaves no print
@@ -146,7 +146,7 @@ class Bake:
         digest = hashlib.sha256(f"{VERSION} {FORMAT}".encode())
         gait = self.gait
         arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut,
-                  gait.jump]
+                  gait.jump, gait.leg]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
         for parcel in self.parcels:
@@ -162,7 +162,7 @@ class Bake:
 
     def _rate(self):
         """Samples a second: a whole number of them a frame [1/s]."""
-        least = PASS_RATE if self.film == "passes" else SAMPLE_RATE
+        least = (PASS_RATE if self.film == "passes" else SAMPLE_RATE) * size.hurry(self.gait)
         return self.frame_rate * max(1, math.ceil(least / self.frame_rate - 1e-6))
 
     def _check_walk(self):

@@ -15,6 +15,11 @@ from .rigs import Segment
 LEG = 0.530 - 0.039  # hip to ankle of one who stands, in heights
 # WHO Technical Report Series 894, Obesity (2000): the healthy median of grown people lies at 21 to 23.
 BODY_MASS_INDEX = 22.0  # [kg/m^2]
+FILLS = 14.0  # a grown person's mass over his height cubed [kg/m^3]
+PEOPLE = (0.3, 4.0)  # nobody with two legs is shorter or taller, if he is no doll and no giant [m]
+AMISS = (10.0, 300.0)  # times too heavy or too light for one's height: odd, and impossible
+UNITS = ((0.01, "centimetres"), (0.001, "millimetres"), (0.0254, "inches"), (0.1, "decimetres"), (0.3048, "feet"))
+SHRUNK = (100.0, 1000.0, 10.0)  # what undoes a scale that was applied once too often
 DENSITY = 1000.0  # of living bodies, that of water within a few per cent [kg/m^3]
 SMALL = 0.005  # bones that move less than this share of the volume are not worth sampling
 
@@ -95,3 +100,24 @@ def sentence(name, mass, height):
     """What is told where a mass was estimated."""
     return (f"{name} weighs {mass:.3g} kg by an estimate from its height of {height:.2f} m: set a mass "
             "to use another.")
+
+
+def odd_size(name, height, kilograms=None):
+    """(a sentence about one with two legs who is of no person's size, can that not be?); None where all is well.
+
+    kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large.
+    """
+    if PEOPLE[0] <= height <= PEOPLE[1]:
+        return None
+    off = 1.0 if kilograms is None else kilograms / (FILLS * height ** 3)
+    off = max(off, 1.0 / off)
+    if kilograms is not None and off < AMISS[0]:
+        return None
+    units = UNITS if height > 1.0 else tuple((by, "") for by in SHRUNK)
+    fits = [(by, unit) for by, unit in units if 0.5 <= height * by <= 2.6]
+    seems = (f"apply a scale of {fits[0][0]:.4g} to it" + (f", as it seems to be in {fits[0][1]}" if fits[0][1] else "")
+             if fits else "check its scale and the scene's unit scale")
+    size = f"'{name}' is {height:.3g} m tall"
+    if off < AMISS[1]:
+        return f"{size}: if that is not meant, {seems}.", False
+    return f"{size} and weighs {kilograms:.3g} kg, which cannot be: {seems}, or give it the mass of its size.", True

@@ -11,6 +11,8 @@ import numpy as np
 
 LEG = 0.86  # from the hip joints to the ankles of a grown person [m]
 TALL = 1.15  # whose mass centre is at most so high over his feet, in legs
+QUICK = 0.6  # shorter legs step so quickly that they need more samples [m]
+MOST = 16.0  # but no more than so many times as many
 
 
 def legs(gait):
@@ -41,3 +43,8 @@ def as_person(gait, size):
     pose[..., :3] /= size
     return replace(gait, time=gait.time / np.sqrt(size), com=gait.com / size, pose=pose, point=gait.point / size,
                    frame_rate=gait.frame_rate * np.sqrt(size), leg=gait.leg / size)
+
+
+def hurry(gait):
+    """How many times as many samples a second the smallest walker needs as a person does, 1 or more."""
+    return float(np.clip(np.sqrt(QUICK / legs(gait).min()), 1.0, MOST))

@@ -15,7 +15,7 @@ import bpy
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..output import check_idle
-from . import home, inputs, moves, op_plants, reach, trash, way
+from . import home, inputs, moves, op_plants, reach, sample, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import AsksFirst, Refusal, active, sentence, walkers
 from .show import free, play
@@ -75,9 +75,12 @@ class Job:
         for path, _ in folders:
             check_idle(path)
         reach.follow(company)
+        for each in company.walkers:
+            sample.poses(each)
         made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
         for each, parcel in zip(company.grounds, made.parcels):
             parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
+        self.warnings += made.gait.warnings  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
             self.warnings += each.warnings
         self.warnings += [*company.warnings, *inputs.told(company), *way.warnings(company.walkers)]

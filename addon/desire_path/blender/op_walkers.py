@@ -225,7 +225,9 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         """(by what a walker leaves prints, in words; sentences about it)"""
         if obj.type == "ARMATURE":
             found = detect(scene, obj, keep=not obj.desire_path.is_walker)
-            return "with " + ", ".join(foot.foot for foot in found.feet), found.warnings
+            shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
+            odd = sample.odd_size(obj, shape, found)
+            return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (odd[:1] if odd else ())
         bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]
         if bound or obj.parent is not None and obj.parent.type == "ARMATURE":
             rig = bound[0] if bound else obj.parent

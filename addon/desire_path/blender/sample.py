@@ -127,6 +127,29 @@ def _chosen(armature, shape):
     return rigs.build(shape, feet, settings.hips or None)
 
 
+def poses(armature):
+    """Refuse an armature that shows its rest pose whatever its keys say."""
+    if armature.type == "ARMATURE" and armature.data.pose_position == "REST":
+        raise DesirePathError(f"'{armature.name}' is set to Rest Position, in which it stands still: choose Pose Position "
+                              "in its Object Data properties.")
+
+
+def odd_size(armature, shape, found):
+    """mass.odd_size() of a walker with two legs, None of any other."""
+    height = mass.standing_height(shape, found)
+    if height is None or not (found.hips and all(foot.thigh for foot in found.feet)):
+        return None
+    return mass.odd_size(armature.name, height, armature.desire_path.mass or None)
+
+
+def believed(armature, shape, found):
+    """Sentences about a walker's size; one that cannot be is refused."""
+    odd = odd_size(armature, shape, found)
+    if odd is not None and odd[1]:
+        raise DesirePathError(odd[0])
+    return () if odd is None else odd[:1]
+
+
 def weight(armature, shape, found, volume=None):
     """(mass [kg], what is to be told about it) of a walker; mass 0 is estimated.
 
@@ -176,6 +199,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
                               "after the start.")
     settings = armature.desire_path
+    poses(armature)
     samples = samples or samples_of(scene, [armature])
     scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
@@ -185,6 +209,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found, volume = rig(armature, shape), None
+        size = believed(armature, shape, found)
         if len(found.feet) > 2:  # no table knows this body: its mesh does
             hide = skin(scene, armature, None, world, scale, frames)
             full = mass.by_volume(shape, found, hide) if hide is not None else None
@@ -199,7 +224,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
                                 frame_rate=rate, frame_start=frame_start, land=land,
                                 shapes=placed(armature))
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
-    return replace(gait, warnings=gait.warnings + told + rode)
+    return replace(gait, warnings=size + gait.warnings + told + rode)
 
 
 def _solid(scene, obj, frames, samples, rate, scale):

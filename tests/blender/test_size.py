@@ -1,0 +1,108 @@
+"""Sizes that cannot be are asked about first, small creatures step as people do, and a held pose is no step."""
+import bpy
+import numpy as np
+
+from desire_path.blender import sample
+from desire_path.errors import DesirePathError
+from scenes import meshes, people
+from test_people import CMU, ground_under, walk_over
+from test_playback import shown
+
+WALK = "cmu_12_01_walk.bvh"
+
+
+def person(by=1.0):
+    """The recorded walk at another size, its frames as much quicker as Froude has it."""
+    walker = people.bvh(people.SCENES.joinpath("walks", WALK), global_scale=CMU * by)
+    render = bpy.context.scene.render
+    render.fps, render.fps_base = round(render.fps / by ** 0.5), 1.0
+    return walker
+
+
+def refused(work):
+    try:
+        work()
+    except (DesirePathError, RuntimeError) as problem:
+        return str(problem)
+    raise AssertionError("was not refused")
+
+
+def record(walker):
+    return sample.record(bpy.context.scene, walker, 1, 60)
+
+
+def test_a_person_in_centimetres_is_asked_about_before_the_bake(folder):
+    walker = person(100.0)
+    walker.desire_path.mass = 75.0
+    words = refused(lambda: record(walker))
+    assert f"'{walker.name}' is 1" in words and "m tall and weighs 75 kg" in words and "scale of 0.01" in words
+    ground = meshes.grid(30, 30, 20.0, -300.0, -300.0, name="Ground")
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    ground.desire_path.folder = str(folder / "bake")
+    meshes.activate(walker)
+    bpy.ops.object.desire_path_walker_add()
+    meshes.activate(ground)
+    assert "scale of 0.01" in refused(bpy.ops.object.desire_path_bake)
+    assert not (folder / "bake" / "frames").exists()
+    walker.scale = (0.01, 0.01, 0.01)
+    bpy.context.view_layer.update()
+    assert not any("tall" in each for each in record(walker).warnings)
+
+
+def test_who_is_meant_to_be_a_giant_or_a_dwarf_walks():
+    walker = person(3.0)
+    walker.desire_path.mass = 75.0
+    told = record(walker).warnings
+    assert "m tall: if that is not meant" in told[0], told
+    walker.desire_path.mass = 1500.0
+    assert not any("tall" in each for each in record(walker).warnings)
+
+
+def test_a_dwarf_with_a_persons_mass_is_asked_about():
+    walker = person(0.04)
+    walker.desire_path.mass = 75.0
+    assert "which cannot be" in refused(lambda: record(walker))
+    walker.desire_path.mass = 0.005
+    assert not any("tall" in each for each in record(walker).warnings)
+
+
+def test_an_armature_at_rest_is_named():
+    walker = person()
+    walker.data.pose_position = "REST"
+    assert "is set to Rest Position" in refused(lambda: record(walker))
+    walker.data.pose_position = "POSE"
+    record(walker)
+
+
+def test_a_small_creature_has_the_contacts_of_a_person(folder):
+    found = []
+    for by, mass in ((1.0, 75.0), (0.04, 75.0 * 0.04 ** 3)):
+        for each in list(bpy.data.objects):
+            bpy.data.objects.remove(each)
+        walker = person(by)
+        walker.desire_path.mass = mass
+        ground, _ = ground_under(walker, 0.0, 0.6 * by, 0.05 * by)
+        ground.desire_path.cell_size = 0.02 * by
+        (folder / f"{by}").mkdir()
+        found.append(walk_over(walker, ground, folder / f"{by}", mass))
+    assert found[0]["contacts"] == found[1]["contacts"] > 3
+    assert not any("tall" in each or "coarse" in each for each in found[1]["warnings"])
+
+
+def test_the_last_pose_may_be_held(folder):
+    walker = person()
+    ground, _ = ground_under(walker, 0.0)
+    last = int(walker.animation_data.action.frame_range[1])
+    pressed = []
+    for end in (last, last + 200):
+        if end > last:
+            settings = ground.desire_path
+            settings.frame_start, settings.frame_end = 1, end
+        (folder / f"{end}").mkdir()
+        walk_over(walker, ground, folder / f"{end}")
+        pressed.append(shown(ground, end)[0][:, 2])
+        meshes.activate(ground)
+        bpy.ops.object.desire_path_free()
+    assert pressed[0].min() < -0.005
+    assert abs(pressed[1] - pressed[0]).max() < 1e-3
