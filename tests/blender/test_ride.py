@@ -167,3 +167,24 @@ def test_a_crate_on_a_ship_lies_where_it_lay():
     bpy.context.scene.frame_set(LAST)
     assert (crate.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
             - moved.translation).length > 3.0
+
+
+def test_a_deck_of_two_pieces_is_trodden_on_both(folder):
+    found = []
+    for rides in (False, True):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        fore, walker = strip(folder / f"{rides} fore", size=(1.2, 1.2))
+        aft = meshes.grid(60, 70, 0.02, -0.6, -2.2, name="Aft")
+        operator.desire_path_ground_add()
+        aft.desire_path.cell_size = 0.02
+        aft.desire_path.folder = str(folder / f"{rides} aft")
+        fore.location.y = 0.0
+        if rides:
+            carrier(fore, aft, walker)
+            bpy.context.scene.frame_set(26)
+        meshes.activate(fore)
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        found.append([shown(each, LAST)[0][:, 2] for each in (fore, aft)])
+    for still, riding in zip(*found):
+        assert np.ptp(still) > 0.01
+        assert (np.abs(riding - still) > 2e-3).mean() < 0.005

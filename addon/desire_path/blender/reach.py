@@ -166,7 +166,7 @@ def _track(scene, walker, home, all_walkers):
         gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
-        line = way.waypoints(scene, walker.desire_path.path)
+        line = way.waypoints(scene, walker.desire_path.path, first)
         return _Track(walker, first, last, None,
                       _beside(line, parcels.length(gait) + SCATTER * walker.desire_path.lateral), parcels.length(gait))
     except DesirePathError as problem:
@@ -193,7 +193,8 @@ def _parcel(scene, obj, tracks):
     world = np.array(seen.matrix_world, np.float64) * scale
     box = np.array([world[:2, :3] @ np.array(each[:]) + world[:2, 3] for each in seen.bound_box])
     close = [each.places[:, :2] for each in tracks if len(each.places)]
-    close = [each for each in close if (each.max(axis=0) + ROUGH >= box.min(axis=0)).all()
+    close = [each for each in close if moves.moves(obj)  # it lies elsewhere now than at the first frame
+             or (each.max(axis=0) + ROUGH >= box.min(axis=0)).all()
              and (each.min(axis=0) - ROUGH <= box.max(axis=0)).all()]
     if not close:
         return None
