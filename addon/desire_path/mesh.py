@@ -28,9 +28,14 @@ class Near:
 
 
 def mark(arrays, words=()):
-    """A word for arrays, and for numbers and words in lists or by name: another one when any of them differs."""
+    """A word for arrays, and for numbers and words in lists or by name: another one when any of them differs.
+
+    What float64 arrays hold was calculated, by other machines and NumPys with other last digits: 1e-6 counts.
+    """
     digest = hashlib.sha256(json.dumps(words, sort_keys=True, default=float).encode())
     for array in arrays:
+        if array.dtype == np.float64:
+            array = np.round(array, 6) + 0.0  # no -0
         digest.update(f"{array.shape} {array.dtype}".encode())
         digest.update(_native.digest(np.ascontiguousarray(array)))
     return digest.hexdigest()[:32]

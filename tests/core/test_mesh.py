@@ -87,3 +87,20 @@ def test_maps_at_points(still):
     if still == 1.0:  # the cell a point lies in
         assert np.isin(direct["a"], np.append(planes["a"], np.float32(0.0))).all()
     assert mesh.at_points({}, cell, corner, world) == {}
+
+
+def test_marks_tell_what_differs_and_no_last_digits():
+    rng = np.random.default_rng(5)
+    walked, points = rng.normal(size=(40, 3)) + 2.0, rng.normal(size=(50, 3)).astype(np.float32)
+    words = {"soil": [1e-3, "snow"], "passes": 3}
+    first = mesh.mark([walked, points], words)
+    assert first == mesh.mark([walked * (1.0 + 1e-14), points], dict(reversed(words.items())))
+    assert mesh.mark([np.array([0.0])]) == mesh.mark([np.array([-1e-12])])
+    moved, nudged = walked.copy(), points.copy()
+    moved[17, 2] += 1e-5
+    nudged[17, 2] = np.nextafter(nudged[17, 2], np.float32(9.0))
+    others = {mesh.mark(*each) for each in (
+        ([moved, points], words), ([walked, nudged], words), ([walked, points[:-1]], words), ([points, walked], words),
+        ([walked, points], words | {"passes": 4}), ([walked, points], words | {"soil": [1e-3, "mud"]}),
+        ([walked.reshape(3, 40), points], words))}
+    assert len(others) == 7 and first not in others

@@ -129,9 +129,9 @@ def _near(mesh, place, box):
 def _mark(mesh, place, weights):
     """A word for all of a mesh, where it is, and what is painted on it."""
     from .. import mesh as meshes
-    corners, starts, sides = compat.faces(mesh)
-    there = [each for each in (starts, *weights) if each is not None]
-    return meshes.mark([compat.positions(mesh), corners, place, *there], sides)
+    corners, _, _ = compat.faces(mesh)
+    there = [each for each in weights if each is not None]
+    return meshes.mark([compat.positions(mesh), corners, *there], [len(mesh.polygons), place.tolist()])
 
 
 def under(gait):

@@ -87,18 +87,19 @@ def marks(obj, company, made, found):
     """
     from .. import mesh
     gait, settings = made.gait, obj.desire_path
-    walk = [gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
+    walk = [gait.time, gait.com, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
             gait.point_role, gait.cut]
     for sole in gait.soles:
         walk += [sole.vertices, sole.triangles]
-    plantings = [planting for parcel in made.parcels for planting in parcel.plants]
+    plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
-    soils = [[asdict(soil) for soil in parcel.soils] for parcel in made.parcels]
+    soils = sorted(([asdict(soil) for soil in parcel.soils] for parcel in made.parcels), key=repr)
     chosen = [made.cell_size, made.frame_start, made.frame_end, made.frame_rate, made.film, options,
               sorted({each.desire_path.load_model for each in company.walkers}), soils,
               settings.plant_mesh and bool(settings.plants), settings.attributes, settings.vertex_group]
-    return {"walk": mesh.mark(walk), "ground": mesh.mark((), [found[parcel.name].mark for parcel in made.parcels]),
+    return {"walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
+            "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
             "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
             "settings": mesh.mark((), chosen)}
 
