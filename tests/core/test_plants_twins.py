@@ -73,6 +73,28 @@ def test_solve_trail_5_6(name, dt):
     assert (stand.strength > 0).any()
 
 
+@pytest.mark.parametrize("name", ("carex", "lycopodium"))
+def test_a_plant_let_go_comes_to_where_the_printed_constraints_hold_trail_5(name):
+    stand = Stand(replace(PAPER[name], form="surface"), 4, n=4)
+    rest = stand.at.astype(float).reshape(stand.n, stand.stems, stand.rows, 3)
+    free = stand.free()
+    stand.at[:, free, :2] += 0.02 * (stand.at[:, free, 2:] / stand.kind.height) ** 2  # bent aside
+    stretched, bent = twin.constraints(stand.twin()[0][0], rest[0])
+    assert abs(bent).max() > 0.05
+    longest = 0.0
+    stand.step(0.1)  # it was stretched by bending it
+    for _ in range(300):
+        stand.step(1 / 60)
+        for k in range(stand.n):
+            own = stand.twin()[0][k]
+            up = np.linalg.norm(np.diff(own, axis=1), axis=-1) / np.linalg.norm(np.diff(rest[k], axis=1), axis=-1) - 1
+            longest = max(longest, abs(up).max())
+    assert longest < 0.05  # stems keep their length on the way
+    for k in range(stand.n):
+        stretched, bent = twin.constraints(stand.twin()[0][k], rest[k])
+        assert abs(stretched).max() < 0.01 and abs(bent).max() < math.radians(1)
+
+
 def test_wear_trail_6():
     random = np.random.default_rng(1)
     for kind in KINDS.values():

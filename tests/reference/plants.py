@@ -7,6 +7,26 @@ import math
 
 import numpy as np
 
+# ---- as printed ---------------------------------------------------------------------------------
+
+
+def constraints(stems, rest):
+    """TRAIL (5) of one plant, (stems, rows, 3) each: C_s = l - l_0 of vertical, horizontal and diagonal edges in
+    one sheet, over l_0, and C_b = phi - phi_0 between consecutive edges of a stem."""
+    def lengths(at):
+        pairs = [at[:, 1:] - at[:, :-1], at[1:] - at[:-1], at[1:, 1:] - at[:-1, :-1], at[1:, :-1] - at[:-1, 1:]]
+        return np.concatenate([np.linalg.norm(pair, axis=-1).ravel() for pair in pairs])
+
+    def angles(at):
+        a, b = at[:, 1:-1] - at[:, :-2], at[:, 2:] - at[:, 1:-1]
+        size = np.linalg.norm(a, axis=-1) * np.linalg.norm(b, axis=-1)
+        return np.arccos(np.clip((a * b).sum(-1) / size, -1, 1))
+
+    return lengths(stems) / lengths(rest) - 1, angles(stems) - angles(rest)
+
+
+# ---- the solver: ours, written down again from the design ----------------------------------------
+
 HELD = 2
 SUBSTEP = 1 / 480
 BEYOND = 1.02
