@@ -373,6 +373,23 @@ def pressed(ground):
     return compat.float_attribute(ground.data, "compression")
 
 
+def test_law_heap_and_model_of_the_panel_are_what_is_baked(folder):
+    ground, walker = scene(folder, frames=20)
+    reports = []
+    for choice in ({}, {"law": "uniform"}, {"heap": "paper"}, {"load_model": "impulse"}):
+        for name, value in {"law": "sole", "heap": "rest", **choice}.items():
+            if name != "load_model":
+                setattr(ground.desire_path, name, value)
+        walker.desire_path.load_model = choice.get("load_model", "inertia")
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        report = json.loads((folder / "bake" / "report.json").read_text())
+        for name, value in {"law": "sole", "heap": "rest", "load_model": "inertia", **choice}.items():
+            assert report["parameters"][name] == value, (choice, name)
+        heap = maps.read(str(folder / "bake" / "maps_final.exr")).planes["heap"]
+        reports.append((report["deepest_m"], float(heap.max())))
+    assert len(set(reports)) == len(reports), reports  # each presses or heaps another way
+
+
 def test_tilted_stretched_ground_in_centimetres(folder):
     # 8 degrees of slope along the walk, in a scene whose unit is a centimetre
     bpy.context.scene.unit_settings.scale_length = 0.01
