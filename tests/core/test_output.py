@@ -40,34 +40,41 @@ def shown(folder):
     return {name: (folder / name).read_text() for name in OLD | NEW if (folder / name).exists()}
 
 
-def killed_after(steps, folder):
-    """Publish in a process that dies at its step number `steps`; whether it came to that."""
-    child = os.fork()
-    if child == 0:
-        left = steps
+DYING = """
+import os, signal, sys
+sys.path[:0] = [{addon!r}]
+from desire_path import disk, output
+left = {steps}
+def no_links(*_, **__):
+    raise PermissionError(1, "Operation not permitted")
+def dying(call):
+    def counted(*args, **more):
+        global left
+        left -= 1
+        if left < 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return call(*args, **more)
+    return counted
+if {can!r} != "exchange":
+    disk.swap = lambda one, other: False
+if {can!r} == "neither":
+    os.symlink = no_links
+for name in ("rename", "replace", "symlink", "unlink", "rmdir", "mkdir"):
+    setattr(os, name, dying(getattr(os, name)))
+disk.swap = dying(disk.swap)
+out = output.Output({folder!r})
+out.open()
+out.publish()
+out.release()
+"""
 
-        def dying(call):
-            def counted(*args, **more):
-                nonlocal left
-                left -= 1
-                if left < 0:
-                    os.kill(os.getpid(), signal.SIGKILL)
-                return call(*args, **more)
-            return counted
 
-        try:
-            for name in ("rename", "replace", "symlink", "unlink", "rmdir", "mkdir"):
-                setattr(os, name, dying(getattr(os, name)))
-            disk.swap = dying(disk.swap)
-            out = Output(folder)
-            out.open()
-            out.publish()
-            out.release()
-        finally:
-            os._exit(1 if sys.exc_info()[0] else 0)
-    _, status = os.waitpid(child, 0)
-    assert os.WIFSIGNALED(status) or os.WEXITSTATUS(status) == 0
-    return os.WIFSIGNALED(status)
+def killed_after(steps, folder, can):
+    """Publish in a process that dies at its step number `steps`, on a disk that can so much; whether it came to that."""
+    script = DYING.format(addon=str(REPO / "addon"), steps=steps, can=can, folder=str(folder))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode in (0, -signal.SIGKILL), done.stderr
+    return done.returncode != 0
 
 
 def no_links(*_args, **_more):
@@ -84,7 +91,7 @@ def test_killed_at_any_step_a_folder_shows_one_bake(tmp_path, monkeypatch, can):
     seen = set()
     for steps in range(1000):
         folder = laid(tmp_path / str(steps))
-        died = killed_after(steps, folder)
+        died = killed_after(steps, folder, can)
         found = shown(folder)
         if can == "exchange":
             assert found in (old, new), (steps, found)
