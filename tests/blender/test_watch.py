@@ -87,6 +87,32 @@ def test_points_that_came_to_lie_between_cells_are_smooth(folder):
     sub.subdivision_type = "SIMPLE"
     bpy.context.view_layer.update()
     assert sampled() == "Linear"
+    ground.modifiers.remove(sub)
+    bpy.context.view_layer.update()
+    assert sampled() == "Linear"  # its neighbours may have been baked with it, which it meets at its edges
+
+
+def test_points_only_the_viewport_has_are_smooth(folder):
+    ground = strip()
+    sub = ground.modifiers.new("Fine", "SUBSURF")
+    sub.subdivision_type, sub.levels, sub.render_levels = "SIMPLE", 1, 0
+    trodden(ground, folder)
+    assert playback.interpolates(playback.modifier(ground).node_group)
+
+
+def test_frames_that_play_change_nothing(folder):
+    ground = strip()
+    trodden(ground, folder)
+    tree = playback.modifier(ground).node_group
+    kept = list(tree[playback.LIE])
+    for frame in range(1, LAST + 1):
+        bpy.context.scene.frame_set(frame)
+    ground.modifiers.new("Fine", "SUBSURF").show_viewport = False
+    bpy.context.view_layer.update()
+    other = playback.modifier(ground).node_group
+    ground.modifiers["Fine"].show_viewport = True  # renders have it all the time
+    bpy.context.view_layer.update()
+    assert playback.modifier(ground).node_group == other and kept[:16] == list(other[playback.LIE])[:16]
 
 
 def applied(ground, **what):

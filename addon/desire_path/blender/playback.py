@@ -81,6 +81,11 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     return ours
 
 
+def interpolates(tree):
+    """Whether a tree of ours shows what lies between cells."""
+    return any(node.interpolation == "Linear" for node in tree.nodes if node.bl_idname == "GeometryNodeImageTexture")
+
+
 def keep(obj, tree, world):
     """Write down on a tree for which modifiers, points and place of the ground it was made."""
     tree[STACK] = stacked(obj)
@@ -110,7 +115,7 @@ def stacked(obj):
             out.append("ours")
             continue
         levels = [getattr(each, name) for name in ("levels", "render_levels", "subdivision_type") if hasattr(each, name)]
-        out.append(f"{each.name} {each.type} {each.show_viewport} {each.show_render} "
+        out.append(f"{each.name} {each.type} {each.show_viewport or each.show_render} "
                    f"{tree.name if tree is not None else ''} {levels}")
     return "; ".join(out)
 

@@ -21,7 +21,8 @@ def play(obj, surface, baked=None):
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
-        smooth = surface.between or ground.smooth(surface.vertices, index.cell, (index.x0, index.y0))
+        smooth = surface.between or any(ground.smooth(points, index.cell, (index.x0, index.y0))
+                                        for points in (surface.vertices, surface.drawn))
         playback.attach(obj, frames, index, count=index.frames, world=surface.world,
                         scale=surface.scale, smooth=smooth, corners=surface.corners,
                         layer_depth=depth, standing=standing, place=surface.place)

@@ -7,6 +7,7 @@ What our tree was made for is kept on it, so that nothing is done where nothing 
 """
 import json
 from contextlib import suppress
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -36,8 +37,8 @@ def look(scene, obj):
     try:
         if world is not None or tree[playback.STACK] != playback.stacked(obj):
             _again(scene, obj, made_for if world is None else world)
-        elif before is not None and np.array_equal(before, now):
-            playback.keep(obj, tree, made_for)  # the mesh may have been edited
+        elif before is not None and np.array_equal(before, now) and not np.array_equal(was, playback.samples(obj)):
+            playback.keep(obj, tree, made_for)  # the mesh was edited
     finally:
         _working = False
 
@@ -61,7 +62,10 @@ def _again(scene, obj, world):
     try:
         index = read_index(home.played(obj))
         surface = ground.read(scene, obj, index.cell, index.frame_start)
-        _, told = show.play(obj, ground.laid(surface, world))
+        surface = ground.laid(surface, world)
+        if playback.interpolates(playback.modifier(obj).node_group):  # as its neighbours may do
+            surface = replace(surface, between=True)
+        _, told = show.play(obj, surface)
         summary = obj.desire_path.summary
         if summary:
             found = json.loads(summary)
