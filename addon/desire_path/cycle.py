@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import rotation, walker
+from . import rotation, size as sizes, walker
 from .errors import DesirePathError
 
 RATE = 120.0  # cycles are found at this rate or a finer one [1/s]
@@ -54,17 +54,18 @@ def _belt(gait, w):
     if (gait.rate() or RATE) < RATE:
         gait = gait.resample(RATE)
     mine = np.flatnonzero(gait.limb_walker[gait.part_limb[gait.point_part]] == w)
-    at = walker.point_places(gait)[mine]
-    rush = np.gradient(at, gait.time, axis=1)
+    leg = sizes.legs(gait)[w] / sizes.LEG
+    at, time, com = walker.point_places(gait)[mine] / leg, gait.time / np.sqrt(leg), gait.com[w] / leg
+    rush = np.gradient(at, time, axis=1)
     rush[:, np.r_[gait.cut, gait.cut - 1]] = np.nan
     limb = gait.part_limb[gait.point_part[mine]]
-    seen = []
+    seen, steps = [], (np.linalg.norm(rush, axis=2) > walker.STILL).any(axis=0)  # who stands and waits tells nothing
     for each in np.unique(limb):
         rows = np.flatnonzero(limb == each)
         lowest = at[rows, :, 2].argmin(axis=0)
         sample = np.arange(at.shape[1])
         height, speed = at[rows[lowest], sample, 2], rush[rows[lowest], sample]
-        low = (height < height.min() + LOW) & (abs(speed[:, 2]) < 0.3 + 0.2 * np.hypot(*speed.T[:2]))
+        low = steps & (height < height.min() + LOW) & (abs(speed[:, 2]) < 0.3 + 0.2 * np.hypot(*speed.T[:2]))
         seen.append(speed[low & np.isfinite(speed[:, 0]), :2])
     seen = np.concatenate(seen)
     if len(seen) < 5:
@@ -72,13 +73,13 @@ def _belt(gait, w):
     slide = np.median(seen, axis=0)
     near = np.linalg.norm(seen - slide, axis=1)
     pace = float(np.hypot(*slide))
-    body = (gait.com[w, -1, :2] - gait.com[w, 0, :2]) / (gait.time[-1] - gait.time[0])
+    body = (com[-1, :2] - com[0, :2]) / ((time[-1] - time[0]) * steps.mean())
     if pace < IN_PLACE or np.median(near) > 0.35 * pace or np.hypot(*body) > 0.3 * pace:
         return None
     for _ in range(20):  # to where speeds are densest: a foot that rolls is slower or faster for a while
         weight = np.exp(-0.5 * (np.linalg.norm(seen - slide, axis=1) / (0.06 * pace + 0.02)) ** 2)
         slide = (weight[:, None] * seen).sum(axis=0) / weight.sum()
-    return slide
+    return slide * np.sqrt(leg)
 
 
 # ---- the cycle ---------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import leg, rotation, walker as walks
+from . import leg, rotation, size as sizes, stays, walker as walks
 from .errors import DesirePathError
 
 REACH = 0.20  # d_max: feet this high over the ground are as recorded [m]
@@ -56,9 +56,9 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
         if roll and not carried and lies(gait, land, row):
             continue
         clearance, stood = _stands(gait, land, row, carried, floor)
-        high = float(np.median(gait.com[row, :, 2])) - stood
+        high = sizes.TALL * float(sizes.legs(gait)[row])
         numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row),
-                   body_radius or BODY * max(high, 0.1), stood)
+                   body_radius or BODY * high, stood)
         try:
             land.place(walks.native_gait(gait), row, numbers, clearance, pose, com, flat=not roll, carry=carried)
         except ValueError as problem:
@@ -113,9 +113,11 @@ def carries(gait, land, row):
     else:
         rests = np.ones(flat.shape, bool)
     rests &= np.isfinite(over)
+    if len(gait.time) > 1:  # where one waits counts as much as where one steps
+        rests = np.array([stays.thinned(each, gait.time, small) for each in rests])
     if rests.sum() < 3:
         return True
-    if abs(float(np.median(over[rests]))) > walks.HOVER:
+    if abs(float(np.median(over[rests]))) > walks.HOVER * sizes.legs(gait)[row] / sizes.LEG:
         return True
     return _spread(over, rests) > _spread(flat, rests) + CLEARLY * small
 
@@ -129,6 +131,7 @@ def lies(gait, land, row):
         rests = touching[part] != 0
         if len(gait.time) > 1:
             rests &= np.linalg.norm(np.gradient(at[:, :3], gait.time, axis=0), axis=1) < SLOW
+            rests = stays.thinned(rests, gait.time)
         for x, y, _, w, i, j, k in at[rests]:
             up = (2 * (i * k + w * j), 2 * (j * k - w * i), 1 - 2 * (i * i + j * j))
             nearer.append(float(np.dot(up, land.normal((x, y), _foot_length(gait, row)))) - up[2])

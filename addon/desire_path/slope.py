@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import leg, rotation
+from . import leg, rotation, size as sizes
 
-RADIUS = 0.25  # the ground is smoothed over this, about a foot's length [m]
+RADIUS = 0.25  # the ground is smoothed over this, about a grown person's foot [m]
 STEEP = 2e-4  # ground whose normal leaves the vertical less than this is level: 1 - cosine of 1.1 degrees
 FITS = 0.8  # many feet stand on the slope when their heights over it are apart by less than this share of theirs
 NEARER = 1e-3  # feet lie on a slope when their soles' normal is nearer to the ground's by this [-]
@@ -47,7 +47,9 @@ class Slope:
 def steep(land, gait):
     """Is the ground below a recording's feet anywhere steeper than level?"""
     step = max(1, int(0.1 * len(gait.time) / max(gait.time[-1] - gait.time[0], 1e-9))) if len(gait.time) > 1 else 1
-    return any(land.normal(xy, RADIUS)[2] < 1.0 - STEEP for xy in gait.pose[:, ::step, :2].reshape(-1, 2))
+    radius = RADIUS * sizes.legs(gait)[gait.limb_walker[gait.part_limb]] / sizes.LEG
+    return any(land.normal(xy, over)[2] < 1.0 - STEEP
+               for part, over in zip(gait.pose[:, ::step, :2], radius) for xy in part)
 
 
 def below(land, feet, time, up_rest, lie=None):
@@ -57,7 +59,7 @@ def below(land, feet, time, up_rest, lie=None):
     stand. It is asked of all feet together, since rest poses splay them. More than two feet must stand on it, too:
     the feet of beasts roll as they stand, so that their soles tell little.
     """
-    found = [_under(land, foot.joints()[0]) for foot in feet]
+    found = [_under(land, foot.joints()[0], RADIUS * foot.size) for foot in feet]
     if lie is None:
         lie = _lie(feet, found, time, up_rest) and (len(feet) <= 2 or _stand(land, feet, time, up_rest))
     return found if lie else [None] * len(feet)
@@ -97,15 +99,15 @@ def _stand(land, feet, time, up_rest):
     return np.std(np.concatenate(overs)) < FITS * np.std(np.concatenate(levels))
 
 
-def _under(land, ankle):
-    """The ground under an ankle over time (T, 3), None where there is none or it is level."""
+def _under(land, ankle, radius):
+    """The ground under an ankle over time (T, 3), smoothed over a radius [m], None where there is none or it is level."""
     height = land.rest_height(ankle[:, :2])
     known = np.isfinite(height)
     if not known.any():
         return None
     sample = np.arange(len(height))
     height = np.interp(sample, sample[known], height[known])
-    normal = np.array([land.normal(xy, RADIUS) for xy in ankle[:, :2]])
+    normal = np.array([land.normal(xy, radius) for xy in ankle[:, :2]])
     if (normal[:, 2] > 1.0 - STEEP).all():
         return None
     turn = leg.turn_between(np.broadcast_to((0.0, 0.0, 1.0), normal.shape), normal)

@@ -39,6 +39,16 @@ def votes(mask, time, size=1.0):
     return weight
 
 
+def thinned(mask, time, size=1.0):
+    """The mask (T,) with VOTE of every stay in it, spread over its length: samples that count the same."""
+    most = max(2, round(VOTE * np.sqrt(size) * (len(time) - 1) / max(time[-1] - time[0], 1e-9)))
+    few = np.zeros(len(mask), bool)
+    edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
+    for first, after in zip(edge[::2], edge[1::2]):
+        few[np.linspace(first, after - 1, min(after - first, most)).round().astype(int)] = True
+    return few
+
+
 def median(values, weight):
     """The weighted median of values (T, ...) along their first axis."""
     values, weight = np.asarray(values, float), np.asarray(weight, float)

@@ -6,11 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, freeze, size, stays, walker
+from desire_path import body, freeze, place, size, stays, walker
 from desire_path.body import Motion
 from desire_path.gait import Gait
 from desire_path.sim import Ground, Simulation
 from scenes import bvh, trials
+from test_size import scaled
 
 CELL = 0.02
 RATE = 30.0
@@ -161,3 +162,25 @@ def test_a_hold_may_begin_between_two_samples():
         x = np.interp(found.time[after] - 1.0, want.time, want.com[0, :, 0])
         assert found.com[0, after, 0] == pytest.approx(x, abs=2e-3)
     assert gait.leg[0] == pytest.approx(size.LEG, rel=0.05)
+
+
+def test_who_waits_before_a_walk_in_place_is_carried_all_the_same():
+    skeleton, motion = walk()
+    matrix = motion.matrix.copy()
+    matrix[..., 0, 3] -= (1.25 * motion.time)[:, None]
+    in_place = replace(motion, matrix=matrix)
+    speed = lambda gait: (gait.carried().com - gait.com)[0, -1, 0] / (gait.time[-1] - gait.time[0])
+    alone = speed(gait_of(skeleton, in_place))
+    assert alone == pytest.approx(1.25, abs=0.05)
+    assert speed(gait_of(skeleton, held(in_place, 0, 10.0))) == pytest.approx(alone, abs=0.02)
+    small = body.gait_from_bones(*scaled(skeleton, in_place, 0.05), mass=0.01, frame_rate=RATE)
+    assert speed(small) == pytest.approx(alone * 0.05 ** 0.5, rel=0.02)
+
+
+def test_a_wait_does_not_decide_what_a_clip_walked_on():
+    """A walk of a level floor over waves of the ground, its first pose held for a minute: it is carried over them."""
+    skeleton, motion = walk()
+    x = np.arange(-200, 400) * 0.05
+    land = Simulation(Ground.heights(np.tile(0.15 * np.sin(2.0 * x), (200, 1)), 0.05, -10.0, -5.0), "dry-sand", 0.02)
+    for seconds in (0.0, 60.0):
+        assert place.carries(gait_of(skeleton, held(motion, 0, seconds)), land, 0), seconds
