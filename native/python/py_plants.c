@@ -351,6 +351,8 @@ static PyObject* plants_cover(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "OOO(ddd)iOO:plants_cover", &kind, &root, &strength,
                           &window.x0, &window.y0, &window.cell, &law, &alphas, &moduli))
         return NULL;
+    if (law != DP_COVER_FULL && law != DP_COVER_PAPER)
+        return PyErr_Format(PyExc_ValueError, "law: expected 0 or 1, got %d", law);
     float *alpha, *modulus;
     if (open_stand(&stand, kind, 0, root, NULL) < 0 || open_state(&stand, NULL, NULL, strength) < 0)
         goto done;

@@ -33,6 +33,9 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
             &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
             &options.most_sweeps, &options.normal_radius, &options.workers))
         return NULL;
+    if (law < 0 || law > 1 || heap < 0 || heap > 1)
+        return PyErr_Format(PyExc_ValueError, "law, heap: expected 0 or 1 each, got %d and %d", law,
+                            heap);
     options.law = law ? DP_CONTACT_UNIFORM : DP_CONTACT_SOLE;
     options.heap_law = heap ? DP_HEAP_PAPER : DP_HEAP_REST;
     if (options.workers == 0) options.workers = dp_parallel_width();
@@ -77,8 +80,9 @@ static PyObject* simulation_rest(Simulation* self, PyObject* args)
     double*   xy = dp_door_open(&door, xy_object, "xy", 'd', &shape, false);
     double*   out =
         xy ? dp_door_open(&door, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
-    if (out && shape.n[0] <= INT32_MAX && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 &&
-        dp_py_enter(self)) {
+    if (out && shape.n[0] > INT32_MAX)
+        dp_door_result(DP_BAD_ARGUMENT, "asking for heights");
+    else if (out && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 && dp_py_enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_terrain_rest(self->terrain, (int)shape.n[0], xy, out);
         Py_END_ALLOW_THREADS
@@ -271,7 +275,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     DpShape   shape = {2, {-1, -1}};
     PyObject* result = NULL;
     float*    out = dp_door_open(&door, out_object, "out", 'f', &shape, true);
-    if (out && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX && dp_py_enter(self)) {
+    if (out && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
+        dp_door_result(DP_BAD_ARGUMENT, "reading a map");
+    } else if (out && dp_py_enter(self)) {
         DpStatus status = DP_OK;
         Py_BEGIN_ALLOW_THREADS
         if (pressure)

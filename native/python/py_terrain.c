@@ -90,7 +90,8 @@ static PyObject* mesh_cut(PyObject* module, PyObject* arguments)
     const Py_ssize_t faces = start       ? start_shape.n[0] - 1
                              : sides > 0 ? corner_shape.n[0] / sides
                                          : 0;
-    if (point_shape.n[0] > INT32_MAX || corner_shape.n[0] > INT32_MAX || faces < 0) {
+    if (point_shape.n[0] > INT32_MAX || corner_shape.n[0] > INT32_MAX || faces < 0 ||
+        faces > INT32_MAX) {
         answer = dp_door_result(DP_BAD_ARGUMENT, "cutting a mesh");
         goto done;
     }

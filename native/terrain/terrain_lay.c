@@ -46,8 +46,8 @@ static DpStatus lay_tile(DpTerrain* terrain, DpLoan* loan, const DpTrail* trail,
 
 DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail)
 {
-    const long i0 = trail->i0, i1 = i0 + trail->nx, j0 = trail->j0, j1 = j0 + trail->ny;
-    if (trail->nx < 1 || trail->ny < 1 || !is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
+    if (!dp_terrain_has(trail->i0, trail->j0, trail->nx, trail->ny)) return DP_BAD_ARGUMENT;
+    const long   i0 = trail->i0, i1 = i0 + trail->nx, j0 = trail->j0, j1 = j0 + trail->ny;
     const size_t count = (size_t)trail->nx * (size_t)trail->ny;
     if (!is_trail(count, trail->compression) || !is_trail(count, trail->heap) ||
         !is_trail(count, trail->pressure_time))

@@ -40,6 +40,8 @@ def test_windows_at_the_end_of_all_numbers_are_refused(at):
                 core.read(field, i0, j0, out)
         with pytest.raises(ValueError, match="opening the frames"):
             core.open_frames(i0, j0, 2, 2, "")
+        with pytest.raises(ValueError, match="laying a trail"):
+            core.lay(i0, j0, out, out, out)
     core.open_plants(1)
     with pytest.raises(ValueError, match="grass"):
         core.read_lean(0, at, 0, out)
@@ -115,3 +117,20 @@ def test_a_simulation_in_use_says_so_to_other_threads():
     alone = standing()
     alone.run(19)
     assert alone.report() == core.report()
+
+
+@pytest.mark.parametrize("shape", [(2**31, 0), (0, 2**31), (2**33, 0), (0, 0), (0, 5)])
+def test_windows_of_more_cells_than_there_are_numbers_for_are_refused(shape):
+    core, out = bare(), np.zeros(shape, "f4")
+    with pytest.raises(ValueError, match="reading a map"):
+        core.read(0, 0, 0, out)
+    core.open_plants(1)
+    with pytest.raises(ValueError, match="grass"):
+        core.read_lean(0, 0, 0, out)
+
+
+def test_laws_that_there_are_not_are_refused():
+    soils = np.array([_native.soil_default()], "f4")
+    for law, heap in ((2, 0), (-1, 0), (0, 7)):
+        with pytest.raises(ValueError, match="law, heap"):
+            _native.Simulation(("flat", 0.0), soils, 0.02, (0.0, 0.0), law, heap)
