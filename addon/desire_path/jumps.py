@@ -29,17 +29,18 @@ AROUND = 0.5  # this long to either side [s]
 def found(gait):
     """The recording with a cut wherever one of its walkers jumps, and sentences that say so."""
     jump, told = {tuple(each) for each in gait.jump.tolist()}, []
-    feet = np.array([gait.part_limb.tolist().index(limb) for limb in range(len(gait.limb_walker))])
     for w, name in enumerate(gait.walker_name):
-        mine = feet[gait.limb_walker == w]
-        parts = np.flatnonzero(np.isin(gait.part_limb, np.flatnonzero(gait.limb_walker == w)))
-        size = max(float(np.linalg.norm(gait.soles[p].vertices, axis=1).max()) for p in parts)
+        parts = np.flatnonzero(gait.limb_walker[gait.part_limb] == w)
+        if not len(parts):
+            continue
+        feet = parts[np.unique(gait.part_limb[parts], return_index=True)[1]]  # the first part of each
+        sole = max(float(np.linalg.norm(gait.soles[p].vertices, axis=1).max()) for p in parts)
         seen = []
         for first, after in gait.pieces(gait.cuts_of([w])):
             if w in gait.there(first, after):
                 seen += [(first + a, first + b, size) for a, b, size in between(
-                    gait.time[first:after], gait.com[w, first:after], gait.pose[mine, first:after, :3],
-                    gait.frame_rate, gait.time[0], size)]
+                    gait.time[first:after], gait.com[w, first:after], gait.pose[feet, first:after, :3],
+                    gait.frame_rate, gait.time[0], sole)]
         for a, b, _ in seen:
             jump.update((sample, w) for sample in range(a + 1, b + 1))
         told += sentences(name, [(gait.frame(a), gait.frame(b), size) for a, b, size in seen])
@@ -71,9 +72,9 @@ def alone(count, cut):
 def between(time, com, feet, frame_rate, start, least=0.0):
     """Jumps of one walker: [(last sample before, first sample after, how far [m])], rising.
 
-    time (T,) [s], com (T, 3), feet (L, T, 3) [m]; start: the time of a whole frame [s]; least: legs are no shorter [m]. An
-    animation that was looked at more often than once a frame spreads a jump over the samples of a frame: steps of
-    frames are measured, too.
+    time (T,) [s], com (T, 3), feet (L, T, 3) [m]; start: the time of a whole frame [s]; least: legs are no shorter
+    [m]. An animation that was looked at more often than once a frame spreads a jump over the samples of a frame:
+    steps of frames are measured, too.
     """
     if len(time) < 3:
         return []
