@@ -114,9 +114,20 @@ def _bake(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
+def _pressed(args):
+    """The walk and its loads, as they are asked for."""
+    gait, more = _walk(args.walk), {}
+    if args.settle_time is not None:
+        if args.model != "impulse":
+            raise DesirePathError("--settle-time is that of the model impulse: add --model impulse, or leave it out.")
+        more["settle_time"] = args.settle_time
+    if args.ground is not None:
+        more["ground"] = Simulation(_ground(args.ground, args.spacing)).rest_height
+    return gait, walker.loads(gait, args.model, **more)
+
+
 def _loads(args):
-    gait = _walk(args.walk)
-    loads = walker.loads(gait, args.model)
+    gait, loads = _pressed(args)
     walker.write_loads(args.out, gait, loads)
     if args.contacts:
         write_contacts(args.contacts, gait, loads)
@@ -128,8 +139,7 @@ def _loads(args):
 
 
 def _plot(args):
-    gait = _walk(args.walk)
-    loads = walker.loads(gait, args.model)
+    gait, loads = _pressed(args)
     plot.write(args.out, gait, loads)
     for warning in loads.warnings:
         print(f"warning       {warning}")
@@ -156,6 +166,13 @@ def _fit(args):
     print(f"spread        {found.kind.spread:.4g}")
     found.kind.save(args.out)
     print(f"written to    {os.path.abspath(args.out)}")
+
+
+def _load_options(task):
+    task.add_argument("--settle-time", type=float, metavar="T",
+                      help="tau of the model impulse, in which the soil yields [s] (0.2)")
+    task.add_argument("--ground", help="what is walked on: flat, flat:HEIGHT, or an EXR of heights (where the feet rest)")
+    task.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if its header does not say")
 
 
 def _parser():
@@ -204,12 +221,14 @@ def _parser():
     loads.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     loads.add_argument("--out", required=True, help="the table (.csv)")
     loads.add_argument("--contacts", help="another table: when, where and how hard each foot stood (.csv)")
+    _load_options(loads)
     loads.set_defaults(task=_loads)
 
     graph = tasks.add_parser("plot", help="draw the vertical force of every foot (needs Matplotlib)")
     graph.add_argument("walk", help="a recording (.npz)")
     graph.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     graph.add_argument("--out", required=True, help=f"the picture ({', '.join(plot.KINDS)})")
+    _load_options(graph)
     graph.set_defaults(task=_plot)
 
     tread = tasks.add_parser("lane", help="measure the cover that is left of a planted lane after so many passes")

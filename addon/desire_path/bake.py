@@ -194,7 +194,7 @@ class Bake:
         self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]
         storeys = [[self.parcels[number] for number in storey] for storey in fields.storeys(self.parcels, self.gait)]
         sims = [self._simulation(storey) for storey in storeys]
-        walks = walker.Walker(self.load_model, settle_time=storeys[0][0].soils[0].settle_time)  # tau of TRAIL (3)
+        walks = walker.Walker(self.load_model, settle_time=sims[0].settle_time, cell=self.cell_size)  # tau of TRAIL (3)
         if len(sims) == 1:
             self.loads = walks.loads(gait, sims[0].rest_height)
             each = [self.loads]

@@ -272,6 +272,16 @@ class Simulation:
         self._core.rest(xy, height)
         return height
 
+    def settle_time(self, xy):
+        """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
+        taus = np.array([soil.settle_time for soil in self.soils])
+        cells, number = np.unique(np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0,
+                                  return_inverse=True)
+        if len(taus) == 1:
+            return np.full(len(xy), taus[0])
+        kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
+        return taus[kinds][number.reshape(-1)]
+
     def normal(self, xy, radius):
         """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
         return self._core.normal(float(xy[0]), float(xy[1]), float(radius))
@@ -290,7 +300,7 @@ class Simulation:
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
-        touching = np.array(loads.touching, np.uint8)
+        touching = (np.asarray(loads.touching) == 1).astype(np.uint8)  # what is carried elsewhere presses nothing
         held = getattr(loads, "held", None)
         if held is not None:
             touching[held & (touching != 0)] |= HELD

@@ -12,6 +12,9 @@ from . import freeze, jumps, size as sizes, whole
 from .errors import DesirePathError
 
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
+PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carries and takes no print
+TELLING = 0.5  # who stands there for less is not told of [s]
+OFF_GROUND, OFF_MOST = 0.06, 0.10  # what is farther over the ground stands on something else [leg lengths], [m]
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
@@ -181,21 +184,25 @@ def _nearest(have, want):
 
 
 def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=False, limits=None,
-          options=None):
+          options=None, cell=0.0):
     """FootForce of a recording at its own samples. TRAIL (3), SOFT22 (3)-(8)
 
     model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
-    tau [s], half_sine spreads the landing as a half-sine). ground: see ground_below.
+    tau [s], of the soil that is landed on: a number, or a function of places (n, 2) [m] that tells it (n,);
+    half_sine spreads the landing as a half-sine). ground: see ground_below. cell: of the ground's grid [m], by which
+    nothing finer can be told apart.
+    What stands on something that is not the ground (a box, a deck, stairs that were left out) is carried there: its
+    force is told, and `touching` is ELSEWHERE.
     """
     told, gait = len(gait.warnings), sizes.known(jumps.found(gait.check()))
     if model not in MODELS:
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
-    if not (np.isfinite(settle_time) and settle_time > 0):
+    if not callable(settle_time) and not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
 
     def find(turn):
         try:
-            return _loads_of(turn.gait, model, turn.ground, settle_time, half_sine, limits, options)
+            return _loads_of(turn.gait, model, turn.ground, settle_time, half_sine, limits, options, cell)
         except _Sunk as problem:
             if len(gait.cut):
                 return problem
@@ -205,7 +212,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     return replace(found, warnings=gait.warnings[told:] + found.warnings)
 
 
-def _loads_of(gait, model, ground, settle_time, half_sine, limits, options):
+def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell):
     """loads() of walkers of one size, in one turn."""
     from . import _native
 
@@ -217,8 +224,11 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options):
     touching, clearance = _find_contacts(person, floor, limits, _frames(gait) * np.sqrt(size))
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
-    _native.foot_force(native_gait(person), touching, floor, MODELS[model], settle_time / np.sqrt(size),
-                       bool(half_sine), force, point, _numbers(OPTIONS, options))
+    tau, taus = settle_time, None
+    if callable(tau):
+        tau, taus = 1.0, _settles(even, touching, tau) / np.sqrt(size)
+    _native.foot_force(native_gait(person), touching, floor, MODELS[model], tau / np.sqrt(size), bool(half_sine), force,
+                       point, _numbers(OPTIONS, options), taus)
     point, clearance = point * size, clearance * size
     mean, warnings = _weigh(person, touching, force) if model == "inertia" else (None, [])
     warnings = (_sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, touching, size)
@@ -226,11 +236,40 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options):
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
+    warnings += _elsewhere(even, below, touching, clearance, max(min(OFF_GROUND * gait.leg[0], OFF_MOST), 2.0 * cell))
     if every > 1:
         touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
     elif not every:
         touching, force, point = _at(gait.time, even.time, touching, force, point)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
+
+
+def _settles(gait, touching, tau):
+    """tau of the soil under each point where its part touches (K, T), 1 elsewhere [s]."""
+    on = (touching != 0)[gait.point_part]
+    out = np.ones(on.shape)
+    if on.any():
+        out[on] = tau(np.ascontiguousarray(point_places(gait)[on][:, :2]))
+    return out
+
+
+def _elsewhere(gait, below, touching, clearance, most):
+    """Mark parts that stand farther over the ground than `most` [m]; sentences about who does."""
+    over = point_places(gait)[..., 2] - below - clearance[:, None]
+    lowest = np.stack([np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
+                       for part in range(len(gait.part_limb))])
+    up = (touching == PRESSES) & (lowest > most)
+    touching[up] = ELSEWHERE
+    told = []
+    for w, name in enumerate(gait.walker_name):
+        when = up[gait.limb_walker[gait.part_limb] == w].any(axis=0)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], when, [0]])))
+        if len(edges) and np.diff(edges)[::2].max() >= TELLING * (gait.rate() or 1.0):
+            high = float(np.median(lowest[gait.limb_walker[gait.part_limb] == w][:, when].min(axis=0)))
+            told.append(f"{name} stands on something else than the ground, about {high:.2g} m over it, first at frame "
+                        f"{gait.frame(when.argmax()):.0f}: there is no print of that; make it a ground if it is to "
+                        "take prints.")
+    return told
 
 
 # ---- a recording in turns: every piece for itself, each size for itself, nothing carries over a cut ---------
@@ -519,8 +558,9 @@ def write_loads(path, gait, loads):
 class Walker:
     """How a recorded body meets the ground: the load model and its numbers, to be used on any Gait.
 
-    load_model: "inertia" or "impulse"; settle_time: tau of "impulse", TRAIL (3) [s] > 0; half_sine: its
-    landing as a half-sine; limits, options: numbers of LIMITS and OPTIONS to change, by name.
+    load_model: "inertia" or "impulse"; settle_time: tau of "impulse", TRAIL (3) [s] > 0, or a function of places;
+    half_sine: its landing as a half-sine; limits, options: numbers of LIMITS and OPTIONS to change, by name;
+    cell: of the ground's grid [m].
     """
 
     load_model: str = "inertia"
@@ -528,6 +568,7 @@ class Walker:
     half_sine: bool = False
     limits: dict = field(default_factory=dict)
     options: dict = field(default_factory=dict)
+    cell: float = 0.0
 
     def contacts(self, gait, ground=None):
         """Which part touches when, and each point's resting clearance: see contacts()."""
@@ -536,4 +577,4 @@ class Walker:
     def loads(self, gait, ground=None):
         """FootForce of a recording on this ground: see loads()."""
         return loads(gait, self.load_model, ground, settle_time=self.settle_time,
-                     half_sine=self.half_sine, limits=self.limits, options=self.options)
+                     half_sine=self.half_sine, limits=self.limits, options=self.options, cell=self.cell)

@@ -151,11 +151,11 @@ done:
 static PyObject* foot_force(PyObject* self, PyObject* args)
 {
     (void)self;
-    PyObject *tuple, *touching, *ground, *force, *point, *numbers = Py_None;
+    PyObject *tuple, *touching, *ground, *force, *point, *numbers = Py_None, *settle = Py_None;
     int       model, half_sine;
     double    settle_time;
-    if (!PyArg_ParseTuple(args, "OOOidpOO|O", &tuple, &touching, &ground, &model, &settle_time,
-                          &half_sine, &force, &point, &numbers))
+    if (!PyArg_ParseTuple(args, "OOOidpOO|OO", &tuple, &touching, &ground, &model, &settle_time,
+                          &half_sine, &force, &point, &numbers, &settle))
         return NULL;
     DpDoor        door = {0};
     DpGait        gait = {0};
@@ -175,8 +175,16 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
     if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
     if (read_numbers(&door, numbers, "options", n, 10) < 0) goto done;
+    const double* taus = NULL;
+    if (settle != Py_None) {
+        const size_t count = (size_t)gait.points * (size_t)gait.times;
+        taus =
+            dp_door_open(&door, settle, "settle", 'd', DP_SHAPE2(gait.points, gait.times), false);
+        if (!taus || dp_door_finite(taus, (Py_ssize_t)count, "settle") < 0) goto done;
+    }
     o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA,
                         settle_time,
+                        taus,
                         half_sine != 0,
                         n[0],
                         n[1],
@@ -222,8 +230,7 @@ PyMethodDef dp_py_walker_methods[] = {
      "TRAIL (4)"},
     {"foot_force", foot_force, METH_VARARGS,
      "foot_force(gait, touching, ground, model, settle_time, half_sine, force, point, "
-     "options=None): "
-     "fill force and point. TRAIL (3)"},
+     "options=None, settle=None): fill force and point. TRAIL (3)"},
     {"foot_share", foot_share, METH_VARARGS,
      "foot_share(com, left, right): weight share of the right foot. SOFT22 (5)"},
     {NULL, NULL, 0, NULL}};

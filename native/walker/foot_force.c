@@ -66,13 +66,14 @@ typedef struct Load
     double*              way;           // v_com over the ground               (2, T)
     DpVec3*              landing;       // v0 latched for the impulse          (limbs)
     int*                 landed;        // its sample; -1 = never              (limbs)
+    double*              tau;           // of the soil it landed on        [s] (limbs)
 } Load;
 
 static void close_load(Load* l)
 {
     dp_free(l->limb), dp_free(l->point), dp_free(l->first), dp_free(l->capacity), dp_free(l->place);
     dp_free(l->limb_on), dp_free(l->point_on), dp_free(l->limb_weight), dp_free(l->point_weight);
-    dp_free(l->accel), dp_free(l->way), dp_free(l->landing), dp_free(l->landed);
+    dp_free(l->accel), dp_free(l->way), dp_free(l->landing), dp_free(l->landed), dp_free(l->tau);
 }
 
 static bool open_load(Load* l)
@@ -92,9 +93,10 @@ static bool open_load(Load* l)
     l->way = dp_alloc(2 * times, sizeof(double));
     l->landing = dp_alloc(limbs, sizeof(DpVec3));
     l->landed = dp_alloc(limbs, sizeof(int));
+    l->tau = dp_alloc(limbs, sizeof(double));
     return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on &&
            l->point_on && l->limb_weight && l->point_weight && l->accel && l->way && l->landing &&
-           l->landed;
+           l->landed && l->tau;
 }
 
 // Which points of a limb carry: those of touching parts, near the height of the limb's lowest one.
@@ -151,6 +153,11 @@ static void gather(Load* l, int walker, const uint8_t* touching)
     walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, false, l->limb_weight);
 }
 
+enum
+{
+    MOST = 64
+};  // limbs of a walker, or points of a limb, that share at one time
+
 // ---- landing
 // ---------------------------------------------------------------------------------------
 
@@ -159,10 +166,37 @@ static bool begins(const uint8_t* on, int t)
     return t > 0 && on[t] && !on[t - 1];
 }
 
+static bool is_heel(const Load* l, int k)
+{
+    return l->gait->point_role[l->point[k]] == DP_POINT_HEEL;
+}
+
+// The limb lands: with its heel, with its toe, or with both, as one foot. TRAIL (4)
+static void land(Load* l, int i, int t)
+{
+    const size_t times = (size_t)l->gait->times;
+    const int    first = l->first[i], end = l->first[i + 1];
+    bool         heel = false, toe = false;
+    int          point[MOST];
+    DpLanding    landing = {.point = point};
+    l->tau[i] = l->options->settle_time;
+    for (int k = first; k < end; ++k) {
+        if (!l->point_on[(size_t)k * times + (size_t)t]) continue;
+        *(is_heel(l, k) ? &heel : &toe) = true;
+        if (l->options->settle)
+            l->tau[i] = l->options->settle[(size_t)l->point[k] * times + (size_t)t];
+    }
+    for (int k = first; k < end && landing.count < MOST; ++k)
+        if ((heel && toe) || is_heel(l, k) == heel) point[landing.count++] = l->point[k];
+    l->landed[i] = t;
+    l->landing[i] =
+        walker_landing_velocity(l->gait, &landing, l->limb_on, l->limbs, l->rate, t - 1);
+}
+
 // J / tau of the limb at a sample, for a mass of 1. TRAIL (3), SOFT22 (6)-(8)
 static DpVec3 landing_push(const Load* l, int limb, int t)
 {
-    const double tau = l->options->settle_time;
+    const double tau = l->tau[limb];
     const double since = (double)(t - l->landed[limb]) / l->rate;
     if (l->landed[limb] < 0 || since > tau - 0.5 / l->rate) return dp_vec3(0.0, 0.0, 0.0);
     const double now = dp_clamp((since + 0.5 / l->rate) / tau, 0.0, 1.0);
@@ -172,11 +206,6 @@ static DpVec3 landing_push(const Load* l, int limb, int t)
 
 // ---- sharing
 // ---------------------------------------------------------------------------------------
-
-enum
-{
-    MOST = 64
-};  // limbs of a walker, or points of a limb, that share at one time
 
 // those among which a load is shared at one sample
 typedef struct Supports
@@ -303,11 +332,7 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     double        low = 0.0;
     for (int i = 0; i < l->limbs; ++i) {
         const size_t at = (size_t)i * times + (size_t)t;
-        if (begins(l->limb_on + (size_t)i * times, t)) {
-            l->landed[i] = t;
-            l->landing[i] =
-                walker_landing_velocity(l->gait, l->walker, l->limb_on, l->limbs, l->rate, t - 1);
-        }
+        if (begins(l->limb_on + (size_t)i * times, t)) land(l, i, t);
         if (!l->limb_on[at]) continue;
         limb_points(l, &points, i, t);
         DpVec3 centre = {0};

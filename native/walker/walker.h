@@ -97,9 +97,11 @@ typedef enum DpLoadModel
 
 typedef struct DpLoadOptions
 {
-    DpLoadModel model;
-    double      settle_time;  // tau of `impulse`, TRAIL (3)                     [s] > 0
-    bool        half_sine;    // `impulse`: spread J as a half-sine, else evenly [-]
+    DpLoadModel   model;
+    double        settle_time;  // tau of `impulse`, TRAIL (3)                     [s] > 0
+    const double* settle;       // the same of the soil under each contact point; NULL: as above
+                                //                                                 [s] > 0 (K, T)
+    bool half_sine;             // `impulse`: spread J as a half-sine, else evenly [-]
 
     // `inertia`, design 4.3
     double cutoff_share;   // low-pass of a_com in step frequencies               [-]  > 0

@@ -93,10 +93,17 @@ bool walker_falls(uint8_t* air, const double* height, int times, double rate);
 void walker_bounces(const DpGait* gait, int walker, double frame, double rate, uint8_t* on,
                     uint8_t* air, double* height, double* scratch);
 
-// v0 of TRAIL (3): the velocity with which a limb touches after sample t, the last in the air.
+// The contact points of a limb with which it lands: its heel, its toe, or both. TRAIL (4)
+typedef struct DpLanding
+{
+    const int* point;  // (count)
+    int        count;
+} DpLanding;
+
+// v0 of TRAIL (3): the velocity with which these points touch after sample t, the last in the air.
 // @param limb_on  where the walker's limbs touch (limbs, T)
-DpVec3 walker_landing_velocity(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
-                               double rate, int t);
+DpVec3 walker_landing_velocity(const DpGait* gait, const DpLanding* landing, const uint8_t* limb_on,
+                               int limbs, double rate, int t);
 
 // How much of the weight each of `count` supports carries: ramps first, corrected by the
 // zero-moment point where the supports are far apart. Design 4.3.

@@ -235,7 +235,8 @@ def inertia_of_two(com, mass, feet, on, rate, cutoff):
 
 
 def impulse_of_two(com, mass, feet, on, rate, tau):
-    """TRAIL (3), SOFT22 (3)-(8): forces (2, T, 3); v0 by the caller's exact parabola of com."""
+    """TRAIL (3) (4), SOFT22 (3)-(8): forces (2, T, 3) of feet of one point each, which are where they land; v0 by the
+    caller's exact parabola of the feet."""
     force = np.zeros((2,) + com.shape)
     for t in range(len(com)):
         if not (on[0, t] or on[1, t]):
@@ -249,7 +250,7 @@ def impulse_of_two(com, mass, feet, on, rate, tau):
             for a, b in stances(on[i]):
                 if a > 0 and a <= t < b and (t - a + 0.5) / rate < tau:
                     h, k = rate / 60, a - 1
-                    x0, x1, x2 = (com[int(round(k - n * h))] for n in (0, 1, 2))
+                    x0, x1, x2 = (feet[i, int(round(k - n * h))] for n in (0, 1, 2))
                     v0 = (3 * x0 - 4 * x1 + x2) * rate / (2 * h)  # the last airborne sample
                     push = push + v0 / tau  # TRAIL (3), SOFT22 (7) (8)
             force[i, t] = mass * alpha * push if push[2] < 0 else 0.0  # SOFT22 (6)
