@@ -66,7 +66,7 @@ class Share:
         done, sound, place = -1, {}, None
         for each in (fresh, shown):
             old = told(each)
-            if (self.bake.resume and old and not old.get("complete")
+            if (self.bake.resume and old and (each == fresh or not old.get("complete"))
                     and all(old.get(name) == index.get(name) for name in ("signature", OWNER))):
                 there, found = frames_sound(each, bool(self.plants))
                 if there > done:

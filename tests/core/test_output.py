@@ -271,6 +271,19 @@ def test_a_stopped_second_bake_goes_on_where_it_was_stopped(tmp_path):
     assert not (tmp_path / "bake.new").exists()
 
 
+def test_a_bake_that_is_whole_but_not_shown_yet_is_not_made_again(tmp_path, monkeypatch):
+    """As when the last moment of a bake is the one in which it is killed."""
+    baked(tmp_path)
+    with monkeypatch.context() as cut:
+        cut.setattr(Output, "publish", lambda out: 1 / 0)
+        with pytest.raises(ZeroDivisionError):
+            baked(tmp_path, cell_size=0.02)
+    kept = tmp_path / "bake.new" / "frames" / "trail_0005.exr"
+    written, first = kept.stat().st_mtime_ns, content(tmp_path)
+    baked(tmp_path, cell_size=0.02)
+    assert content(tmp_path) != first and (tmp_path / "frames" / "trail_0005.exr").stat().st_mtime_ns == written
+
+
 def test_a_frame_damaged_inside_is_written_again(tmp_path):
     """One bit of what the tiles hold: the file's form is whole, its checksum tells."""
     baked(tmp_path / "good")
