@@ -37,7 +37,7 @@ def test_whatever_is_changed_and_changed_back(folder):
         (settings, "cell_size", 0.031, "settings"), (settings, "soil", "snow", "settings"),
         (settings, "frame_end", 7, "settings"), (settings, "law", "uniform", "settings"),
         (settings, "attributes", False, "settings"), (settings, "vertex_group", True, "settings"),
-        (wears, "mass", 74.5, "walk"), (wears, "load_model", "impulse", "settings"), (wears, "place_feet", True, "walk"),
+        (wears, "mass", 74.5, "walk"), (wears, "load_model", "impulse", "settings"), (wears, "place_feet", True, "settings"),
         (wears, "subframes", 2, "walk"), (wears, "ground", None, "Nobody walks"),
         (key, "co", (key.co[0], key.co[1] + 0.004), "walk"), (walker.location, "x", 0.01, "walk"),
         (bpy.context.scene.render, "fps", 31, "settings"), (ground.location, "z", -0.01, "ground"),

@@ -97,7 +97,8 @@ def marks(obj, company, made, found):
     soils = sorted(([asdict(soil) for soil in parcel.soils] for parcel in made.parcels), key=repr)
     chosen = [made.cell_size, made.frame_start, made.frame_end, made.frame_rate, made.film, options,
               sorted({each.desire_path.load_model for each in company.walkers}), soils,
-              settings.plant_mesh and bool(settings.plants), settings.attributes, settings.vertex_group]
+              settings.plant_mesh and bool(settings.plants), settings.attributes, settings.vertex_group,
+              sum(each.desire_path.place_feet for each in company.walkers)]
     return {"walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
             "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
             "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
