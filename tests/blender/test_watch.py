@@ -112,7 +112,17 @@ def test_frames_that_play_change_nothing(folder):
     other = playback.modifier(ground).node_group
     ground.modifiers["Fine"].show_viewport = True  # renders have it all the time
     bpy.context.view_layer.update()
-    assert playback.modifier(ground).node_group == other and kept[:16] == list(other[playback.LIE])[:16]
+    assert playback.modifier(ground).node_group == other
+    fine = ground.modifiers["Fine"]
+    for frame, level in ((1, 0), (LAST, 2)):
+        fine.levels = level
+        fine.keyframe_insert("levels", frame=frame)
+    bpy.context.view_layer.update()
+    other = playback.modifier(ground).node_group
+    for frame in (1, LAST, 5):
+        bpy.context.scene.frame_set(frame)
+        assert playback.modifier(ground).node_group == other
+    assert kept[:16] == list(other[playback.LIE])[:16]
 
 
 def applied(ground, **what):

@@ -212,6 +212,11 @@ def curve(animation, path):
     return next(filter(None, (bag.fcurves.find(path) for bag in bags)), None)
 
 
+def is_keyed(animation, path):
+    """Whether an action's curve or a driver leads a property."""
+    return animation is not None and (curve(animation, path) is not None or animation.drivers.find(path) is not None)
+
+
 def use_action(animation, action, slot=None):
     """Let an object play an action; `slot` where actions have slots, else the one that fits."""
     animation.action = action

@@ -111,7 +111,8 @@ def few_points(obj, surface, index, planes):
     wide = WIDE * cells / edges  # in cells
     apart = lambda cells: f"{cells * index.cell:.2g} m apart" if np.isfinite(cells) else "too far apart"
     if min(render, drawn) > wide:
-        return [f"'{obj.name}' has hardly a point {WHERE}, so that they cannot be seen: subdivide it there, to about {index.cell:g} m."]
+        return [f"'{obj.name}' has hardly a point {WHERE}, so that they cannot be seen: "
+                f"subdivide it there, to about {index.cell:g} m."]
     if render > wide:
         return [f"The viewport shows {PRINTS} '{obj.name}', renders do not, where its points lie "
                 f"{apart(render)}: let its modifiers make it as fine in renders."]

@@ -20,6 +20,7 @@ from . import axes, clock, compat
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
+STACKED = ("show_viewport", "show_render", "levels", "render_levels", "subdivision_type")  # of modifiers
 SAMPLES = 24  # points of the mesh that tell whether it was changed
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
@@ -107,16 +108,19 @@ def samples(obj):
 
 
 def stacked(obj):
-    """All that the place of our modifier, and which points there are, follow from, in a word."""
+    """All that the place of our modifier, and which points there are, follow from, in a word; what is keyed is not
+    among it."""
     out = [str(len(obj.data.vertices))]
     for each in obj.modifiers:
         tree = each.node_group if each.type == "NODES" else None
         if tree is not None and TAG in tree:
             out.append("ours")
             continue
-        levels = [getattr(each, name) for name in ("levels", "render_levels", "subdivision_type") if hasattr(each, name)]
-        out.append(f"{each.name} {each.type} {each.show_viewport or each.show_render} "
-                   f"{tree.name if tree is not None else ''} {levels}")
+        of = f'modifiers["{bpy.utils.escape_identifier(each.name)}"].'
+        values = {name: getattr(each, name) for name in STACKED if hasattr(each, name)
+                  and not compat.is_keyed(obj.animation_data, of + name)}
+        shown = any([values.pop(name, False) for name in ("show_viewport", "show_render")])
+        out.append(f"{each.name} {each.type} {shown} {tree.name if tree is not None else ''} {list(values.values())}")
     return "; ".join(out)
 
 
