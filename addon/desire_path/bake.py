@@ -235,7 +235,8 @@ class Bake:
             box = fields.under(parcel, gait, loads, wide)
             if box is None:
                 return None
-            x0, y0, x1, y1 = max(x0, box[0] - cell), max(y0, box[1] - cell), min(x1, box[2] + cell), min(y1, box[3] + cell)
+            x0, y0 = max(x0, box[0] - cell), max(y0, box[1] - cell)  # with a cell of its neighbours
+            x1, y1 = min(x1, box[2] + cell), min(y1, box[3] + cell)
         if math.isfinite(x0):
             i0 = max(i0, math.floor((x0 - ox) / cell))
             i1 = min(i1, math.ceil((x1 - ox) / cell))
@@ -391,7 +392,8 @@ class Bake:
     def _report(self, sims, seconds):
         found = [sim.report() for sim in sims]
         total = {name: sum(each[name] for each in found) for name in found[0]}
-        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *self.lost, *(each for sim in sims for each in sim.warnings)]))
+        left = [each for sim in sims for each in sim.warnings]
+        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *self.lost, *left]))
         if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils)
                for sim, each in zip(sims, found)):
             warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "
@@ -414,8 +416,8 @@ class Bake:
         """The report of a share: of several grounds what happened on it, and on all of them."""
         if len(self.parcels) == 1:
             return self.report
-        numbers = {"contacts": fields.contacts(share.parcel, self.stepped, share.loads, self._sample(self.frame_end) + 1),
-                   **share.numbers()}
+        end = self._sample(self.frame_end) + 1
+        numbers = {"contacts": fields.contacts(share.parcel, self.stepped, share.loads, end), **share.numbers()}
         whole = {name: self.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3",
                                                       "heaped_m3", "displaced_m3")}
         rest = {name: value for name, value in self.report.items() if name not in whole}
@@ -426,7 +428,8 @@ class Bake:
 def _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs):
     """The Parcels of a bake, from one ground or a list of them."""
     if isinstance(ground, Ground):
-        return [Parcel(ground, soils, folder, plants=plants, plant_mesh=plant_mesh, owner=owner, inputs=dict(inputs or {}))]
+        return [Parcel(ground, soils, folder, plants=plants, plant_mesh=plant_mesh, owner=owner,
+                       inputs=dict(inputs or {}))]
     parcels = list(ground)
     if not parcels or not all(isinstance(each, Parcel) for each in parcels):
         raise DesirePathError("A bake needs a Ground, or a list of Parcels.")

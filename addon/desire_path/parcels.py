@@ -239,7 +239,8 @@ def on(loads, over, storey):
     """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
     here = over == storey
     return replace(loads, touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
-                   force=np.where(here[..., None], loads.force, 0.0), point=np.where(here[..., None], loads.point, np.nan))
+                   force=np.where(here[..., None], loads.force, 0.0),
+                   point=np.where(here[..., None], loads.point, np.nan))
 
 
 def under(parcel, gait, loads, wide):

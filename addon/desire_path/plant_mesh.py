@@ -24,7 +24,7 @@ _HELD = 1  # rows in the ground
 
 
 def build(sim, stands=None):
-    """The mesh of a Simulation's plants, of all `stands` or of some, as they are: the arrays of plants.npz, as a dict."""
+    """The mesh of a Simulation's plants, of all `stands` or some, as they are: the arrays of plants.npz, as a dict."""
     parts = {name: [] for name in ("vertices", "edges", "faces", "kind", "plant", "along", "unbroken")}
     first = plants = 0
     kinds = list(dict.fromkeys(planting.kind for planting in sim.plantings))

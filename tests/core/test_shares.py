@@ -10,7 +10,7 @@ from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
 from desire_path.parcels import Parcel
 from desire_path.plants import Planting
-from desire_path.sim import Ground
+from desire_path.sim import TILE, Ground
 
 from tests.core.test_parcels import hill, tile
 from tests.scenes import gaits
@@ -76,10 +76,12 @@ def test_two_tiles_are_pressed_as_the_ground_they_are_cut_from(tmp_path, height)
     assert max(each["deepest_m"] for each in seen) == pytest.approx(two.report["deepest_m"], abs=1e-9)
 
 
-def test_every_frame_of_both_sides_shows_the_same_seam(tmp_path):
-    gait, _ = gaits.pressed([gaits.box(0.3, 0.12)], [[2.0, 0.0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5, rate=24.0,
-                            lift=0.5)
-    run(gait, [Parcel(mesh(-1, -1, 2, 1), folder=tmp_path / "west"), Parcel(mesh(2, -1, 5, 1), folder=tmp_path / "east")])
+@pytest.mark.parametrize("edge", [2.0, TILE * CELL])
+def test_every_frame_of_both_sides_shows_the_same_seam(tmp_path, edge):
+    gait, _ = gaits.pressed([gaits.box(0.3, 0.12)], [[edge, 0.0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5,
+                            rate=24.0, lift=0.5)
+    run(gait, [Parcel(mesh(-1, -1, edge, 1), folder=tmp_path / "west"),
+               Parcel(mesh(edge, -1, 5, 1), folder=tmp_path / "east")])
     sides = [read_index(tmp_path / name) for name in ("west", "east")]
     assert [side.frames for side in sides] == [sides[0].frames] * 2 and all(side.complete for side in sides)
     last = sides[0].frames
@@ -87,8 +89,9 @@ def test_every_frame_of_both_sides_shows_the_same_seam(tmp_path):
         columns = []
         for side in sides:
             plane = maps.read(side.path(number)).planes["R"]
-            i = round((2.0 - side.x0) / CELL)
+            i = round((edge - side.x0) / CELL)
             j = round((-0.5 - side.y0) / CELL)
+            assert 0 < i < side.nx
             columns.append(plane[j:j + 50, i - 1:i + 1])  # the cells on either side of the seam
         assert columns[0].tobytes() == columns[1].tobytes()
     assert columns[0].min() < -0.002
@@ -106,11 +109,11 @@ def test_of_nine_tiles_those_are_made_that_are_trodden(tmp_path):
 
 
 def test_a_tile_nobody_trod_keeps_the_bake_it_has(tmp_path):
-    near, far = (lambda: Parcel(mesh(-1, -1, 2, 1), folder=tmp_path / "near")), Parcel(mesh(2, -1, 9, 1), folder=tmp_path / "far")
-    run(walk(4.0), [near(), far])
+    near, far = Parcel(mesh(-1, -1, 2, 1), folder=tmp_path / "near"), Parcel(mesh(2, -1, 9, 1), folder=tmp_path / "far")
+    run(walk(4.0), [near, far])
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "far").rglob("*") if path.is_file()}
     short = walk(1.0)
-    bake = run(short, [near(), Parcel(far.ground, folder=far.folder)])
+    bake = run(short, [near, far])
     assert [share.parcel.folder for share in bake.shares] == [str(tmp_path / "near")]
     assert before == {path: path.stat().st_mtime_ns for path in (tmp_path / "far").rglob("*") if path.is_file()}
 

@@ -84,7 +84,6 @@ class Job:
         for each in self.surfaces.values():
             self.warnings += each.warnings
         self.warnings += [*company.warnings, *inputs.told(company), *way.warnings(company.walkers)]
-        self.recorded = time.perf_counter() - self.begun
         for each in company.grounds:
             self.warnings += op_plants.refresh(scene, each)
         yield
@@ -107,7 +106,7 @@ class Job:
             self.play()
             settings.summary = ""
             return settings.missing or "Stopped."
-        spent = dict(seconds_recording=round(self.recorded, 3), seconds_in_all=round(time.perf_counter() - self.begun, 3))
+        spent = round(time.perf_counter() - self.begun, 3)
         self.warnings += [each for each in self.bake.report["warnings"] if each not in self.warnings]
         shares = self.bake.shares
         for share in shares:
@@ -118,13 +117,13 @@ class Job:
             self.warnings += warnings
             obj.desire_path.summary = json.dumps(
                 {name: share.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "heaped_m3")}
-                | {"seconds_in_all": spent["seconds_in_all"], "frames": [index.frame_start, index.frame_end],
+                | {"seconds_in_all": spent, "frames": [index.frame_start, index.frame_end],
                    "with": share.report.get("with", []), "warnings": self.warnings})
         names = [share.parcel.name for share in shares]
         if self.name not in names:
             self.warnings.append(f"No foot has trodden '{self.name}': it is as it was.")
         report = self.bake.report
-        return (f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent['seconds_in_all']:.1f} s: "
+        return (f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent:.1f} s: "
                 f"{report['contacts']} contacts, deepest print {1000 * report['deepest_m']:.0f} mm; files in "
                 f"{', '.join(share.out.folder for share in shares)}.")
 
