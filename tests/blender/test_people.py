@@ -80,7 +80,7 @@ def test_cmu_jump(folder):
 
 
 def test_cmu_uneven(folder):
-    clip("cmu_03_02_uneven", folder, (3, 9), deepest=(0.004, 0.15))  # it hops over blocks that no ground has
+    clip("cmu_03_02_uneven", folder, (2, 9))  # over blocks that no ground has: what stands on them leaves no print
 
 
 def character(name, action, folder, speed):
