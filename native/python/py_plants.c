@@ -18,6 +18,7 @@
 
 #define KIND_NUMBERS 22
 #define COLLIDERS_MOST 16
+#define MOST_STEPS 1000000  // of one call, which nothing can stop
 
 int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
 {
@@ -286,6 +287,8 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
                           &position, &velocity, &strength, &ground, &colliders, &dt, &steps,
                           &workers))
         return NULL;
+    if (steps < 0 || steps > MOST_STEPS)
+        return PyErr_Format(PyExc_ValueError, "steps: expected 0 to %d", MOST_STEPS);
     if (open_stand(&stand, kind, seed, root, heading) < 0 ||
         (ground != Py_None && open_ground(&stand, ground) < 0) ||
         open_colliders(&stand, colliders) < 0)

@@ -134,3 +134,12 @@ def test_laws_that_there_are_not_are_refused():
     for law, heap in ((2, 0), (-1, 0), (0, 7)):
         with pytest.raises(ValueError, match="law, heap"):
             _native.Simulation(("flat", 0.0), soils, 0.02, (0.0, 0.0), law, heap)
+
+
+def test_steps_without_end_are_refused():
+    kind = np.array(_native.plants_default())
+    _, _, _, particles, bends = _native.plants_shape(kind)
+    root, at = np.zeros((1, 3), "f4"), np.zeros((1, particles, 3), "f4")
+    for steps in (-1, 2**31 - 1):
+        with pytest.raises(ValueError, match="steps"):
+            _native.plants_step(kind, 1, root, None, at, at.copy(), np.full((1, bends), 0.1), None, (), 0.01, steps, 1)
