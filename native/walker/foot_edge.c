@@ -49,8 +49,9 @@ static void arrive(uint8_t* on, const double* height, double clearance, const do
         }
         const int timed = fastest;
         // what comes down faster than its stop can be timed is timed by its height
-        while (fastest + 1 < times && on[fastest + 1] && -rise[fastest] > fast &&
-               height[fastest] > clearance + HOVER)
+        // and so is what falls out of a flight, whose toes may be slowed by the foot that lifts them
+        while (fastest + 1 < times && on[fastest + 1] &&
+               -rise[fastest] > (flown[t] ? moves : fast) && height[fastest] > clearance + HOVER)
             ++fastest;
         if (flown[t] && rise[timed] < 0.0) {
             const int stop = timed + smeared(rise, times, timed, rate, cutoff);

@@ -148,5 +148,5 @@ def test_prints_do_not_depend_on_the_frame_rate(name):
     volume, depth = print_of(gait, 240.0)
     for rate in (24.0, 30.0, 60.0, 120.0):
         found = print_of(gait, rate)
-        assert found[0] == pytest.approx(volume, rel=0.06), rate  # the knock of a landing, and how far it slips, show in few frames only
+        assert found[0] == pytest.approx(volume, rel=0.07), rate  # the knock of a landing, and how far it slips, show in few frames only
         assert found[1] == pytest.approx(depth, rel=0.06), rate

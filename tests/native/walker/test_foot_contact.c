@@ -402,6 +402,30 @@ TEST(a_sudden_stop_out_of_a_flight_is_timed)
     scene_free(&s);
 }
 
+TEST(toes_that_are_lifted_in_a_fall_touch_where_they_land)
+{
+    // they come down slower for the last 40 ms, since the foot turns about them
+    enum
+    {
+        N = 480
+    };
+    Scene s = scene_make(N, 2.0 * RATE, 1, 1);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / (2.0 * RATE), down = now < 1.0 ? 1.0 - now : 0.0;
+        const double near = fmin(down, 0.04);
+        scene_com(&s, t, 0.0, 0.0, 6.0 - 0.5 * DP_GRAVITY * fmin(now * now, 1.0));
+        scene_put(&s, N, 0, t, 0.0, 0.0, 0.7 * near + 1.6 * (down - near));
+    }
+    uint8_t               on[N];
+    double                clearance[1];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    int first = 0;
+    while (first < N && !on[first]) ++first;
+    CHECK_NEAR((double)first / (2.0 * RATE), 1.0, 0.02);
+    scene_free(&s);
+}
+
 TEST(short_ticks_and_gaps_close)
 {
     // a foot at rest that is lifted for 2 samples, and one in the air that dips for 2
@@ -466,6 +490,7 @@ int main(void)
     RUN(the_ground_marks_the_edges);
     RUN(a_foot_that_is_drawn_ahead_leaves_as_it_is_sped_up);
     RUN(a_sudden_stop_out_of_a_flight_is_timed);
+    RUN(toes_that_are_lifted_in_a_fall_touch_where_they_land);
     RUN(short_ticks_and_gaps_close);
     RUN(refuses_uneven_times_and_missing_memory);
     return check_done();
