@@ -328,8 +328,15 @@ class Bake:
             for share in self.shares:
                 share.stop()
             raise
+        try:
+            for share in self.shares:
+                share.ready()
+        except BaseException:
+            for share in self.shares:
+                share.out.withdraw()
+            raise
         for share in self.shares:
-            share.publish()
+            share.out.publish()
 
     def _frames(self, sims, seconds):
         """Simulate and write."""

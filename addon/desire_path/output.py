@@ -10,7 +10,7 @@ An Output holds one folder and knows nothing of what is baked; a bake of several
     out = Output(folder, owner)
     out.open()                        # lock, put right what a killed bake left; DesirePathError when refused
     .. write below out.new ..
-    out.publish()                     # or out.publish_stopped()
+    out.ready(), out.publish()        # or out.publish_stopped()
     out.release()                     # always
 
 Publishing. All names change at one moment, though no system can exchange several names at once: each name that is
@@ -190,11 +190,29 @@ class Output:
 
     # ---- the new for the old ------------------------------------------------------------------------------
 
-    def publish(self):
-        """Let everything in bake.new take the place of what is shown, at once; it is on the disk before."""
+    def ready(self):
+        """Bake.new is whole, and on the disk: from here on publish() or whoever comes next lets it be shown.
+
+        A bake of several folders makes all of them ready before it publishes the first.
+        """
         with contextlib.suppress(OSError):
             os.rmdir(self.path("maps"))  # no maps were asked for
         disk.sync(self.new)
+        self._clear(OLD)
+        os.makedirs(os.path.join(self.folder, OLD), exist_ok=True)
+        shown = os.path.join(self.folder, SHOWN)
+        try:
+            os.symlink(OLD, shown)
+        except (OSError, NotImplementedError):  # a disk without links
+            whole.write_json(shown, [n for n in NAMES if os.path.lexists(self.path(n))], "The list of files")
+
+    def withdraw(self):
+        """Take ready() back, before publish()."""
+        with contextlib.suppress(OSError):
+            os.unlink(os.path.join(self.folder, SHOWN))
+
+    def publish(self):
+        """Let everything in bake.new, which is ready, take the place of what is shown, at once."""
         self._exchange()
 
     def publish_stopped(self):
@@ -202,18 +220,12 @@ class Output:
         if is_whole(os.path.join(self.folder, "frames")):
             return
         delete(self.new, INSIDE[""], itself=False)
+        self.ready()
         self.publish()
 
     def _exchange(self):
         """From wherever a publication is to its end."""
         shown = os.path.join(self.folder, SHOWN)
-        if not os.path.lexists(shown):
-            self._clear(OLD)
-            os.makedirs(os.path.join(self.folder, OLD), exist_ok=True)
-            try:
-                os.symlink(OLD, shown)
-            except (OSError, NotImplementedError):  # a disk without links
-                whole.write_json(shown, [n for n in NAMES if os.path.lexists(self.path(n))], "The list of files")
         if os.path.islink(shown):
             if os.readlink(shown) == OLD:
                 for name in NAMES:

@@ -125,10 +125,10 @@ class Share:
         whole.write_json(self.out.path("frames", "index.json"), {**self.index, "complete": True},
                          "The index of the frames")
 
-    def publish(self):
-        """The bake is whole: it takes the place of what is shown."""
+    def ready(self):
+        """The bake is whole, here and soon on every ground."""
         self._close()
-        self.out.publish()
+        self.out.ready()
 
     def stop(self):
         """The bake was stopped: what there is of it is shown, unless a whole bake is."""

@@ -14,6 +14,7 @@ from desire_path import disk, maps, output, whole
 from desire_path.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
 from desire_path.output import NAMES, Output
+from desire_path.parcels import Parcel
 from desire_path.plants import Planting
 from desire_path.sim import Ground
 
@@ -64,6 +65,7 @@ for name in ("rename", "replace", "symlink", "unlink", "rmdir", "mkdir"):
 disk.swap = dying(disk.swap)
 out = output.Output({folder!r})
 out.open()
+out.ready()
 out.publish()
 out.release()
 """
@@ -104,6 +106,7 @@ def test_killed_at_any_step_a_folder_shows_one_bake(tmp_path, monkeypatch, can):
         out = Output(folder)
         out.open()
         if (folder / "bake.new").exists():
+            out.ready()
             out.publish()
         out.release()
         assert shown(folder) == new and (folder / "frames" / "notes.txt").read_text() == "mine"
@@ -112,6 +115,47 @@ def test_killed_at_any_step_a_folder_shows_one_bake(tmp_path, monkeypatch, can):
         if not died:
             break
     assert not died and seen == {True, False}
+
+
+def test_folders_of_one_bake_are_shown_together(tmp_path):
+    """Once all are ready, whoever comes next shows them; before, what is ready is taken back."""
+    for name, whole_bake in (("ready", True), ("taken back", False)):
+        outs = [Output(laid(tmp_path / name / tile)) for tile in ("east", "west")]
+        for out in outs:
+            out.open()
+            out.ready()
+        for out in outs:
+            if not whole_bake:
+                out.withdraw()
+            assert shown(Path(out.folder)) == dict.fromkeys(OLD, "old")
+            out.release()  # and no more: killed here
+        for out in outs:
+            output.settle(out.folder)
+            assert shown(Path(out.folder)) == (dict.fromkeys(NEW, "new") if whole_bake else dict.fromkeys(OLD, "old"))
+
+
+def test_a_ground_that_cannot_be_ready_holds_back_the_others(tmp_path, monkeypatch):
+    """Two grounds of a bake, and no room for the second one's last step: both show what they did."""
+    parcels = lambda soil: [Parcel(Ground.mesh([[x, -1, 0], [x + 1, -1, 0], [x + 1, 1, 0], [x, 1, 0]],
+                                               [[0, 1, 2], [0, 2, 3]]), [soil], tmp_path / name)
+                            for x, name in ((-1.0, "west"), (0.0, "east"))]
+    ready = Output.ready
+
+    def full(out):
+        if out.folder.endswith("east"):
+            raise OSError(28, "No space left on device", out.folder)
+        ready(out)
+
+    for _ in Bake(standing(), parcels("mud"), threads=1).run():
+        pass
+    before = [content(tmp_path / name) for name in ("west", "east")]
+    monkeypatch.setattr(Output, "ready", full)
+    with pytest.raises(DesirePathError, match="No space left"):
+        for _ in Bake(standing(), parcels("snow"), threads=1).run():
+            pass
+    for name in ("west", "east"):
+        output.settle(tmp_path / name)
+    assert [content(tmp_path / name) for name in ("west", "east")] == before
 
 
 KILLED = """
@@ -275,7 +319,7 @@ def test_a_bake_that_is_whole_but_not_shown_yet_is_not_made_again(tmp_path, monk
     """As when the last moment of a bake is the one in which it is killed."""
     baked(tmp_path)
     with monkeypatch.context() as cut:
-        cut.setattr(Output, "publish", lambda out: 1 / 0)
+        cut.setattr(Output, "ready", lambda out: 1 / 0)
         with pytest.raises(ZeroDivisionError):
             baked(tmp_path, cell_size=0.02)
     kept = tmp_path / "bake.new" / "frames" / "trail_0005.exr"
