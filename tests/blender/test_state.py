@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 import desire_path
-from desire_path.blender import axes, compat, op_bake, playback
+from desire_path.blender import axes, compat, home, op_bake, playback
 from scenes import meshes, people
 from test_bake import scene
 from test_home import files, opened, saved
@@ -174,6 +174,26 @@ def test_a_bake_that_was_stopped(folder):
     assert ground.desire_path.bake_state == "OUTDATED" and shown(ground, 12)[0].tobytes() == before.tobytes()
     walker.desire_path.mass = 75.0
     assert ground.desire_path.bake_state == "FRESH"
+    ground.location.x = 0.1  # what plays was pressed before it was moved
+    bpy.context.view_layer.update()
+    stopped(0.4)
+    assert ground.desire_path.bake_state == "OUTDATED" and shown(ground, 12)[0].tobytes() == before.tobytes()
+
+
+def test_a_first_bake_in_another_file_that_was_stopped(folder):
+    ground, walker = saved(folder / "one.blend", frames=12, cell=0.03)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    before, _ = shown(ground, 12)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "two.blend"))
+    walker.desire_path.mass = 40.0
+    stopped(0.4)
+    for _ in range(2):
+        assert shown(ground, 12)[0].tobytes() == before.tobytes() and ground.desire_path.bake_state == "OUTDATED"
+        bpy.ops.wm.save_mainfile()
+        ground = opened(folder / "two.blend")
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert ground.desire_path.bake_state == "FRESH" and home.played(ground) == str(folder / "desire_path/two/Ground")
+    assert shown(ground, 12)[0].tobytes() != before.tobytes()
 
 
 def test_undone_bakes(folder):

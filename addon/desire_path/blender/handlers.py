@@ -36,7 +36,7 @@ def refresh(scene, obj):
     if index.owner and settings.bake_id and index.owner != settings.bake_id:
         return  # of another ground, whose folder it is now
     mark = playback.mark(index.folder, index, index.frames)
-    if ours is not None and ours.node_group[playback.TAG] == mark:
+    if ours is not None and ours.node_group[playback.TAG] == mark or show.plays_on(obj, index):
         return
     box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
     with suppress(DesirePathError):  # its state says what is wrong

@@ -18,7 +18,7 @@ from ..output import check_idle
 from . import home, inputs, moves, op_plants, reach, sample, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import AsksFirst, Refusal, active, sentence, walkers
-from .show import free, play
+from .show import free, play, plays_on
 
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -128,12 +128,14 @@ class Job:
                 f"{', '.join(share.out.folder for share in shares)}.")
 
     def play(self):
-        """Play what a bake that was not whole has left, on all its grounds."""
+        """Play what a bake that was not whole has left, on all its grounds that play no whole one."""
+        from ..bake import read_index
         for share in self.bake.shares:
             obj = bpy.data.objects.get(share.parcel.name)
             if obj is not None:
                 try:
-                    play(obj, self.surfaces[obj.name])
+                    if not plays_on(obj, read_index(folder(obj))):
+                        play(obj, self.surfaces[obj.name])
                 except DesirePathError:
                     pass  # nothing was written
 
@@ -249,7 +251,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             bpy.ops.ed.undo_push(message="Stopped Bake")
         obj = bpy.data.objects.get(self.job.name)
         text = obj.desire_path.missing if obj is not None else ""
-        self.report({"WARNING"}, text or "The bake was stopped.")
+        self.report({"WARNING"}, text or "The bake was stopped; the one from before plays on.")
         return {"CANCELLED"}
 
     def leave(self, context):

@@ -3,6 +3,7 @@ import os
 
 import bpy
 
+from ..errors import DesirePathError
 from . import cover, ground, home, playback, plants, stems, trash
 from .home import folder
 
@@ -38,6 +39,21 @@ def play(obj, surface, baked=None):
     settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
                                        surface.scale) if index.complete else None
     return index, warnings
+
+
+def plays_on(obj, index):
+    """Whether a ground goes on with what it plays: the whole bake in its folder, whose index this is, or a whole one
+    from elsewhere as long as the one in its folder is not."""
+    from ..bake import read_index
+    ours, place = playback.modifier(obj), home.played(obj)
+    if ours is None or not place:
+        return False
+    if place == folder(obj):
+        return index.complete and ours.node_group[playback.TAG] == playback.mark(index.folder, index, index.frames)
+    try:
+        return not index.complete and read_index(place).complete
+    except DesirePathError:
+        return False
 
 
 def show_plants(obj):
