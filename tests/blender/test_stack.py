@@ -43,6 +43,18 @@ def real_scatter(wire, geometry):
     return joined(wire, wire.add("GeometryNodeRealizeInstances", Geometry=stones(wire, geometry)).outputs[0], geometry)
 
 
+def scatter_around(wire, geometry):
+    """Real stones before the ground's own points and after them."""
+    real = [wire.add("GeometryNodeRealizeInstances", Geometry=stones(wire, geometry, density)).outputs[0]
+            for density in (100.0, 200.0)]
+    return joined(wire, real[0], geometry, real[1])
+
+
+def subdivided(wire, geometry):
+    """Its points stay where they are, and more lie between them."""
+    return wire.add("GeometryNodeSubdivideMesh", Mesh=geometry, Level=1).outputs[0]
+
+
 def raised(wire, geometry):
     return wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=(0.0, 0.0, 0.5)).outputs[0]
 
@@ -73,7 +85,8 @@ def place(obj):
 
 def test_what_nodes_do_is_seen():
     before = ids()
-    for build, wanted in ((scatter, (0, False, False)), (real_scatter, (0, False, False)), (raised, (1, False, False)),
+    for build, wanted in ((scatter, (0, False, False)), (real_scatter, (0, False, False)),
+                          (scatter_around, (0, False, False)), (subdivided, (1, False, False)), (raised, (1, False, False)),
                           (raised_and_scattered, (1, False, True)), (twice, (1, False, False)),
                           (tiled, (1, True, False)), (coloured, (1, False, False))):
         obj = meshes.grid(21, 21, 0.1)

@@ -18,6 +18,7 @@ STANDS = {"PARTICLE_SYSTEM", "COLLISION", "SURFACE", "WEIGHTED_NORMAL", "NORMAL_
 LEVELS = {"SUBSURF": ("levels", "render_levels"), "MULTIRES": ("levels", "render_levels"),
           "SCREW": ("steps", "render_steps"), "OCEAN": ("viewport_resolution", "resolution")}
 SPREAD = 1.25  # what a scatter adds reaches over no more than this many times the ground's own rectangle
+ALIKE = 16  # points in the place of a ground's first one that may be that one
 MOST_FACES = 2e7  # subdivision goes no farther than this where the ground is read
 
 
@@ -204,9 +205,12 @@ def _kind(was, now):
 
 
 def _added(was, now):
-    """Points that come on top of a mesh that is still there, first or last; None where it is not."""
-    for at, corner in ((0, 0), (len(now.points) - len(was.points), len(now.corners) - len(was.corners))):
-        if min(at, corner) >= 0 and np.array_equal(now.points[at:at + len(was.points)], was.points) \
-                and np.array_equal(now.corners[corner:corner + len(was.corners)] - at, was.corners):
-            return np.concatenate([now.points[:at], now.points[at + len(was.points):]])
+    """Points that come on top of a mesh that is still there as it was; None where it is not."""
+    count, sides = len(was.points), len(was.corners)
+    first = np.flatnonzero((now.points == was.points[0]).all(axis=1))[:ALIKE] if count else [0]
+    for at in first:
+        corner = np.flatnonzero(now.corners == was.corners[0] + at)[:1] if sides else [0]
+        if (len(corner) and np.array_equal(now.points[at:at + count], was.points)
+                and np.array_equal(now.corners[corner[0]:corner[0] + sides] - at, was.corners)):
+            return np.concatenate([now.points[:at], now.points[at + count:]])
     return None
