@@ -46,9 +46,10 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         double slope = INFINITY;  // the flattest heap reaches farthest
         for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
-        const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
+        const bool   paper = sim->options.heap_law == DP_HEAP_PAPER;
+        const double rim = paper ? sim->options.rim_width : 0.0;
         const double reach = fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->cell;
-        if (spilled) limb->margin *= SPILL_GROWTH;
+        if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
         limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, reach) + slips(sim));
     } else {
         limb->patch = limb->trodden;
