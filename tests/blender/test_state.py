@@ -6,9 +6,10 @@ import bpy
 import numpy as np
 
 import desire_path
+from desire_path import output
 from desire_path.blender import axes, compat, home, op_bake, playback
 from scenes import meshes, people
-from test_bake import scene
+from test_bake import refused, scene
 from test_home import files, opened, saved
 from test_playback import shown
 from test_sample import ids
@@ -258,3 +259,16 @@ def test_what_was_freed_goes_with_the_file(folder):
             desire_path.register()
         ground = opened(folder / "one.blend")
         assert ground.desire_path.bake_state == "MISSING"
+
+
+def test_free_that_is_refused_changes_nothing(folder):
+    ground, _ = baked(folder)
+    other = output.Output(str(folder / "bake"))
+    other.open()  # somebody bakes there
+    try:
+        before, _ = shown(ground, 8)
+        refused(bpy.ops.object.desire_path_free, "Another bake", "is running")
+        assert shown(ground, 8)[0].tobytes() == before.tobytes() and playback.modifier(ground) is not None
+    finally:
+        other.release()
+    assert ground.desire_path.bake_state == "FRESH"

@@ -82,10 +82,10 @@ def was_whole(index):
 def free(obj):
     """Give the mesh back as it was and delete the files of its bake; those of another ground or file stay."""
     settings = obj.desire_path
+    if settings.folder and home.may_free(obj):  # first: it may be refused
+        trash.free(folder(obj), settings.bake_id, home.leave if settings.folder_auto else str)
     playback.detach(obj)
     plants.show(obj)
     stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
-    if settings.folder and home.may_free(obj):
-        trash.free(folder(obj), settings.bake_id, home.leave if settings.folder_auto else str)
     settings.summary = ""
