@@ -17,6 +17,7 @@ LEG = 0.530 - 0.039  # hip to ankle of one who stands, in heights
 BODY_MASS_INDEX = 22.0  # [kg/m^2]
 FILLS = 14.0  # a grown person's mass over his height cubed [kg/m^3]
 PEOPLE = (0.3, 4.0)  # nobody with two legs is shorter or taller, if he is no doll and no giant [m]
+CREATURES = (0.008, 60.0)  # how tall anything on legs may be [m]
 AMISS = (10.0, 300.0)  # times too heavy or too light for one's height: odd, and impossible
 UNITS = ((0.01, "centimetres"), (0.001, "millimetres"), (0.0254, "inches"), (0.1, "decimetres"), (0.3048, "feet"))
 SHRUNK = (100.0, 1000.0, 10.0)  # what undoes a scale that was applied once too often
@@ -102,10 +103,11 @@ def sentence(name, mass, height):
             "to use another.")
 
 
-def odd_size(name, height, kilograms=None):
+def odd_size(name, height, kilograms=None, chosen=True):
     """(a sentence about one with two legs who is of no person's size, can that not be?); None where all is well.
 
-    kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large.
+    kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large. chosen: is it
+    somebody's choice? What nobody chose refuses no creature of a possible size.
     """
     if PEOPLE[0] <= height <= PEOPLE[1]:
         return None
@@ -120,4 +122,7 @@ def odd_size(name, height, kilograms=None):
     size = f"'{name}' is {height:.3g} m tall"
     if off < AMISS[1]:
         return f"{size}: if that is not meant, {seems}.", False
+    if not chosen and CREATURES[0] <= height <= CREATURES[1]:
+        return (f"{size} and weighs {kilograms:.3g} kg, since nobody gave it another mass: give it the mass of its size, or, "
+                f"if that size is not meant, {seems}."), False
     return f"{size} and weighs {kilograms:.3g} kg, which cannot be: {seems}, or give it the mass of its size.", True

@@ -59,6 +59,16 @@ def test_who_is_meant_to_be_a_giant_or_a_dwarf_walks():
     assert not any("tall" in each for each in record(walker).warnings)
 
 
+def test_whose_mass_nobody_chose_walks_at_any_size_a_creature_can_have():
+    for size in (0.01, 17.0):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        walker = person(size)
+        told = record(walker).warnings
+        assert "m tall and weighs 75 kg, since nobody gave it another mass" in told[0], told
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert "which cannot be" in refused(lambda: record(person(100.0)))
+
+
 def test_a_dwarf_with_a_persons_mass_is_asked_about():
     walker = person(0.04)
     walker.desire_path.mass = 75.0

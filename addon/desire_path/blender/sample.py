@@ -139,7 +139,8 @@ def odd_size(armature, shape, found):
     height = mass.standing_height(shape, found)
     if height is None or not (found.hips and all(foot.thigh for foot in found.feet)):
         return None
-    return mass.odd_size(armature.name, height, armature.desire_path.mass or None)
+    return mass.odd_size(armature.name, height, armature.desire_path.mass or None,
+                         armature.desire_path.is_property_set("mass"))
 
 
 def believed(armature, shape, found):
