@@ -109,15 +109,13 @@ static bool keep_up(const PlantProbe* probe, int own, int other, double apart, d
     return dp_length(dp_sub(get(block, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
 }
 
-// rest distance of two particles of a row, on sloping ground
+// rest distance of two particles of a row, where their feet stand
 static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a, int b, int l)
 {
     const int    rows = stand->shape.rows;
     const float *ra = stand->rest + 3 * a, *rb = stand->rest + 3 * b;
-    const float *fa = stand->rest + 3 * (a - a % rows), *fb = stand->rest + 3 * (b - b % rows);
-    const float  c = block->turn[0][l], s = block->turn[1][l];
-    const float  x = fb[0] - fa[0], y = fb[1] - fa[1];
-    const float  lift = block->slope[0][l] * (c * x - s * y) + block->slope[1][l] * (s * x + c * y);
+    const float* z = block->state->at[2] + l;
+    const float  lift = z[(b - b % rows) * DP_LANES] - z[(a - a % rows) * DP_LANES];
     const float  dx = rb[0] - ra[0], dy = rb[1] - ra[1], dz = rb[2] - ra[2] + lift;
     return sqrt((double)(dx * dx + dy * dy + dz * dz));
 }

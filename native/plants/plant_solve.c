@@ -115,8 +115,8 @@ void plant_soften(const PlantStand* stand, float* soft, double h)
     }
 }
 
-// stems stand upright on sloping ground: what joins them is as long as it is there; what is limp
-// lets go of its neighbours
+// stems stand upright on whatever ground their feet found: what joins them is as long as it is
+// there, be it on a slope or over the edge of a print; what is limp lets go of its neighbours
 DP_CLONES
 static void lengths_of_edges(const PlantStand* stand, const PlantBlock* block, float* length)
 {
@@ -124,18 +124,15 @@ static void lengths_of_edges(const PlantStand* stand, const PlantBlock* block, f
         const PlantEdge* edge = &stand->edge[e];
         const int        rows = stand->shape.rows;
         const float *    a = stand->rest + 3 * edge->a, *b = stand->rest + 3 * edge->b;
-        const float*     fa = stand->rest + 3 * (edge->a / rows * rows);
-        const float*     fb = stand->rest + 3 * (edge->b / rows * rows);
+        const float*     za = block->state->at[2] + edge->a / rows * rows * DP_LANES;  // their feet
+        const float*     zb = block->state->at[2] + edge->b / rows * rows * DP_LANES;
         const float      dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
-        const float      fx = fb[0] - fa[0], fy = fb[1] - fa[1];  // between their feet
         float *          to = length + 2 * e * DP_LANES, *joined = to + DP_LANES;
         const float*     la = block->state->limp + edge->a * DP_LANES;
         const float*     lb = block->state->limp + edge->b * DP_LANES;
         LANES
         {
-            const float c = block->turn[0][l], s = block->turn[1][l];
-            const float up = dz + block->slope[0][l] * (c * fx - s * fy) +
-                             block->slope[1][l] * (s * fx + c * fy);
+            const float up = dz + (zb[l] - za[l]);
             to[l] = sqrtf(dx * dx + dy * dy + up * up);
             joined[l] = (1.0f - la[l]) * (1.0f - lb[l]);
         }

@@ -45,6 +45,42 @@ TEST(limp_stems_lie_still_over_a_rim)
     dp_plants_destroy(plants);
 }
 
+TEST(stems_stand_upright_on_both_sides_of_an_edge)
+{
+    float               height[41 * 41];  // a print's edge: 2 cm down within one cell
+    const DpPlantGround ground = {.nx = 41,
+                                  .ny = 41,
+                                  .row = 41,
+                                  .cell = CELL,
+                                  .x0 = -0.205,
+                                  .y0 = -0.2,
+                                  .height = height};
+    for (int k = 0; k < 41 * 41; ++k) height[k] = k % 41 > 20 ? -0.02f : 0.0f;
+    for (int form = 0; form < 2; ++form) {
+        DpPlantKind kind = dp_plant_kind_default();
+        kind.form = form;
+        const DpPlantShape shape = dp_plant_shape(&kind);
+        DpPlants*          plants = lawn(&kind, 1, 1, 0.1, 3);
+        float*             push = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
+        double*            strength = dp_alloc((size_t)shape.bends, sizeof(double));
+        DpPlantsTold       told;
+        for (int p = 0; p < shape.particles; ++p) push[3 * p] = p % shape.rows > 1 ? 0.01f : 0.0f;
+        CHECK(dp_plants_write(plants, 0, 0, NULL, push, NULL) == DP_OK);
+        for (int k = 0; k < 600; ++k)
+            CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+        const Strain s = strain_of(plants, &kind, 1);
+        CHECK(dp_plants_read(plants, 0, 0, NULL, NULL, strength) == DP_OK);
+        double weakest = 1.0;
+        for (int b = 0; b < shape.bends; ++b) weakest = fmin(weakest, strength[b]);
+        printf("  %.2f mm off upright after ten seconds, reserves %.3f\n", 1e3 * s.away, weakest);
+        CHECK(s.lowest < -0.019);  // some stand on either side
+        CHECK(s.away < 0.002);
+        CHECK_NEAR(weakest, kind.strength, 1e-6);
+        dp_free(push), dp_free(strength);
+        dp_plants_destroy(plants);
+    }
+}
+
 TEST(what_stands_over_all_ground_asks_for_none)
 {
     const DpPlantKind   kind = dp_plant_kind_default();
@@ -103,6 +139,7 @@ TEST(of_two_grids_the_first_counts_and_functions_come_last)
 int main(void)
 {
     RUN(limp_stems_lie_still_over_a_rim);
+    RUN(stems_stand_upright_on_both_sides_of_an_edge);
     RUN(what_stands_over_all_ground_asks_for_none);
     RUN(of_two_grids_the_first_counts_and_functions_come_last);
     return check_done();
