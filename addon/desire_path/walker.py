@@ -14,7 +14,7 @@ from .errors import DesirePathError
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
 PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carries and takes no print
 TELLING = 0.5  # who stands there for less is not told of [s]
-OFF_GROUND, OFF_MOST = 0.06, 0.10  # what is farther over the ground stands on something else [leg lengths], [m]
+OFF_GROUND = 0.06  # what is farther over the ground stands on something else [leg lengths]
 MODELS = {"inertia": 0, "impulse": 1}
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
 GRAVITY = 9.81
@@ -236,7 +236,7 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
-    warnings += _elsewhere(even, below, touching, clearance, max(min(OFF_GROUND * gait.leg[0], OFF_MOST), 2.0 * cell))
+    warnings += _elsewhere(even, below, touching, clearance, max(OFF_GROUND * gait.leg[0], 2.0 * cell))
     if every > 1:
         touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
     elif not every:
