@@ -358,7 +358,7 @@ def seed_of(plantings):
 def _told(value):
     """A value as a sentence shows it."""
     if isinstance(value, (int, float)):
-        return f"{float(value):g}" if abs(value) < 1e300 else "more than 1e300"
+        return f"{float(value):g}" if not abs(value) >= 1e300 else "more than 1e300"
     return repr(value)[:40]
 
 

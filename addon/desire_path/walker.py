@@ -236,7 +236,7 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
-    warnings += _elsewhere(even, below, touching, clearance, max(OFF_GROUND * gait.leg[0], 2.0 * cell))
+    warnings += _elsewhere(even, below, touching, clearance, max(OFF_GROUND * gait.leg[0], 2.0 * cell), size)
     if every > 1:
         touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
     elif not every:
@@ -253,7 +253,7 @@ def _settles(gait, touching, tau):
     return out
 
 
-def _elsewhere(gait, below, touching, clearance, most):
+def _elsewhere(gait, below, touching, clearance, most, size):
     """Mark parts that stand farther over the ground than `most` [m]; sentences about who does."""
     over = point_places(gait)[..., 2] - below - clearance[:, None]
     lowest = np.stack([np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
@@ -264,10 +264,10 @@ def _elsewhere(gait, below, touching, clearance, most):
     for w, name in enumerate(gait.walker_name):
         when = up[gait.limb_walker[gait.part_limb] == w].any(axis=0)
         edges = np.flatnonzero(np.diff(np.concatenate([[0], when, [0]])))
-        if len(edges) and np.diff(edges)[::2].max() >= TELLING * (gait.rate() or 1.0):
+        if len(edges) and np.diff(edges)[::2].max() >= TELLING * np.sqrt(size) * (gait.rate() or 1.0):
             high = float(np.median(lowest[gait.limb_walker[gait.part_limb] == w][:, when].min(axis=0)))
-            told.append(f"{name} stands on something else than the ground, about {high:.2g} m over it, first at frame "
-                        f"{gait.frame(when.argmax()):.0f}: there is no print of that; make it a ground if it is to "
+            told.append(f"{name} stands on something else than the ground, of which there is no print: about {high:.2g} "
+                        f"m over it, first at frame {gait.frame(when.argmax()):.0f}; make that a ground if it is to "
                         "take prints.")
     return told
 

@@ -244,7 +244,7 @@ def test_a_kind_is_saved_and_shared(tmp_path):
 
 @pytest.mark.parametrize("text, words", [
     ("", "not a plant kind"), ("[]", "not a plant kind"), ('{"height": 1}', "of this version"),
-    ('{"desire_path_plant": 1, "wings": 2}', "says wings"), ('{"desire_path_plant": 1, "height": "x"}', "height of x"),
+    ('{"desire_path_plant": 1, "wings": 2}', "says wings"), ('{"desire_path_plant": 1, "height": "x"}', "height of 'x'"),
     ('{"desire_path_plant": 1, "height": -1}', "height of -1"), ('{"desire_path_plant": 1, "form": "tree"}', "form"),
     ('{"desire_path_plant": 1, "spacing": 0.001}', "too many particles"),
     ('{"desire_path_plant": 1, "break_angle": 0.01}', "below its degrade_angle"),

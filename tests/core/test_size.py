@@ -47,7 +47,7 @@ def test_contacts_and_forces_scale(name):
         assert np.sqrt(((found.force / 2.0 - want.force / 75.0) ** 2).mean()) < 0.02, by
         assert [w.split(" of ")[0] for w in found.warnings] == [w.split(" of ")[0] for w in want.warnings]
         on, _ = walker.contacts(gait)
-        assert np.array_equal(on, found.touching)
+        assert np.array_equal(on != 0, found.touching != 0)
 
 
 def test_recordings_of_before_tell_their_legs():
