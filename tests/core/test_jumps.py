@@ -199,7 +199,7 @@ def test_loads_of_a_recording_are_cut_where_it_jumps():
     whole, loads = walker.loads(gait), walker.loads(before(gait, 1, (1.7, 0.3, 0.0)))
     assert "jumps 1.7 m" in loads.warnings[0] and loads.warnings[1:] == whole.warnings
     np.testing.assert_allclose(loads.force[:, 2:], whole.force[:, 1:], atol=1e-6)
-    np.testing.assert_array_equal(walker.contacts(before(gait, 1, (1.7, 0.3, 0.0)))[0], loads.touching)
+    np.testing.assert_array_equal(walker.contacts(before(gait, 1, (1.7, 0.3, 0.0)))[0] != 0, loads.touching != 0)
 
 
 def test_who_has_no_feet_does_not_jump():
