@@ -59,6 +59,11 @@ class Progress:
     fraction: float  # 0..1
 
 
+def _passes(gait):
+    """(first sample, sample after the last) of each pass in time: who walk at once make one together."""
+    return list(dict.fromkeys((first, after) for first, after, _, _ in turns_of(gait)))
+
+
 class Bake:
     """One bake: make it, run it, read its report.
 
@@ -89,7 +94,7 @@ class Bake:
         if film not in (None, *FILMS):
             raise DesirePathError(f"There is no film '{film}': choose {' or '.join(FILMS)}.")
         self.gait = gait = jumps.found(gait.check())
-        self.passes = turns_of(gait)
+        self.passes = _passes(gait)
         self.film = film or FILMS[len(self.passes) > 1]
         self.parcels = _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs)
         self.folder = self.parcels[0].folder
@@ -191,7 +196,7 @@ class Bake:
         and the Shares of those that the walk reaches."""
         gait = self.stepped = self.gait.resample(self._rate())
         self.times = gait.time - gait.time[0]
-        self.ends = [min(after, len(gait.time) - 1) for _, after, _, _ in turns_of(gait)]
+        self.ends = [min(after, len(gait.time) - 1) for _, after in _passes(gait)]
         storeys = [[self.parcels[number] for number in storey] for storey in fields.storeys(self.parcels, self.gait)]
         sims = [self._simulation(storey) for storey in storeys]
         walks = walker.Walker(self.load_model, settle_time=sims[0].settle_time, cell=self.cell_size)  # tau of TRAIL (3)

@@ -429,6 +429,56 @@ def test_two_walkers(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
 
 
+def lane_of(ground, frames):
+    """How far the ground's points left of x = 1 are pressed at each of the frames (T, n) [m]."""
+    rest, _ = shown(ground, ground.desire_path.frame_start - 1)
+    left = rest[:, 0] < 1.0
+    return np.array([rest[left, 2] - shown(ground, frame)[0][left, 2] for frame in frames])
+
+
+def test_who_walks_beside_another_leaves_each_print_when_it_treads(folder):
+    ground, walker = scene(folder, frames=30, size=(5.0, 2.6))
+    frames = (1, 8, 15, 22, 30)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    alone = lane_of(ground, frames)
+    other = people.walk(people.biped("Second"), frames=30)
+    other.location.x = 2.0
+    meshes.activate(other)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    meshes.activate(ground)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert json.loads((folder / "bake" / "report.json").read_text())["passes"] == 1
+    assert alone.max() > 0.005 and alone[0].max() < 1e-4  # nothing before they tread
+    np.testing.assert_allclose(lane_of(ground, frames), alone, atol=1e-3)
+
+
+def test_who_is_off_in_renders_does_not_walk_and_who_is_hidden_does(folder):
+    ground, walker = scene(folder, frames=16)
+    first = pressed(ground)
+    other = people.walk(people.biped("Second"), frames=16)
+    other.location.x = 0.3
+    meshes.activate(other)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    apart = bpy.data.collections.new("Apart")
+    bpy.context.scene.collection.children.link(apart)
+    bpy.context.scene.collection.objects.unlink(other)
+    apart.objects.link(other)
+    apart.hide_render = True
+    meshes.activate(ground)
+    assert pressed(ground).tobytes() == first.tobytes()
+    assert any("'Second' is off in renders" in each for each in json.loads(ground.desire_path.summary)["warnings"])
+    apart.hide_render = False
+    bpy.context.view_layer.layer_collection.children["Apart"].exclude = True
+    assert pressed(ground).tobytes() == first.tobytes()
+    bpy.context.view_layer.layer_collection.children["Apart"].exclude = False
+    other.hide_viewport = True
+    assert (pressed(ground) > 0).sum() > 1.4 * (first > 0).sum() and other.hide_viewport
+    other.hide_viewport = False
+    walker.desire_path.is_walker = False
+    apart.hide_render = True
+    refused(bpy.ops.object.desire_path_bake, "'Second' is off in renders")
+
+
 def test_copies_and_names_do_not_mix_bakes(folder):
     (folder / "here").mkdir()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "a.blend"))

@@ -49,6 +49,16 @@ def strip_of(obj, start, keys=(1, 41)):
     return made
 
 
+def test_frames_hold_all_of_a_clip_that_ends_between_two():
+    obj = people.walk(people.biped(), frames=20)
+    for curve in compat.curves_played(obj.animation_data):
+        for key in curve.keyframe_points:
+            for at in (key.co, key.handle_left, key.handle_right):
+                at.x = 1.0 + (at.x - 1.0) * 0.5
+        curve.update()
+    assert moves.frame_range(bpy.context.scene, obj) == (1, 11)  # it ends at 10.5
+
+
 def test_strips_count_where_they_lie_and_are_heard():
     obj = still()
     strip_of(obj, 11)

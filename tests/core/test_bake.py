@@ -15,7 +15,7 @@ from desire_path import bake as bakes
 from desire_path import maps
 from desire_path.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.gait import Sole
+from desire_path.gait import Gait, Sole
 from desire_path.sim import Ground, Simulation
 
 from tests.scenes import gaits
@@ -406,7 +406,7 @@ sys.path[:0] = [{addon!r}, {repo!r}]
 from tests.core.test_bake import standing
 from desire_path.bake import Bake
 from desire_path.errors import DesirePathError
-from desire_path.gait import Sole
+from desire_path.gait import Gait, Sole
 from desire_path.sim import Ground, Simulation
 bake = Bake(standing(), Ground.flat(), "snow", {folder!r}, threads=1, cell_size=0.002)
 run = bake.run()
@@ -464,3 +464,11 @@ def test_a_print_down_to_the_rigid_ground_is_told(tmp_path):
     assert any("rigid ground" in warning for warning in bake.report["warnings"])
     bake, _ = baked(tmp_path / "light")
     assert not any("rigid ground" in warning for warning in bake.report["warnings"])
+
+
+def test_who_walk_at_once_are_filmed_frame_by_frame(tmp_path):
+    one, _ = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=1.0, rate=24.0)
+    two = replace(one, pose=one.pose + np.array([2.0, 0, 0, 0, 0, 0, 0]), com=one.com + (2.0, 0, 0))
+    job = Bake(Gait.join([one, two]), Ground.flat(), "mud", tmp_path, cell_size=0.02)
+    assert job.film == "frames" and len(job.passes) == 1
+    assert (job.frame_start, job.frame_end) == (1, len(one.time))

@@ -29,8 +29,8 @@ def frame_range(scene, obj):
     if found.goes_on:
         spans.append((scene.frame_start, scene.frame_end))
     if spans:
-        first = math.ceil(min(span[0] for span in spans) - 1e-3)
-        last = math.floor(max(span[1] for span in spans) + 1e-3)
+        first = math.floor(min(span[0] for span in spans) + 1e-3)  # the frames that hold all of it
+        last = math.ceil(max(span[1] for span in spans) - 1e-3)
         if last > first:
             return first, last
     return scene.frame_start, scene.frame_end

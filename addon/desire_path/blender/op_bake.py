@@ -17,7 +17,7 @@ from ..errors import DesirePathError
 from ..output import check_idle
 from . import home, inputs, moves, op_plants, reach, sample, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
-from .op_walkers import AsksFirst, Refusal, active, sentence, walkers
+from .op_walkers import AsksFirst, Refusal, absent, active, sentence, walkers
 from .show import free, play, plays_on
 
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
@@ -43,7 +43,8 @@ class Job:
             raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
         there = walkers(scene, obj)
         if not there and not any(walkers(scene, each) for each in reach.others(scene, obj)):
-            raise DesirePathError(NOBODY.format(obj.name))
+            raise DesirePathError(" ".join(absent(scene, obj)) or NOBODY.format(obj.name))
+        self.warnings += absent(scene, obj)
         inputs.check((obj,), there)
         first, last = moves.follow(scene, obj, there)
         if there and last <= first:

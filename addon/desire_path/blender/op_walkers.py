@@ -4,7 +4,7 @@ from bpy.props import IntProperty, StringProperty
 
 from .. import rigs
 from ..errors import DesirePathError
-from . import axes, moves, playback, plants, props, sample
+from . import axes, moves, playback, plants, props, sample, worn
 
 
 WALKERS = {"ARMATURE", "MESH"}
@@ -63,7 +63,17 @@ def grounds(scene):
 
 
 def walkers(scene, ground):
-    """Who walks on a ground: armatures, and meshes that move as rigid bodies."""
+    """Who walks on a ground: armatures, and meshes that move as rigid bodies, unless renders leave them out."""
+    return [obj for obj in _chosen(scene, ground) if worn.walks(scene, obj)]
+
+
+def absent(scene, ground):
+    """Sentences about walkers of a ground that renders leave out."""
+    return [f"'{obj.name}' is off in renders, by itself or by its collection, and leaves no prints."
+            for obj in _chosen(scene, ground) if not worn.walks(scene, obj)]
+
+
+def _chosen(scene, ground):
     return [obj for obj in scene.objects if obj.type in WALKERS and obj.desire_path.is_walker
             and obj.desire_path.ground == ground]
 

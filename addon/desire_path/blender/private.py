@@ -21,6 +21,19 @@ def private_scene(scene, *objects):
         bpy.data.scenes.remove(own)
 
 
+@contextmanager
+def looked_at(*objects):
+    """Objects that are disabled in viewports are looked at all the same: renders show them."""
+    hidden = [each for each in objects if each.hide_viewport]
+    for each in hidden:
+        each.hide_viewport = False
+    try:
+        yield
+    finally:
+        for each in hidden:
+            each.hide_viewport = True
+
+
 def evaluated(own, obj, frame):
     """The object as it is at a frame (a float: sub-frames are evaluated) of a private scene."""
     whole = math.floor(frame)

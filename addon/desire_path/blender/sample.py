@@ -17,7 +17,7 @@ from ..errors import DesirePathError
 from ..foot import FootShape
 from ..gait import Gait
 from . import axes, clock, compat, playback, ride
-from .private import evaluated, private_scene
+from .private import evaluated, looked_at, private_scene
 from .worn import skin, tread
 
 STIFF = 0.01  # a rigid body may change by so much of its size
@@ -206,7 +206,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     if armature.type == "MESH":
         return _solid(scene, armature, frames, samples, rate, scale)
-    with still(armature), private_scene(scene, armature) as own, ride.on(own, settings.ground, frame_start) as carry:
+    with looked_at(armature), still(armature), private_scene(scene, armature) as own, ride.on(own, settings.ground, frame_start) as carry:
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found, volume = rig(armature, shape), None
@@ -230,7 +230,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
 
 def _solid(scene, obj, frames, samples, rate, scale):
     """What a mesh did as one rigid body, as it is at the first frame, with its modifiers."""
-    with still(obj), private_scene(scene, obj) as own, ride.on(own, obj.desire_path.ground, frames[0]) as carry:
+    with looked_at(obj), still(obj), private_scene(scene, obj) as own, ride.on(own, obj.desire_path.ground, frames[0]) as carry:
         (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
         placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
     if simulated(obj):

@@ -7,7 +7,6 @@ answer, and once something has changed a timer looks again as soon as Blender re
 """
 import os
 import time
-from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -16,6 +15,7 @@ from bpy.app.handlers import persistent
 from ..errors import DesirePathError
 from . import home, inputs, playback, show
 from .op_walkers import walkers
+from .private import looked_at
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
 LOOKS = {  # the word and the icon of each in the panel
@@ -66,7 +66,8 @@ def _changed(obj, index):
     if not walkers(scene, obj) and not home.is_own(obj):
         return ""  # who walked is in another file, which tells
     try:
-        with _looked_at(scene, obj):
+        with looked_at(*walkers(scene, obj)):
+            bpy.context.view_layer.update()
             now = inputs.now(scene, obj)
     except DesirePathError as problem:
         return f"The scene has changed since the bake: {problem}"
@@ -76,20 +77,6 @@ def _changed(obj, index):
     text = " and ".join(filter(None, (", ".join(changed[:-1]), changed[-1])))
     one = len(changed) == 1 and not changed[0].endswith("s")
     return f"{text.capitalize()} {'has' if one else 'have'} changed since the bake: bake again."
-
-
-@contextmanager
-def _looked_at(scene, obj):
-    """Walkers that are hidden in viewports are looked at all the same."""
-    hidden = [each for each in walkers(scene, obj) if each.hide_viewport]
-    for each in hidden:
-        each.hide_viewport = False
-    try:
-        bpy.context.view_layer.update()
-        yield
-    finally:
-        for each in hidden:
-            each.hide_viewport = True
 
 
 # ---- for scripts ------------------------------------------------------------------------------------

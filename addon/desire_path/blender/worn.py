@@ -106,6 +106,15 @@ def drawn(scene, obj, frames=None):
     return not off and any(_within(each.layer_collection, obj) for each in used)
 
 
+def walks(scene, obj):
+    """Whether a walker leaves prints: renders show it, or what hangs on it. An armature itself is never rendered."""
+    if obj.type != "ARMATURE":
+        return drawn(scene, obj)
+    used = [each for each in scene.view_layers if each.use] or list(scene.view_layers)
+    return (any(_within(each.layer_collection, obj) for each in used)
+            or any(drawn(scene, each) for each in hanging(scene, obj)))
+
+
 def _within(layer, obj):
     if layer.collection.hide_render:
         return False
