@@ -96,6 +96,9 @@ class Output:
         while not os.path.lexists(place):
             self._made.append(place)
             place = os.path.dirname(place)
+        if os.path.lexists(self.folder) and not os.path.isdir(self.folder):
+            raise DesirePathError(f"{self.folder} is a {whole.kind_of(self.folder)}, in which no bake can lie: choose a "
+                                  "folder.")
         try:
             os.makedirs(self.folder, exist_ok=True)
         except (OSError, ValueError) as problem:

@@ -439,3 +439,14 @@ def test_maps_never_replace_what_is_no_file(tmp_path):
     with pytest.raises(DesirePathError, match="which is a link"):
         maps.write(tmp_path / "map.exr", {"height": np.zeros((2, 2))})
     assert not (tmp_path / "elsewhere").exists()
+
+
+@pytest.mark.parametrize("make, word", [(os.mkfifo, "pipe"), (lambda path: os.symlink("nowhere", path), "link"),
+                                        (lambda path: open(path, "w").close(), "file")])
+def test_what_stands_where_the_folder_is_to_be_is_named(tmp_path, make, word):
+    place = str(tmp_path / "bake")
+    make(place)
+    with pytest.raises(DesirePathError, match=f"is a {word}"):
+        for _ in Bake(standing(), Ground.flat(), "mud", place, cell_size=0.02).run():
+            pass
+    assert os.path.lexists(place) and os.listdir(tmp_path) == ["bake"]
