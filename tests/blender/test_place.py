@@ -332,7 +332,8 @@ def test_feet_go_down_into_their_prints(folder):
     down = {name: before[name][:, 2] - after[name][:, 2] for name in names}
     for name in names[:2]:
         assert down[name].max() > 0.02 and down[name].min() > -0.003
-    assert 0.01 < down["Hips"].mean() < 0.08 and np.abs(np.diff(down["Hips"])).max() < 0.006
+    assert 0.01 < down["Hips"].mean() < 0.08
+    assert np.abs(np.diff(down["Hips"][1:])).max() < 0.006  # frame 1 is cut off: a pose alone
     # baked once more the prints are the same
     deep = json.loads(settings.summary)["deepest_m"]
     meshes.activate(land)
