@@ -20,13 +20,14 @@ STAGES = {  # name -> module and function below desire_path
     "frames": ("sim", "Film.write_frame"),
     "flush": ("sim", "Simulation.flush"),
     "maps": ("sim", "Film.write_maps"),
-    "start maps": ("bake", "Bake._start_maps"),
+    "start maps": ("share", "Share._start_maps"),
     "write": ("maps", "write"),
     "read": ("maps", "read"),
-    "publish": ("bake", "publish"),
+    "publish": ("output", "Output.publish"),
     "attach": ("blender.playback", "attach"),
     "fill": ("blender.cover", "fill"),
     "points": ("blender.cover", "few_points"),
+    "marks": ("blender.inputs", "marks"),
 }
 
 
