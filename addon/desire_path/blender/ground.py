@@ -66,7 +66,8 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     trees += [weights_tree(groups)] if groups else []
     with stack.shaped(scene, obj, place.before, trees) as (own, copy):
         later = []
-        if frame_end is not None:
+        bare = not copy.modifiers and obj.data.shape_keys is None and obj.data.animation_data is None
+        if frame_end is not None and not bare:  # a bare mesh keeps its shape
             for frame in (frame_start + round(SOON * (frame_end - frame_start)), frame_end):
                 found = sample.evaluated(own, copy, frame)
                 later.append(compat.positions(found.data))
