@@ -27,7 +27,7 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     double* com =
         dp_door_open(&door, o_com, "com", 'd', DP_SHAPE3(gait.walkers, gait.times, 3), true);
     if (!com || !dp_py_enter(self)) goto done;
-    const DpPlaceOptions options = {.reach = number[0],
+    const DpPlaceOptions options = {.max_clearance = number[0],
                                     .toe_slope = number[1],
                                     .foot_radius = number[2],
                                     .body_radius = number[3],

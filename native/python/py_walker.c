@@ -161,7 +161,7 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpGait        gait = {0};
     DpLoadOptions o = dp_load_options_default();
     double n[10] = {o.cutoff_share, o.cutoff_low,    o.cutoff_high, o.cutoff_flight, o.cutoff_level,
-                    o.overlap_most, o.ramp_standing, o.ramp_alone,  o.ramp_trust,    o.reach};
+                    o.max_overlap, o.ramp_standing, o.ramp_alone,  o.ramp_trust,    o.support_span};
     PyObject* result = NULL;
     double *  out_force = NULL, *out_point = NULL;
     if (dp_door_gait(&door, tuple, &gait) < 0) goto done;

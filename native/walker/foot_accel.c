@@ -7,21 +7,14 @@
 //   above is the recording's noise, which the zero-moment point would take for steps.
 //   test_foot_force.c, level_noise_is_not_a_step.
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define STEP_SHORTEST 0.15  // touch-downs closer than this are one step             [s]
+#define MIN_STEP_TIME 0.15  // touch-downs closer than this are one step             [s]
 #define FALL_SEEN 0.1       // a fall shows in the mass centre's path over this       [s]
 #define FALLS 0.5           // who flies falls with this share of g at least          [-]
-
-static int by_value(const void* a, const void* b)
-{
-    const double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
 
 static bool begins(const uint8_t* on, int t)
 {
@@ -37,7 +30,7 @@ static double step_time(const uint8_t* limb_on, int limbs, int times, double rat
         int            last = -1;
         for (int t = 1; t < times; ++t) {
             if (!begins(on, t)) continue;
-            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * rate && count < times)
+            if (last >= 0 && (double)(t - last) > MIN_STEP_TIME * rate && count < times)
                 scratch[count++] = (double)(t - last) / rate / (limbs > 1 ? 2.0 : 1.0);
             last = t;
         }
@@ -49,13 +42,13 @@ static double step_time(const uint8_t* limb_on, int limbs, int times, double rat
             for (int i = 0; i < limbs; ++i)
                 lands = lands || begins(limb_on + (size_t)i * (size_t)times, t);
             if (!lands) continue;
-            if (last >= 0 && (double)(t - last) > STEP_SHORTEST * rate)
+            if (last >= 0 && (double)(t - last) > MIN_STEP_TIME * rate)
                 scratch[count++] = (double)(t - last) / rate;
             last = t;
         }
     }
     if (count == 0) return 0.0;
-    qsort(scratch, (size_t)count, sizeof *scratch, by_value);
+    dp_walker_sort(scratch, (size_t)count);
     return scratch[(count - 1) / 2];  // of two the shorter: who waits between steps steps no slower
 }
 
@@ -85,27 +78,27 @@ static double parabola(const double* value, int count, double rate)
     return square > 0.0 ? 2.0 * sum / square * rate * rate : 0.0;
 }
 
-// does the body fall over the `reach` samples around this one, all of them in the air?
-static bool falls_at(const double* height, int first, int end, int t, int reach, double rate)
+// does the body fall over `span` samples around this one, all of them in the air?
+static bool falls_at(const double* height, int first, int end, int t, int span, double rate)
 {
-    const int latest = end - reach > first ? end - reach : first;
-    const int before = t - reach / 2;
+    const int latest = end - span > first ? end - span : first;
+    const int before = t - span / 2;
     const int from = before < first ? first : before > latest ? latest : before;
-    const int count = end - from < reach ? end - from : reach;
+    const int count = end - from < span ? end - from : span;
     return parabola(height + from, count, rate) < -FALLS * DP_GRAVITY;
 }
 
 // Who stands on what the ground does not show, a box too high for his feet, touches nothing either
 // and flies from where he begins to fall.
-bool walker_falls(uint8_t* air, const double* height, int times, double rate)
+bool dp_walker_falls(uint8_t* air, const double* height, int times, double rate)
 {
-    const int reach = (int)(FALL_SEEN * rate) + 1;
+    const int span = (int)(FALL_SEEN * rate) + 1;
     bool      any = false;
     for (int t = 0; t < times;) {
         int end = t;
         while (end < times && air[end]) ++end;
         for (int k = t; k < end; ++k) {
-            air[k] = falls_at(height, t, end, k, reach, rate);
+            air[k] = falls_at(height, t, end, k, span, rate);
             any = any || air[k];
         }
         t = end > t ? end : t + 1;
@@ -116,17 +109,18 @@ bool walker_falls(uint8_t* air, const double* height, int times, double rate)
 static void read_line(const DpGait* gait, int walker, int c, double* line)
 {
     for (int t = 0; t < gait->times; ++t) {
-        const DpVec3 com = walker_com(gait, walker, t);
+        const DpVec3 com = dp_walker_com(gait, walker, t);
         line[t] = c == 0 ? com.x : c == 1 ? com.y : com.z;
     }
 }
 
-DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
-                           double rate, const DpLoadOptions* options, double* accel, double* way)
+DpStatus dp_walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_on, int limbs,
+                              double rate, const DpLoadOptions* options, double* accel,
+                              double* velocity)
 {
     const int times = gait->times;
     double*   line = dp_alloc((size_t)times, sizeof(double));
-    double*   scratch = dp_alloc(walker_fly_scratch(times) + 8, sizeof(double));
+    double*   scratch = dp_alloc(dp_walker_fly_scratch(times) + 8, sizeof(double));
     uint8_t*  air = dp_alloc((size_t)times, 1);
     if (!line || !scratch || !air) {
         dp_free(line), dp_free(scratch), dp_free(air);
@@ -136,12 +130,12 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
     bool         flies = in_air(limb_on, limbs, times, air);
     if (flies) {
         read_line(gait, walker, 2, line);
-        flies = walker_falls(air, line, times, rate);
+        flies = dp_walker_falls(air, line, times, rate);
     }
     const double steps = options->cutoff_share / step;  // infinite where no step is known
     // what falls is caught by knocks, however seldom it steps
-    const double least = flies ? options->cutoff_flight : options->cutoff_low;
-    const double up = step > 0.0 ? dp_clamp(steps, least, options->cutoff_high)
+    const double lowest = flies ? options->cutoff_flight : options->cutoff_low;
+    const double up = step > 0.0 ? dp_clamp(steps, lowest, options->cutoff_high)
                       : flies    ? options->cutoff_high
                                  : options->cutoff_low;
     // quick steps may need all of the upper bound over the ground too
@@ -152,12 +146,12 @@ DpStatus walker_accelerate(const DpGait* gait, int walker, const uint8_t* limb_o
         const double cutoff = c < 2 ? level : up;
         read_line(gait, walker, c, line);
         if (flies)
-            walker_fly(line, air, times, rate, cutoff, c == 2 ? -DP_GRAVITY : 0.0, scratch);
+            dp_walker_fly(line, air, times, rate, cutoff, c == 2 ? -DP_GRAVITY : 0.0, scratch);
         else
-            walker_low_pass(line, times, rate, cutoff, scratch);
+            dp_walker_low_pass(line, times, rate, cutoff, scratch);
         for (int t = 0; t < times; ++t) {
-            accel[c * times + t] = walker_acceleration(line, times, t, rate);
-            if (c < 2) way[c * times + t] = walker_velocity(line, times, t, rate);
+            accel[c * times + t] = dp_walker_acceleration(line, times, t, rate);
+            if (c < 2) velocity[c * times + t] = dp_walker_velocity(line, times, t, rate);
         }
     }
     dp_free(line), dp_free(scratch), dp_free(air);

@@ -2,7 +2,7 @@
 //
 // From one flight to the next the ground turns the body's momentum round. Flights are parabolas, and
 // with them the sum of the force between, its middle and its spread in time are known, however few
-// frames show the stance: a smoothing as flat as walker_fly's moves none of the three. Where frames
+// frames show the stance: a smoothing as flat as dp_walker_fly's moves none of the three. Where frames
 // are far apart that tells the end of a bounce better than the foot, which is seen once before it
 // left and once after. A bounce is half a sine in time (Alexander 1989; Morin et al. 2005 find
 // contact times and forces of runs from it): it ends 2.3 of its spread after its middle.
@@ -63,7 +63,7 @@ static void keep_sure(uint8_t* air, int times, int unsure)
 
 static double pull(const double* height, int times, int t, double rate)
 {
-    return walker_acceleration(height, times, t, rate) + DP_GRAVITY;
+    return dp_walker_acceleration(height, times, t, rate) + DP_GRAVITY;
 }
 
 static bool flies(const double* height, int times, int t, double rate)
@@ -74,10 +74,10 @@ static bool flies(const double* height, int times, int t, double rate)
 // half of the most that was carried in the last tenth of a second of a contact
 static double held(const double* height, int times, int end, double rate)
 {
-    double most = 0.0;
+    double carried = 0.0;
     for (int t = end - 1; t >= 0 && (double)(end - t) < LAST * rate; --t)
-        most = fmax(most, pull(height, times, t, rate));
-    return 0.5 * most;
+        carried = fmax(carried, pull(height, times, t, rate));
+    return 0.5 * carried;
 }
 
 // the time at which the bounce between two samples inside flights ends [samples]; NaN if it is none
@@ -104,16 +104,16 @@ static void move_end(const DpGait* gait, int walker, int end, int moved, uint8_t
     }
 }
 
-void walker_bounces(const DpGait* gait, int walker, double frame, double rate, uint8_t* on,
-                    uint8_t* air, double* height, double* scratch)
+void dp_walker_bounces(const DpGait* gait, int walker, double frame, double rate, uint8_t* on,
+                       uint8_t* air, double* height, double* scratch)
 {
     const int    times = gait->times;
     const double half = 0.5 * frame * rate;
-    for (int t = 0; t < times; ++t) height[t] = walker_com(gait, walker, t).z;
+    for (int t = 0; t < times; ++t) height[t] = dp_walker_com(gait, walker, t).z;
     find_air(gait, walker, on, air);
-    if (!walker_falls(air, height, times, rate)) return;
+    if (!dp_walker_falls(air, height, times, rate)) return;
     keep_sure(air, times, (int)(UNSURE * rate));
-    walker_fly(height, air, times, rate, CUTOFF, -DP_GRAVITY, scratch);
+    dp_walker_fly(height, air, times, rate, CUTOFF, -DP_GRAVITY, scratch);
     find_air(gait, walker, on, air);
     for (int begin = ahead_over(air, times, 0, 1); begin < times;) {
         const int end = ahead_over(air, times, begin, 0);

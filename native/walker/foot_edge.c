@@ -71,7 +71,7 @@ static double of_balls(const DpGait* gait, int limb, const double* rows, int t, 
         if (gait->part_limb[gait->point_part[k]] != limb) continue;
         const int     ball = gait->point_role[k] == DP_POINT_BALL;
         const double* row = rows + (size_t)k * (size_t)gait->times;
-        sum[ball] += growth ? walker_velocity(row, gait->times, t, rate) : row[t];
+        sum[ball] += growth ? dp_walker_velocity(row, gait->times, t, rate) : row[t];
         count[ball] += 1.0;
     }
     const int ball = count[1] > 0.0;
@@ -141,9 +141,9 @@ static void find_flown(const DpGait* gait, int walker, const uint8_t* on, double
     }
 }
 
-void walker_edges(const DpGait* gait, const double* height, const double* clearance,
-                  const double* rise, const double* speed, double moves, double fast, double cutoff,
-                  uint8_t* on, uint8_t* flown, double rate)
+void dp_walker_edges(const DpGait* gait, const double* height, const double* clearance,
+                     const double* rise, const double* speed, double moves, double fast,
+                     double cutoff, uint8_t* on, uint8_t* flown, double rate)
 {
     for (int walker = 0; walker < gait->walkers; ++walker)
         find_flown(gait, walker, on, rate, flown + (size_t)walker * (size_t)gait->times);

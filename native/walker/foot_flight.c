@@ -42,13 +42,13 @@ static void solve(double* band, double* value, int count)
         for (int j = 1; j <= 3 && j <= k; ++j) value[k - j] -= band[BAND * k + j] * value[k];
 }
 
-size_t walker_fly_scratch(int count)
+size_t dp_walker_fly_scratch(int count)
 {
     return BAND * (size_t)count;
 }
 
-void walker_fly(double* value, const uint8_t* air, int count, double rate, double cutoff,
-                double fall, double* scratch)
+void dp_walker_fly(double* value, const uint8_t* air, int count, double rate, double cutoff,
+                   double fall, double* scratch)
 {
     static const double third[4] = {-1.0, 3.0, -3.0, 1.0}, second[3] = {1.0, -2.0, 1.0};
     if (count < 4 || !(cutoff < 0.45 * rate)) return;
@@ -57,7 +57,7 @@ void walker_fly(double* value, const uint8_t* air, int count, double rate, doubl
     const double start = value[0], slope = (value[count - 1] - start) / (double)(count - 1);
     // about the line between the ends, so that nothing is lost to rounding far from the origin
     for (int k = 0; k < count; ++k) value[k] -= start + slope * (double)k;
-    memset(scratch, 0, walker_fly_scratch(count) * sizeof *scratch);
+    memset(scratch, 0, dp_walker_fly_scratch(count) * sizeof *scratch);
     for (int k = 0; k < count; ++k) scratch[BAND * k] = 1.0;
     for (int k = 0; k + 3 < count; ++k) add_row(scratch, k, third, 4, carried);
     for (int k = 0; k + 2 < count; ++k) {

@@ -1,57 +1,45 @@
 // walker/foot_floor.c - a recorded floor that slopes a little against the given ground.
 //
 // Capture volumes are rarely level: over a few metres their floor leaves the ground by centimetres,
-// more than a contact may hover. Where the feet's resting places lie on one line along the way, the
+// more than a contact may hover. Where the feet's resting places lie on one line along the path, the
 // line is the floor; where they do not (stairs, blocks), the ground as given is.
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define REST_SHORTEST 0.05  // a point rests when it is slow for this long              [s]
+#define MIN_REST_TIME 0.05  // a point rests when it is slow for this long              [s]
 #define APART 0.5           // resting places closer than this tell nothing of a slope  [m]
 #define PARTNERS 16         // later rests of the same point that each one is held against
-#define STEEPEST 0.12       // what slopes more was not meant to be level               [-]
-#define RISE_LEAST 0.01     // over the whole way, less than this is not worth it       [m]
-#define OFF_MOST 0.01       // rests lie this close to the line, in the middle of all   [m]
+#define MAX_SLOPE 0.12      // what slopes more was not meant to be level               [-]
+#define MIN_RISE 0.01       // over the whole path, less than this is not worth it       [m]
+#define MAX_OFF 0.01        // rests lie this close to the line, in the middle of all   [m]
 
 typedef struct Rest
 {
     int    point;
-    double along, height;  // mean place on the way and mean height  [m]
+    double along, height;  // mean place on the path and mean height  [m]
 } Rest;
-
-static int by_value(const void* a, const void* b)
-{
-    const double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double* value, int count)
-{
-    qsort(value, (size_t)count, sizeof *value, by_value);
-    return value[count / 2];
-}
 
 static DpVec3 place(const DpGait* gait, int k, int t)
 {
-    return dp_place(walker_pose(gait, gait->point_part[k], t), walker_point(gait, k));
+    return dp_place(dp_walker_pose(gait, gait->point_part[k], t), dp_walker_point(gait, k));
 }
 
-// the horizontal way from the mass centre's first place to its last; zero for a walker that stays
-static DpVec3 way_of(const DpGait* gait, int walker)
+// the horizontal direction from the mass centre's first place to its last; zero for a walker that stays
+static DpVec3 direction_of(const DpGait* gait, int walker)
 {
-    DpVec3 way = dp_sub(walker_com(gait, walker, gait->times - 1), walker_com(gait, walker, 0));
-    way.z = 0.0;
-    return dp_length(way) > APART ? dp_unit(way) : dp_vec3(0.0, 0.0, 0.0);
+    DpVec3 direction =
+        dp_sub(dp_walker_com(gait, walker, gait->times - 1), dp_walker_com(gait, walker, 0));
+    direction.z = 0.0;
+    return dp_length(direction) > APART ? dp_unit(direction) : dp_vec3(0.0, 0.0, 0.0);
 }
 
 static int find_rests(const DpGait* gait, int walker, const double* height, const double* speed,
-                      double slow, double rate, DpVec3 way, Rest* rest, int most)
+                      double slow, double rate, DpVec3 direction, Rest* rest, int room)
 {
-    const int shortest = (int)ceil(REST_SHORTEST * rate);
+    const int shortest = (int)ceil(MIN_REST_TIME * rate);
     int       count = 0;
     for (int k = 0; k < gait->points; ++k) {
         if (gait->limb_walker[gait->part_limb[gait->point_part[k]]] != walker) continue;
@@ -62,11 +50,11 @@ static int find_rests(const DpGait* gait, int walker, const double* height, cons
             for (; end < gait->times && speed[row + (size_t)end] < slow &&
                    isfinite(height[row + (size_t)end]);
                  ++end) {
-                along += dp_dot(place(gait, k, end), way);
+                along += dp_dot(place(gait, k, end), direction);
                 high += height[row + (size_t)end];
             }
             const double n = (double)(end - t);
-            if (end - t >= shortest && count < most)
+            if (end - t >= shortest && count < room)
                 rest[count++] = (Rest){.point = k, .along = along / n, .height = high / n};
             t = end > t ? end : t + 1;
         }
@@ -87,47 +75,47 @@ static double slope_of(const Rest* rest, int count, double* scratch)
         }
     }
     if (pairs < 3) return 0.0;
-    const double slope = median(scratch, pairs);
-    if (fabs(slope) > STEEPEST || fabs(slope) * (high - low) < RISE_LEAST) return 0.0;
+    const double slope = dp_walker_median(scratch, (size_t)pairs);
+    if (fabs(slope) > MAX_SLOPE || fabs(slope) * (high - low) < MIN_RISE) return 0.0;
     // every point has a height of its own; what is left over tells whether this is one floor
     int left = 0;
     for (int i = 0; i < count;) {
         int n = 0, end = i;
         for (; end < count && rest[end].point == rest[i].point; ++end)
             scratch[left + n++] = rest[end].height - slope * rest[end].along;
-        const double own = median(scratch + left, n);
+        const double own = dp_walker_median(scratch + left, (size_t)n);
         for (int m = 0; m < n; ++m) scratch[left + m] = fabs(scratch[left + m] - own);
         left += n;
         i = end;
     }
-    qsort(scratch, (size_t)left, sizeof *scratch, by_value);
-    return scratch[left * 3 / 4] < OFF_MOST ? slope : 0.0;
+    dp_walker_sort(scratch, (size_t)left);
+    return scratch[left * 3 / 4] < MAX_OFF ? slope : 0.0;
 }
 
-DpStatus walker_level_floor(const DpGait* gait, int walker, double* height, const double* speed,
-                            double slow, double rate)
+DpStatus dp_walker_level_floor(const DpGait* gait, int walker, double* height, const double* speed,
+                               double slow, double rate)
 {
-    const DpVec3 way = way_of(gait, walker);
-    if (dp_length(way) < 0.5) return DP_OK;
-    const size_t most =
-        (size_t)gait->points * ((size_t)((double)gait->times / (REST_SHORTEST * rate)) + 2);
-    Rest*   rest = dp_alloc(most, sizeof(Rest));
-    double* scratch = dp_alloc(most * PARTNERS, sizeof(double));
+    const DpVec3 direction = direction_of(gait, walker);
+    if (dp_length(direction) < 0.5) return DP_OK;
+    const size_t room =
+        (size_t)gait->points * ((size_t)((double)gait->times / (MIN_REST_TIME * rate)) + 2);
+    Rest*   rest = dp_alloc(room, sizeof(Rest));
+    double* scratch = dp_alloc(room * PARTNERS, sizeof(double));
     if (!rest || !scratch) {
         dp_free(rest), dp_free(scratch);
         return DP_NO_MEMORY;
     }
-    const int    count = find_rests(gait, walker, height, speed, slow, rate, way, rest,
-                                 most < 1000000 ? (int)most : 1000000);
+    const int    count = find_rests(gait, walker, height, speed, slow, rate, direction, rest,
+                                 room < 1000000 ? (int)room : 1000000);
     const double slope = slope_of(rest, count, scratch);
     dp_free(rest), dp_free(scratch);
     if (slope == 0.0) return DP_OK;
-    const double middle = dp_dot(walker_com(gait, walker, gait->times / 2), way);
+    const double middle = dp_dot(dp_walker_com(gait, walker, gait->times / 2), direction);
     for (int k = 0; k < gait->points; ++k) {
         if (gait->limb_walker[gait->part_limb[gait->point_part[k]]] != walker) continue;
         for (int t = 0; t < gait->times; ++t)
             height[(size_t)k * (size_t)gait->times + (size_t)t] -=
-                slope * (dp_dot(place(gait, k, t), way) - middle);
+                slope * (dp_dot(place(gait, k, t), direction) - middle);
     }
     return DP_OK;
 }

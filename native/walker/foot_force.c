@@ -6,26 +6,22 @@
 // Departures
 //   TRAIL (3): `inertia` replaces weight and landing impulse by Newton's law for the whole body, so
 //   that runs, jumps and push-offs carry what they really carry. test_foot_force.c,
-//   jump_weighs_right. SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share. TRAIL (3):
-//   v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
+//   jump_weighs_right.
+//   SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share.
+//   TRAIL (3): v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
 //   Design 4.3, step 2: mu is whole only while feet change or the force leans along the line between
 //   them, and none at rest; see doubtful(). tests/core/test_trials.py, squats.
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/alloc.h"
 #include "base/vec.h"
-#include "walker/walker_inside.h"
+#include "walker/foot_load.h"
 
 #define PI 3.14159265358979323846
-#define LEAST_PULL 0.2     // a_z + g counts as no less than this share of g   [-]
-#define STILL 0.1          // accelerations below this share of g are near rest [-]
-#define THROWN 2.0         // accelerations upward of so many g turn the body too   [-]
-#define SOLE_LIFT 0.04     // a point this far above its limb's lowest carries nothing [m]
-#define TIP_CAPACITY 0.25  // toes carry a quarter of what heel or ball does      [-]
-#define TRAVEL 0.5         // who moves this fast is under way                  [m/s]
-#define GRIP 0.6           // feet oppose each other by no more of their load   [-]
+#define MIN_PULL 0.2  // a_z + g counts as no less than this share of g   [-]
+#define STILL 0.1     // accelerations below this share of g are near rest [-]
+#define THROWN 2.0    // accelerations upward of so many g turn the body too   [-]
+#define TRAVEL 0.5    // who moves this fast is under way                  [m/s]
+#define GRIP 0.6      // feet oppose each other by no more of their load   [-]
 
 DpLoadOptions dp_load_options_default(void)
 {
@@ -37,147 +33,35 @@ DpLoadOptions dp_load_options_default(void)
                                    .cutoff_high = 10.0,
                                    .cutoff_flight = 8.0,
                                    .cutoff_level = 2.0 / 3.0,
-                                   .overlap_most = 0.3,
+                                   .max_overlap = 0.3,
                                    .ramp_standing = 0.1,
                                    .ramp_alone = 0.03,
                                    .ramp_trust = 0.25,
-                                   .reach = 0.3};
+                                   .support_span = 0.3};
     return options;
 }
 
-// one walker: its limbs and their contact points in a row, and what they do over the clip
-typedef struct Load
-{
-    const DpGait*        gait;
-    const DpLoadOptions* options;
-    const double*        ground;
-    double               rate;
-    int                  walker, limbs, points;
-    int*                 limb;          // index of each limb                  (limbs)
-    int*                 point;         // index of each point, limb by limb   (points)
-    int*                 first;         // first point of each limb            (limbs + 1)
-    double*              capacity;      // how much of a load suits each point (points)
-    DpVec3*              place;         // the points in the world, z on the ground (points, T)
-    uint8_t*             limb_on;       //                                     (limbs, T)
-    uint8_t*             point_on;      //                                     (points, T)
-    double*              limb_weight;   // W_i of limbs                        (limbs, T)
-    double*              point_weight;  // and of points within their limb     (points, T)
-    double*              accel;         // a_com                               (3, T)
-    double*              way;           // v_com over the ground               (2, T)
-    DpVec3*              landing;       // v0 latched for the impulse          (limbs)
-    int*                 landed;        // its sample; -1 = never              (limbs)
-    double*              tau;           // of the soil it landed on        [s] (limbs)
-} Load;
+#define MAX_SUPPORTS 64  // limbs of a walker, or points of a limb, that share at one time
 
-static void close_load(Load* l)
-{
-    dp_free(l->limb), dp_free(l->point), dp_free(l->first), dp_free(l->capacity), dp_free(l->place);
-    dp_free(l->limb_on), dp_free(l->point_on), dp_free(l->limb_weight), dp_free(l->point_weight);
-    dp_free(l->accel), dp_free(l->way), dp_free(l->landing), dp_free(l->landed), dp_free(l->tau);
-}
-
-static bool open_load(Load* l)
-{
-    const size_t limbs = (size_t)l->gait->limbs, points = (size_t)l->gait->points;
-    const size_t times = (size_t)l->gait->times;
-    l->limb = dp_alloc(limbs, sizeof(int));
-    l->point = dp_alloc(points, sizeof(int));
-    l->first = dp_alloc(limbs + 1, sizeof(int));
-    l->capacity = dp_alloc(points, sizeof(double));
-    l->place = dp_alloc(points * times, sizeof(DpVec3));
-    l->limb_on = dp_alloc(limbs * times, 1);
-    l->point_on = dp_alloc(points * times, 1);
-    l->limb_weight = dp_alloc(limbs * times, sizeof(double));
-    l->point_weight = dp_alloc(points * times, sizeof(double));
-    l->accel = dp_alloc(3 * times, sizeof(double));
-    l->way = dp_alloc(2 * times, sizeof(double));
-    l->landing = dp_alloc(limbs, sizeof(DpVec3));
-    l->landed = dp_alloc(limbs, sizeof(int));
-    l->tau = dp_alloc(limbs, sizeof(double));
-    return l->limb && l->point && l->first && l->capacity && l->place && l->limb_on &&
-           l->point_on && l->limb_weight && l->point_weight && l->accel && l->way && l->landing &&
-           l->landed && l->tau;
-}
-
-// Which points of a limb carry: those of touching parts, near the height of the limb's lowest one.
-static void gather_points(Load* l, int i, const uint8_t* touching)
-{
-    const DpGait* gait = l->gait;
-    const size_t  times = (size_t)gait->times;
-    int           in_role[3] = {0};
-    for (int k = l->first[i]; k < l->first[i + 1]; ++k) ++in_role[gait->point_role[l->point[k]]];
-    for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
-        const int role = gait->point_role[l->point[k]];
-        l->capacity[k] = (role == DP_POINT_TIP ? TIP_CAPACITY : 1.0) / (double)in_role[role];
-    }
-    for (size_t t = 0; t < times; ++t) {
-        double lowest = INFINITY;
-        for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
-            const int    part = gait->point_part[l->point[k]];
-            const double below = l->ground[(size_t)l->point[k] * times + t];
-            DpVec3*      at = l->place + (size_t)k * times + t;
-            *at = dp_place(walker_pose(gait, part, (int)t), walker_point(gait, l->point[k]));
-            l->point_on[(size_t)k * times + t] = touching[(size_t)part * times + t] != 0;
-            l->point_weight[(size_t)k * times + t] = at->z - (isfinite(below) ? below : 0.0);
-            if (l->point_on[(size_t)k * times + t])
-                lowest = fmin(lowest, l->point_weight[(size_t)k * times + t]);
-            if (isfinite(below)) at->z = below;
-        }
-        for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
-            uint8_t* on = l->point_on + (size_t)k * times + t;
-            *on = *on && l->point_weight[(size_t)k * times + t] < lowest + SOLE_LIFT;
-            l->limb_on[(size_t)i * times + t] |= *on;
-        }
-    }
-}
-
-static void gather(Load* l, int walker, const uint8_t* touching)
-{
-    const DpGait* gait = l->gait;
-    const size_t  times = (size_t)gait->times;
-    l->walker = walker, l->limbs = 0, l->points = 0;
-    memset(l->limb_on, 0, (size_t)gait->limbs * times);
-    for (int limb = 0; limb < gait->limbs; ++limb) {
-        if (gait->limb_walker[limb] != walker) continue;
-        const int i = l->limbs++;
-        l->limb[i] = limb;
-        l->first[i] = l->points;
-        for (int k = 0; k < gait->points; ++k)
-            if (gait->part_limb[gait->point_part[k]] == limb) l->point[l->points++] = k;
-        l->first[i + 1] = l->points;
-        gather_points(l, i, touching);
-        const size_t row = (size_t)l->first[i] * times;
-        walker_ramps(l->point_on + row, l->first[i + 1] - l->first[i], gait->times, l->rate,
-                     l->options, true, l->point_weight + row);
-    }
-    walker_ramps(l->limb_on, l->limbs, gait->times, l->rate, l->options, false, l->limb_weight);
-}
-
-enum
-{
-    MOST = 64
-};  // limbs of a walker, or points of a limb, that share at one time
-
-// ---- landing
-// ---------------------------------------------------------------------------------------
+// ---- landing -------------------------------------------------------------------------------------
 
 static bool begins(const uint8_t* on, int t)
 {
     return t > 0 && on[t] && !on[t - 1];
 }
 
-static bool is_heel(const Load* l, int k)
+static bool is_heel(const DpLoad* l, int k)
 {
     return l->gait->point_role[l->point[k]] == DP_POINT_HEEL;
 }
 
 // The limb lands: with its heel, with its toe, or with both, as one foot. TRAIL (4)
-static void land(Load* l, int i, int t)
+static void land(DpLoad* l, int i, int t)
 {
     const size_t times = (size_t)l->gait->times;
     const int    first = l->first[i], end = l->first[i + 1];
     bool         heel = false, toe = false;
-    int          point[MOST];
+    int          point[MAX_SUPPORTS];
     DpLanding    landing = {.point = point};
     l->tau[i] = l->options->settle_time;
     for (int k = first; k < end; ++k) {
@@ -186,15 +70,15 @@ static void land(Load* l, int i, int t)
         if (l->options->settle)
             l->tau[i] = l->options->settle[(size_t)l->point[k] * times + (size_t)t];
     }
-    for (int k = first; k < end && landing.count < MOST; ++k)
+    for (int k = first; k < end && landing.count < MAX_SUPPORTS; ++k)
         if ((heel && toe) || is_heel(l, k) == heel) point[landing.count++] = l->point[k];
     l->landed[i] = t;
     l->landing[i] =
-        walker_landing_velocity(l->gait, &landing, l->limb_on, l->limbs, l->rate, t - 1);
+        dp_walker_landing_velocity(l->gait, &landing, l->limb_on, l->limbs, l->rate, t - 1);
 }
 
 // J / tau of the limb at a sample, for a mass of 1. TRAIL (3), SOFT22 (6)-(8)
-static DpVec3 landing_push(const Load* l, int limb, int t)
+static DpVec3 landing_push(const DpLoad* l, int limb, int t)
 {
     const double tau = l->tau[limb];
     const double since = (double)(t - l->landed[limb]) / l->rate;
@@ -204,21 +88,20 @@ static DpVec3 landing_push(const Load* l, int limb, int t)
     return dp_scale(l->landing[limb], shape / tau);
 }
 
-// ---- sharing
-// ---------------------------------------------------------------------------------------
+// ---- sharing -------------------------------------------------------------------------------------
 
 // those among which a load is shared at one sample
 typedef struct Supports
 {
     int    count;
-    int    index[MOST];
-    DpVec3 at[MOST];      // centre of contact
-    double weight[MOST];  // W_i
-    double share[MOST];   // in: what the ramps give, not yet summing to 1; out: a_i
+    int    index[MAX_SUPPORTS];
+    DpVec3 at[MAX_SUPPORTS];      // centre of contact
+    double weight[MAX_SUPPORTS];  // W_i
+    double share[MAX_SUPPORTS];   // in: what the ramps give, not yet summing to 1; out: a_i
 } Supports;
 
 // trust in the ramps: whole while somebody changes feet or is accelerated, none at rest
-static double trust(const Load* l, const Supports* s, DpVec3 accel)
+static double trust(const DpLoad* l, const Supports* s, DpVec3 accel)
 {
     double change = dp_smoothstep(dp_length(accel) / (STILL * DP_GRAVITY));
     for (int i = 0; i < s->count; ++i) change = fmax(change, 1.0 - s->weight[i]);
@@ -232,12 +115,13 @@ static DpVec3 doubtful(const Supports* s, DpVec3 accel, double pull)
 {
     if (s->count != 2) return accel;
     const DpVec3 line = dp_sub(s->at[1], s->at[0]);
-    const DpVec3 way = dp_unit(dp_vec3(line.x, line.y, 0.0));
-    const double lean = dp_dot(accel, way) * DP_GRAVITY / fmax(pull, LEAST_PULL * DP_GRAVITY);
-    return dp_add(dp_scale(way, lean), dp_vec3(0.0, 0.0, STILL / THROWN * accel.z));
+    const DpVec3 line_of_feet = dp_unit(dp_vec3(line.x, line.y, 0.0));
+    const double lean =
+        dp_dot(accel, line_of_feet) * DP_GRAVITY / fmax(pull, MIN_PULL * DP_GRAVITY);
+    return dp_add(dp_scale(line_of_feet, lean), dp_vec3(0.0, 0.0, STILL / THROWN * accel.z));
 }
 
-static void share_out(const Load* l, Supports* s, DpVec3 accel, DpVec3 target)
+static void share_out(const DpLoad* l, Supports* s, DpVec3 accel, DpVec3 target)
 {
     const bool by_ramps = l->options->model == DP_LOAD_INERTIA;
     double     sum = 0.0;
@@ -247,24 +131,25 @@ static void share_out(const Load* l, Supports* s, DpVec3 accel, DpVec3 target)
     }
     for (int i = 0; i < s->count; ++i) s->share[i] /= sum;
     if (by_ramps)
-        walker_share(s->share, s->at, s->count, target, trust(l, s, accel), l->options->reach);
+        dp_walker_share(s->share, s->at, s->count, target, trust(l, s, accel),
+                        l->options->support_span);
     else if (s->count == 2) {
         const DpVec3 a = dp_vec3(s->at[0].x, s->at[0].y, 0.0),
                      b = dp_vec3(s->at[1].x, s->at[1].y, 0.0);
         s->share[1] = dp_foot_share(dp_vec3(target.x, target.y, 0.0), a, b);  // SOFT22 (5)
         s->share[0] = 1.0 - s->share[1];                                      // SOFT22 (4)
     } else
-        walker_share(s->share, s->at, s->count, target, 0.0, l->options->reach);
+        dp_walker_share(s->share, s->at, s->count, target, 0.0, l->options->support_span);
 }
 
 static void add_support(Supports* s, int index, DpVec3 at, double weight, double capacity)
 {
-    if (s->count == MOST) return;
+    if (s->count == MAX_SUPPORTS) return;
     s->index[s->count] = index, s->at[s->count] = at, s->weight[s->count] = weight;
     s->share[s->count++] = weight * capacity;
 }
 
-static void limb_points(const Load* l, Supports* s, int i, int t)
+static void limb_points(const DpLoad* l, Supports* s, int i, int t)
 {
     s->count = 0;
     for (int k = l->first[i]; k < l->first[i + 1]; ++k) {
@@ -274,7 +159,7 @@ static void limb_points(const Load* l, Supports* s, int i, int t)
 }
 
 // one limb's load to its points, and theirs to the parts that carry them
-static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, DpVec3 target,
+static void load_parts(const DpLoad* l, int i, int t, DpVec3 force, DpVec3 accel, DpVec3 target,
                        double* out_force, double* out_point)
 {
     const DpGait* gait = l->gait;
@@ -307,10 +192,10 @@ static void load_parts(const Load* l, int i, int t, DpVec3 force, DpVec3 accel, 
 // body over (Herr and Popovic 2008: walking keeps its angular momentum near zero). For a mass of 1;
 // the sum is zero, so that Newton's law stays as it is. Sideways legs hang on hips as far apart as
 // the feet, and with more than two legs each has a joint above it: none there.
-static void oppose(const Load* l, const Supports* limbs, int t, double pull, double height,
+static void oppose(const DpLoad* l, const Supports* limbs, int t, double pull, double height,
                    double* push)
 {
-    const DpVec3 v = dp_vec3(l->way[t], l->way[l->gait->times + t], 0.0);
+    const DpVec3 v = dp_vec3(l->velocity[t], l->velocity[l->gait->times + t], 0.0);
     push[0] = push[1] = 0.0;
     if (l->limbs != 2 || limbs->count != 2 || !(height > 0.0) || !(dp_length(v) > 0.0)) return;
     const DpVec3 apart = dp_sub(limbs->at[1], limbs->at[0]);
@@ -320,12 +205,12 @@ static void oppose(const Load* l, const Supports* limbs, int t, double pull, dou
     push[1] = -push[0];
 }
 
-static void load_sample(Load* l, int t, double* out_force, double* out_point)
+static void load_sample(DpLoad* l, int t, double* out_force, double* out_point)
 {
     const size_t  times = (size_t)l->gait->times;
     const double  mass = l->gait->mass[l->walker];
     const bool    inertia = l->options->model == DP_LOAD_INERTIA;
-    const DpVec3  com = walker_com(l->gait, l->walker, t);
+    const DpVec3  com = dp_walker_com(l->gait, l->walker, t);
     const double* a = l->accel + t;
     const DpVec3  accel = inertia ? dp_vec3(a[0], a[times], a[2 * times]) : dp_vec3(0.0, 0.0, 0.0);
     Supports      limbs = {.count = 0}, points;
@@ -347,7 +232,7 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
     }
     if (limbs.count == 0) return;  // no touching limb means zero
     const double pull = accel.z + DP_GRAVITY;
-    const double lever = (com.z - low / (double)limbs.count) / fmax(pull, LEAST_PULL * DP_GRAVITY);
+    const double lever = (com.z - low / (double)limbs.count) / fmax(pull, MIN_PULL * DP_GRAVITY);
     // zero-moment point; at rest, what lies below the mass centre
     const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));
     share_out(l, &limbs, doubtful(&limbs, accel, pull), zmp);
@@ -356,7 +241,7 @@ static void load_sample(Load* l, int t, double* out_force, double* out_point)
         miss = dp_sub(miss, dp_scale(limbs.at[k], limbs.share[k]));
     double push[2] = {0.0, 0.0};
     if (inertia) oppose(l, &limbs, t, pull, com.z - low / (double)limbs.count, push);
-    const DpVec3 ahead = dp_unit(dp_vec3(l->way[t], l->way[times + (size_t)t], 0.0));
+    const DpVec3 ahead = dp_unit(dp_vec3(l->velocity[t], l->velocity[times + (size_t)t], 0.0));
     for (int k = 0; k < limbs.count; ++k) {
         const int i = limbs.index[k];
         DpVec3    force = dp_vec3(-accel.x, -accel.y, -pull);  // of a mass of 1, on the ground
@@ -372,35 +257,35 @@ static bool options_ok(const DpLoadOptions* o)
 {
     return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
            o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_flight > 0.0 &&
-           o->cutoff_level > 0.0 && o->overlap_most > 0.0 && o->ramp_standing > 0.0 &&
-           o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->reach > 0.0 &&
+           o->cutoff_level > 0.0 && o->max_overlap > 0.0 && o->ramp_standing > 0.0 &&
+           o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->support_span > 0.0 &&
            (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
 }
 
 DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double* ground,
                        const DpLoadOptions* options, double* force, double* pressure_point)
 {
-    if (!walker_gait_ok(gait) || !touching || !ground || !force || !pressure_point)
+    if (!dp_walker_gait_ok(gait) || !touching || !ground || !force || !pressure_point)
         return DP_BAD_ARGUMENT;
     if (!options_ok(options)) return DP_BAD_ARGUMENT;
-    Load l = {.gait = gait, .options = options, .ground = ground, .rate = walker_rate(gait)};
+    DpLoad l = {.gait = gait, .options = options, .ground = ground, .rate = dp_walker_rate(gait)};
     if (gait->times > 1 && l.rate <= 0.0) return DP_BAD_ARGUMENT;
     if (gait->times == 1) l.rate = 1.0;
-    if (!open_load(&l)) {
-        close_load(&l);
+    if (!dp_load_open(&l)) {
+        dp_load_close(&l);
         return DP_NO_MEMORY;
     }
     const size_t count = 3 * (size_t)gait->parts * (size_t)gait->times;
     for (size_t k = 0; k < count; ++k) force[k] = 0.0, pressure_point[k] = NAN;
     DpStatus status = DP_OK;
     for (int walker = 0; walker < gait->walkers && status == DP_OK; ++walker) {
-        gather(&l, walker, touching);
+        dp_load_gather(&l, walker, touching);
         for (int i = 0; i < l.limbs; ++i) l.landed[i] = -1;
-        status =
-            walker_accelerate(gait, walker, l.limb_on, l.limbs, l.rate, options, l.accel, l.way);
+        status = dp_walker_accelerate(gait, walker, l.limb_on, l.limbs, l.rate, options, l.accel,
+                                      l.velocity);
         for (int t = 0; t < gait->times && status == DP_OK; ++t)
             load_sample(&l, t, force, pressure_point);
     }
-    close_load(&l);
+    dp_load_close(&l);
     return status;
 }

@@ -30,8 +30,8 @@ static DpVec3 spot(const DpGait* gait, const DpLanding* landing, int t)
     DpVec3 sum = {0.0, 0.0, 0.0};
     for (int k = 0; k < landing->count; ++k) {
         const int point = landing->point[k];
-        sum = dp_add(sum, dp_place(walker_pose(gait, gait->point_part[point], t),
-                                   walker_point(gait, point)));
+        sum = dp_add(sum, dp_place(dp_walker_pose(gait, gait->point_part[point], t),
+                                   dp_walker_point(gait, point)));
     }
     return dp_scale(sum, 1.0 / landing->count);
 }
@@ -66,13 +66,14 @@ static DpVec3 velocity(const DpGait* gait, const DpLanding* landing, double rate
 static bool falls(const DpGait* gait, int walker, double rate, int t)
 {
     const int    h = (int)fmax(LATCH_TIME / 2.0 * rate, 1.0);
-    const double last = walker_com(gait, walker, t).z, before = walker_com(gait, walker, t - h).z;
-    const double first = walker_com(gait, walker, t - 2 * h).z, step = (double)h / rate;
+    const double last = dp_walker_com(gait, walker, t).z,
+                 before = dp_walker_com(gait, walker, t - h).z;
+    const double first = dp_walker_com(gait, walker, t - 2 * h).z, step = (double)h / rate;
     return (last - 2.0 * before + first) / (step * step) < -FALLS * DP_GRAVITY;
 }
 
-DpVec3 walker_landing_velocity(const DpGait* gait, const DpLanding* landing, const uint8_t* limb_on,
-                               int limbs, double rate, int t)
+DpVec3 dp_walker_landing_velocity(const DpGait* gait, const DpLanding* landing,
+                                  const uint8_t* limb_on, int limbs, double rate, int t)
 {
     // who has been falling freely still does: his speed is taken from before the frame in which he
     // lands, as that one shows already how he is stopped

@@ -22,7 +22,7 @@
 
 DpPlaceOptions dp_place_options_default(void)
 {
-    const DpPlaceOptions options = {.reach = 0.20,
+    const DpPlaceOptions options = {.max_clearance = 0.20,
                                     .toe_slope = 15.0 * 3.14159265358979323846 / 180.0,
                                     .foot_radius = 0.25,
                                     .body_radius = 0.5};
@@ -86,11 +86,11 @@ static Limb look_at_limb(const DpGait* gait, int limb)
 // where the limb stays while it turns: its ball
 static DpVec3 pivot_of(const DpGait* gait, const Limb* limb, int t)
 {
-    if (limb->hinge >= 0) return walker_pose(gait, limb->hinge, t).at;
-    const DpPose pose = walker_pose(gait, limb->lead, t);
+    if (limb->hinge >= 0) return dp_walker_pose(gait, limb->hinge, t).at;
+    const DpPose pose = dp_walker_pose(gait, limb->lead, t);
     for (int k = 0; k < gait->points; ++k)
         if (gait->point_part[k] == limb->lead && gait->point_role[k] == DP_POINT_BALL)
-            return dp_place(pose, walker_point(gait, k));
+            return dp_place(pose, dp_walker_point(gait, k));
     return pose.at;
 }
 
@@ -107,7 +107,7 @@ static DpVec3 middle_of(const DpGait* gait, const Limb* limb, int t)
     for (int k = 0; k < gait->points; ++k) {
         const int part = gait->point_part[k];
         if (gait->part_limb[part] != limb->limb) continue;
-        sum = dp_add(sum, dp_place(walker_pose(gait, part, t), walker_point(gait, k)));
+        sum = dp_add(sum, dp_place(dp_walker_pose(gait, part, t), dp_walker_point(gait, k)));
         ++count;
     }
     return count ? dp_scale(sum, 1.0 / count) : pivot_of(gait, limb, t);
@@ -123,9 +123,10 @@ typedef struct Lying
 
 static Lying lie(DpVec3 normal, DpVec3 level_left)
 {
-    const DpVec3 way = dp_cross(level_left, dp_vec3(0.0, 0.0, 1.0));  // seen from above it stays
-    const double rise = -(normal.x * way.x + normal.y * way.y) / normal.z;
-    Lying        out = {.ahead = dp_unit(dp_vec3(way.x, way.y, rise)), .up = normal};
+    const DpVec3 heading =
+        dp_cross(level_left, dp_vec3(0.0, 0.0, 1.0));  // seen from above it stays
+    const double rise = -(normal.x * heading.x + normal.y * heading.y) / normal.z;
+    Lying        out = {.ahead = dp_unit(dp_vec3(heading.x, heading.y, rise)), .up = normal};
     out.left = dp_cross(out.up, out.ahead);
     return out;
 }
@@ -161,16 +162,16 @@ static DpQuat placed_turn(const DpGait* gait, const Limb* limb, int part, int t,
                           const DpGroundBelow* below, const DpPlaceOptions* o,
                           const double* clearance)
 {
-    const DpPose kin = walker_pose(gait, part, t);
+    const DpPose kin = dp_walker_pose(gait, part, t);
     const int    tip = tip_of(gait, part);
     Lying        slope;
     DpQuat       perp;
     if (tip < 0 || !perpendicular(kin.turn, normal, o->flat, &perp, &slope)) return kin.turn;
     const double d =
-        clearance_of(below, o, dp_place(kin, walker_point(gait, tip))) - clearance[tip];
+        clearance_of(below, o, dp_place(kin, dp_walker_point(gait, tip))) - clearance[tip];
     if (isnan(d)) return kin.turn;
-    const double w = dp_clamp(1.0 - d / o->reach, 0.0, 1.0);  // TRAIL (1)
-    DpQuat       q = dp_slerp(kin.turn, perp, w);             // TRAIL (1)
+    const double w = dp_clamp(1.0 - d / o->max_clearance, 0.0, 1.0);  // TRAIL (1)
+    DpQuat       q = dp_slerp(kin.turn, perp, w);                     // TRAIL (1)
     const double theta = asin(dp_clamp(slope.ahead.z, -1.0, 1.0));
     if (part != limb->lead || limb->heel < 0 || !(theta > o->toe_slope)) return q;
     const double toe_up = o->flat ? 0.0 : fmax(dp_turn(kin.turn, dp_vec3(1.0, 0.0, 0.0)).z, 0.0);
@@ -183,22 +184,22 @@ static DpQuat placed_turn(const DpGait* gait, const Limb* limb, int part, int t,
 
 // ---- where it is set down --------------------------------------------------------------------
 
-// the least clearance of a limb's points in these poses; INFINITY where there is no ground
-static double least_clearance(const DpGait* gait, int limb, int t, const double* pose,
-                              const DpGroundBelow* below, const DpPlaceOptions* o, bool recorded)
+// the smallest clearance of a limb's points in these poses; INFINITY where there is no ground
+static double min_clearance(const DpGait* gait, int limb, int t, const double* pose,
+                            const DpGroundBelow* below, const DpPlaceOptions* o, bool recorded)
 {
-    double least = INFINITY;
+    double lowest = INFINITY;
     for (int k = 0; k < gait->points; ++k) {
         const int part = gait->point_part[k];
         if (gait->part_limb[part] != limb) continue;
         const double* p = pose + 7 * ((size_t)part * (size_t)gait->times + (size_t)t);
         const DpPose  at = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
-        const DpVec3  point = dp_place(at, walker_point(gait, k));
+        const DpVec3  point = dp_place(at, dp_walker_point(gait, k));
         const double  over = recorded ? clearance_of(below, o, point)
                                       : point.z - below->height(below->ground, point.x, point.y);
-        least = fmin(least, over);  // leaves NaN out
+        lowest = fmin(lowest, over);  // leaves NaN out
     }
-    return least;
+    return lowest;
 }
 
 // how much the ground is higher than the floor about a place, held where there is none
@@ -216,13 +217,13 @@ static void place_limb(const DpGait* gait, const Limb* limb, int t, double rise,
 {
     const DpVec3 pivot = pivot_of(gait, limb, t), middle = middle_of(gait, limb, t);
     const DpVec3 normal = below->normal(below->ground, middle.x, middle.y, o->foot_radius);
-    const double before = least_clearance(gait, limb->limb, t, gait->pose, below, o, true);
-    const DpPose lead = walker_pose(gait, limb->lead, t);
+    const double before = min_clearance(gait, limb->limb, t, gait->pose, below, o, true);
+    const DpPose lead = dp_walker_pose(gait, limb->lead, t);
     const DpQuat led = placed_turn(gait, limb, limb->lead, t, normal, below, o, clearance);
     const DpQuat turned = dp_quat_product(led, dp_quat_back(lead.turn));
     for (int p = 0; p < gait->parts; ++p) {
         if (gait->part_limb[p] != limb->limb) continue;
-        const DpVec3 arm = dp_sub(walker_pose(gait, p, t).at, pivot);
+        const DpVec3 arm = dp_sub(dp_walker_pose(gait, p, t).at, pivot);
         const DpVec3 at = dp_add(pivot, dp_turn(turned, arm));
         const DpQuat q =
             p == limb->lead ? led : placed_turn(gait, limb, p, t, normal, below, o, clearance);
@@ -230,7 +231,7 @@ static void place_limb(const DpGait* gait, const Limb* limb, int t, double rise,
         memcpy(pose + 7 * ((size_t)p * (size_t)gait->times + (size_t)t), value, sizeof value);
     }
     // no deeper in the ground than it was in its own
-    const double after = least_clearance(gait, limb->limb, t, pose, below, o, false);
+    const double after = min_clearance(gait, limb->limb, t, pose, below, o, false);
     const double lift = fmin(before, 0.0) - after;
     if (!isfinite(lift) || lift <= 0.0) return;
     for (int p = 0; p < gait->parts; ++p)
@@ -246,14 +247,14 @@ static double first_rise(const DpGait* gait, const Limb* limb, int walker,
 {
     double held = (double)NAN;
     for (int t = 0; t < gait->times && !isfinite(held); ++t)
-        rise_at(below, o, limb ? pivot_of(gait, limb, t) : walker_com(gait, walker, t),
+        rise_at(below, o, limb ? pivot_of(gait, limb, t) : dp_walker_com(gait, walker, t),
                 limb ? o->foot_radius : o->body_radius, &held);
     return held;
 }
 
 static bool options_ok(const DpPlaceOptions* o)
 {
-    return o && o->reach > 0.0 && isfinite(o->reach) && o->toe_slope >= 0.0 &&
+    return o && o->max_clearance > 0.0 && isfinite(o->max_clearance) && o->toe_slope >= 0.0 &&
            isfinite(o->toe_slope) && o->foot_radius > 0.0 && isfinite(o->foot_radius) &&
            o->body_radius > 0.0 && isfinite(o->body_radius) && isfinite(o->floor);
 }
@@ -262,7 +263,7 @@ DpStatus dp_foot_place(const DpGait* gait, int walker, const DpGroundBelow* belo
                        const DpPlaceOptions* options, const double* clearance, double* pose,
                        double* com)
 {
-    if (!walker_gait_ok(gait) || walker < 0 || walker >= gait->walkers || !below ||
+    if (!dp_walker_gait_ok(gait) || walker < 0 || walker >= gait->walkers || !below ||
         !below->height || !below->normal || !options_ok(options) || !clearance || !pose || !com)
         return DP_BAD_ARGUMENT;
     for (int l = 0; l < gait->limbs; ++l) {
@@ -280,7 +281,7 @@ DpStatus dp_foot_place(const DpGait* gait, int walker, const DpGroundBelow* belo
     if (!options->carry) return DP_OK;
     double rise = first_rise(gait, NULL, walker, below, options);
     for (int t = 0; t < gait->times; ++t) {
-        if (rise_at(below, options, walker_com(gait, walker, t), options->body_radius, &rise) !=
+        if (rise_at(below, options, dp_walker_com(gait, walker, t), options->body_radius, &rise) !=
             DP_OK)
             return DP_NO_GROUND;
         com[3 * ((size_t)walker * (size_t)gait->times + (size_t)t) + 2] += rise;

@@ -10,7 +10,7 @@
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define MOST_SWEEPS 400
+#define MAX_SWEEPS 400
 #define CLOSE_ENOUGH 1e-12
 
 double dp_foot_share(DpVec3 com, DpVec3 left, DpVec3 right)
@@ -37,27 +37,27 @@ static double spread(const double* s, const DpVec3* at, int count)
 
 // Each pair trades weight until nobody gains: for two supports that is the closed form
 //   a = (mu s + 2 lambda q a*) / (mu + 2 lambda q),  q = s (1 - s),  a* = SOFT22 (5).
-void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu,
-                  double reach)
+void dp_walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu,
+                     double support_span)
 {
     enum
     {
-        MOST = 64
+        MAX_SUPPORTS = 64
     };  // more supports than that keep their ramps
-    if (count < 2 || count > MOST) return;
+    if (count < 2 || count > MAX_SUPPORTS) return;
     const double square = spread(share, at, count);
     if (!(square > 1e-12)) return;
-    const double lambda = square / (square + reach * reach) / square;
-    double       pull[MOST];  // mu / (4 s (1 - s)): how hard a ramp holds its share
-    double       held[MOST];
+    const double lambda = square / (square + support_span * support_span) / square;
+    double       pull[MAX_SUPPORTS];  // mu / (4 s (1 - s)): how hard a ramp holds its share
+    double       held[MAX_SUPPORTS];
     DpVec3       miss = dp_vec3(-target.x, -target.y, 0.0);  // sum a_i p_i - target
     for (int i = 0; i < count; ++i) {
         held[i] = share[i];
         pull[i] = mu / fmax(4.0 * share[i] * (1.0 - share[i]), 1e-9) + 1e-9;
         miss = dp_add(miss, dp_scale(dp_vec3(at[i].x, at[i].y, 0.0), share[i]));
     }
-    for (int sweep = 0; sweep < MOST_SWEEPS; ++sweep) {
-        double most = 0.0;
+    for (int sweep = 0; sweep < MAX_SWEEPS; ++sweep) {
+        double largest = 0.0;
         for (int i = 0; i < count; ++i)
             for (int j = 0; j < i; ++j) {
                 // whom the ramps give nothing gets nothing
@@ -69,14 +69,13 @@ void walker_share(double* share, const DpVec3* at, int count, DpVec3 target, dou
                 const double give = dp_clamp(-slope / curve, -share[i], share[j]);
                 share[i] += give, share[j] -= give;
                 miss = dp_add(miss, dp_scale(d, give));
-                most = fmax(most, fabs(give));
+                largest = fmax(largest, fabs(give));
             }
-        if (most < CLOSE_ENOUGH) break;
+        if (largest < CLOSE_ENOUGH) break;
     }
 }
 
-// ---- ramps
-// ---------------------------------------------------------------------------------------
+// ---- ramps --------------------------------------------------------------------------------------
 
 // first sample after t at which the support's state has changed, or `times`, the search's end
 static int run_end(const uint8_t* on, int times, int t)
@@ -86,11 +85,11 @@ static int run_end(const uint8_t* on, int times, int t)
     return t;
 }
 
-// first sample of the run that holds t, or `least`, the search's end
-static int run_begin(const uint8_t* on, int least, int t)
+// first sample of the run that holds t, or `first`, the search's end
+static int run_begin(const uint8_t* on, int first, int t)
 {
     const uint8_t state = on[t];
-    while (t > least && on[t - 1] == state) --t;
+    while (t > first && on[t - 1] == state) --t;
     return t;
 }
 
@@ -140,12 +139,12 @@ static double ramp_time(const uint8_t* touching, int count, int times, int self,
     if (!company) return alone_time(touching, count, times, self, t, begins, rate, options);
     const double overlap = shortest / rate;
     return rolls && company && isfinite(overlap) ? overlap
-           : overlap < options->overlap_most     ? overlap
+           : overlap < options->max_overlap      ? overlap
                                                  : options->ramp_standing;
 }
 
-void walker_ramps(const uint8_t* touching, int count, int times, double rate,
-                  const DpLoadOptions* options, bool rolls, double* weight)
+void dp_walker_ramps(const uint8_t* touching, int count, int times, double rate,
+                     const DpLoadOptions* options, bool rolls, double* weight)
 {
     for (int i = 0; i < count; ++i) {
         const uint8_t* on = touching + (size_t)i * (size_t)times;

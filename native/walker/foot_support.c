@@ -36,14 +36,14 @@ static bool support(const DpGait* gait, int walker, int t, const double* height,
                     const double* speed, const double* clearance, const DpContactLimits* limits,
                     double highest, uint8_t* on)
 {
-    double least = INFINITY, lowest = 0.0, pace = 0.0;
+    double cheapest = INFINITY, lowest = 0.0, pace = 0.0;
     int    limb = -1;
     for (int k = 0; k < gait->points; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
         if (gait->limb_walker[limb_of(gait, k)] != walker || isnan(height[at])) continue;
         const double d = height[at] - clearance[k];
         const double cost = speed[at] + RISE_TO_SPEED * d;
-        if (cost < least) least = cost, lowest = d, pace = speed[at], limb = limb_of(gait, k);
+        if (cost < cheapest) cheapest = cost, lowest = d, pace = speed[at], limb = limb_of(gait, k);
     }
     if (limb < 0 || lowest > highest) return false;
     for (int k = 0; k < gait->points; ++k) {
@@ -90,9 +90,9 @@ static bool is_rigid(const DpGait* gait, int walker)
     return limbs == 1 && parts == 1 && !foot;
 }
 
-void walker_support(const DpGait* gait, int walker, const double* height, const double* speed,
-                    const double* clearance, const double* fall, const DpContactLimits* limits,
-                    double rate, uint8_t* on)
+void dp_walker_support(const DpGait* gait, int walker, const double* height, const double* speed,
+                       const double* clearance, const double* fall, const DpContactLimits* limits,
+                       double rate, uint8_t* on)
 {
     const int    times = gait->times;
     const double floats = -limits->support_fall * DP_GRAVITY;

@@ -1,5 +1,6 @@
 // walker/gait_filter.c - smoothing without phase, and rates of change.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -41,8 +42,8 @@ static void pass(const Section* s, double* value, int count, int step)
 // how far the signal is continued beyond each end: three periods of the cut-off, if it is that long
 static int padding(int count, double rate, double cutoff)
 {
-    const double most = 3.0 * rate / cutoff;
-    return most < (double)(count - 1) ? (int)most : count - 1;
+    const double wanted = 3.0 * rate / cutoff;
+    return wanted < (double)(count - 1) ? (int)wanted : count - 1;
 }
 
 static bool smooths(int count, double rate, double cutoff)
@@ -50,13 +51,13 @@ static bool smooths(int count, double rate, double cutoff)
     return count >= 3 && cutoff > 0.0 && cutoff < 0.45 * rate;
 }
 
-size_t walker_low_pass_scratch(int count, double rate, double cutoff)
+size_t dp_walker_low_pass_scratch(int count, double rate, double cutoff)
 {
     if (!smooths(count, rate, cutoff)) return 1;
     return (size_t)count + 2 * (size_t)padding(count, rate, cutoff);
 }
 
-void walker_low_pass(double* value, int count, double rate, double cutoff, double* scratch)
+void dp_walker_low_pass(double* value, int count, double rate, double cutoff, double* scratch)
 {
     if (!smooths(count, rate, cutoff)) return;
     const int     pad = padding(count, rate, cutoff);
@@ -72,25 +73,42 @@ void walker_low_pass(double* value, int count, double rate, double cutoff, doubl
     memcpy(value, scratch + pad, (size_t)count * sizeof *value);
 }
 
-double walker_velocity(const double* value, int count, int at, double rate)
+static int by_value(const void* a, const void* b)
+{
+    const double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+void dp_walker_sort(double* value, size_t count)
+{
+    qsort(value, count, sizeof *value, by_value);
+}
+
+double dp_walker_median(double* value, size_t count)
+{
+    dp_walker_sort(value, count);
+    return value[count / 2];
+}
+
+double dp_walker_velocity(const double* value, int count, int at, double rate)
 {
     if (count < 2) return 0.0;
     const int before = at > 0 ? at - 1 : at, after = at < count - 1 ? at + 1 : at;
     return (value[after] - value[before]) * rate / (double)(after - before);
 }
 
-double walker_acceleration(const double* value, int count, int at, double rate)
+double dp_walker_acceleration(const double* value, int count, int at, double rate)
 {
     if (count < 3) return 0.0;
     const int mid = at < 1 ? 1 : at > count - 2 ? count - 2 : at;
     return (value[mid + 1] - 2.0 * value[mid] + value[mid - 1]) * rate * rate;
 }
 
-double walker_rate(const DpGait* gait)
+double dp_walker_rate(const DpGait* gait)
 {
     if (gait->times < 2) return 0.0;
-    const double whole = gait->time[gait->times - 1] - gait->time[0];
-    const double step = whole / (double)(gait->times - 1);
+    const double lasts = gait->time[gait->times - 1] - gait->time[0];
+    const double step = lasts / (double)(gait->times - 1);
     if (!(step > 0.0) || !isfinite(step)) return 0.0;
     for (int k = 1; k < gait->times; ++k)
         if (!(fabs(gait->time[k] - gait->time[k - 1] - step) < 1e-3 * step)) return 0.0;
@@ -104,14 +122,14 @@ static bool all_finite(const double* value, size_t count)
     return true;
 }
 
-static bool owners_ok(const int32_t* owner, int count, int most)
+static bool owners_ok(const int32_t* owner, int count, int owners)
 {
     for (int k = 0; k < count; ++k)
-        if (owner[k] < 0 || owner[k] >= most) return false;
+        if (owner[k] < 0 || owner[k] >= owners) return false;
     return true;
 }
 
-bool walker_gait_ok(const DpGait* gait)
+bool dp_walker_gait_ok(const DpGait* gait)
 {
     if (!gait || gait->times < 1 || gait->walkers < 1 || gait->limbs < 1 || gait->parts < 1)
         return false;

@@ -36,14 +36,14 @@ typedef struct DpGroundBelow
 // Start from dp_place_options_default().
 typedef struct DpPlaceOptions
 {
-    double reach;        // d_max, feet this high over the ground are as recorded     [m]   > 0
-    double toe_slope;    // theta_0, up steeper slopes only the toes carry            [rad] >= 0
-    double foot_radius;  // the ground is smoothed over this under a foot             [m]   > 0
-    double body_radius;  // and over this under the body                              [m]   > 0
-    bool   flat;         // near the ground feet lie flat on it, as printed; else they keep their
-                         //   roll: they stand on the slope as they stood on the floor [-]
-    bool   carry;        // recorded on level floor: feet and body rise and sink with the ground [-]
-    double floor;        // height of that floor                                      [m]
+    double max_clearance;  // d_max, feet this high over the ground are as recorded     [m]   > 0
+    double toe_slope;      // theta_0, up steeper slopes only the toes carry            [rad] >= 0
+    double foot_radius;    // the ground is smoothed over this under a foot             [m]   > 0
+    double body_radius;    // and over this under the body                              [m]   > 0
+    bool   flat;           // near the ground feet lie flat on it, as printed; else they keep their
+                           //   roll: they stand on the slope as they stood on the floor [-]
+    bool   carry;  // recorded on level floor: feet and body rise and sink with the ground [-]
+    double floor;  // height of that floor                                      [m]
 } DpPlaceOptions;
 
 DpPlaceOptions dp_place_options_default(void);
@@ -109,11 +109,11 @@ typedef struct DpLoadOptions
     double cutoff_high;    //                                                     [Hz] >= cutoff_low
     double cutoff_flight;  // and the lower one of who flies                      [Hz] > 0
     double cutoff_level;   // of a_com over the ground, in shares of that upward  [-]  > 0
-    double overlap_most;   // longer overlaps are standing, not a change of feet  [s]  > 0
+    double max_overlap;    // longer overlaps are standing, not a change of feet  [s]  > 0
     double ramp_standing;  // ramp of a limb that joins others that stay          [s]  > 0
     double ramp_alone;     // ramp of a limb that relieves none                   [s]  > 0
     double ramp_trust;     // mu, trust in ramps against the zero-moment point    [-]  >= 0
-    double reach;          // spread at which that point gets half its say        [m]  > 0
+    double support_span;   // spread at which that point gets half its say        [m]  > 0
 } DpLoadOptions;
 
 DpLoadOptions dp_load_options_default(void);

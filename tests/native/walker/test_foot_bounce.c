@@ -43,9 +43,9 @@ static void check_ends(int by, double frame, double most)
         for (int k = by < 0 ? t + by : t; k < (by < 0 ? t : t + by); ++k) on[k] = by > 0;
         if (by > 0) t += by;
     }
-    double* scratch = dp_alloc(walker_fly_scratch(N), sizeof(double));
+    double* scratch = dp_alloc(dp_walker_fly_scratch(N), sizeof(double));
     CHECK(scratch != NULL);
-    walker_bounces(scene_gait(&s, N, 1, 1), 0, frame, RATE, on, air, height, scratch);
+    dp_walker_bounces(scene_gait(&s, N, 1, 1), 0, frame, RATE, on, air, height, scratch);
     int ends = 0;
     for (int t = STANCE + FLIGHT; t < N - FLIGHT; ++t) {
         if (on[t] || !on[t - 1]) continue;
@@ -73,8 +73,8 @@ TEST(within_half_a_frame)
     Scene          s = hopping(on);
     memmove(on, on + 2, N - 2);
     memcpy(was, on, N);
-    double* scratch = dp_alloc(walker_fly_scratch(N), sizeof(double));
-    walker_bounces(scene_gait(&s, N, 1, 1), 0, 1.0 / RATE, RATE, on, air, height, scratch);
+    double* scratch = dp_alloc(dp_walker_fly_scratch(N), sizeof(double));
+    dp_walker_bounces(scene_gait(&s, N, 1, 1), 0, 1.0 / RATE, RATE, on, air, height, scratch);
     CHECK(memcmp(on, was, N) == 0);
     dp_free(scratch);
     scene_free(&s);
@@ -91,8 +91,8 @@ TEST(who_still_stands_has_not_left)
         scene_com(&s, t, 0.0, 0.0, 2.0 - 0.5 * DP_GRAVITY * fall * fall);
         on[t] = t < 238;  // the foot was seen to leave two samples early
     }
-    double* scratch = dp_alloc(walker_fly_scratch(N), sizeof(double));
-    walker_bounces(scene_gait(&s, N, 1, 1), 0, 1.0 / 60.0, RATE, on, air, height, scratch);
+    double* scratch = dp_alloc(dp_walker_fly_scratch(N), sizeof(double));
+    dp_walker_bounces(scene_gait(&s, N, 1, 1), 0, 1.0 / 60.0, RATE, on, air, height, scratch);
     int end = 0;
     while (end < N && on[end]) ++end;
     CHECK(end == 239 || end == 240);

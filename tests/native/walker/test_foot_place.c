@@ -227,7 +227,7 @@ TEST(refuses_what_cannot_be)
           DP_BAD_ARGUMENT);
     CHECK(dp_foot_place(&s.gait, 0, &none, &options, clearance, placed.pose, placed.com) ==
           DP_BAD_ARGUMENT);
-    options.reach = 0.0;
+    options.max_clearance = 0.0;
     CHECK(place(&s, &plane, &options, &placed) == DP_BAD_ARGUMENT);
     options = dp_place_options_default();
     options.floor = NAN;
