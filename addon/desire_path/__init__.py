@@ -3,6 +3,9 @@
 Without Blender: `Gait`, `Walker`, `Soil`, `Simulation`, `Bake` and `python -m desire_path`.
 With Blender: the same from the Physics tab, after `register()`.
 """
+
+from . import lazy, old_names
+
 bl_info = {
     "name": "Desire Path",
     "author": "Desire Path contributors",
@@ -15,17 +18,11 @@ bl_info = {
 
 __version__ = ".".join(str(part) for part in bl_info["version"])
 
-_HOME = {"Gait": "gait", "Sole": "gait", "Walker": "walker", "place_feet": "place", "Soil": "soil",
-         "SOILS": "soil", "Kind": "plants", "KINDS": "plants", "Planting": "plants", "Ground": "sim",
-         "Simulation": "sim", "Bake": "bake", "Parcel": "parcels", "read_index": "bake", "DesirePathError": "errors"}
-
-
-def __getattr__(name):
-    # looked up when first asked for, so that importing the package needs nothing but Python
-    if name in _HOME:
-        from importlib import import_module
-        return getattr(import_module("." + _HOME[name], __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__, __dir__, __all__ = lazy.names(__name__, {
+    "Gait": "motion.gait", "Sole": "motion.gait", "Walker": "loads.walker", "place_feet": "placement.place",
+    "Soil": "ground.soil", "SOILS": "ground.soil", "Kind": "ground.plants", "KINDS": "ground.plants",
+    "Planting": "ground.plants", "Ground": "ground.sim", "Simulation": "ground.sim", "Parcel": "ground.parcels",
+    "Bake": "bake.bake", "read_index": "bake.folder", "DesirePathError": "errors"}, other=old_names.serve(__name__))
 
 
 def register():

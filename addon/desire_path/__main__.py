@@ -6,18 +6,21 @@ import argparse
 import os
 import sys
 
-from . import fit, jumps, lane, plot, walker, whole
-from . import path as paths
-from .bake import FILMS, Bake
+from .files import atomic_file
+from .loads import plot, walker
+from .motion import jumps
+from .study import calibrate, trampling
+from .placement import path as paths
+from .bake.bake import FILMS, Bake
 from .bounds import ADVICE, Limits
 from .errors import DesirePathError
-from .gait import Gait
-from .place import place_feet
-from .report import sentences, summary, write_contacts
-from .output import check_idle
-from .plants import KINDS, Kind, Planting
-from .sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
-from .soil import SOILS
+from .motion.gait import Gait
+from .placement.place import place_feet
+from .loads.report import sentences, summary, write_contacts
+from .bake.output import check_idle
+from .ground.plants import KINDS, Kind, Planting
+from .ground.sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
+from .ground.soil import SOILS
 from .version import VERSION
 
 
@@ -147,17 +150,17 @@ def _plot(args):
 
 
 def _lane(args):
-    rows = lane.measure(_kind(args.kind), length=args.length, width=args.width, passes=_counts(args.passes),
+    rows = trampling.measure(_kind(args.kind), length=args.length, width=args.width, passes=_counts(args.passes),
                         mass=args.mass, seed=args.seed, rest_days=args.rest_days, soil=args.soil,
                         cell_size=args.cell, threads=args.threads, progress=lambda done: _bar(done, "of the passes"))
     for count, cover in rows:
         print(f"{count:5} passes  {cover:5.1f} % cover")
-    lane.write(args.out, rows)
+    trampling.write(args.out, rows)
     print(f"written to    {os.path.abspath(args.out)}")
 
 
 def _fit(args):
-    found = fit.fit(lane.read(args.cover), _kind(args.kind), length=args.length, width=args.width, mass=args.mass,
+    found = calibrate.fit(trampling.read(args.cover), _kind(args.kind), length=args.length, width=args.width, mass=args.mass,
                     progress=lambda done: _bar(done, "of the lanes, at most"))
     for count, wanted, reached in zip(found.passes, found.wanted, found.reached):
         print(f"{count:5} passes  {wanted:5.1f} % wanted  {reached:5.1f} % reached")
@@ -235,7 +238,7 @@ def _parser():
     tread.add_argument("--kind", default="carex", help=f"{', '.join(KINDS)}, or a kind's file (.json)")
     tread.add_argument("--length", type=float, default=5.0, help="of the lane [m] (5)")
     tread.add_argument("--width", type=float, default=0.5, help="of the lane [m] (0.5)")
-    tread.add_argument("--passes", default=",".join(map(str, lane.PASSES)), help="counts to measure at (25,75,200,500)")
+    tread.add_argument("--passes", default=",".join(map(str, trampling.PASSES)), help="counts to measure at (25,75,200,500)")
     tread.add_argument("--mass", type=float, default=75.0, help="of who walks [kg] (75)")
     tread.add_argument("--seed", type=int, default=0, help="of the plants and the walkers' scatter (0)")
     tread.add_argument("--rest-days", type=float, default=0.0, help="days of growth before every count (0)")
@@ -262,7 +265,7 @@ def main(arguments=None):
     try:
         for path in (args.out, getattr(args, "contacts", None)):
             if path is not None and args.task is not _bake:
-                whole.check(path, "The result")  # before minutes of work
+                atomic_file.check(path, "The result")  # before minutes of work
         args.task(args)
     except DesirePathError as problem:
         print(problem, file=sys.stderr)

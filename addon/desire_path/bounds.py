@@ -13,7 +13,7 @@ import os
 import shutil
 from dataclasses import dataclass, fields
 
-from . import disk
+from .files import disk
 from .errors import DesirePathError
 
 MOST_PIXELS = 1 << 27  # of one frame

@@ -27,7 +27,7 @@ import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 import desire_path  # noqa: E402
-from desire_path.gait import Gait  # noqa: E402
+from desire_path.motion.gait import Gait  # noqa: E402
 
 SIDE = 4.6  # of the ground [m]
 SOIL = "dry-sand"  # a new ground's own; soft ones slide longer: --soil mud

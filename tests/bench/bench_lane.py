@@ -12,25 +12,26 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
-from desire_path import lane, walker  # noqa: E402
-from desire_path.plants import KINDS  # noqa: E402
+from desire_path.loads import walker  # noqa: E402
+from desire_path.study import trampling  # noqa: E402
+from desire_path.ground.plants import KINDS  # noqa: E402
 
 
 def main():
     passes = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     begun = time.perf_counter()
-    gait = lane.walk().along([(-lane.BEYOND, 0.0), (5.0 + lane.BEYOND, 0.0)], passes, lateral=lane.SCATTER * 0.5)
+    gait = trampling.walk().along([(-trampling.BEYOND, 0.0), (5.0 + trampling.BEYOND, 0.0)], passes, lateral=trampling.SCATTER * 0.5)
     made = time.perf_counter()
     walker.loads(gait)
     print(f"{passes} passes, {len(gait.time)} samples: made in {made - begun:.2f} s, "
           f"forces in {time.perf_counter() - made:.2f} s")
     for threads in sorted({1, os.cpu_count() or 1}):
-        sim, marks = lane.trodden(KINDS["carex"], passes, **{**lane.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads)
+        sim, marks = trampling.trodden(KINDS["carex"], passes, **{**trampling.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads)
         begun, spent = time.perf_counter(), time.process_time()
         sim.run(marks[-1])
         took, spent = time.perf_counter() - begun, time.process_time() - spent
         print(f"{threads} threads: {took:.1f} s ({spent:.1f} s of processors), {1e3 * spent / len(gait.time):.3f} ms a "
-              f"step, {sim.plants_count()} plants, cover {lane.cover(sim):.1f} %")
+              f"step, {sim.plants_count()} plants, cover {trampling.cover(sim):.1f} %")
 
 
 if __name__ == "__main__":

@@ -10,10 +10,11 @@ import time
 import bpy
 import numpy as np
 
-from desire_path import bake, maps, output, sim
+from desire_path.bake import bake, output
+from desire_path.ground import maps, sim
 from desire_path.blender import compat, op_bake, op_forces, playback
-from desire_path.gait import Gait
-from desire_path.soil import SOILS
+from desire_path.motion.gait import Gait
+from desire_path.ground.soil import SOILS
 from scenes import meshes, people
 from test_playback import fresh, shown
 from test_sample import ids
@@ -321,7 +322,7 @@ def test_record_bakes_the_same_without_blender(folder):
     assert bpy.ops.object.desire_path_record(filepath=str(folder / "walk.npz")) == {"FINISHED"}
     gait = Gait.load(str(folder / "walk.npz"))
     assert gait.walker_name == ("Walker",) and gait.mass[0] == 75.0 and len(gait.time) == 16
-    from desire_path.sim import Ground
+    from desire_path.ground.sim import Ground
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     vertices = compat.positions(ground.data).astype(np.float64)

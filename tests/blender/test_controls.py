@@ -2,9 +2,10 @@
 import bpy
 import numpy as np
 
-from desire_path import place, walker
+from desire_path.loads import walker
+from desire_path.placement import place
 from desire_path.blender import compat, controls, ground as ground_of, op_place, posing, sample
-from desire_path.sim import Simulation
+from desire_path.ground.sim import Simulation
 from scenes import meshes, people, rigified
 from test_place import ASIDE, UP, check_placed, heads, hill, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused

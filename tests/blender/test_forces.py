@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 import desire_path
-from desire_path import report, walker
+from desire_path.loads import report, walker
 from desire_path.blender import force_graph, moves, op_forces, sample
 from scenes import meshes, people
 

@@ -6,7 +6,7 @@ import stat
 import bpy
 import numpy as np
 
-from desire_path import bake
+from desire_path.bake import bake
 from desire_path.blender import compat, home, playback, trash
 from scenes import meshes
 from test_bake import PLAYS, refused, scene

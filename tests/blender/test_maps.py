@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from desire_path import maps
+from desire_path.ground import maps
 from test_bake import scene
 
 

@@ -4,7 +4,8 @@ import json
 import bpy
 import numpy as np
 
-from desire_path import bake, maps
+from desire_path.bake import bake
+from desire_path.ground import maps
 from desire_path.blender import compat, moves, posing, sample, stems
 from scenes import meshes, people
 from test_bake import scene as strip

@@ -6,8 +6,8 @@ import bpy
 import mathutils
 import numpy as np
 
-from desire_path import bake
-from desire_path.soil import SOILS
+from desire_path.bake import bake
+from desire_path.ground.soil import SOILS
 from scenes import gaits, meshes, slopes, stands
 
 SECONDS, JUMP = 1.5, 1.2  # the dance ends, and leaves the ground [s]

@@ -7,9 +7,11 @@ import pathlib
 import bpy
 import numpy as np
 
-from desire_path import bake, maps, sim, walker
+from desire_path.bake import bake
+from desire_path.ground import maps, sim
+from desire_path.loads import walker
 from desire_path.blender import clock, moves, sample
-from desire_path.gait import Gait
+from desire_path.motion.gait import Gait
 from scenes import meshes, people
 from test_playback import shown
 

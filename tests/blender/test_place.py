@@ -6,9 +6,12 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from desire_path import maps, place, rotation, walker
+from desire_path.ground import maps
+from desire_path.loads import walker
+from desire_path.motion import rotation
+from desire_path.placement import place
 from desire_path.blender import compat, ground as ground_of, moves, op_place, posing, sample
-from desire_path.sim import Simulation
+from desire_path.ground.sim import Simulation
 from scenes import meshes, people
 from test_rig import add_bones, beast, refused
 

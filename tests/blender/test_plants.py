@@ -9,7 +9,7 @@ import numpy as np
 
 
 from desire_path.blender import axes, compat, grass, playback, plants
-from desire_path.plants import KINDS
+from desire_path.ground.plants import KINDS
 from scenes import exr, meshes
 from test_bake import refused, state
 from test_playback import corners, fresh

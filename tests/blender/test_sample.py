@@ -4,7 +4,7 @@ import math
 import bpy
 import numpy as np
 
-from desire_path import rigs
+from desire_path.rig import rigs
 from desire_path.blender import axes, moves, sample
 from desire_path.errors import DesirePathError
 from scenes import meshes, people

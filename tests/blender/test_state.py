@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 import desire_path
-from desire_path import output
+from desire_path.bake import output
 from desire_path.blender import axes, compat, home, op_bake, playback
 from scenes import meshes, people
 from test_bake import refused, scene

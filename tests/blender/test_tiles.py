@@ -4,7 +4,8 @@ import json
 import bpy
 import numpy as np
 
-from desire_path import bake, sim
+from desire_path.bake import bake
+from desire_path.ground import sim
 from desire_path.blender import op_forces, op_place, playback
 from scenes import meshes, people
 from test_bake import refused

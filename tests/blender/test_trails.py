@@ -5,10 +5,11 @@ import struct
 import bpy
 import numpy as np
 
-from desire_path import bake, maps
+from desire_path.bake import bake
+from desire_path.ground import maps
 from desire_path.blender import compat, op_bake, playback, plants, stems, way
 from desire_path.errors import DesirePathError
-from desire_path.plants import KINDS
+from desire_path.ground.plants import KINDS
 from scenes import meshes
 from test_bake import refused, scene, state
 from test_plants import everything, grown, picture, roots

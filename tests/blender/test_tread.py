@@ -3,7 +3,8 @@ import bpy
 import mathutils
 import numpy as np
 
-from desire_path import bake, maps
+from desire_path.bake import bake
+from desire_path.ground import maps
 from desire_path.blender import sample
 from desire_path.errors import DesirePathError
 from scenes import meshes, people

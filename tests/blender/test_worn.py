@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from desire_path import rigs
+from desire_path.rig import rigs
 from desire_path.blender import axes, compat, playback, sample, worn
 from scenes import meshes, people
 from test_sample import ids, shoe

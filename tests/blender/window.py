@@ -12,7 +12,8 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 desire_path.register()
-from desire_path import bake, sim  # noqa: E402
+from desire_path.bake import bake  # noqa: E402
+from desire_path.ground import sim  # noqa: E402
 from desire_path.blender import op_bake, op_forces, playback, state  # noqa: E402
 from scenes import meshes, people  # noqa: E402
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, mass, rigs, walker
+from desire_path.loads import walker
+from desire_path.rig import body, mass, rigs
 from desire_path.errors import DesirePathError
 from scenes import beasts
 

@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, rigs, rotation, sole, walker
-from desire_path.body import Motion, Skeleton, Skin
+from desire_path.loads import walker
+from desire_path.motion import rotation
+from desire_path.rig import body, rigs, sole
+from desire_path.rig.body import Motion, Skeleton, Skin
 from desire_path.errors import DesirePathError
-from desire_path.gait import BALL, HEEL, TIP, Sole
+from desire_path.motion.gait import BALL, HEEL, TIP, Sole
 
 NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
 PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import maps
-from desire_path.bake import Bake
-from desire_path.sim import Ground, Simulation
-from desire_path.soil import Soil
+from desire_path.ground import maps
+from desire_path.bake.bake import Bake
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import Soil
 
 from tests.scenes import gaits
 

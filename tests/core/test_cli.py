@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path import maps
+from desire_path.ground import maps
 
 from tests.core.test_bake import standing
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from desire_path import _native
-from desire_path.sim import Ground, Simulation
+from desire_path.ground.sim import Ground, Simulation
 
 from tests.scenes import gaits
 

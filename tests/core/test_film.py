@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from desire_path import maps
-from desire_path.sim import TILE, Ground, Simulation
+from desire_path.ground import maps
+from desire_path.ground.sim import TILE, Ground, Simulation
 
 from tests.scenes import gaits
 

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from desire_path import lane
+from desire_path.study import trampling
 from desire_path.errors import DesirePathError
 
 from tests.fuzz import mutate, parsers
@@ -33,9 +33,9 @@ def mumbles(path):
 @pytest.mark.parametrize("fault, words", [(raises, "nobody caught this"), (takes_long, "took longer than 1 s"),
                                           (mumbles, "says 'line 4711'")])
 def test_faults_are_found_and_their_files_kept(fault, words, tmp_path, monkeypatch):
-    good = lane.read
+    good = trampling.read
     monkeypatch.setattr(parsers, "LONG", 1)
-    monkeypatch.setattr(lane, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path))
+    monkeypatch.setattr(trampling, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path))
     (tmp_path / "place").mkdir()
     found, = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
     assert words in found

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from desire_path.errors import DesirePathError
-from desire_path.gait import Gait, Sole
+from desire_path.motion.gait import Gait, Sole
 
 
 def gait(count=10, rate=24.0, shift=0.0):

@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, jumps, walker
-from desire_path.bake import Bake
-from desire_path.gait import Gait
-from desire_path.sim import Ground
+from desire_path.loads import walker
+from desire_path.motion import jumps
+from desire_path.rig import body
+from desire_path.bake.bake import Bake
+from desire_path.motion.gait import Gait
+from desire_path.ground.sim import Ground
 from scenes import bvh
 
 CLIPS = ("cmu_02_03_run", "cmu_02_04_jump", "cmu_12_01_walk")

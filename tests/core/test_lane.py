@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path import fit, lane
+from desire_path.study import calibrate, trampling
 from desire_path.errors import DesirePathError
-from desire_path.plants import KINDS, Kind, share_below, vigour_at
+from desire_path.ground.plants import KINDS, Kind, share_below, vigour_at
 
 REPO = Path(__file__).resolve().parents[2]
 COLE = REPO / "tests" / "scenes" / "lanes" / "cole.csv"
@@ -26,7 +26,7 @@ FEW = (10, 30)
 def side_by_side(*lanes):
     """Covers of several lanes, (kind, options) each: arrays, one number for each count."""
     with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
-        told = workers.map(lambda each: lane.measure(each[0], **{**JUDGED, "seed": SEED, **each[1]}), lanes)
+        told = workers.map(lambda each: trampling.measure(each[0], **{**JUDGED, "seed": SEED, **each[1]}), lanes)
         return [np.array([cover for _, cover in rows]) for rows in told]
 
 
@@ -36,27 +36,27 @@ def side_by_side(*lanes):
 @pytest.fixture(scope="module")
 def cole():
     """{days: (counts, cover)} of the measured lanes."""
-    rows = lane.read(COLE)
+    rows = trampling.read(COLE)
     return {days: tuple(np.array([row[:2] for row in rows if row[2] == days]).T) for days in (0.0, 365.0)}
 
 
 @pytest.fixture(scope="module")
 def trodden():
     """Cover of one lane of carex after each of Cole's counts, and after its year."""
-    sim, marks = lane.trodden(KINDS["carex"], 500, **{**lane.USUAL, "seed": SEED})
-    cover = lane.read_at(sim, [marks[n - 1] for n in lane.PASSES], marks[-1])
-    sim.rest_plants(365 * lane.DAY)
-    return np.array(cover), lane.cover(sim)
+    sim, marks = trampling.trodden(KINDS["carex"], 500, **{**trampling.USUAL, "seed": SEED})
+    cover = trampling.read_at(sim, [marks[n - 1] for n in trampling.PASSES], marks[-1])
+    sim.rest_plants(365 * trampling.DAY)
+    return np.array(cover), trampling.cover(sim)
 
 
 def test_carex_keeps_the_cover_of_coles_lanes(cole, trodden):
     counts, wanted = cole[0.0]
-    assert tuple(counts) == lane.PASSES
+    assert tuple(counts) == trampling.PASSES
     assert abs(trodden[0] - wanted).max() < 4.0, trodden[0]
 
 
 def test_finer_cells_keep_the_same_cover(cole, trodden):
-    fine = np.array([cover for _, cover in lane.measure("carex", passes=lane.PASSES[:3], seed=SEED, cell_size=0.01)])
+    fine = np.array([cover for _, cover in trampling.measure("carex", passes=trampling.PASSES[:3], seed=SEED, cell_size=0.01)])
     assert abs(fine - cole[0.0][1][:3]).max() < 4.0, fine
     assert abs(fine - trodden[0][:3]).max() < 4.0, (fine, trodden[0])
 
@@ -69,7 +69,7 @@ def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
 
 
 def test_cover_falls_monotonically_and_convexly(trodden):
-    counts, cover = np.r_[0, lane.PASSES], np.r_[100.0, trodden[0]]
+    counts, cover = np.r_[0, trampling.PASSES], np.r_[100.0, trodden[0]]
     slope = np.diff(cover) / np.diff(counts)
     assert (slope < 0).all() and (np.diff(slope) > 0).all()
 
@@ -104,21 +104,21 @@ def test_vigour_has_mean_0_and_deviation_1_and_the_law_it_says():
 
 
 def test_a_lane_repeats_and_counts_apart():
-    rows = lane.measure("carex", passes=(12, 4), seed=3, **SHORT)
+    rows = trampling.measure("carex", passes=(12, 4), seed=3, **SHORT)
     assert [count for count, _ in rows] == [4, 12] and 100.0 > rows[0][1] > rows[1][1] > 50.0
     told = []
-    assert lane.measure("carex", passes=(4,), seed=3, progress=told.append, **SHORT) == rows[:1]
+    assert trampling.measure("carex", passes=(4,), seed=3, progress=told.append, **SHORT) == rows[:1]
     assert told == sorted(told) and told[-1] == 1.0
-    rested = lane.measure("carex", passes=(4, 12), seed=3, rest_days=365.0, **SHORT)
+    rested = trampling.measure("carex", passes=(4, 12), seed=3, rest_days=365.0, **SHORT)
     assert all(later > before for (_, later), (_, before) in zip(rested, rows))
-    assert lane.measure("carex", passes=(4, 12), seed=4, **SHORT) != rows
+    assert trampling.measure("carex", passes=(4, 12), seed=4, **SHORT) != rows
 
 
 def test_few_plants_are_as_mixed_as_many():
-    assert len(lane.planted(KINDS["carex"], 5.0, 0.5, 1).roots) == 400  # enough to measure by
-    assert len(lane.planted(KINDS["carex"], 20.0, 0.5, 1).roots) == 800
-    assert len(lane.planted(KINDS["fern"], 5.0, 0.5, 1).roots) == 40
-    planted = lane.planted(KINDS["carex"], 5.0, 0.5, 1, density=80.0)
+    assert len(trampling.planted(KINDS["carex"], 5.0, 0.5, 1).roots) == 400  # enough to measure by
+    assert len(trampling.planted(KINDS["carex"], 20.0, 0.5, 1).roots) == 800
+    assert len(trampling.planted(KINDS["fern"], 5.0, 0.5, 1).roots) == 40
+    planted = trampling.planted(KINDS["carex"], 5.0, 0.5, 1, density=80.0)
     assert len(planted.roots) == 200
     low, high = planted.roots.min(axis=0), planted.roots.max(axis=0)
     assert (low > (-1e-3, -0.2501)).all() and (high < (5.001, 0.2501)).all()
@@ -138,7 +138,7 @@ def test_the_command_line_measures_a_lane(tmp_path):
     assert done.returncode == 0, done.stderr
     text = (tmp_path / "cover.csv").read_text()
     assert text.startswith("passes,cover\n2,") and text.count("\n") == 3
-    rows = lane.read(tmp_path / "cover.csv")
+    rows = trampling.read(tmp_path / "cover.csv")
     assert [row[0] for row in rows] == [2, 5] and 100.0 >= rows[0][1] >= rows[1][1] > 50.0
 
 
@@ -156,7 +156,7 @@ def test_bad_words_are_one_sentence(tmp_path, words, told):
 @pytest.mark.parametrize("density", [0.0, -1.0, math.nan, 1e9])
 def test_a_lane_that_cannot_be_planted_gets_a_sentence(density):
     with pytest.raises(DesirePathError, match="density"):
-        lane.measure("carex", passes=(1,), density=density)
+        trampling.measure("carex", passes=(1,), density=density)
 
 
 def test_what_cannot_be_written_is_told_before_the_work(tmp_path):
@@ -172,11 +172,11 @@ def test_tables_are_read(tmp_path):
                         ("passes,cover\n1.5,90\n", "Line 2"), ("passes,cover\n5,nan\n", "Line 2")):
         file.write_text(text)
         with pytest.raises(DesirePathError, match=words):
-            lane.read(file)
+            trampling.read(file)
     file.write_text("Cover,passes,days\n90,10,0\n95,10,365\n")
-    assert lane.read(file) == [(10, 90.0, 0.0), (10, 95.0, 365.0)]
+    assert trampling.read(file) == [(10, 90.0, 0.0), (10, 95.0, 365.0)]
     with pytest.raises(DesirePathError, match="cannot be read"):
-        lane.read(tmp_path / "nothing.csv")
+        trampling.read(tmp_path / "nothing.csv")
 
 
 # ---- the fit ---------------------------------------------------------------------------------------------
@@ -185,26 +185,26 @@ def test_tables_are_read(tmp_path):
 def test_a_fit_finds_the_kind_a_lane_was_planted_with():
     kind = replace(KINDS["carex"], strength=0.3, spread=1.2)
     few = (3, 8, 18, 45)  # the last tells how long the strong ones bear
-    rows = [(count, cover, 0.0) for count, cover in lane.measure(kind, passes=few, seed=5, **SHORT)]
+    rows = [(count, cover, 0.0) for count, cover in trampling.measure(kind, passes=few, seed=5, **SHORT)]
     rows.append((45, 100.0 - 0.5 * (100.0 - rows[-1][1]), 365.0))
-    found = fit.fit(rows, seeds=(5,), rounds=2, **SHORT)
+    found = calibrate.fit(rows, seeds=(5,), rounds=2, **SHORT)
     assert found.worst < 4.0 and found.rms <= found.worst
     assert found.kind.strength == pytest.approx(kind.strength, rel=0.3)
     assert found.kind.spread == pytest.approx(kind.spread, rel=0.35)
     assert found.kind.regrow_rate > 0.0 and found.kind.height == kind.height
-    assert [count for count, _ in lane.measure(found.kind, passes=few, seed=5, **SHORT)] == list(few)
+    assert [count for count, _ in trampling.measure(found.kind, passes=few, seed=5, **SHORT)] == list(few)
 
 
 def test_a_count_that_was_taken_twice_counts_by_its_mean():
     rows = [(3, 95.0, 0.0), (8, 90.0, 0.0), (3, 97.0, 0.0), (8, 80.0, 0.0)]
-    found = fit.fit(rows, seeds=(5,), rounds=1, **SHORT)
+    found = calibrate.fit(rows, seeds=(5,), rounds=1, **SHORT)
     assert found.passes == (3, 8) and found.wanted == (96.0, 85.0)
 
 
 def test_a_fit_needs_a_table_it_can_work_with():
     for rows, words in (([(10, 90.0, 0.0)], "at least two"), ([(10, 0.9, 0.0), (20, 0.8, 0.0)], "per cent")):
         with pytest.raises(DesirePathError, match=words):
-            fit.fit(rows)
+            calibrate.fit(rows)
 
 
 def test_without_scipy_a_sentence_says_how_to_get_it(tmp_path):
@@ -221,5 +221,5 @@ def test_the_shipped_kinds_are_fitted_ones():
     carex, lycopodium = KINDS["carex"], KINDS["lycopodium"]
     assert carex.spread == lycopodium.spread > 1.0 and lycopodium.strength == pytest.approx(0.8 * carex.strength)
     for kind in (carex, lycopodium):
-        assert kind.strength / kind.recover_rate == pytest.approx(14 * lane.DAY)
+        assert kind.strength / kind.recover_rate == pytest.approx(14 * trampling.DAY)
     assert Kind().spread == 0.0  # the paper's

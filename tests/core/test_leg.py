@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from desire_path import leg
+from desire_path.rig import leg
 
 COUNT = 40
 

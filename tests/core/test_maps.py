@@ -7,7 +7,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from desire_path import _native, maps
+from desire_path import _native
+from desire_path.ground import maps
 from desire_path.errors import DesirePathError
 
 

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from desire_path import mesh
+from desire_path.ground import mesh
 
 TURN = np.array([[0.6, -0.8, 0.1, 3.0], [0.8, 0.6, 0.0, -2.0], [0.0, 0.1, 1.0, 0.5]])
 

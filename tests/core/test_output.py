@@ -10,13 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path import disk, maps, output, whole
-from desire_path.bake import Bake, free, read_index
+from desire_path.bake import output
+from desire_path.files import atomic_file, disk
+from desire_path.ground import maps
+from desire_path.bake.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
-from desire_path.output import NAMES, Output
-from desire_path.parcels import Parcel
-from desire_path.plants import Planting
-from desire_path.sim import Ground
+from desire_path.bake.output import NAMES, Output
+from desire_path.ground.parcels import Parcel
+from desire_path.ground.plants import Planting
+from desire_path.ground.sim import Ground
 
 from tests.core.test_bake import baked, content, sentence, standing
 
@@ -383,7 +385,7 @@ def test_a_table_never_replaces_what_is_no_file(tmp_path, kind):
         path.mkdir()
     before = os.lstat(path)
     with pytest.raises(DesirePathError, match=f"which is a {kind.split()[-1]}") as error:
-        with whole.file(path, "The table", "w") as stream:
+        with atomic_file.file(path, "The table", "w") as stream:
             stream.write("new")
     sentence(error)
     assert os.lstat(path).st_mode == before.st_mode and os.lstat(path).st_ino == before.st_ino
@@ -394,7 +396,7 @@ def test_a_table_never_replaces_what_is_no_file(tmp_path, kind):
 @pytest.mark.parametrize("words", [("loads",), ("loads", "--contacts"), ("plot",), ("lane",), ("bake",)])
 def test_no_command_replaces_a_pipe(tmp_path, words):
     """Nor would it a device, which the tests leave alone."""
-    walk = str(Path(whole.__file__).parent / "walks" / "walk.npz")
+    walk = str(Path(atomic_file.__file__).parents[1] / "walks" / "walk.npz")
     pipe = tmp_path / ("out.png" if words == ("plot",) else "out")
     os.mkfifo(pipe)
     more = {"loads": [walk], "plot": [walk], "bake": [walk, "--cell", "0.05"],
@@ -409,12 +411,12 @@ def test_no_command_replaces_a_pipe(tmp_path, words):
 
 def test_names_may_be_long_and_folders_missing(tmp_path):
     long = tmp_path / ("\u8db3" * 80 + ".csv")  # 244 bytes
-    with whole.file(long, "The table", "w") as stream:
+    with atomic_file.file(long, "The table", "w") as stream:
         stream.write("1")
     assert long.read_text() == "1"
     for wrong in (tmp_path / "none" / "x.csv", f"{tmp_path}/a\0b.csv"):
         with pytest.raises(DesirePathError, match="cannot be written") as error:
-            with whole.file(wrong, "The table", "w"):
+            with atomic_file.file(wrong, "The table", "w"):
                 pass
         sentence(error)
     with pytest.raises(DesirePathError, match="cannot be made"):

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from desire_path import parcels
+from desire_path.ground import parcels
 from desire_path.errors import DesirePathError
-from desire_path.parcels import Parcel
-from desire_path.sim import Ground, Simulation
-from desire_path.soil import SOILS
+from desire_path.ground.parcels import Parcel
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import SOILS
 
 from tests.scenes import gaits
 

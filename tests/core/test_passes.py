@@ -10,13 +10,17 @@ from pathlib import Path as File
 import numpy as np
 import pytest
 
-from desire_path import body, cycle, lane, maps, passes, path, walker
-from desire_path.bake import Bake, read_index
+from desire_path.ground import maps
+from desire_path.loads import walker
+from desire_path.placement import cycle, passes, path
+from desire_path.rig import body
+from desire_path.study import trampling
+from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.gait import HEEL, Gait
-from desire_path.path import Path
-from desire_path.plants import KINDS
-from desire_path.sim import Ground, Simulation
+from desire_path.motion.gait import HEEL, Gait
+from desire_path.placement.path import Path
+from desire_path.ground.plants import KINDS
+from desire_path.ground.sim import Ground, Simulation
 from scenes import bvh, ship_walk
 
 REPO = File(__file__).resolve().parents[2]
@@ -428,8 +432,8 @@ def test_bad_words_are_one_sentence(walk, tmp_path, words, told):
 
 
 def test_the_walk_that_comes_along_repeats():
-    shipped, made = lane.walk(75.0), ship_walk.made()
-    assert shipped.mass.tolist() == [75.0] and lane.walk(60.0).mass.tolist() == [60.0]
+    shipped, made = trampling.walk(75.0), ship_walk.made()
+    assert shipped.mass.tolist() == [75.0] and trampling.walk(60.0).mass.tolist() == [60.0]
     for walked in (shipped, made):
         found = cycle.find(walked)
         assert found.seconds == pytest.approx(walked.time[-1]) and abs(found.floor) < 0.005

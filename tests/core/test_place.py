@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path import body, place, walker
+from desire_path.loads import walker
+from desire_path.placement import place
+from desire_path.rig import body
 from desire_path.errors import DesirePathError
-from desire_path.gait import BALL, HEEL, TIP, Gait, Sole
-from desire_path.sim import Ground, Simulation
+from desire_path.motion.gait import BALL, HEEL, TIP, Gait, Sole
+from desire_path.ground.sim import Ground, Simulation
 from reference import place as twin
 from scenes import beasts, bvh
 

@@ -9,7 +9,7 @@ import pytest
 
 from desire_path import _native
 from desire_path.errors import DesirePathError
-from desire_path.plants import KINDS, PAPER, YEAR, Kind
+from desire_path.ground.plants import KINDS, PAPER, YEAR, Kind
 from tests.reference import plants as twin
 
 

@@ -6,8 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from desire_path import plot, walker
-from desire_path.gait import Gait
+from desire_path.loads import plot, walker
+from desire_path.motion.gait import Gait
 
 from tests.core.test_bake import standing
 from tests.core.test_body import gait, person, walk

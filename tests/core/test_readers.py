@@ -13,12 +13,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path import lane, npz, path
-from desire_path.bake import Bake, read_index
+from desire_path.files import npz
+from desire_path.placement import path
+from desire_path.study import trampling
+from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.gait import Gait
-from desire_path.plants import Kind
-from desire_path.sim import Ground
+from desire_path.motion.gait import Gait
+from desire_path.ground.plants import Kind
+from desire_path.ground.sim import Ground
 
 from tests.core.test_bake import baked, content, sentence, standing
 
@@ -173,7 +175,7 @@ def test_kinds_of_nonsense_are_a_sentence(tmp_path, text):
     told(Kind.load, file)
 
 
-@pytest.mark.parametrize("read", [path.read, lane.read])
+@pytest.mark.parametrize("read", [path.read, trampling.read])
 def test_tables_of_nonsense_are_a_sentence(tmp_path, read):
     first = "x,y\n" if read is path.read else "passes,cover\n"
     file = tmp_path / "table.csv"
@@ -181,7 +183,7 @@ def test_tables_of_nonsense_are_a_sentence(tmp_path, read):
                  first + "1e400,1\n2,2\n", first + "1e300,1\n2,2\n", first + "a,b\n", first + '"' + "1" * 200_000,
                  first * 2, "x" * 200_000, first + "9" * 5000 + ",1\n"):
         file.write_bytes(text.encode("latin-1"))
-        if text == first and read is lane.read:
+        if text == first and read is trampling.read:
             assert read(file) == []
         else:
             told(read, file)

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, report, walker
+from desire_path.loads import report, walker
+from desire_path.rig import body
 from scenes import trials
 from tests.core.test_cli import REPO
 from tests.core.test_place import cmu

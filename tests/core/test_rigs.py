@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from desire_path import rigs
-from desire_path.body import Skeleton
+from desire_path.rig import rigs
+from desire_path.rig.body import Skeleton
 from desire_path.errors import DesirePathError
 
 # where joints of a standing person are: (across, behind, up) [m], left side

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from desire_path import body, rig_names, rigs
-from desire_path.body import Motion, Skeleton
+from desire_path.rig import body, rig_names, rigs
+from desire_path.rig.body import Motion, Skeleton
 
 from tests.core import test_rigs
 from tests.core.test_rigs import person, skeleton

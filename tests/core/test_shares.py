@@ -5,12 +5,12 @@ import json
 import numpy as np
 import pytest
 
-from desire_path import maps
-from desire_path.bake import Bake, read_index
+from desire_path.ground import maps
+from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.parcels import Parcel
-from desire_path.plants import Planting
-from desire_path.sim import TILE, Ground
+from desire_path.ground.parcels import Parcel
+from desire_path.ground.plants import Planting
+from desire_path.ground.sim import TILE, Ground
 
 from tests.core.test_parcels import hill, tile
 from tests.scenes import gaits

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from desire_path import Bake, Ground, place, read_index, sink, walker
+from desire_path import Bake, Ground, read_index
+from desire_path.loads import walker
+from desire_path.placement import place, settle_feet
 from desire_path.errors import DesirePathError
-from desire_path.sim import Simulation
+from desire_path.ground.sim import Simulation
 from tests.core.test_place import cmu, plane
 
 
@@ -20,12 +22,12 @@ def baked(request, tmp_path_factory):
     for _ in Bake(gait, ground, "mud", folder, cell_size=0.01, map_seconds=False).run():
         pass
     land = Simulation(ground)
-    return gait, walker.loads(gait, ground=land.rest_height), sink.Film(read_index(folder)), land.rest_height
+    return gait, walker.loads(gait, ground=land.rest_height), settle_feet.Film(read_index(folder)), land.rest_height
 
 
 def gaps(gait, touching, film, rest_height):
     """Of points of soles that touch, over the ground as it is pressed, by limb and sample."""
-    from desire_path import rotation
+    from desire_path.motion import rotation
     for t in range(0, len(gait.time), 7):
         for limb in range(2):
             parts = np.flatnonzero((gait.part_limb == limb) & (touching[:, t] != 0))
@@ -39,7 +41,7 @@ def gaps(gait, touching, film, rest_height):
 
 def test_soles_lie_on_the_ground_they_pressed(baked):
     gait, loads, film, rest_height = baked
-    sunk = sink.into_prints(gait, loads, film, rest_height)
+    sunk = settle_feet.into_prints(gait, loads, film, rest_height)
     before, after = ([float(np.quantile(each, 0.1)) for each in gaps(g, loads.touching, film, rest_height)]
                      for g in (gait, sunk))
     assert np.median(before) > 0.015  # it stood over its prints
@@ -59,7 +61,7 @@ def test_feet_come_up_in_the_air():
     time = np.arange(10) / 20.0
     depth = np.full((2, 10), np.nan)
     depth[0, 2:5] = 0.02, 0.03, 0.04
-    out = sink.eased(depth, time)
+    out = settle_feet.eased(depth, time)
     np.testing.assert_array_equal(out[0, :5], [0.0, 0.0, 0.02, 0.03, 0.04])
     assert (np.diff(out[0, 4:9]) < 0.0).all() and out[0, 8:].max() == pytest.approx(0.0, abs=1e-12)
     np.testing.assert_array_equal(out[1], 0.0)
@@ -67,7 +69,7 @@ def test_feet_come_up_in_the_air():
 
 def test_it_stands_as_firmly(baked):
     gait, loads, film, rest_height = baked
-    sunk = sink.into_prints(gait, loads, film, rest_height)
+    sunk = settle_feet.into_prints(gait, loads, film, rest_height)
     again = walker.loads(sunk, ground=rest_height)
     assert again.mean == pytest.approx(loads.mean, abs=0.03)
     assert (again.touching != loads.touching).mean() < 0.08
@@ -78,4 +80,4 @@ def test_without_prints_a_sentence(baked):
     far = type(film)(film.index)
     far.at = lambda frame, xy: [np.zeros(len(xy))] * 2
     with pytest.raises(DesirePathError, match="bake the trail"):
-        sink.into_prints(gait, loads, far, rest_height)
+        settle_feet.into_prints(gait, loads, far, rest_height)

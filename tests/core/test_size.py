@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import body, size, walker
-from desire_path.body import Motion, Skeleton
-from desire_path.gait import Gait
+from desire_path.loads import walker
+from desire_path.motion import size
+from desire_path.rig import body
+from desire_path.rig.body import Motion, Skeleton
+from desire_path.motion.gait import Gait
 from scenes import beasts, bvh, trials
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from desire_path import Ground, Simulation, Soil
-from desire_path.soil import SOILS
+from desire_path.ground.soil import SOILS
 from scenes import gaits
 
 CELL = 0.002

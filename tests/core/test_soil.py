@@ -6,7 +6,7 @@ import pytest
 
 from desire_path import _native
 from desire_path.errors import DesirePathError
-from desire_path.soil import SOILS, Soil
+from desire_path.ground.soil import SOILS, Soil
 
 TABLES = {  # E [MPa], nu, gamma_r [deg] (TRAIL Table 1), tau [s] (SOFT22 Table 1)
     "soft-soil": ((0.7, 2.0), (0.1, 0.3), (10, 15), None),

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from desire_path import Ground, Simulation, Soil, DesirePathError, solid, walker
+from desire_path import DesirePathError, Ground, Simulation, Soil
+from desire_path.loads import walker
+from desire_path.rig import solid
 
 BOX_FACES = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2],
                       [2, 4, 6], [1, 3, 5], [3, 7, 5]])

@@ -5,10 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from desire_path import maps
-from desire_path.bake import Bake
+from desire_path.ground import maps
+from desire_path.bake.bake import Bake
 from desire_path.errors import DesirePathError
-from desire_path.sim import Ground, Simulation
+from desire_path.ground.sim import Ground, Simulation
 
 from tests.core.test_bake import standing
 from tests.core.test_cli import run

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from desire_path import sole, tread
+from desire_path.rig import sole, sole_mesh
 from desire_path.errors import DesirePathError
-from desire_path.tread import Tread
+from desire_path.rig.sole_mesh import Tread
 
 from tests.core.test_body import boots, flat_sample, gait, person, places, walk
 
@@ -42,7 +42,7 @@ def test_split_keeps_every_face():
                           & (triangles[:, 0] != triangles[:, 2])]
     whole, facing = area(vertices, triangles)
     for x in (0.2, float(vertices[7, 0]), -9.0):
-        behind, ahead = tread.split(vertices, triangles, x)
+        behind, ahead = sole_mesh.split(vertices, triangles, x)
         assert not len(behind[0]) or behind[0][:, 0].max() <= x + 1e-12
         assert ahead[0][:, 0].min() >= x - 1e-12
         sizes, facings = zip(area(*behind), area(*ahead))

@@ -6,8 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import bake, body, walker
-from desire_path.sim import Ground, Simulation
+from desire_path.bake import bake
+from desire_path.loads import walker
+from desire_path.rig import body
+from desire_path.ground.sim import Ground, Simulation
 from scenes import bvh, plates, trials
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from desire_path import tuft
-from desire_path.plants import KINDS, Kind
+from desire_path.ground import tuft
+from desire_path.ground.plants import KINDS, Kind
 
 
 def literal(root, at, tilt, arch, steps=4000):

@@ -30,7 +30,7 @@ def tree(tmp_path):
     put("native/python/py_soil.c", '{"f", f, "TRAIL (10)"},  // TRAIL (10)\n')
     put("tests/native/soil/test_soil_press.c", "// TRAIL (10)\n")
     put("tests/reference/soil.py", "depth = 1  # TRAIL (10)\n")
-    put("addon/desire_path/soil.py", "depth = 1  # TRAIL (10)\n")
+    put("addon/desire_path/ground/soil.py", "depth = 1  # TRAIL (10)\n")
     return tmp_path
 
 
@@ -41,7 +41,7 @@ def test_where_finds_what_is_there(tree):
     assert told.startswith("TRAIL (10)\n")
     assert "native/soil/soil_press.c:3" in found["computed"] and found["computed"].count(":") == 1
     assert "native/soil/soil.h:1" in found["told"] and "soil_press.c:2" in found["told"]
-    assert "addon/desire_path/soil.py:1" in found["python"] and "py_soil.c:1" in found["python"]
+    assert "addon/desire_path/ground/soil.py:1" in found["python"] and "py_soil.c:1" in found["python"]
     assert "tests/native/soil/test_soil_press.c:1" in found["tested"]
     assert "tests/reference/soil.py:1" in found["twin"]
 
@@ -92,9 +92,9 @@ def test_rooms_hold(tmp_path):
     ("native/sim/a.c", '#include "python/door.h"\n', "sim may not know python"),
     ("native/soil/a.c", '#include "soil.h"\n', "by its room"),
     ("native/attic/a.c", '#include "base/vec.h"\n', "does not know"),
-    ("addon/desire_path/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
-    ("addon/desire_path/sim.py", "from .blender import axes\n", "does not know blender/"),
-    ("addon/desire_path/sim.py", "from desire_path import maps\n", "import relatively"),
+    ("addon/desire_path/ground/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
+    ("addon/desire_path/ground/sim.py", "from ..blender import axes\n", "does not know blender/"),
+    ("addon/desire_path/ground/sim.py", "from desire_path import maps\n", "import relatively"),
     ("addon/desire_path/blender/a.py", "from .. import _native\n", "leave _native"),
     ("addon/desire_path/blender/a.py", "import threading\n", "threading stays out"),
 ])

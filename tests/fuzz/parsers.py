@@ -29,13 +29,15 @@ for folder in (ROOT, ROOT / "addon"):
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
 
-from desire_path import folder as bake_folder  # noqa: E402
-from desire_path import lane, maps, path  # noqa: E402
-from desire_path.bake import Bake  # noqa: E402
+from desire_path.bake import folder as bake_folder  # noqa: E402
+from desire_path.ground import maps  # noqa: E402
+from desire_path.placement import path  # noqa: E402
+from desire_path.study import trampling  # noqa: E402
+from desire_path.bake.bake import Bake  # noqa: E402
 from desire_path.errors import DesirePathError  # noqa: E402
-from desire_path.gait import Gait  # noqa: E402
-from desire_path.plants import KINDS, Kind  # noqa: E402
-from desire_path.sim import Ground, Simulation  # noqa: E402
+from desire_path.motion.gait import Gait  # noqa: E402
+from desire_path.ground.plants import KINDS, Kind  # noqa: E402
+from desire_path.ground.sim import Ground, Simulation  # noqa: E402
 from tests.fuzz import mutate  # noqa: E402
 from tests.scenes import gaits  # noqa: E402
 
@@ -105,7 +107,7 @@ def way(place):
 
 def cover(place):
     made = [b"passes,cover\n25,86.3\n75,70.4\n", b"Passes , cover,days\n25,86.3,14\n200,39.8,365\n"]
-    return made, place / "cover.csv", lambda: lane.read(place / "cover.csv"), mutate.text
+    return made, place / "cover.csv", lambda: trampling.read(place / "cover.csv"), mutate.text
 
 
 def picture(place):

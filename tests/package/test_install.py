@@ -40,7 +40,7 @@ for turn in range(3):
     assert hasattr(bpy.types.Object, "desire_path")
     assert {"desire_path_bake", "desire_path_free", "desire_path_ground_add",
             "desire_path_walker_add", "desire_path_record"} <= ops(), ops()
-    maps = importlib.import_module(module + ".maps")  # the core is there, not only its buttons
+    maps = importlib.import_module(module + ".ground.maps")  # the core is there, not only its buttons
     maps.write("a.exr", {"heap": [[1.0, 2.0]]})
     assert maps.read("a.exr").planes["heap"].tolist() == [[1.0, 2.0]]
     bpy.ops.preferences.addon_disable(module=module)
@@ -140,7 +140,7 @@ import sys
 sys.modules["bpy"] = None   # importing it would fail
 import numpy as np
 import desire_path
-from desire_path import maps
+from desire_path.ground import maps
 maps.write("a.exr", {"heap": np.eye(3)})
 assert (maps.read("a.exr").planes["heap"] == np.eye(3)).all()
 print(desire_path.__file__)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from desire_path.body import Motion, Skeleton, Skin
+from desire_path.rig.body import Motion, Skeleton, Skin
 from scenes import gaits
 
 LEGS = (("front_", -0.45), ("", 0.45))  # place word, y of the leg

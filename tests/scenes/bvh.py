@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from desire_path.body import Motion, Skeleton
+from desire_path.rig.body import Motion, Skeleton
 
 WALKS = Path(__file__).parent / "walks"  # clips without force plates
 Z_UP = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # BVH (x, y up, z) to (x, -z, y)

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from desire_path.gait import Gait, Sole
+from desire_path.motion.gait import Gait, Sole
 
 
 def box(length, width, height=0.02):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from desire_path import body
+from desire_path.rig import body
 from scenes import bvh
 
 DATA = Path(os.environ.get("DESIRE_PATH_DATA") or Path(__file__).parent / "measured")  # of TRIALS, or of others

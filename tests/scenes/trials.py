@@ -14,8 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from desire_path import rigs, rotation
-from desire_path.body import Motion, Skeleton
+from desire_path.motion import rotation
+from desire_path.rig import rigs
+from desire_path.rig.body import Motion, Skeleton
 
 G = 9.81
 FINE = 480.0  # samples a second at which a body is moved
@@ -429,7 +430,8 @@ def compare(trial, gait, loads):
 
 
 def errors(name, rate=120.0, **more):
-    from desire_path import body, walker
+    from desire_path.loads import walker
+    from desire_path.rig import body
     trial = make(name, rate, **more)
     gait = body.gait_from_bones(trial.skeleton, trial.motion, mass=trial.mass, frame_rate=rate)
     return compare(trial, gait, walker.loads(gait))

@@ -79,7 +79,7 @@ def _ints(mesh, name, out):
 
 def _are_quads(mesh, corners):
     """Whether all faces are known to be quads; asking each face would take longer than all else."""
-    from .. import mesh as meshes  # the core is loaded when it is first needed
+    from ..ground import mesh as meshes  # the core is loaded when it is first needed
     around, edges = np.empty(len(corners), np.int32), np.empty((len(mesh.edges), 2), np.int32)
     return (_ints(mesh, ".corner_edge", around) and _ints(mesh, ".edge_verts", edges.ravel())
             and meshes.are_quads(corners, around, edges))

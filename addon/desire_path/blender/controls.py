@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import leg, rotation
+from ..motion import rotation
+from ..rig import leg
 from . import compat, posing, sample
 
 SHIFT, TURN = 0.02, np.radians(4.0)  # a nudge, in leg lengths and [rad]

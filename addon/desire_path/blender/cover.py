@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 
-from ..soil import SOILS
+from ..ground.soil import SOILS
 from . import axes, compat, playback
 
 LEVELS = 1024  # of a weight in a vertex group
@@ -31,7 +31,7 @@ def make_groups(obj):
 def fill(obj, surface, index, depth, planes, standing=()):
     """Write the last frame's values, and off the images plants as they grew (`standing`: see playback.attach);
     returns sentences about what could not be written."""
-    from .. import mesh as meshes
+    from ..ground import mesh as meshes
     settings = obj.desire_path
     mesh = obj.data
     if not settings.attributes and depth == 0.0:
@@ -132,7 +132,7 @@ def is_of_points(sentence):
 
 def _apart(points, index, printed):
     """How far points lie apart where the prints are, infinite where there is none [cells]."""
-    from .. import mesh as meshes
+    from ..ground import mesh as meshes
     there = np.count_nonzero(meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), points,
                                               still=1.0)["printed"])
     return np.sqrt(np.count_nonzero(printed) / there) if there else np.inf
@@ -140,7 +140,7 @@ def _apart(points, index, printed):
 
 def planes(index):
     """The maps after the last frame that is there, by name."""
-    from .. import maps
+    from ..ground import maps
     final = os.path.join(os.path.dirname(index.folder), "maps_final.exr")
     if index.complete and os.path.exists(final):
         found = maps.read(final).planes

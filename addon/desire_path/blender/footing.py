@@ -5,7 +5,9 @@
 import bpy
 import numpy as np
 
-from .. import leg, place, rotation
+from ..motion import rotation
+from ..placement import place
+from ..rig import leg
 from ..errors import DesirePathError
 from . import axes, clock, controls, posing
 

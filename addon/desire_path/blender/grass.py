@@ -9,7 +9,7 @@ as touched are made real and bent; all others are instances: cost follows the fe
 import bpy
 import numpy as np
 
-from .. import tuft
+from ..ground import tuft
 from . import clock, compat, playback, tufts
 from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 

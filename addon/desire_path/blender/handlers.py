@@ -18,7 +18,7 @@ _unsaved = False  # whether the file that is being saved never was before
 
 def refresh(scene, obj):
     """Let a ground play its bake folder as it is now; nothing to do when it already does."""
-    from ..bake import read_index
+    from ..bake.bake import read_index
     settings = obj.desire_path
     if obj.library is not None:  # its own file looks after it
         return

@@ -89,7 +89,7 @@ def beside():
 
 def default(obj):
     """Where an object's bake goes when nobody chose: a place that no other bake has."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     name, own = bpy.path.clean_name(obj.name), obj.desire_path.bake_id
     taken = {folder(other) for scene in bpy.data.scenes for other in grounds(scene)
              if other != obj and other.desire_path.folder}
@@ -104,7 +104,7 @@ def default(obj):
 
 def fits(obj):
     """Whether a folder nobody chose may stay: it is this file's, and no other ground has its bake there."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     settings = obj.desire_path
     return (settings.folder.startswith(f"{beside()}/") and not sharing(obj)
             and owner_of(folder(obj)) in ("", settings.bake_id))
@@ -153,7 +153,7 @@ def _session(obj):
 
 def may_free(obj):
     """Whether the bake in a ground's folder is its own, or nobody's in a folder chosen by hand."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     if lost(obj) or sharing(obj):
         return False
     owner = owner_of(folder(obj))
@@ -190,7 +190,7 @@ def sign(obj):
 
 def claim(obj):
     """The folder a ground may bake into, with an id of its own; or a sentence that says whose it is."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     settings = obj.desire_path
     settle(obj)
     if lost(obj):
@@ -216,7 +216,7 @@ def forget():
 
 def move_in(obj):
     """Let the bake of a ground whose file was just saved for the first time move beside it."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     settings = obj.desire_path
     old = folder(obj)
     there = owner_of(old) == settings.bake_id and not sharing(obj)
@@ -232,7 +232,7 @@ def move_in(obj):
 
 def find(obj):
     """Go to where the bake was moved, after undo brought back the folder it was in."""
-    from ..folder import owner_of
+    from ..bake.folder import owner_of
     settings = obj.desire_path
     if settings.folder_auto and settings.bake_id and not fits(obj) and owner_of(folder(obj)) != settings.bake_id:
         old, place = folder(obj), default(obj)

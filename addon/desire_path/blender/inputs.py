@@ -8,7 +8,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from .. import sole
+from ..rig import sole
 from ..errors import DesirePathError
 from . import axes, ground, plants, reach, sample, way
 
@@ -21,9 +21,9 @@ def taken(scene, company, folders, **more):
 
     company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for the Bake
     """
-    from ..bake import Bake  # the core is loaded when it is first needed
-    from ..parcels import Parcel
-    from ..sim import check_cell
+    from ..bake.bake import Bake  # the core is loaded when it is first needed
+    from ..ground.parcels import Parcel
+    from ..ground.sim import check_cell
     grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
     settings = grounds[0].desire_path
     check(grounds, walkers)
@@ -85,7 +85,7 @@ def marks(obj, company, made, found):
 
     made, found: the Bake and its Surfaces, as taken() gives them
     """
-    from .. import mesh
+    from ..ground import mesh
     gait, settings = made.gait, obj.desire_path
     walk = [gait.time, gait.com, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
             gait.point_role, gait.cut]
@@ -141,8 +141,8 @@ def _land(found, gait, cell):
     """A Simulation of the shape of surfaces; of those over each other the ones that feet tread most."""
     if len(found) == 1:
         return ground.land(*found.values(), cell)
-    from .. import parcels
-    from ..sim import Simulation
+    from ..ground import parcels
+    from ..ground.sim import Simulation
     there = [parcels.Parcel(each.ground, name=name) for name, each in found.items()]
     if gait is not None:
         there = [there[number] for number in parcels.storeys(there, gait)[0]]

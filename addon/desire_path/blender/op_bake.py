@@ -14,7 +14,7 @@ import bpy
 
 from ..bounds import Limits
 from ..errors import DesirePathError
-from ..output import check_idle
+from ..bake.output import check_idle
 from . import home, inputs, moves, op_plants, reach, sample, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import AsksFirst, Refusal, absent, active, sentence, walkers
@@ -130,7 +130,7 @@ class Job:
 
     def play(self):
         """Play what a bake that was not whole has left, on all its grounds that play no whole one."""
-        from ..bake import read_index
+        from ..bake.bake import read_index
         for share in self.bake.shares:
             obj = bpy.data.objects.get(share.parcel.name)
             if obj is not None:

@@ -74,8 +74,8 @@ class Reading:
 
 def read(scene, armature):
     """A Reading of what an armature does now."""
-    from .. import walker
-    from ..soil import SOILS
+    from ..loads import walker
+    from ..ground.soil import SOILS
     settings = armature.desire_path
     land = settings.ground
     first, last = (moves.frames(scene, land, walkers(scene, land)) if land is not None
@@ -95,7 +95,7 @@ def read(scene, armature):
 
 def limbs(gait, loads, scale, below=None):
     """Loads of parts as Forces of limbs, of a recording of one walker. below: height of the ground at (n, 2)."""
-    from .. import report
+    from ..loads import report
     count = len(gait.limb_walker)
     force = np.zeros((count, len(loads.time), 3))
     touching = np.zeros(force.shape[:2], bool)
@@ -259,7 +259,7 @@ def _redraw():
 
 def keep(obj, reading):
     """Keep what the forces came to on the walker, for the panel."""
-    from .. import report
+    from ..loads import report
     (told,) = report.summary(reading.gait, reading.loads)
     obj.desire_path.forces = json.dumps(told)
     return told
@@ -337,7 +337,7 @@ class _Report(_Forces):
                               description="Where loads.csv and contacts.csv are written; empty = nowhere")
 
     def work(self, context):
-        from .. import report, walker
+        from ..loads import report, walker
         obj = context.object
         reading = self.read(context)
         told = keep(obj, reading)

@@ -13,7 +13,8 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
-from .. import place, slope
+from ..placement import place
+from ..rig import slope
 from ..errors import DesirePathError
 from . import axes, compat, controls, footing, home, moves, playback, posing, reach, sample
 from .op_walkers import Refusal, active
@@ -34,17 +35,19 @@ def frames_of(scene, armature, land):
 
 def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
-    from .. import bake as baking, sink, walker
+    from ..bake import bake as baking
+    from ..loads import walker
+    from ..placement import settle_feet
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
     below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
-        film = sink.Films([sink.Film(baking.read_index(home.folder(each))) for each in (land, *beside)
+        film = settle_feet.Films([settle_feet.Film(baking.read_index(home.folder(each))) for each in (land, *beside)
                            if each == land or playback.modifier(each) is not None])
         loads = walker.loads(placed, armature.desire_path.load_model, ground=below.rest_height)
-        placed = sink.into_prints(placed, loads, film, below.rest_height)
+        placed = settle_feet.into_prints(placed, loads, film, below.rest_height)
     return gait, placed, warnings
 
 

@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import IntProperty, StringProperty
 
-from .. import rigs
+from ..rig import rigs
 from ..errors import DesirePathError
 from . import axes, moves, playback, plants, props, sample, worn
 

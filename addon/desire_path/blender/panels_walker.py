@@ -41,7 +41,7 @@ def draw_forces(layout, context, obj):
     row.operator("object.desire_path_forces_write", text="Tables", icon="EXPORT")
     if not settings.forces:
         return
-    from ..report import sentences
+    from ..loads.report import sentences
     told, width = json.loads(settings.forces), _letters(context)
     column = layout.column(align=True)
     for each in sentences(told):

@@ -75,7 +75,7 @@ class Lay:
         """Image coordinates (n, 2) of places (n, 2) [m] at which the ground is so high (n,) [m]."""
         if self.uv is None:
             return (at - self.low) / self.size
-        from ..sim import Ground, Simulation
+        from ..ground.sim import Ground, Simulation
         # each face is raised by a hair of its own, so that the height tells which of them is seen from above
         corner = self.vertices[self.triangles]
         hair = 1e-4 / len(corner)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import tuft
+from ..ground import tuft
 from ..errors import DesirePathError
 from . import axes, compat, grass, ground, picture, playback, sample, stack
 
@@ -21,7 +21,7 @@ SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
 
 def kind(name):
     """A kind by its name, or from the JSON file a user saved one in."""
-    from ..plants import KINDS, Kind  # the core is loaded when it is first needed
+    from ..ground.plants import KINDS, Kind  # the core is loaded when it is first needed
     if name in KINDS:
         return KINDS[name]
     if not name:
@@ -59,7 +59,7 @@ class Bed:
 
     def __init__(self, scene, obj, chosen, frame):
         """chosen: the plantings it is read for"""
-        from ..sim import Ground, Simulation
+        from ..ground.sim import Ground, Simulation
         self.scale = axes.unit_scale(scene)
         groups = [name for name in dict.fromkeys(each.density_group for each in chosen) if name]
         self.light = {each.density_image: picture.brightness(each.density_image)
@@ -119,7 +119,7 @@ class Bed:
         Plants are placed as dense as a power of two times the kind's own density and thinned from
         there, so that another density takes plants away or adds some and leaves the others alone.
         """
-        from ..plants import Planting
+        from ..ground.plants import Planting
         weight = self.spread(each).weight
         size = self.high - self.low
         density = axes.typed(each.density)

@@ -14,7 +14,7 @@ import os
 import bpy
 import numpy as np
 
-from ..output import NEW
+from ..bake.output import NEW
 from . import axes, clock, compat
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh

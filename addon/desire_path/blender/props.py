@@ -3,7 +3,7 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
 
-from ..soil import SOILS
+from ..ground.soil import SOILS
 from . import compat, picture
 
 
@@ -64,7 +64,7 @@ class DesirePathPaint(bpy.types.PropertyGroup):
 
 
 def kinds(_self, _context, _text):
-    from ..plants import KINDS  # the core is loaded when it is first needed
+    from ..ground.plants import KINDS  # the core is loaded when it is first needed
     return list(KINDS)
 
 

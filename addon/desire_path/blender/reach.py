@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
-from ..gait import Gait
+from ..motion.gait import Gait
 from . import axes, ground, moves, props, ride, sample, way, worn
 from .op_walkers import grounds, walkers
 
@@ -125,8 +125,8 @@ def company(scene, obj):
 
 def under(scene, walker, home, gait, frame):
     """(a Simulation of what lies below the recording of a walker of a ground, grounds it treads besides, sentences)."""
-    from .. import parcels
-    from ..sim import Simulation
+    from ..ground import parcels
+    from ..ground.sim import Simulation
     cell = axes.typed(home.desire_path.cell_size)
     near = others(scene, home)
     track = _Track(walker, frame, frame, gait, parcels.around(gait), parcels.length(gait))
@@ -160,7 +160,7 @@ def _frames(chosen, crew):
 
 
 def _track(scene, walker, home, all_walkers):
-    from .. import parcels  # the core is loaded when it is first needed
+    from ..ground import parcels  # the core is loaded when it is first needed
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
         gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
@@ -187,7 +187,7 @@ def _beside(line, wide):
 
 def _parcel(scene, obj, tracks):
     """The shape of a ground near the tracks; None: it is not near any."""
-    from ..parcels import Parcel
+    from ..ground.parcels import Parcel
     scale = axes.unit_scale(scene)
     seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     world = np.array(seen.matrix_world, np.float64) * scale
@@ -211,7 +211,7 @@ def _parcel(scene, obj, tracks):
 def _trodden(tracks, parcels):
     """The grounds each walker goes over: those that are nearest to its feet in height somewhere. Of two in the same
     place it treads its own."""
-    from .. import parcels as fields
+    from ..ground import parcels as fields
     grounds_there = list(parcels)
     found = {}
     for track in tracks:

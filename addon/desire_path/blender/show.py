@@ -14,7 +14,7 @@ def play(obj, surface, baked=None):
 
     baked: the final maps by name, where the bake was made just now and is whole
     """
-    from ..bake import read_index
+    from ..bake.bake import read_index
     settings = obj.desire_path
     index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
@@ -44,7 +44,7 @@ def play(obj, surface, baked=None):
 def plays_on(obj, index):
     """Whether a ground goes on with what it plays: the whole bake in its folder, whose index this is, or a whole one
     from elsewhere as long as the one in its folder is not."""
-    from ..bake import read_index
+    from ..bake.bake import read_index
     ours, place = playback.modifier(obj), home.played(obj)
     if ours is None or not place:
         return False
@@ -58,7 +58,7 @@ def plays_on(obj, index):
 
 def show_plants(obj):
     """Let the grass of a ground follow what it plays."""
-    from ..bake import read_index
+    from ..bake.bake import read_index
     plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
 
 
@@ -75,7 +75,7 @@ def missing(index):
 
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
-    from ..output import is_whole
+    from ..bake.output import is_whole
     return is_whole(index.folder)
 
 

@@ -39,7 +39,7 @@ class Told:
 
 def found(obj):
     """What has become of the bake of a ground, looked up anew."""
-    from ..bake import read_index
+    from ..bake.bake import read_index
     settings = obj.desire_path
     plays = playback.modifier(obj) is not None
     if not settings.is_ground or not plays and (not settings.folder or home.lost(obj)):

@@ -8,7 +8,8 @@ import os
 import bpy
 import numpy as np
 
-from .. import npz, tuft
+from ..files import npz
+from ..ground import tuft
 from ..errors import DesirePathError
 from . import clock, compat, grass, playback, tufts
 

@@ -5,7 +5,7 @@ So undo brings them back; redo puts them aside again.
 import os
 from contextlib import suppress
 
-from .. import output
+from ..bake import output
 from ..errors import DesirePathError
 
 _freed = {}  # bake folders that were freed in this session -> how to leave them when they are empty

@@ -6,7 +6,7 @@ Every vertex knows the straight stem it belongs to (see tuft.Tuft), so that gras
 import bpy
 import numpy as np
 
-from .. import tuft
+from ..ground import tuft
 from . import playback
 
 TAG = playback.TAG

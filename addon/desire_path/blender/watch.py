@@ -58,7 +58,7 @@ def _applied(obj, made_for, was, before, now):
 
 def _again(scene, obj, world):
     """Play anew, on a ground that was at a place when it was baked."""
-    from ..bake import read_index
+    from ..bake.bake import read_index
     try:
         index = read_index(home.played(obj))
         surface = ground.read(scene, obj, index.cell, index.frame_start)

@@ -105,7 +105,7 @@ def carried(scene, walkers, first, last, read):
 
     Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
-    from ..passes import in_turn
+    from ..placement.passes import in_turn
     alone = [sample.record(scene, each, first, last) for each in walkers]
     lines = [waypoints(scene, each.desire_path.path, first) if each.desire_path.path is not None else None
              for each in walkers]

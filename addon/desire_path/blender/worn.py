@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import body
+from ..rig import body
 from ..errors import DesirePathError
-from ..tread import Tread
+from ..rig.sole_mesh import Tread
 from . import axes, clock, compat, playback, stack
 from .private import evaluated, private_scene
 

@@ -1,0 +1,7 @@
+"""A whole bake: frames, maps and a report in a folder that is good or not there."""
+
+from .. import lazy
+
+__getattr__, __dir__, __all__ = lazy.names(__name__, {
+    "Bake": "bake", "FILMS": "bake", "FORMAT": "folder", "FrameIndex": "folder", "free": "output",
+    "read_index": "folder"})

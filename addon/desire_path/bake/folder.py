@@ -1,0 +1,223 @@
+"""What can be played from the folder of a bake: its index, its frames, and whether they are whole.
+
+output.py says where they lie while a bake is made and how it takes the place of another one; bake.py what each
+file holds.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+import struct
+from dataclasses import dataclass, field
+
+from ..files import atomic_file, disk
+from ..errors import DesirePathError
+from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
+
+_MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
+INPUTS = "inputs"  # in index.json
+FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
+SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
+MOST_SIDE = 1 << 30  # cells of a frame
+MOST_FRAME = 1 << 31  # a frame's number may be
+
+
+@dataclass(frozen=True)
+class FrameIndex:
+    """Where a bake's frames lie: the picture's lower left corner, its size, and its frames."""
+
+    folder: str  # holds trail_0000.exr ..
+    cell: float  # [m]
+    x0: float  # [m]
+    y0: float  # [m]
+    nx: int
+    ny: int
+    frame_start: int  # scene frame of trail_0001.exr
+    frame_end: int  # scene frame of the last file when the bake is whole
+    frame_rate: float  # [1/s]
+    frames: int  # files that are there and whole, counted from trail_0001.exr on
+    complete: bool
+    lean: bool = False  # with lean_0000.exr .., how the grass lies
+    owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
+    inputs: dict = field(default_factory=dict)  # words for what it was made from, as Bake was given them
+
+    @property
+    def missing(self):
+        """How many frames are still to be baked."""
+        return self.frame_end - self.frame_start + 1 - self.frames
+
+    def path(self, number):
+        """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
+        return frame_path(self.folder, number)
+
+    def lean_path(self, number):
+        """The same of how the grass lies, if `lean`."""
+        return frame_path(self.folder, number, "lean")
+
+
+def frame_path(frames_folder, number, film="trail"):
+    """trail_0001.exr or lean_0001.exr and so on."""
+    return os.path.join(frames_folder, frame_name(number, film))
+
+
+def frame_name(number, film="trail"):
+    return f"{film}_{number:04d}.exr"
+
+
+def _films(lean):
+    return ("trail", "lean") if lean else ("trail",)
+
+
+def frames_there(frames_folder, lean, most=MOST_FRAME):
+    """How many frames, at most `most`, are whole, counted from number 1 on; -1 without the ground at rest."""
+    number = -1
+    while number < most and all(_is_whole_frame(frame_path(frames_folder, number + 1, film)) for film in _films(lean)):
+        number += 1
+    return number
+
+
+def _is_whole_frame(path):
+    """Whether a tiled OpenEXR file is there to its end: its last tile ends where the file does. Files appear
+    whole, but a disk that fails and a copy that stops leave less; what the tiles hold is not looked at."""
+    try:
+        with atomic_file.reader(path) as file:
+            long = os.fstat(file.fileno()).st_size
+            head = file.read(1 << 16)
+            found, at = {}, 8
+            if head[:4] != _MAGIC:
+                return False
+            while head[at] != 0:  # attributes: name, type, size, value
+                end = head.index(b"\0", at)
+                value = head.index(b"\0", end + 1) + 5
+                size, = struct.unpack_from("<i", head, value - 4)
+                if size < 0:
+                    return False
+                found[head[at:end]] = head[value:value + size]
+                at = value + size
+            x0, y0, x1, y1 = struct.unpack("<4i", found[b"dataWindow"])
+            wide, high = struct.unpack_from("<2I", found[b"tiles"])
+            tiles = -((x0 - x1 - 1) // wide) * -((y0 - y1 - 1) // high)
+            if not 0 < 8 * tiles < long:
+                return False
+            file.seek(at + 1)
+            starts = struct.unpack(f"<{tiles}Q", file.read(8 * tiles))
+            file.seek(max(starts) + 16)  # behind the tile's place
+            size, = struct.unpack("<i", file.read(4))
+            return min(starts) > at and max(starts) + 20 + size == long
+    except (OSError, ValueError, IndexError, KeyError, ZeroDivisionError, OverflowError, struct.error):
+        return False
+
+
+# ---- checksums -----------------------------------------------------------------------------------------------
+
+
+class Sums:
+    """Writes the checksum of each frame as soon as its file is there: what a bake that goes on may rely on."""
+
+    def __init__(self, frames, known=()):
+        """known: dict of name -> checksum of frames that are there already"""
+        self._frames, self._waits = frames, []
+        self._file = open(os.path.join(frames, SUMS), "x", encoding="utf-8")  # noqa: SIM115
+        for each in dict(known).items():
+            self._write(*each)
+
+    def add(self, number, lean):
+        """A frame is being written, in the background."""
+        self._waits += [frame_name(number, film) for film in _films(lean)]
+
+    def look(self):
+        """Take those that are there by now; files appear whole."""
+        while self._waits and os.path.exists(os.path.join(self._frames, self._waits[0])):
+            name = self._waits.pop(0)
+            self._write(name, _sum(os.path.join(self._frames, name)))
+
+    def _write(self, name, found):
+        self._file.write(f"{name} {found}\n")
+        self._file.flush()
+
+    def close(self):
+        self._file.close()
+
+
+def _sum(path):
+    with atomic_file.reader(path) as file:
+        return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+
+
+def frames_sound(frames, lean):
+    """(how many frames are bit for bit what was written, from number 1 on, -1 without the ground at rest; their
+    checksums by name)."""
+    known, sound, number = {}, {}, -1
+    try:
+        with atomic_file.reader(os.path.join(frames, SUMS)) as file:
+            for line in file:
+                name, _, found = line.decode("ascii", "replace").strip().partition(" ")
+                known[name] = found
+    except OSError:
+        return -1, {}
+    while True:
+        names = [frame_name(number + 1, film) for film in _films(lean)]
+        try:
+            paths = [os.path.join(frames, name) for name in names]
+            if any(not disk.is_plain(path) or _sum(path) != known[name] for path, name in zip(paths, names)):
+                return number, sound
+        except (OSError, KeyError):
+            return number, sound
+        sound.update((name, known[name]) for name in names)
+        number += 1
+
+
+# ---- the index ----------------------------------------------------------------------------------------------
+
+
+def read_index(folder, just_baked=False):
+    """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
+    complete False. Raises DesirePathError when there is nothing to play.
+
+    just_baked: every frame was written a moment ago, so that their files need no look
+    """
+    settle(folder)
+    for name in ("frames", os.path.join(NEW, "frames")):
+        frames = os.path.join(folder, name)
+        path = os.path.join(frames, "index.json")
+        if not os.path.exists(path):
+            continue
+        data = told(frames)
+        if "format" not in data:
+            raise DesirePathError(f"{path} is damaged: bake again.")
+        if data["format"] != FORMAT:
+            raise DesirePathError(f"The bake in {folder} was written by version {str(data.get('version'))[:40]} in "
+                                  "another form: bake again.")
+        try:
+            return _index(frames, data, just_baked)
+        except (KeyError, TypeError, ValueError, OverflowError):
+            raise DesirePathError(f"{path} is damaged: bake again.") from None
+    raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
+
+
+def _index(frames, data, just_baked):
+    cell, rate = _number(data["cell"]), _number(data["frame_rate"])
+    nx, ny = (_whole(data[name], 1, MOST_SIDE) for name in ("nx", "ny"))
+    first = _whole(data["frame_start"], -MOST_FRAME, MOST_FRAME)
+    last = _whole(data["frame_end"], first, MOST_FRAME)
+    if cell <= 0.0 or rate <= 0.0:
+        raise ValueError
+    count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
+    there = count if just_baked else max(0, frames_there(frames, lean, count))
+    return FrameIndex(frames, cell, _number(data["x0"]), _number(data["y0"]), nx, ny, first, last, rate, there,
+                      there == count, lean, owner if isinstance(owner, str) else "",
+                      inputs if isinstance(inputs := data.get(INPUTS), dict) else {})
+
+
+def _number(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError
+    return float(value)
+
+
+def _whole(value, least, most):
+    if not least <= _number(value) <= most or value != int(value):
+        raise ValueError
+    return int(value)

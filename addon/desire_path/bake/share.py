@@ -1,0 +1,215 @@
+"""One ground's share of a bake: what is filmed of it, the files in its folder, and what its report says.
+
+    Bake --one Simulation, as many Shares as grounds lie on it--> folder/frames, folder/maps, folder/report.json ..
+output.py says how what is made takes the place of what is shown; bake.py what each file holds.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+from functools import cached_property
+
+import numpy as np
+
+from ..files import atomic_file
+from ..ground import maps, plant_mesh
+from ..errors import DesirePathError
+from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
+from .output import Output
+from ..ground.sim import TILE
+from ..version import VERSION
+
+MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
+START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
+
+
+class Share:
+    """bake: the Bake; parcel: its Parcel; sim: the Simulation it lies on; loads: what
+    presses there; tiles: (x, y, nx, ny) it films."""
+
+    def __init__(self, bake, parcel, sim, loads, tiles):
+        self.bake, self.parcel, self.sim, self.loads, self.tiles = bake, parcel, sim, loads, tiles
+        self.plants = parcel.plants
+        self.out = Output(parcel.folder, parcel.owner)
+        self.films = self.start = self.done = self.sums = self.mesh = None
+        self.report = None
+        self.final = None  # the planes of maps_final.exr, when the bake is whole
+
+    @property
+    def window(self):
+        """Cells (i0, j0, nx, ny) of its tiles."""
+        return tuple(TILE * each for each in self.tiles)
+
+    # ---- what is made ---------------------------------------------------------------------------
+
+    def begin(self, signature):
+        """Open its films and its files; what the very same bake left there is kept."""
+        bake = self.bake
+        self.films = self.sim.open_frames(*self.tiles)
+        self.films.open_maps([entry.name for entry in self._fields()], self._notes())
+        self.start = self._start_maps()
+        self.index = self._index(signature)
+        self._prepare()
+        if self.parcel.plant_mesh and (len(bake.parcels) == 1 or self._is_planted()):
+            count = bake.frame_end - bake.frame_start + 1
+            self.mesh = plant_mesh.Writer(self.sim, self.out.new, bake.frame_start, count, self.plants)
+
+    def _is_planted(self):
+        return any(self.sim.plantings[number] in self.plants for _, number, _ in self.sim.stands)
+
+    def _prepare(self):
+        """How many frames of the very same bake are in bake.new already (-1 = none), and the Sums of its frames."""
+        out, index = self.out, self.index
+        fresh, shown = out.path("frames"), os.path.join(out.folder, "frames")
+        done, sound, place = -1, {}, None
+        for each in (fresh, shown):
+            old = told(each)
+            if (self.bake.resume and old and (each == fresh or not old.get("complete"))
+                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER))):
+                there, found = frames_sound(each, bool(self.plants))
+                if there > done:
+                    done, sound, place = there, found, each
+        try:
+            out.fresh(keep=sound if place == fresh else ())
+            if place == shown:
+                for name in sound:  # what is shown stays until the bake is whole
+                    _link(os.path.join(shown, name), os.path.join(fresh, name))
+            atomic_file.write_json(os.path.join(fresh, "index.json"), index, "The index of the frames")
+            self.done, self.sums = done, Sums(fresh, sound)
+        except OSError as problem:
+            raise DesirePathError(
+                f"The folder {out.folder} cannot be written ({problem.strerror}): choose another one."
+            ) from None
+
+    def write(self, number, seconds):
+        """One frame of every film, and the plants, unless it is there already."""
+        fresh = self.out.path("frames") if number > self.done else None
+        self.films.write_frame(fresh and frame_path(fresh, number), seconds)
+        if self.plants:
+            self.films.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
+        if fresh:
+            self.sums.add(number, bool(self.plants))
+        if self.mesh and number:
+            self.mesh.add(self.sim)
+
+    def second(self, frame):
+        """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
+        bake, name = self.bake, None
+        if bake.film == "passes":
+            number = frame - bake.gait.frame_start + 1
+            if number % -(-len(bake.passes) // MOST_PASS_MAPS) == 0:
+                name = f"pass_{number:04d}.exr"
+        else:
+            elapsed = frame - bake.frame_start
+            before, now = ((elapsed - 1) / bake.frame_rate, elapsed / bake.frame_rate)
+            if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
+                name = f"second_{math.floor(now + 1e-9):04d}.exr"
+        if name:
+            self.films.write_maps(self.out.path("maps", name), bake.time(frame))
+
+    def end(self):
+        """The first and the last maps."""
+        self.films.write_maps(self.out.path("maps_final.exr"), self.bake.time(self.bake.frame_end))
+        maps.write(self.out.path("maps_start.exr"), self.start,
+                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes())
+        self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
+        if self.mesh:
+            self.mesh.finish(self.sim)
+
+    def tell(self, report):
+        """The bake is whole: write its report and say so in its index."""
+        self.report = report
+        atomic_file.write_json(self.out.path("report.json"), report, "The report")
+        atomic_file.write_json(self.out.path("frames", "index.json"), {**self.index, "complete": True},
+                         "The index of the frames")
+
+    def ready(self):
+        """The bake is whole, here and soon on every ground."""
+        self._close()
+        self.out.ready()
+
+    def stop(self):
+        """The bake was stopped: what there is of it is shown, unless a whole bake is."""
+        self._close()
+        self.report = self.final = None
+        if self.sums is None:
+            return
+        if len(self.bake.parcels) == 1 or self.is_pressed():
+            self.out.publish_stopped()
+
+    def leave(self):
+        """Nobody came here: nothing of it is shown."""
+        self._close()
+        self.out.drop()
+
+    def _close(self):
+        if self.sums:
+            self.sums.close()
+        if self.mesh:
+            self.mesh.close()
+
+    # ---- what it says ---------------------------------------------------------------------------
+
+    @cached_property
+    def own(self):
+        """Which cells of the window lie on this ground (ny, nx)."""
+        i0, j0, nx, ny = self.window
+        cell, (ox, oy) = self.sim.cell_size, self.sim.origin
+        x, y = np.meshgrid(ox + cell * (i0 + 0.5 + np.arange(nx)), oy + cell * (j0 + 0.5 + np.arange(ny)))
+        return self.parcel.has(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(ny, nx)
+
+    def is_pressed(self):
+        """Whether anything has changed on this ground."""
+        return any((self.sim.read(name, *self.window)[self.own] > 0.0).any() for name in ("compression", "heap"))
+
+    def numbers(self):
+        """Depth [m] and volumes [m^3] of what was pressed into this ground, of several."""
+        pressed, heap = (self.final[name][self.own].astype(float) for name in ("compression", "heap"))
+        area = self.sim.cell_size ** 2
+        return {"deepest_m": float(pressed.max(initial=0.0)), "pressed_m3": float(pressed.sum()) * area,
+                "heaped_m3": float(heap.sum()) * area}
+
+    def _index(self, signature):
+        bake = self.bake
+        tx, ty, nx, ny = self.tiles
+        ox, oy = self.sim.origin
+        side = TILE * self.sim.cell_size
+        return {
+            "format": FORMAT, "version": VERSION, "signature": signature,
+            "cell": self.sim.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
+            "nx": nx * TILE, "ny": ny * TILE, "frame_start": bake.frame_start,
+            "frame_end": bake.frame_end, "frame_rate": bake.frame_rate, "complete": False,
+            **({"lean": True} if self.plants else {}), **({OWNER: self.out.owner} if self.out.owner else {}),
+            **({INPUTS: self.parcel.inputs} if self.parcel.inputs else {}),
+        }
+
+    def _notes(self):
+        index = self._index("")
+        notes = [
+            ("software", f"Desire Path {VERSION}"), ("cell", index["cell"]), ("originX", index["x0"]),
+            ("originY", index["y0"]), ("parameters", json.dumps(self.bake.parameters(self.parcel))),
+        ]
+        return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
+
+    def _fields(self):
+        return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
+
+    def _start_maps(self):
+        strength = self.sim.read("plant_strength", *self.window)
+        modulus = self.sim.read("young_modulus", *self.window)
+        planes = {maps.PICTURE: modulus, "young_modulus_in": modulus, "plant_strength_in": strength,
+                  "plant_strength": strength, "rest": self.sim.read("rest", *self.window)}
+        if self.plants:
+            planes.update({entry.name: self.sim.read(entry.name, *self.window) for entry in maps.LEAN})
+        return planes
+
+
+def _link(path, to):
+    """The same file under another name, too; a copy, where the disk has no such names."""
+    try:
+        os.link(path, to)
+    except OSError:
+        shutil.copy2(path, to)

@@ -1,0 +1,133 @@
+"""Maps in and out: named float32 grids in OpenEXR files, row 0 at the lowest y. TRAIL 4.3, (17)
+
+    from desire_path import maps
+    picture = maps.read("bake/maps_final.exr")
+    picture.planes["compression"]      # (ny, nx) float32, [m]
+    picture.notes["cell"]              # side of a cell [m]
+
+In the file a map is a layer of one channel, `compression.V`: Blender opens layers as they are, and takes
+channels of other names for colours. Here it is called by its layer, so that bare names of other writers
+read alike. `Y` repeats a file's first map for programs that know no layers, as ffmpeg.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import _native
+from ..files import atomic_file
+from ..errors import DesirePathError
+
+
+class Map(NamedTuple):
+    """A field that leaves the simulation."""
+
+    name: str
+    unit: str
+    equation: str
+    meaning: str
+
+
+LAYER = ".V"  # the one channel of a layer, as Blender calls a value
+MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
+    Map("compression", "m", "TRAIL (10)", "pressed below the first height, >= 0"),
+    Map("heap", "m", "TRAIL (12)", "loose soil piled above it, >= 0"),
+    Map("pressure_time", "Pa s", "TRAIL (17)", "stress summed over the walk"),
+    Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
+)
+PICTURE = "Y"  # the channel that every program shows, grey
+GROUND = (  # beside them: what another bake goes on from, and what is no sum
+    Map("rest", "m", "", "height before anybody walked; NaN = no ground"),
+    Map("pressure", "Pa", "", "stress under the soles at that moment"),
+)
+LEAN = (  # beside them where plants grow
+    Map("lean_x", "-", "", "how far grass leans along x, by its height, -1..1"),
+    Map("lean_y", "-", "", "how far it leans along y"),
+    Map("crushed", "-", "", "share of its height that is pressed down, 0..1"),
+)
+
+
+def channel(name):
+    """What a map is called in a file; letters (R, Y ..) and names with a layer are channels already."""
+    return name if len(name) < 2 or "." in name else name + LAYER
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What a file holds: planes by name, float32 (ny, nx); notes by name, text or number."""
+
+    planes: dict
+    notes: dict
+
+    @property
+    def shape(self):
+        return next(iter(self.planes.values())).shape
+
+
+def write(path, planes, notes=()):
+    """Write planes to one file, whole or not at all; an old file stays when this fails.
+
+    planes: dict of name -> (ny, nx) array, all of one shape.
+    notes: dict, or list of (name, text or number), for the file's header.
+    """
+    path = os.fspath(path)
+    if not planes:
+        raise DesirePathError(f"There is nothing to write to {path}: give at least one map.")
+    grids = {}
+    for name, plane in planes.items():
+        grid = np.ascontiguousarray(plane, np.float32)
+        if grid.ndim != 2 or 0 in grid.shape:
+            raise DesirePathError(
+                f"The map '{name}' for {path} has the shape {grid.shape}: give it rows and columns."
+            )
+        grids[name] = grid
+    if len({grid.shape for grid in grids.values()}) > 1:
+        shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
+        raise DesirePathError(
+            f"The maps for {path} differ in shape ({shapes}): give all the same."
+        )
+    pairs = list(notes.items() if isinstance(notes, dict) else notes)
+    pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
+    atomic_file.check(path, "The maps")
+    try:
+        _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs)
+    except OSError as problem:
+        raise DesirePathError(
+            f"{path} cannot be written ({_clause(problem)}): make room or choose another folder."
+        ) from None
+    except ValueError as problem:
+        raise DesirePathError(
+            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28"
+            " cells, and maps and notes with different names of 1 to 29 characters that OpenEXR"
+            " does not use itself."
+        ) from None
+
+
+def read(path):
+    """Read a flat OpenEXR file of any writer as a Picture."""
+    path = os.fspath(path)
+    try:
+        nx, ny, names, data, notes = _native.maps_read(path)
+    except OSError:
+        raise DesirePathError(
+            f"{path} cannot be opened: check that the file is there and may be read."
+        ) from None
+    except ValueError as problem:
+        if "packing" in str(problem):
+            raise DesirePathError(
+                f"{path} has a packing unknown here, of a newer OpenEXR: write it again with ZIP, PIZ or none."
+            ) from None
+        raise DesirePathError(
+            f"{path} is damaged or no flat OpenEXR image: write it again, or choose another file."
+        ) from None
+    grids = np.frombuffer(data, np.float32).reshape(len(names), ny, nx)
+    return Picture({name.removesuffix(LAYER): grid for name, grid in zip(names, grids)}, dict(notes))
+
+
+def _clause(problem):
+    """The core's words without the name of what it was doing."""
+    return str(problem).split(": ", 1)[-1]

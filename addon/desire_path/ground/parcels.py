@@ -1,0 +1,281 @@
+"""Grounds side by side that one walk crosses, as the tiles of a terrain: pressed as one, each with a bake of its own.
+
+    Parcels --storeys--> those that lie beside each other | those that lie over others
+    a storey --sewn--> one Ground and its soils, without a gap where two of them meet
+    a recording --treads--> which storey each foot is on: the one whose height is nearest to it
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..errors import DesirePathError
+from .plants import as_plantings
+from .sim import Ground, Simulation, as_soils
+from ..loads.walker import point_places
+
+RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
+APART = 0.25  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
+BELOW, AROUND = 9, 17  # places looked at below and around a foot
+SEAM = 1e-3  # rims reach this far beyond, so that no place is lost between two [cells] ..
+ROUNDING = 4e-7  # .. or this share of where they lie: what single precision loses
+
+
+@dataclass(frozen=True, eq=False)
+class Parcel:
+    """One ground of several that a walk crosses. Only grounds of triangles can lie beside each other.
+
+    ground: Ground; soils, plants: as for Simulation, plants stand on this ground only.
+    folder, plant_mesh, owner, inputs: as for Bake, of its own files; name: for sentences and reports.
+    """
+
+    ground: Ground
+    soils: object = "dry-sand"
+    folder: str = "bake"
+    name: str = "ground"
+    plants: object = ()
+    plant_mesh: bool = False
+    owner: str = ""
+    inputs: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        put = functools.partial(object.__setattr__, self)
+        put("soils", tuple(as_soils(self.soils)))
+        put("plants", tuple(as_plantings(self.plants)))
+        put("folder", os.path.abspath(os.fspath(self.folder)))
+        put("owner", str(self.owner))
+        if self.plant_mesh and not self.plants:
+            raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
+
+    @cached_property
+    def land(self):
+        """A Simulation of its shape alone, to ask for heights."""
+        native = self.ground.native
+        return Simulation(Ground(native if native[0] == "flat" else (*native[:-1], None), self.ground.name))
+
+    @property
+    def box(self):
+        """World box (x0, y0, x1, y1) [m]; infinite for flat ground."""
+        return self.land.bounds()
+
+    def has(self, xy):
+        """Whether it lies below places (n, 2)."""
+        return np.isfinite(self.land.rest_height(xy))
+
+
+# ---- what lies beside what ------------------------------------------------------------------------------
+
+
+def around(gait):
+    """Places (n, 3) below and around the feet of a recording, at the height of the feet [m]: BELOW of them as far as
+    half a sole is long, then the others, AROUND in all for each foot.
+    """
+    span = gait.time[-1] - gait.time[0]
+    step = max(1, int(len(gait.time) / max(1.0, span * RATE)))
+    at = point_places(gait)[:, ::step]
+    reach = length(gait)
+    turn = np.arange(8) * np.pi / 4
+    ring = reach * np.stack([np.cos(turn), np.sin(turn)], 1)
+    ring = np.concatenate([np.zeros((1, 2)), 0.5 * ring, ring])
+    out = np.repeat(at.reshape(-1, 3), len(ring), axis=0)
+    out[:, :2] += np.tile(ring, (at.shape[0] * at.shape[1], 1))
+    return out
+
+
+def length(gait):
+    """Of the longest sole [m]."""
+    return max(float(np.ptp(sole.vertices.astype(float), axis=0).max()) for sole in gait.soles)
+
+
+def heights(parcels, xy):
+    """Of each parcel at places (n, 2), NaN where it is not (parcels, n) [m]."""
+    xy = np.ascontiguousarray(xy)
+    return np.array([parcel.land.rest_height(xy) for parcel in parcels]).reshape(len(parcels), len(xy))
+
+
+def nearest(height, z):
+    """Which of several grounds (n,) is nearest in height to z, of heights (grounds, n); -1 where there is none."""
+    return least(np.abs(height - z))
+
+
+def least(away):
+    """Which of several is the least at each place, of (grounds, n); -1 where all are NaN."""
+    away = np.where(np.isfinite(away), away, np.inf)
+    found = away.argmin(axis=0)
+    return np.where(np.isfinite(away.min(axis=0)), found, -1)
+
+
+def storeys(parcels, gait):
+    """Numbers of the parcels that lie beside each other, storey by storey; those trodden most come first."""
+    if len(parcels) == 1:
+        return [[0]]
+    at = around(gait)
+    height = heights(parcels, at[:, :2])
+    trodden = np.bincount(nearest(height, at[:, 2]) + 1, minlength=len(parcels) + 1)[1:]
+    most = APART * length(gait)
+    there = np.isfinite(height)
+    below = there.reshape(len(parcels), -1, AROUND)[..., :BELOW]
+
+    def apart(a, b):
+        """Whether one lies over the other: at another height, or below all of a foot."""
+        return (np.abs(height[a] - height[b]) > most).any() or (below[a] & below[b]).all(axis=1).any()
+
+    found = []
+    for number in sorted(range(len(parcels)), key=lambda n: (-trodden[n], n)):
+        for storey in found:
+            if not any(apart(other, number) for other in storey):
+                storey.append(number)
+                break
+        else:
+            found.append([number])
+    return [sorted(storey) for storey in found]
+
+
+def treads(gait, lands):
+    """(storey of each part (P, T), height of the ground each contact point treads (K, T) [m]) among storeys.
+
+    lands: rest_height of each. Who is over none of them is on the first.
+    """
+    at = point_places(gait)
+    height = np.array([land(np.ascontiguousarray(at[..., :2].reshape(-1, 2))) for land in lands])
+    height = height.reshape(len(lands), *at.shape[:2])
+    parts = np.zeros((len(gait.part_limb), len(gait.time)), np.int64)
+    for part in range(len(parts)):
+        points = np.flatnonzero(gait.point_part == part)
+        if len(points):
+            away = np.abs(height[:, points] - at[points, :, 2])
+            away = np.where(np.isfinite(away), away, np.inf).min(axis=1)
+            parts[part] = away.argmin(axis=0)
+    of_points = parts[gait.point_part]
+    return parts, np.take_along_axis(height, of_points[None], axis=0)[0]
+
+
+# ---- one ground of several -------------------------------------------------------------------------------
+
+
+def sewn(parcels, cell):
+    """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names."""
+    if len(parcels) == 1:
+        return parcels[0].ground, list(parcels[0].soils)
+    for parcel in parcels:
+        if parcel.ground.native[0] != "mesh":
+            raise DesirePathError(f"'{parcel.name}' is no mesh: only meshes can be baked together.")
+    vertices = [parcel.ground.native[1] for parcel in parcels]
+    triangles = [parcel.ground.native[2] for parcel in parcels]
+    soils = list(dict.fromkeys(soil for parcel in parcels for soil in parcel.soils))
+    kinds = [_kinds(parcel, soils) for parcel in parcels]
+    beyond = max(SEAM * cell, ROUNDING * max(np.abs(each[:, :2]).max() for each in vertices))
+    boxes = [(each[:, :2].min(axis=0) - beyond, each[:, :2].max(axis=0) + beyond) for each in vertices]
+    for number in range(len(parcels)):
+        near = np.zeros(len(triangles[number]), bool)
+        corner = vertices[number][:, :2][triangles[number]]
+        low, high = corner.min(axis=1), corner.max(axis=1)
+        for other, (x, y) in enumerate(boxes):
+            if other != number:
+                near |= (high >= x).all(axis=1) & (low <= y).all(axis=1)
+        rim = _rim(triangles[number])
+        more, faces = _hem(vertices[number], triangles[number], rim & near[:, None], beyond)
+        kinds[number] = np.concatenate([kinds[number], kinds[number][:, more[1]]], axis=1)
+        vertices[number] = np.concatenate([vertices[number], more[0]])
+        triangles[number] = np.concatenate([triangles[number], faces])
+    first = np.cumsum([0] + [len(each) for each in vertices[:-1]])
+    ground = Ground.mesh(np.concatenate(vertices),
+                         np.concatenate([each + start for each, start in zip(triangles, first)]),
+                         np.concatenate(kinds, axis=1) if len(soils) > 1 else None)
+    return ground, as_soils(soils)
+
+
+def _kinds(parcel, soils):
+    """Weights of all soils at the vertices of a parcel (soils, n): the heaviest of its own is still the same."""
+    own = parcel.soils
+    count = len(parcel.ground.native[1])
+    weight = parcel.ground.native[3]
+    if weight is None:
+        weight = np.zeros((len(own), count), np.float32)
+        weight[0] = 1.0
+    out = np.zeros((len(soils), count), np.float32)
+    for soil, row in zip(own, weight):
+        at = soils.index(soil)
+        out[at] = np.maximum(out[at], row)
+    return out
+
+
+def _rim(triangles):
+    """Which edges of triangles (m, 3), from each corner to the next, belong to one triangle only (m, 3)."""
+    edge = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2).astype(np.int64)
+    edge.sort(axis=1)
+    _, of, count = np.unique(edge[:, 0] * (edge.max(initial=0) + 1) + edge[:, 1], return_inverse=True,
+                             return_counts=True)
+    return (count[of.reshape(-1)] == 1).reshape(-1, 3)
+
+
+def _hem(vertices, triangles, rim, wide):
+    """((new vertices, number of the old one at each), triangles) of strips along rim edges, `wide` [m], level across."""
+    face, side = np.nonzero(rim)
+    a, b, c = (triangles[face, (side + k) % 3] for k in range(3))
+    along = (vertices[b] - vertices[a])[:, :2]
+    out = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    size = np.linalg.norm(out, axis=1)
+    inward = np.einsum("ni,ni->n", out, (vertices[c] - vertices[a])[:, :2]) > 0.0
+    out *= (np.where(inward, -wide, wide) / np.maximum(size, 1e-300))[:, None]
+    along *= (wide / np.maximum(size, 1e-300))[:, None]
+    fresh = np.concatenate([vertices[a], vertices[b]])
+    fresh[:, :2] += np.concatenate([out - along, out + along])  # past its ends: corners are closed, too
+    p = len(vertices) + np.arange(len(a))
+    q = p + len(a)
+    faces = np.concatenate([np.stack(each, axis=1) for each in ((a, b, q), (a, q, p))]).astype(np.int32)
+    return (fresh, np.concatenate([a, b])), faces
+
+
+# ---- what one of several bears -----------------------------------------------------------------------------
+
+
+def on(loads, over, storey):
+    """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
+    here = over == storey
+    return replace(loads, touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
+                   force=np.where(here[..., None], loads.force, 0.0),
+                   point=np.where(here[..., None], loads.point, np.nan))
+
+
+def under(parcel, gait, loads, wide):
+    """Rectangle (x0, y0, x1, y1) [m] of a parcel that feet which touch can change, `wide` [m] around their soles; None
+    where they do not reach it."""
+    touching = loads.touching != 0
+    touching[:, :-1] |= touching[:, 1:].copy()  # a step presses where either of its ends touches
+    touching[:, 1:] |= touching[:, :-1].copy()
+    part, sample = np.nonzero(touching)
+    if not len(part):
+        return None
+    size = np.array([np.linalg.norm(sole.vertices.astype(float), axis=1).max() for sole in gait.soles])
+    reach = size[part, None] + wide
+    at = gait.pose[part, sample, :2]
+    box = np.array(parcel.box)
+    low, high = np.maximum(at - reach, box[:2]), np.minimum(at + reach, box[2:])
+    there = (low < high).all(axis=1)
+    return (*low[there].min(axis=0), *high[there].max(axis=0)) if there.any() else None
+
+
+def contacts(parcel, gait, loads, end):
+    """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides."""
+    limbs = len(gait.limb_walker)
+    touching = np.zeros((limbs, end), bool)
+    here = np.zeros((limbs, end), bool)
+    part, sample = np.nonzero(loads.touching[:, :end])
+    point = loads.point[part, sample]
+    known = np.isfinite(point).all(axis=1)
+    bears = np.zeros(len(part), bool)
+    bears[known] = parcel.has(np.ascontiguousarray(point[known, :2]))
+    np.logical_or.at(touching, (gait.part_limb[part], sample), True)
+    np.logical_or.at(here, (gait.part_limb[part], sample), bears)
+    count = 0
+    for limb in range(limbs):
+        stands = np.flatnonzero(touching[limb])
+        for stance in np.split(stands, np.flatnonzero(np.diff(stands) > 2) + 1):  # as the core tells stances apart
+            count += bool(len(stance) and here[limb, stance].any())
+    return count

@@ -1,0 +1,109 @@
+"""The simulated plants themselves, for close-ups: a mesh at rest and where its vertices are in every frame.
+
+    folder/plants.npz   vertices (n, 3) at rest [m], edges (m, 2) along the stems, faces (k, 4) between neighbouring
+                        stems, kind (n,) and kinds (names), plant (n,), along (n,) 0..1 from the foot to the tip,
+                        unbroken (n,) at the end
+    folder/plants.pc2   a point cache, sample 0 = the first frame: what Mesh Cache plays on that mesh
+
+World frame, metres. The root, which is in the ground, is left out. Under and beside feet stems move as simulated; once
+trodden they are shown down for as long as the grass around them lies (Simulation.plants_shown).
+"""
+
+from __future__ import annotations
+
+import os
+import struct
+
+import numpy as np
+
+from ..files import atomic_file
+from ..errors import DesirePathError
+from .plants import KINDS
+
+_HELD = 1  # rows in the ground
+
+
+def build(sim, stands=None):
+    """The mesh of a Simulation's plants, of all `stands` or some, as they are: the arrays of plants.npz, as a dict."""
+    parts = {name: [] for name in ("vertices", "edges", "faces", "kind", "plant", "along", "unbroken")}
+    first = plants = 0
+    kinds = list(dict.fromkeys(planting.kind for planting in sim.plantings))
+    for stand, number, count in sim.stands if stands is None else stands:
+        rows, stems, a_sheet, _, _ = sim.plants_shape(stand)
+        high = rows - _HELD
+        corner = first + np.arange(count * stems * high).reshape(count, stems, high)
+        sheet = corner.reshape(count, stems // a_sheet, a_sheet, high)
+        quads = [sheet[:, :, :-1, :-1], sheet[:, :, 1:, :-1], sheet[:, :, 1:, 1:], sheet[:, :, :-1, 1:]]
+        parts["vertices"].append(_vertices(sim, stand))
+        parts["edges"].append(np.stack([corner[..., :-1], corner[..., 1:]], -1).reshape(-1, 2))
+        parts["faces"].append(np.stack(quads, -1).reshape(-1, 4))
+        parts["kind"].append(np.full(corner.size, kinds.index(sim.plantings[number].kind)))
+        parts["plant"].append(np.repeat(plants + np.arange(count), stems * high))
+        parts["along"].append(np.tile(np.arange(high) / max(high - 1, 1), count * stems))
+        parts["unbroken"].append(_unbroken(sim, stand, rows).ravel())
+        first += corner.size
+        plants += count
+    if not first:
+        raise DesirePathError("No plants stand where the walk goes: raise their density or widen their rectangle.")
+    types = {"vertices": np.float32, "along": np.float32, "unbroken": bool}
+    mesh = {name: np.concatenate(arrays).astype(types.get(name, np.int32)) for name, arrays in parts.items()}
+    mesh["kinds"] = np.array([_name(kind) for kind in kinds])
+    return mesh
+
+
+def _name(kind):
+    return next((name for name, known in KINDS.items() if known == kind), "own")
+
+
+def _vertices(sim, stand):
+    rows, stems, _, _, _ = sim.plants_shape(stand)
+    at = sim.plants_shown(stand)
+    return at.reshape(len(at), stems, rows, 3)[:, :, _HELD:].reshape(-1, 3)
+
+
+def _unbroken(sim, stand, rows):
+    """Which particles are held by all bends below them, (plants, stems, rows - 1)."""
+    strength = sim.plants_strength(stand)
+    held = np.logical_and.accumulate(strength.reshape(len(strength), -1, rows - 2) > 0.0, axis=2)
+    return np.concatenate([np.ones_like(held[:, :, :1]), held], axis=2)
+
+
+def _of(sim, plantings):
+    return [stand for stand in sim.stands if plantings is None or sim.plantings[stand[1]] in plantings]
+
+
+def size(sim, frames, plantings=None):
+    """Bytes of a point cache of the plants of a Simulation; plantings as for Writer."""
+    shapes = ((sim.plants_shape(stand), count) for stand, _, count in _of(sim, plantings))
+    return 12 * frames * sum(count * stems * (rows - _HELD) for (rows, stems, *_), count in shapes)
+
+
+class Writer:
+    """Writes both files into a folder while a bake runs: add() once a frame, then finish(); close() in any case."""
+
+    def __init__(self, sim, folder, frame_start, frames, plantings=None):
+        """plantings: the Plantings whose plants are written, default: all of the simulation"""
+        self.folder, self.frames = folder, frames
+        self.stands = _of(sim, plantings)
+        sim.lay_plants()
+        self.mesh = build(sim, self.stands)
+        count = len(self.mesh["vertices"])
+        self._file = open(os.path.join(folder, "plants.pc2"), "xb")  # noqa: SIM115  (open as long as the bake runs)
+        self._file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames))
+
+    def add(self, sim):
+        """Where the plants are now, as the next frame."""
+        for stand, _, _ in self.stands:
+            self._file.write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
+
+    def finish(self, sim):
+        """Both files are whole now."""
+        self._file.close()
+        unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in self.stands]
+        self.mesh["unbroken"] = np.concatenate(unbroken)
+        with atomic_file.file(os.path.join(self.folder, "plants.npz"), "The plants") as stream:
+            np.savez_compressed(stream, **self.mesh)
+
+    def close(self):
+        """No more is written."""
+        self._file.close()

@@ -1,0 +1,439 @@
+"""The one doorway to the core: ground, soils and a recording go in, pressed ground comes out.
+
+SI units, world frame, +Z up. Arrays that cross to the core are C-ordered float64 (recordings) or
+float32 (grids). Nothing here knows Blender.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import _native
+from . import maps, trail
+from ..bounds import Limits
+from ..errors import DesirePathError
+from .plants import as_plantings, seed_of
+from .soil import SOILS, Soil
+from ..version import VERSION
+
+TILE = 64  # cells along one side of a tile of ground and of a playback frame
+
+LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
+HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
+LOAD_MODELS = ("inertia", "impulse")
+HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
+
+_FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
+    "compression": 0,
+    "heap": 1,
+    "pressure_time": 2,
+    "rest": 3,
+    "young_modulus": 4,
+    "soil": 5,
+    "plant_strength": 6,
+    "height_change": 7,
+    "pressure": 67,
+}
+_LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
+_FIRST_LEAN = 64  # the number of the first of them among a map's fields
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Where the ground is before anybody walks on it. Use flat(), heights(), mesh() or read()."""
+
+    native: tuple = field(repr=False)
+    name: str = "ground"
+    trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
+
+    @staticmethod
+    def flat(height=0.0):
+        """Level ground without end at `height` [m]."""
+        if not math.isfinite(height):
+            raise DesirePathError("The height of the flat ground is not a number: give it in metres.")
+        return Ground(("flat", float(height)), "flat")
+
+    @staticmethod
+    def heights(heights, spacing, x0=0.0, y0=0.0, kind_weight=None):
+        """Ground from a regular grid.
+
+        heights: (ny, nx) [m], row 0 at the lowest y, NaN = no ground; bilinear between samples.
+        spacing: distance of samples [m] > 0; sample (0, 0) lies at (x0, y0).
+        kind_weight: (kinds, ny, nx) >= 0, how much of each soil; the heaviest wins.
+        """
+        heights, base = np.asarray(heights), 0.0
+        if heights.dtype == np.float64 and heights.size and np.isfinite(heights).any():
+            # what a float32 has no digits for, far up, counts from a height of the ground's own
+            base = 16.0 * round(float(heights[np.isfinite(heights)][0]) / 16.0)
+            heights = heights - base
+        heights = np.ascontiguousarray(heights, np.float32)
+        if heights.ndim != 2 or min(heights.shape) < 2:
+            raise DesirePathError("A ground of heights needs at least 2 x 2 samples.")
+        if np.isinf(heights).any():
+            raise DesirePathError("The ground has infinite heights: mark holes with NaN instead.")
+        if np.isnan(heights).all():
+            raise DesirePathError("The ground has no height anywhere: every sample is NaN.")
+        if not (spacing > 0 and math.isfinite(spacing) and math.isfinite(x0) and math.isfinite(y0)):
+            raise DesirePathError("The ground's sample spacing must be a positive number of metres.")
+        if kind_weight is not None:
+            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
+            if kind_weight.ndim != 3 or kind_weight.shape[1:] != heights.shape:
+                raise DesirePathError(
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height.")
+            kind_weight = kind_weight.reshape(len(kind_weight), -1)
+        native = ("heights", heights, float(spacing), float(x0), float(y0), base, kind_weight)
+        return Ground(native, "heights")
+
+    @staticmethod
+    def mesh(vertices, triangles, kind_weight=None):
+        """Ground from triangles seen from above.
+
+        vertices: (n, 3) world position [m]; triangles: (m, 3) indices.
+        kind_weight: (kinds, n) >= 0, how much of each soil at each vertex; the heaviest wins.
+        """
+        vertices, triangles = np.asarray(vertices, np.float64), np.asarray(triangles)
+        if triangles.size == 0:
+            raise DesirePathError("The ground has no faces: give it at least one.")
+        if vertices.ndim != 2 or triangles.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
+            raise DesirePathError(
+                f"The ground has vertices of shape {vertices.shape} and triangles of shape "
+                f"{triangles.shape}: give (n, 3) positions and (m, 3) indices.")
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            raise DesirePathError("A triangle of the ground names a vertex that is not there: mend its indices.")
+        vertices = np.ascontiguousarray(vertices)
+        triangles = np.ascontiguousarray(triangles, np.int32)
+        bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+        if len(bad):
+            raise DesirePathError(
+                f"Vertex {bad[0]} of the ground is not a finite position: repair the mesh and bake again."
+            )
+        if kind_weight is not None:
+            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
+            if kind_weight.ndim != 2 or kind_weight.shape[1] != len(vertices):
+                raise DesirePathError(
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex.")
+        return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
+
+    @staticmethod
+    def read(path, spacing=None):
+        """Ground from an OpenEXR image: a height map, or the trail in a map of a bake (maps_final.exr, one of maps/).
+
+        A trail goes on as it was left: rest height, compression, heap and pressure_time, not its plants. It lies on
+        level ground without end if it was pressed there, else there is no ground beyond the map. Give the simulation
+        the map's own cell size and origin (`trail.cell`, `trail.x0`, `trail.y0`); on others the trail is averaged.
+        A height map holds its heights [m] in the channel height, Z, V, Y, or in a grey picture; NaN = no ground.
+
+        spacing: distance of a height map's samples [m], if its header does not say
+        """
+        found = trail.read(path, spacing)
+        if not isinstance(found, trail.Trail):
+            return Ground.heights(*found)
+        if found.flat:
+            return Ground(("flat", float(found.rest[0, 0])), "flat", found)
+        half = found.cell / 2
+        ground = Ground.heights(found.rest, found.cell, found.x0 + half, found.y0 + half)
+        return Ground(ground.native, "trail", found)
+
+    def arrays(self):
+        """The arrays the ground is made of, for telling one ground from another."""
+        return [part for part in self.native if isinstance(part, np.ndarray)] + (self.trail.arrays() if self.trail else [])
+
+
+def as_soils(soils):
+    """A list of Soil from one Soil, one preset's name, or a sequence of either."""
+    if isinstance(soils, (str, Soil)):
+        soils = [soils]
+    found = []
+    for soil in soils:
+        if isinstance(soil, str):
+            if soil not in SOILS:
+                raise DesirePathError(f"There is no soil '{soil}': choose one of {', '.join(SOILS)}.")
+            soil = SOILS[soil]
+        found.append(soil)
+    if not 1 <= len(found) <= 255:
+        raise DesirePathError("Give the ground between 1 and 255 soils.")
+    return found
+
+
+def _soil_rows(soils):
+    rows = [
+        (
+            soil.layer_depth,
+            soil.young_modulus,
+            soil.poisson_ratio,
+            soil.settle_time,
+            soil.rest_angle,
+            soil.push_threshold,
+            soil.shear_modulus,
+        )
+        for soil in soils
+    ]
+    return np.array(rows, np.float32)
+
+
+def check_cell(cell_size):
+    """Refuse sides of a cell that cannot be worked with [m]."""
+    if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
+        raise DesirePathError(
+            f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
+        )
+
+
+class Simulation:
+    """Ground that walkers press.
+
+    ground: Ground; soils: a preset's name, a Soil, or a list (painted ground counts through it).
+    cell_size: side of a cell [m], 0.0005 to 1.
+    law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: how wide the rim of a "paper" heap is laid.
+    threads: 0 = as many as the machine has; the result is the same for any number.
+    plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
+        a loaded walk can reach them and cost nothing elsewhere.
+    limits: how many plants, and how much memory for them.
+    areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.
+    """
+
+    def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
+                 heap="rest", rim_width=0.04, threads=0, plants=(), areas=None, limits=Limits()):
+        check_cell(cell_size)
+        if law not in LAWS:
+            raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
+        if heap not in HEAPS:
+            raise DesirePathError(f"There is no heap law '{heap}': choose {' or '.join(HEAPS)}.")
+        if not 0 <= threads <= 64:
+            raise DesirePathError("The number of threads must be 0 (all) to 64.")
+        if not (math.isfinite(rim_width) and rim_width > 0):
+            raise DesirePathError(f"A rim width of {rim_width:g} m cannot be used: choose more than 0 (0.04 is usual).")
+        if not (math.isfinite(origin[0]) and math.isfinite(origin[1])):
+            raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
+        self.limits = limits
+        self.cell_size = float(cell_size)
+        self.origin = (float(origin[0]), float(origin[1]))
+        self.soils = as_soils(soils)
+        self.plantings = as_plantings(plants)
+        self._areas = areas or [None] * len(self.plantings)
+        self.warnings = []  # sentences about what could not be taken as it was given
+        self.stands = []  # (stand, number of the planting, plants), in the order they were planted
+        self._planted = [set() for _ in self.plantings]  # squares
+        try:
+            self._core = _native.Simulation(
+                ground.native, _soil_rows(self.soils), self.cell_size, self.origin,
+                LAWS.index(law), HEAPS.index(heap), float(rim_width), 100000, 0.25, int(threads),
+            )
+        except ValueError as problem:
+            if "no ground" in str(problem):
+                raise DesirePathError(
+                    "The ground has no area seen from above: it stands upright. Lay it down and bake again."
+                ) from None
+            raise DesirePathError(f"The ground cannot be used: {problem}.") from None
+        if self.plantings:
+            self._core.open_plants(seed_of(self.plantings))
+        if ground.trail is not None:
+            i0, j0, left, self.warnings = ground.trail.on(self.cell_size, self.origin)
+            self._core.lay(i0, j0, *(left[name] for name in trail.LEFT))
+        for number, planting in enumerate(self.plantings):
+            if planting.roots is not None:
+                self._plant(number, planting.roots, planting.vigour)
+
+    def _plant(self, number, roots, vigour=None):
+        """Plant roots (n, 2) of a planting where there is ground."""
+        if self._areas[number] is not None:
+            there = self._areas[number](roots)
+            roots, vigour = roots[there], vigour if vigour is None else vigour[there]
+        stand, count = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(roots))
+        if count:
+            self.stands.append((stand, number, count))
+            if vigour is not None:
+                there = np.isfinite(self.rest_height(roots))
+                self._core.vary_plants(stand, np.ascontiguousarray(vigour[there]))
+
+    def _plant_reach(self):
+        """Plant the tiles that the loaded recording can reach, as far as they are not planted yet."""
+        i0, i1, j0, j1 = self.reach()
+        cell, (ox, oy), bounds = self.cell_size, self.origin, self.bounds()
+        if i0 >= i1:
+            return
+        i0, j0, i1, j1 = i0 // TILE * TILE, j0 // TILE * TILE, -(-i1 // TILE) * TILE, -(-j1 // TILE) * TILE
+        for number, planting in enumerate(self.plantings):
+            wide = planting.kind.reach + planting.kind.height
+            box = (ox + i0 * cell - wide, oy + j0 * cell - wide, ox + i1 * cell + wide, oy + j1 * cell + wide)
+            box = (*np.maximum(box[:2], bounds[:2]), *np.minimum(box[2:], bounds[2:]))
+            fresh = [at for at in planting.squares(*box, self.limits) if at not in self._planted[number]]
+            self._planted[number].update(fresh)
+            roots = planting.in_squares(fresh)
+            if len(roots):
+                self._plant(number, roots)
+
+    def rest_height(self, xy):
+        """Height of the ground before any walker [m] at points xy (n, 2); NaN where there is none."""
+        xy = np.ascontiguousarray(xy, np.float64).reshape(-1, 2)
+        height = np.empty(len(xy))
+        self._core.rest(xy, height)
+        return height
+
+    def settle_time(self, xy):
+        """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
+        taus = np.array([soil.settle_time for soil in self.soils])
+        cells, number = np.unique(np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0,
+                                  return_inverse=True)
+        if len(taus) == 1:
+            return np.full(len(xy), taus[0])
+        kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
+        return taus[kinds][number.reshape(-1)]
+
+    def normal(self, xy, radius):
+        """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
+        return self._core.normal(float(xy[0]), float(xy[1]), float(radius))
+
+    def bounds(self):
+        """World box of the ground (x0, y0, x1, y1) [m]; infinite for flat ground."""
+        return self._core.bounds()
+
+    def place(self, gait, walker, numbers, clearance, pose, com, *, flat, carry):
+        """Turn a walker's feet to the ground, changing pose and com: place.place_feet is the door.
+
+        gait: walker.native_gait() of one.
+        """
+        self._core.place(gait, int(walker), bool(flat), bool(carry), np.ascontiguousarray(numbers, np.float64),
+                         np.ascontiguousarray(clearance, np.float64), pose, com)
+
+    def load(self, gait, loads):
+        """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
+        touching = (np.asarray(loads.touching) == 1).astype(np.uint8)  # what is carried elsewhere presses nothing
+        held = getattr(loads, "held", None)
+        if held is not None:
+            touching[held & (touching != 0)] |= HELD
+        vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
+        triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
+        self._core.load(
+            np.ascontiguousarray(gait.time), np.ascontiguousarray(gait.mass),
+            np.ascontiguousarray(gait.pose), np.ascontiguousarray(gait.limb_walker, np.int32),
+            np.ascontiguousarray(gait.part_limb, np.int32), np.ascontiguousarray(vertices),
+            np.array([len(sole.vertices) for sole in gait.soles], np.int32),
+            np.ascontiguousarray(triangles),
+            np.array([len(sole.triangles) for sole in gait.soles], np.int32),
+            np.ascontiguousarray(touching), np.ascontiguousarray(loads.force),
+            np.ascontiguousarray(loads.point),
+        )
+        if self.plantings:
+            self._plant_reach()
+
+    def reach(self):
+        """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
+        return self._core.reach()
+
+    def run(self, sample):
+        """Step to the state at this sample of the loaded recording."""
+        self._core.run(int(sample))
+
+    def settle(self):
+        """Lift all feet and let everything loose come to rest."""
+        self._core.settle()
+
+    def rest_plants(self, seconds):
+        """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
+        if not (math.isfinite(seconds) and 0 <= seconds < 1e12):
+            raise DesirePathError(f"Plants cannot rest for {seconds} seconds: give 0 or more.")
+        if self.plantings:
+            self._core.rest_plants(float(seconds))
+
+    def plants_count(self):
+        """How many plants stand on the ground so far."""
+        return sum(count for _, _, count in self.stands)
+
+    def plants_shape(self, stand):
+        """(rows, stems, stems of a sheet, particles, bends) of a plant of a stand in `stands`."""
+        return _native.plants_shape(self.plantings[self._stand(stand)[1]].kind.numbers())
+
+    def plants_positions(self, stand):
+        """Particles of all plants of a stand, float32 (n, particles, 3) [m]; particle = stem * rows + row."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
+        self._core.read_plants(stand, 0, out, None, None)
+        return out
+
+    def lay_plants(self):
+        """Remember from now on how soles lay the stems, so that plants_shown() tells more than plants_positions()."""
+        if self.plantings:
+            self._core.lay_plants()
+
+    def plants_shown(self, stand):
+        """Particles of all plants of a stand as they are to be shown, float32 (n, particles, 3) [m]: a stem that was
+        trodden swings up when the foot has left, but is down for as long as the grass of its cell lies (`crushed`)."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
+        self._core.read_shown(stand, 0, out)
+        return out
+
+    def plants_strength(self, stand):
+        """eps_b of every bend, float64 (n, bends), TRAIL (6); 0 = broken."""
+        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[4]))
+        self._core.read_plants(stand, 0, None, out, None)
+        return out
+
+    def plants_alpha(self, stand):
+        """alpha_k of every plant, float64 (n,), TRAIL (7): its share of bends with nothing broken below."""
+        out = np.zeros(self._stand(stand)[2])
+        self._core.read_plants(stand, 0, None, None, out)
+        return out
+
+    def _stand(self, name):
+        for stand in self.stands:
+            if stand[0] == name:
+                return stand
+        raise DesirePathError(f"There is no stand {name}: choose one of those in `stands`.")
+
+    def report(self):
+        """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
+        return self._core.report()
+
+    def read(self, name, i0, j0, nx, ny):
+        """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS or
+        maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa]."""
+        if name not in _FIELDS and name not in _LEAN:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*_FIELDS, *_LEAN])}.")
+        if nx < 1 or ny < 1:
+            raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
+        out = np.zeros((int(ny), int(nx)), np.float32)
+        if name in _FIELDS:
+            self._core.read(_FIELDS[name], int(i0), int(j0), out)
+        elif self.plantings:
+            self._core.read_lean(_LEAN.index(name), int(i0), int(j0), out)
+        return out
+
+    def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
+        """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""
+        return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"))
+
+    def flush(self):
+        """Wait until all frames and maps are written; OSError when one could not be."""
+        self._core.flush()
+
+
+class Film:
+    """Frames and maps of a rectangle of tiles of a Simulation, as it changes: Simulation.open_frames() opens one.
+
+    Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
+    """
+
+    def __init__(self, core):
+        self._core = core
+
+    def open_maps(self, names, notes):
+        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too, and notes
+        (name, text or number)."""
+        fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
+        shown = (maps.PICTURE, fields[names[0]])
+        self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
+
+    def write_frame(self, path, time):
+        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
+        self._core.write_frame(None if path is None else str(path), float(time))
+
+    def write_lean(self, path, time):
+        """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
+        self._core.write_frame(None if path is None else str(path), float(time), True)
+
+    def write_maps(self, path, time):
+        """Write the maps as they are, in the background like frames."""
+        self._core.write_maps(str(path), float(time))

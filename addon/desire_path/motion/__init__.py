@@ -1,0 +1,1 @@
+"""Recordings of walkers: poses over time, and what can be told from them alone."""

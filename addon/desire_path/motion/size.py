@@ -1,0 +1,50 @@
+"""How large a walker is. Lengths of a gait go with the leg, times and speeds with its root (Froude).
+
+A recording of any walker, as large as a grown person, moves as a grown person does who walks alike: limits on
+heights, speeds and times are given for a person's leg and asked of that recording. Accelerations stay what they
+are, and so do forces.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+LEG = 0.86  # from the hip joints to the ankles of a grown person [m]
+TALL = 1.15  # whose mass centre is at most so high over his feet, in legs
+QUICK = 0.6  # shorter legs step so quickly that they need more samples [m]
+MOST = 16.0  # but no more than so many times as many
+
+
+def legs(gait):
+    """Leg length of each walker (W,) [m]: as recorded, else by how high its mass centre rises over its feet.
+
+    What has one foot only is a thing rather than a walker, and meets the ground as it did for a person.
+    """
+    from ..loads.walker import point_places
+
+    if len(gait.leg):
+        return gait.leg
+    height, owner = point_places(gait)[..., 2], gait.limb_walker[gait.part_limb[gait.point_part]]
+    tall = [float((gait.com[w, :, 2] - height[owner == w].min(axis=0)).max())
+            if (gait.limb_walker == w).sum() > 1 else 0.0 for w in range(len(gait.mass))]
+    return np.array([high / TALL if high > 0.0 else LEG for high in tall])
+
+
+def known(gait):
+    """The recording with its walkers' legs."""
+    return gait if len(gait.leg) else replace(gait, leg=legs(gait))
+
+
+def as_person(gait, size):
+    """The recording of walkers whose legs are `size` persons' legs, as large as a person."""
+    if size == 1.0:
+        return gait
+    pose = gait.pose.copy()
+    pose[..., :3] /= size
+    return replace(gait, time=gait.time / np.sqrt(size), com=gait.com / size, pose=pose, point=gait.point / size,
+                   frame_rate=gait.frame_rate * np.sqrt(size), leg=gait.leg / size)
+
+
+def hurry(gait):
+    """How many times as many samples a second the smallest walker needs as a person does, 1 or more."""
+    return float(np.clip(np.sqrt(QUICK / legs(gait).min()), 1.0, MOST))

@@ -1,0 +1,1 @@
+"""From an armature to a recording: names, legs, feet, soles, masses."""

@@ -1,0 +1,391 @@
+"""One foot: where its heel, ball and tip are while it stands flat, its two parts and their soles.
+
+    bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
+"""
+
+import copy
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..motion import rotation, size as sizes, stays
+from . import rig_names, sole, sole_mesh as treads
+from ..errors import DesirePathError
+from ..motion.gait import BALL, HEEL, TIP, Sole
+
+HEEL_BEHIND = 0.17  # the heel lies this share of ankle-to-tip behind the ankle, on the ground
+HEEL_FAR = 0.6  # a heel bone farther behind than this share of ankle-to-tip is none
+ANKLE_HEIGHT = 0.039 / 0.152  # ankle over the sole, in foot lengths; Winter, figure 4.1
+TOE_SHARE = (0.25, 0.75)  # plausible ball-to-tip in shares of ankle-to-ball; else TOE_GUESS
+TOE_GUESS = 0.42
+FOOT_OF_LEG = 0.285  # foot length in shares of hips bone to ankle: 0.152 of 0.53 statures, Winter, Fig. 4.1
+SHORT_FOOT = 0.85  # a person's foot is no shorter than this share of that; toe bones that end early are
+FOOT_TO_LEG = 0.22  # a foot bone longer than this share of the leg ends at the tip, not at the ball
+ASTRAY = np.radians(75.0)  # a toe bone that points this far off ankle-to-ball says nothing of where toes end
+LONG = 2.0  # nor does one longer than this many times ankle-to-ball
+SIDEWAYS = np.cos(np.radians(70.0))  # a last bone that points so far off the way the body faces tells no foot
+FAR_TAIL = 0.6  # nor does one longer than this share of the leg
+GUESS = (0.17, 0.06)  # ankle to ball where nothing tells: ahead and down, in shares of the leg
+PAW = 0.6  # a beast's foot that goes down by this share of ankle-to-ball stands on its toes alone
+PAW_PAD = 0.3  # such a foot presses this share of the toes' length behind the ball
+PAW_SKIN = 0.06  # the paw's sole lies this share of its length under its lowest joint
+BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
+STIFF = np.radians(3.0)  # a toe bone that turns less than this against its foot never bends
+FLAT_SPEED = 0.25  # a grown person's flat foot moves slower than this [m/s]
+FLAT_RISE = 0.12  # rises and falls slower [m/s]
+FLAT_TURN = 1.0  # and turns slower [rad/s]
+LOW = 0.10  # it is low within this of its lowest, in shares of the leg
+DOWN = 0.03  # and stands within this
+HEEL_DOWN = 0.03  # its heel is down when the ankle is no more than this over its usual height over the ball
+
+
+@dataclass
+class FootShape:
+    """One foot, flat on the ground: where its joints are in the foot's frame, and the bones' turns."""
+
+    ball: float  # x of the ball joint [m]
+    tip: float  # x of the tip of the toes [m]
+    heel: float  # x of the heel's end [m]
+    ankle_height: float  # z of the ankle [m]
+    ball_height: float  # z of the ball joint [m]
+    foot_turn: np.ndarray  # foot frame in the foot bone (3, 3)
+    toe_turn: np.ndarray | None  # toe frame in the toe bone (3, 3)
+    ball_side: float  # y of the ball joint [m]
+
+
+class Foot:
+    """The bones of one foot over the clip."""
+
+    def __init__(self, bones, foot, leg, person, known=None, beast=False):
+        self.bones, self.slots = bones, foot
+        self.beast = beast  # walks on more than two legs
+        self.known = known  # its FootShape, where the clip need not tell
+        length = bones.length[bones.row[foot.foot]]
+        self.toe = foot.toe
+        if length <= 1e-6 * max(leg, 1e-9):
+            raise DesirePathError(f"Bone {foot.foot} has no length: give it one in edit mode.")
+        if self.toe:
+            apart = np.linalg.norm(bones.rest_point(self.toe) - bones.rest_point(foot.foot))
+            if apart <= 1e-4 * max(leg, 1e-9):
+                raise DesirePathError(f"Bone {foot.foot} has no length up to {self.toe}: choose "
+                                      "another toe bone or none.")
+        self.leg = leg
+        self.size = leg / sizes.LEG  # its leg in those of a grown person
+        self.held = None  # samples at which the body keeps its pose: what other ones tell goes before them (T,)
+        self.person = person  # walks on two legs below its hips
+        self.made = None  # ball and tip seen from the ankle in the foot bone's axes, where the bone tells nothing
+        self.ahead = None if beast or not self.toe else self._ahead()
+        self.tip = None  # a far "toe" bone: its head is the tip
+        if self.toe and not beast and self._far():
+            self.tip, self.toe = self.toe, None
+        self.ends_at_tip = not self.toe and (self.tip or length > FOOT_TO_LEG * leg > 0)
+
+    def over(self, bones):
+        """The same foot, of bones that were moved."""
+        other = copy.copy(self)
+        other.bones = bones
+        return other
+
+    def face(self, ahead, up):
+        """Make up a foot that points ahead where its only bone points to one side, or far away."""
+        bones, name = self.bones, self.slots.foot
+        way = bones.rest_point(name, 1.0) - bones.rest_point(name)
+        length, level = np.linalg.norm(way), way - (way @ up) * up
+        aside = abs(level @ ahead) < SIDEWAYS * np.linalg.norm(level) and np.linalg.norm(level) > 0.3 * length
+        if self.slots.toe or not (aside or length > FAR_TAIL * self.leg):
+            return
+        ball = self.leg * (GUESS[0] * ahead - GUESS[1] * up)
+        tip = ball + self.leg * TOE_GUESS * GUESS[0] * ahead
+        self.made = np.stack([ball, tip]) @ rotation.square(bones.rest[bones.row[name], :3, :3])
+        self.ends_at_tip = False
+
+    def _ahead(self):
+        """Where the toes end, from the ball in the toe bone's axes, where its tail does not tell; else None."""
+        ankle, ball = (self.bones.rest_point(name) for name in (self.slots.foot, self.toe))
+        run, toe = ball - ankle, self.bones.rest_point(self.toe, 1.0) - ball
+        reach, length = np.linalg.norm(run), np.linalg.norm(toe)
+        if length < LONG * reach and run @ toe > np.cos(ASTRAY) * reach * length:
+            return None
+        return rotation.square(self.bones.rest[self.bones.row[self.toe], :3, :3]).T @ (TOE_GUESS * run)
+
+    def _far(self):
+        """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
+        ankle, ball, tip = (self.bones.rest_point(n, a) for n, a in (
+            (self.slots.foot, 0.0), (self.toe, 0.0), (self.toe, 1.0)))
+        reach = np.linalg.norm(ball - ankle)
+        return reach > FOOT_TO_LEG * self.leg > 0 and np.linalg.norm(tip - ball) < 0.35 * reach
+
+    def joints(self, rest=False):
+        """ankle, ball, tip: (T, 3) each, or (3,) in the rest pose."""
+        at = self.bones.rest_point if rest else self.bones.point
+        foot, toe = self.slots.foot, self.toe
+        ankle, tail = at(foot), at(foot, 1.0)
+        if self.made is not None:
+            turn = rotation.square(self.bones.rest[self.bones.row[foot], :3, :3]) if rest else self.bones.turn(foot)
+            return ankle, ankle + turn @ self.made[0], ankle + turn @ self.made[1]
+        if toe and self.ahead is not None:
+            turn = rotation.square(self.bones.rest[self.bones.row[toe], :3, :3]) if rest else self.bones.turn(toe)
+            return ankle, at(toe), at(toe) + turn @ self.ahead
+        if toe:
+            return ankle, at(toe), at(toe, 1.0)
+        if self.ends_at_tip:
+            share = 1.0 / (1.0 + TOE_GUESS)
+            tail = at(self.tip) if self.tip else tail
+            return ankle, ankle + share * (tail - ankle), tail
+        return ankle, tail, tail + TOE_GUESS * (tail - ankle)
+
+    def bends(self):
+        """Does the toe bone turn against the foot bone at all?"""
+        if not self.toe:
+            return False
+        between = np.swapaxes(self.bones.turn(self.slots.foot), 1, 2) @ self.bones.turn(self.toe)
+        apart = np.einsum("tij,ij->t", between, between[0])
+        return bool(np.arccos(np.clip((apart.min() - 1) / 2, -1, 1)) > STIFF)
+
+    def low(self, told):
+        """Where ankle and ball are as low as where they stand in the samples of a mask, if it has any (T,)."""
+        return self._height(told if told.any() else ~told) < DOWN * self.leg
+
+    def _height(self, told):
+        """Of ankle and ball over their lowest places in the samples of a mask, the greater (T,)."""
+        return np.maximum(*(joint[:, 2] - np.quantile(joint[told, 2], 0.02) for joint in self.joints()[:2]))
+
+    def flat(self, time):
+        """Samples at which the foot stands flat: low or slow, neither rising nor turning.
+
+        A pose that is held in mid-step says least of that, since a foot in the air is as still in it as one that
+        stands: where the rest of the clip shows the foot flat, what is held is left out.
+        """
+        if len(time) < 3:
+            return np.zeros(len(time), bool)
+        tell = self.bones.tell
+        if self.held is not None and self.held.any():
+            flat = self._flat(time, tell & ~self.held)
+            if stays.votes(flat, time, self.size).sum() >= stays.VOTE * np.sqrt(self.size):
+                return flat
+        return self._flat(time, tell)
+
+    def _flat(self, time, told):
+        """flat() of the samples in a mask.
+
+        A runner's foot is hardly ever still: where nothing is found, up to four times as much goes.
+        """
+        ankle, ball, _ = self.joints()
+        pace = np.sqrt(self.size)
+        v_ankle, v_ball = rotation.rate_of(ankle, time) / pace, rotation.rate_of(ball, time) / pace
+        turn = self.bones.turn(self.slots.foot)
+        spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0) * pace
+        speed = np.maximum(np.linalg.norm(v_ankle, axis=1), np.linalg.norm(v_ball, axis=1))
+        rise = np.maximum(abs(v_ankle[:, 2]), abs(v_ball[:, 2]))
+        low = self._height(told) < LOW * self.leg
+        over_ball = ankle[:, 2] - ball[:, 2]
+        for more in (1.0, 2.0, 4.0):
+            slow = (speed < more * FLAT_SPEED) | (low & (rise < more * 0.5 * FLAT_RISE))
+            flat = told & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
+            if more > 1.0:
+                flat &= low
+            if flat.any():  # of those, the ones with the heel down
+                usual = stays.median(over_ball, stays.votes(flat, time, self.size))
+                flat &= over_ball < usual + HEEL_DOWN * self.leg
+            if flat.sum() >= 3:
+                return flat
+        return np.zeros(len(time), bool)
+
+    def _heel(self, foot_turn, frame, weight, heel_x, tip_x):
+        """x of the heel's end: a heel bone tells it, where it lies behind the ankle."""
+        if not self.slots.heel:
+            return heel_x
+        bones, foot = self.bones, self.slots.foot
+        rest = rotation.square(bones.rest[bones.row[foot], :3, :3])
+        turn = rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame, weight)
+        ends = [turn.T @ rest.T @ (bones.rest_point(self.slots.heel, along) - bones.rest_point(foot))
+                for along in (0.0, 1.0)]
+        behind = min(end[0] for end in ends)
+        return behind if -HEEL_FAR * tip_x < behind < 0.0 else heel_x
+
+    def shape(self, time, up_rest, ahead_rest, skinned):
+        """Joints in the flat foot, from the clip itself, else from the rest pose."""
+        flat = self.flat(time)
+        if self.known is not None and not skinned:
+            return replace(self.known), flat
+        if skinned or not flat.any():
+            ankle, ball, tip = (j[None] for j in self.joints(rest=True))
+            row = self.bones.row
+            foot_turn = rotation.square(self.bones.rest[row[self.slots.foot], :3, :3])[None]
+            toe_turn = rotation.square(self.bones.rest[row[self.toe], :3, :3])[None] if self.toe else None
+            up, ahead, weight = up_rest, ahead_rest, np.ones(1)
+        else:
+            weight = stays.votes(flat, time, self.size)[flat]
+            ankle, ball, tip = (j[flat] for j in self.joints())
+            foot_turn = self.bones.turn(self.slots.foot)[flat]
+            toe_turn = self.bones.turn(self.toe)[flat] if self.toe else None
+            up, ahead = np.array([0.0, 0.0, 1.0]), None
+        forward = tip - ankle
+        across = forward - (forward @ up)[:, None] * up
+        if stays.median(np.linalg.norm(across, axis=1) / np.linalg.norm(forward, axis=1), weight) < 0.3:
+            if ahead is None:  # the foot bone stands upright: face the way of the rest pose
+                rest = rotation.square(self.bones.rest[self.bones.row[self.slots.foot], :3, :3])
+                ahead = foot_turn @ (rest.T @ ahead_rest)
+            across = np.broadcast_to(ahead, forward.shape)
+        frame = rotation.frame(across, up)
+        inside = lambda p: stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
+        ball_in, tip_in = inside(ball), inside(tip)
+        turns = tuple(None if each is None else rotation.mean_turn(np.swapaxes(each, 1, 2) @ frame, weight)
+                      for each in (foot_turn, toe_turn))
+        if self.beast and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
+            return self._paw(ball_in, tip_in, turns), flat
+        reach = ball_in[0]
+        if reach < 0.02 * self.leg:  # an upright foot bone tells nothing of the foot's length
+            reach = 0.17 * self.leg
+        toes = tip_in[0] - reach
+        if not TOE_SHARE[0] * reach <= toes <= TOE_SHARE[1] * reach:
+            toes = TOE_GUESS * reach
+        tip_x = reach + toes
+        heel_x = -HEEL_BEHIND * tip_x
+        length = tip_x - heel_x
+        if self.person and not skinned and length < SHORT_FOOT * FOOT_OF_LEG * self.leg:
+            more = FOOT_OF_LEG * self.leg - length  # joints tell where it bends, not where it ends
+            tip_x, heel_x = tip_x + 0.55 * more, heel_x - 0.45 * more
+            length += more
+        if not skinned:
+            heel_x = self._heel(foot_turn, frame, weight, heel_x, tip_x)
+        # the sole lies under the lowest joint, the ankle no lower over it than in people
+        ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
+        return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2], *turns, ball_in[1]), flat
+
+    def _paw(self, ball, tip, turns):
+        """The shape of a foot on its toes: its heel is in the air, what presses lies around the ball and ahead."""
+        toes = max(tip[0] - ball[0], 0.03 * self.leg)
+        heel, end = ball[0] - PAW_PAD * toes, ball[0] + toes
+        height = -min(ball[2], tip[2]) + PAW_SKIN * (end - heel)
+        return FootShape(ball[0], end, heel, height, height + ball[2], *turns, ball[1])
+
+
+def _level_toe(turn, ball, low):
+    """Turn of a toe part without a bone of its own: level until the ball has left the ground.
+
+    turn (T, 3, 3) of the heel part, ball (T,) height of the ball over its resting height [m]; `low`
+    [m] is the height over which the toes follow the foot again. TRAIL (2) gives it thus.
+    """
+    forward = turn[:, :, 0]
+    level = rotation.frame(forward, (0.0, 0.0, 1.0))
+    steep = np.hypot(forward[:, 0], forward[:, 1]) < 0.2
+    level[steep] = turn[steep]
+    bend = np.clip(-forward[:, 2], 0.0, None) > 0.0  # heel above ball
+    lift = np.clip((ball - 0.3 * low) / (0.7 * low), 0.0, 1.0)
+    follow = np.where(bend, lift * lift * (3 - 2 * lift), 1.0)
+    mixed = level + follow[:, None, None] * (turn - level)
+    return rotation.square(mixed)
+
+
+def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, warnings):
+    """Poses, soles and contact points of the two parts of one foot. laid: a tread, or None."""
+    at_foot = laid is not None and laid.at_foot
+    shape, flat = foot.shape(time, up_rest, ahead_rest, skin is not None or at_foot)
+    if skin is None and not at_foot and not flat.any() and len(time) > 2:
+        warnings.append(f"{foot.slots.foot} never stands flat: its sole was laid by the rest pose.")
+    soles = None
+    if skin is not None:
+        soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
+        if soles is None and laid is None:
+            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in "
+                            "sole.")
+    if laid is not None:
+        soles, below = treads.soles(laid, left, shape.ball)
+        if at_foot:  # as thick as it was modelled
+            shape.ball_height += below - shape.ankle_height
+            shape.ankle_height = below
+    heel_turn = bones.turn(foot.slots.foot) @ shape.foot_turn
+    ankle, ball, _ = foot.joints()
+    heel_at = ankle - heel_turn[:, :, 2] * shape.ankle_height
+    ball_in_foot = np.array([shape.ball, 0.0, 0.0])
+    if foot.bends():
+        toe_turn = bones.turn(foot.toe) @ shape.toe_turn
+        toe_at = ball - toe_turn @ np.array([0.0, shape.ball_side, shape.ball_height])
+    else:
+        under = heel_at + heel_turn @ ball_in_foot
+        rest_height = (stays.median(under[:, 2], stays.votes(flat, time, foot.size)) if flat.any()
+                       else np.quantile(under[bones.tell, 2], 0.05))
+        low = 0.25 * (shape.tip - shape.heel)
+        toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
+        toe_at = under
+    heel_x, tip_x = shape.heel, shape.tip
+    if soles is None:
+        soles = sole.built_in(shape.heel, shape.ball, shape.tip, left)
+    else:
+        heel_x = float(soles[0].vertices[:, 0].min())
+        tip_x = shape.ball + float(soles[1].vertices[:, 0].max())
+    length = tip_x - heel_x
+    toe_length = tip_x - shape.ball
+    points = [(0, HEEL, (heel_x + 0.09 * length, 0.0, 0.0)),
+              (0, BALL, (shape.ball - BALL_PAD * length, 0.0, 0.0)),
+              (1, BALL, (0.0, 0.0, 0.0)), (1, TIP, (toe_length - 0.04 * length, 0.0, 0.0))]
+    poses = [np.concatenate([at, rotation.quaternion(turn)], axis=1)
+             for at, turn in ((heel_at, heel_turn), (toe_at, toe_turn))]
+    return poses, soles, points
+
+
+def _to_frame(bones, foot, shape):
+    """Rest space to the frame of a flat foot, its ankle at the origin (4, 4)."""
+    turn = rotation.square(bones.rest[bones.row[foot.slots.foot], :3, :3]) @ shape.foot_turn
+    out = np.eye(4)
+    out[:3, :3] = turn.T
+    out[:3, 3] = -turn.T @ foot.joints(rest=True)[0]
+    return out
+
+
+def lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest):
+    """The tread under one foot of the rest pose, left feet asked first."""
+    places = []
+    for foot, left in sorted(zip(feet, lefts), key=lambda each: not each[1]):
+        shape, _ = foot.shape(time, up_rest, ahead_rest, True)
+        places.append((_to_frame(bones, foot, shape), shape.heel, shape.tip, left))
+    return treads.lay(tread, places, up_rest, ahead_rest)
+
+
+def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
+    """Soles from the rest pose's skin, laid so that its lowest vertex is at z = 0; None if none."""
+    parents = [int(p) for p in skeleton.parents]
+
+    def family(name, stop):
+        row, found = bones.row[name], set()
+        for b, other in enumerate(skeleton.names):
+            up = b
+            while up >= 0 and up != row and skeleton.names[up] not in stop:
+                up = parents[up]
+            if up == row:
+                found.add(other)
+        return found
+
+    toe_family = family(foot.toe, ()) if foot.toe else set()
+    foot_family = family(foot.slots.foot, ()) - toe_family
+    if foot.slots.heel and foot.slots.heel not in toe_family:  # need not hang on the foot
+        foot_family.add(foot.slots.heel)
+    if foot.toe:  # small toes beside the chosen one
+        for name in list(foot_family):
+            if name != foot.slots.foot and rig_names.is_toe(name):
+                foot_family.discard(name)
+                toe_family.add(name)
+    to_frame = _to_frame(bones, foot, shape)
+    cut = sole.from_skin(skin, foot_family, toe_family, to_frame, 0.0)
+    if cut is None or cut[0] is None:
+        return None
+    if cut[1] is None:  # no toe bone, or none that moves faces: split at the ball
+        vertices, triangles = cut[0]
+        ahead = vertices[triangles, 0].mean(axis=1) > shape.ball
+        cut = [_pick(vertices, triangles[~ahead]), _pick(vertices, triangles[ahead])]
+        if cut[0] is None or cut[1] is None:
+            return None
+    floor = min(cut[0][0][:, 2].min(), cut[1][0][:, 2].min())
+    shape.ball_height += -floor - shape.ankle_height
+    shape.ankle_height = -floor
+    heel = cut[0][0] - (0.0, 0.0, floor)
+    toe = cut[1][0] - (shape.ball, 0.0, floor)
+    return Sole(heel, cut[0][1]), Sole(toe, cut[1][1])
+
+
+def _pick(vertices, triangles):
+    if not len(triangles):
+        return None
+    used, packed = np.unique(triangles, return_inverse=True)
+    return vertices[used], packed.reshape(-1, 3).astype("i4")

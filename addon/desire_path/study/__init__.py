@@ -1,0 +1,1 @@
+"""Experiments on plants: lanes that are trampled, kinds that are calibrated by counts."""

@@ -1,0 +1,173 @@
+"""From measured cover to a kind of plant: which reserves, and how different ones, wear as the table says. Design 7.
+
+    lane of stems that cannot break ---how long each is bent---> model of cover ---SciPy---> strength, spread
+                         ^                                                                      |
+                         +------ measured minus modelled, after a lane with that kind <---------+
+
+How long a stem is bent does not depend on its reserve but for what hangs limp, so one lane serves for any
+reserve; what the model leaves out is measured on lanes with the kind that was found, and fitted for again.
+Needs SciPy, which nothing else here does: pip install desire-path[fit].
+"""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import _native
+from . import trampling
+from ..errors import DesirePathError
+from ..ground.plants import YEAR, as_kind, share_below
+
+TOUGH = 1e6  # a reserve that does not end
+SEEDS = (101, 102)  # of the lanes that are fitted to; use others to judge a fit
+ROUNDS = 3  # of measuring and fitting again, at most
+NEAR = 0.25  # measured and modelled agree [points]
+RECOVER_DAYS = 14.0  # a stem that did not break has all its reserve again after so long
+WORST = 8.0  # power of the mean error that is made small: high, so that the worst count tells
+STRENGTH, SPREAD = (0.01, 1000.0), (0.05, 4.0)  # what is looked at: reserves [s of bending], spreads
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A kind and how well it does: counts, the cover that was wanted and that its lanes had [per cent]."""
+
+    kind: object
+    passes: tuple
+    wanted: tuple
+    reached: tuple
+
+    @property
+    def worst(self):
+        """Largest difference [points]."""
+        return max(abs(a - b) for a, b in zip(self.wanted, self.reached))
+
+    @property
+    def rms(self):
+        """Root mean square difference [points]."""
+        return math.sqrt(sum((a - b) ** 2 for a, b in zip(self.wanted, self.reached)) / len(self.wanted))
+
+
+def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **options):
+    """The kind that wears as a table says, from a kind that looks like it: a Fitted.
+
+    rows: (passes, cover [per cent], days of rest) of lane.read(), of which those with the same passes count by their
+    mean; rows with days of rest tell how fast it grows
+    again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
+    options: as for lane.measure. Found are strength and spread, and regrow_rate and seed_share from rows with days;
+    stems break by wear alone, and what did not break recovers in two weeks.
+    """
+    try:
+        from scipy import optimize
+    except ImportError:
+        raise DesirePathError("Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
+                              "or pip install scipy.") from None
+    told = {}
+    for count, cover, days in rows:
+        if not days:
+            told.setdefault(count, []).append(cover)
+    fresh = [(count, sum(covers) / len(covers)) for count, covers in sorted(told.items())]
+    if len(fresh) < 2:
+        raise DesirePathError("A fit needs the cover after at least two counts of passes: add rows to the table.")
+    passes, wanted = tuple(zip(*fresh))
+    wanted = np.array(wanted, float)
+    if wanted.max() <= 1.0:
+        raise DesirePathError("The table's cover seems to be in shares: give it in per cent.")
+    kind = replace(as_kind(kind), break_angle=math.pi, recover_rate=0.0, spread=0.0)
+    lanes = _Lanes(kind, passes, seeds, rounds, progress, options)
+    bent = lanes.bent()
+    missed = np.zeros(len(wanted))  # what the model leaves out [points]
+    for _ in range(rounds):
+        strength, spread = _solved(optimize, bent, wanted - missed)
+        found = replace(kind, strength=strength * kind.degrade_rate, spread=spread,
+                        recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * trampling.DAY))
+        reached = lanes.cover(found)
+        before, missed = missed, reached - _model(bent, strength, spread)
+        if abs(missed - before).max() < NEAR:
+            break
+    later = [(count, cover, days) for count, cover, days in rows if days]
+    if later:
+        rate, share = _regrowth(optimize, found, dict(zip(passes, reached)), later)
+        found = replace(found, regrow_rate=rate, seed_share=share)
+    return Fitted(found, passes, tuple(wanted.tolist()), tuple(reached.tolist()))
+
+
+class _Lanes:
+    """The lanes of all seeds, trodden side by side."""
+
+    def __init__(self, kind, passes, seeds, rounds, progress, options):
+        self.kind, self.passes, self.seeds, self.progress, self.options = kind, passes, seeds, progress, options
+        self.begun, self.all = 0, rounds + 1
+
+    def _each(self, walk):
+        base, share = self.begun, dict.fromkeys(self.seeds, 0.0)
+        self.begun += 1
+
+        def told(seed, done):
+            share[seed] = done
+            if self.progress:
+                self.progress((base + sum(share.values()) / len(share)) / self.all)
+        with ThreadPoolExecutor(len(self.seeds)) as workers:
+            return list(workers.map(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds))
+
+    def bent(self):
+        """For each count, how long each bend and those below it were bent [s], all seeds together."""
+        tough = replace(self.kind, strength=TOUGH)
+
+        def walk(seed, told):
+            sim, marks = trampling.trodden(tough, self.passes[-1], **{**trampling.USUAL, **self.options, "seed": seed})
+            bends = sim.plants_shape(0)[0] - 2
+            return trampling.read_at(sim, [marks[n - 1] for n in self.passes], marks[-1], told,
+                                lambda: _most(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate)
+        return [np.concatenate(each) for each in zip(*self._each(walk))]
+
+    def cover(self, kind):
+        """Mean cover of the lanes after each count [per cent]."""
+        rows = self._each(lambda seed, told: trampling.measure(kind, passes=self.passes, seed=seed, progress=told,
+                                                          **self.options))
+        return np.mean([[share for _, share in row] for row in rows], axis=0)
+
+
+def _most(lost, bends):
+    """The most lost by each bend or one below it, for stems of so many bends."""
+    return np.maximum.accumulate(lost.reshape(-1, bends), axis=1).ravel()
+
+
+def _model(bent, strength, spread):
+    """Cover after each count [per cent] where reserves are strength exp(spread z) seconds of bending: the chance that
+    a reserve outlasts its stem's bending, TRAIL (6) and (7), over all bends."""
+    return np.array([100.0 * share_below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean()
+                     for each in bent])
+
+
+def _solved(optimize, bent, wanted):
+    """Strength [s] and spread whose modelled cover is nearest to what is wanted."""
+    bent = [np.quantile(each, (np.arange(2000) + 0.5) / 2000) for each in bent]  # as good, and faster
+
+    def error(x):
+        return float((abs(_model(bent, math.exp(x[0]), x[1]) - wanted) ** WORST).mean() ** (1.0 / WORST))
+    bounds = [tuple(map(math.log, STRENGTH)), SPREAD]
+    first = optimize.brute(error, bounds, Ns=24, finish=None)
+    best = optimize.minimize(error, first, method="Nelder-Mead", bounds=bounds,
+                             options={"xatol": 1e-4, "fatol": 1e-4, "maxiter": 400})
+    return float(math.exp(best.x[0])), float(best.x[1])
+
+
+def _regrowth(optimize, kind, reached, later):
+    """(rate [1/s], share of seeds) with which cover comes back as rows with days of rest say; by the rate alone
+    where they are one or two."""
+    known = [(reached[count] / 100.0, cover / 100.0, days) for count, cover, days in later if count in reached]
+    if not known:
+        raise DesirePathError("Rows with days of rest have counts of passes that no row without has: add those.")
+
+    def error(rate, share):
+        grown = replace(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
+        return sum(abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover) ** WORST
+                   for alpha, cover, days in known) ** (1.0 / WORST)
+
+    def best(share):
+        return optimize.minimize_scalar(lambda rate: error(rate, share), bounds=(0.0, 50.0), method="bounded")
+    shares = np.linspace(0.0, 1.0, 101) if len(known) > 2 else [0.0]
+    found = min(((best(share), share) for share in shares), key=lambda each: each[0].fun)
+    return float(found[0].x) / YEAR, float(found[1])
