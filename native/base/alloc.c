@@ -39,8 +39,8 @@ void* dp_alloc(size_t count, size_t size)
     if (count == 0 || size == 0 || count > (SIZE_MAX - 4 * ALIGNMENT) / size) return NULL;
     if (!may_allocate()) return NULL;
     const size_t bytes = count * size;
-    const size_t whole = (bytes + 2 * ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    char*        front = aligned_alloc(ALIGNMENT, whole);
+    const size_t padded = (bytes + 2 * ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    char*        front = aligned_alloc(ALIGNMENT, padded);
     if (!front) return NULL;
     void* block = front + ALIGNMENT;
     *size_of(block) = bytes;

@@ -9,13 +9,13 @@ void* dp_alloc(size_t count, size_t size);
 // NULL when there is no memory: the old block then still stands.
 void* dp_realloc(void* block, size_t count, size_t size);
 
-// Give back what dp_alloc or dp_realloc lent. NULL is fine.
+// Free what dp_alloc or dp_realloc gave. NULL is fine.
 void dp_free(void* block);
 
-// Bytes lent and not yet given back, over all threads.
+// Bytes allocated and not yet freed, over all threads.
 size_t dp_bytes_live(void);
 
-// The most that was ever lent at once since the last dp_bytes_peak_reset().
+// The largest dp_bytes_live() there was since the last dp_bytes_peak_reset().
 size_t dp_bytes_peak(void);
 void   dp_bytes_peak_reset(void);
 

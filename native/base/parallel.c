@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define MOST_WORKERS 64
+#define MAX_WORKERS 64
 #define PATIENCE 100000  // who waits looks again and again for so long before it sleeps [ns]
 #define LOOKS 64         // between two looks at the clock
 
@@ -116,7 +116,7 @@ static bool start_helper(void)
 void dp_parallel_for(int count, int workers, DpWork work, void* context)
 {
     if (workers > count) workers = count;
-    if (workers > MOST_WORKERS) workers = MOST_WORKERS;
+    if (workers > MAX_WORKERS) workers = MAX_WORKERS;
     Job job = {.work = work, .context = context, .count = count, .workers = workers, .joined = 1};
     if (workers <= 1) {
         work_at(&job, 0);
@@ -145,5 +145,5 @@ void dp_parallel_for(int count, int workers, DpWork work, void* context)
 int dp_parallel_width(void)
 {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    return online < 1 ? 1 : online > MOST_WORKERS ? MOST_WORKERS : (int)online;
+    return online < 1 ? 1 : online > MAX_WORKERS ? MAX_WORKERS : (int)online;
 }

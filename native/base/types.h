@@ -31,7 +31,7 @@ typedef struct DpPose
     DpQuat turn;  // unit quaternion
 } DpPose;
 
-// A triangle mesh in its own frame. Owned by whoever made it.
+// A triangle mesh in its own frame. Owned by whoever created it.
 typedef struct DpMesh
 {
     int            vertex_count;
@@ -80,7 +80,7 @@ typedef struct DpSoil
 
 #define DP_SOIL_NUMBERS 7  // of a DpSoil, in this order
 
-// A dense window of ground, lent by the terrain to the kernels and handed back changed.
+// A dense window of ground, acquired from the terrain by a lease and committed when kernels have changed it.
 // All grids are (ny, nx) with `row` cells from one row to the next.
 typedef struct DpSoilPatch
 {
@@ -88,13 +88,14 @@ typedef struct DpSoilPatch
     double cell;    // side of a cell                                    [m]
     double x0, y0;  // world position of the centre of cell (0, 0)       [m]
 
-    const float*   rest;  // h0, ground before any walker, over the terrain's base; NaN = none [m]
-    float*         compression;    // h_c, pressed below h0              [m]  >= 0
-    float*         heap;           // h_a, loose soil piled on top       [m]  >= 0
-    float*         pressure_time;  // sigma_acc, TRAIL (17)              [Pa s] >= 0
-    const float*   modulus;        // E = E_g + E_v, TRAIL (9)           [Pa] > 0
-    const float*   rest_slope;     // tan(gamma_r)                       [-]  > 0
-    const uint8_t* kind;           // index into the table of soils      [-]
+    const float*
+           base_height;    // h0, ground before any walker, over the terrain's base; NaN = none [m]
+    float* compression;    // h_c, pressed below h0              [m]  >= 0
+    float* heap;           // h_a, loose soil piled on top       [m]  >= 0
+    float* pressure_time;  // sigma_acc, TRAIL (17)              [Pa s] >= 0
+    const float*   modulus;     // E = E_g + E_v, TRAIL (9)           [Pa] > 0
+    const float*   rest_slope;  // tan(gamma_r)                       [-]  > 0
+    const uint8_t* kind;        // index into the table of soils      [-]
 
     const DpSoil* soils;  // the table of soils
     int           soil_count;

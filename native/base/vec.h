@@ -86,7 +86,7 @@ static inline DpQuat dp_quat_about(DpVec3 axis, double angle)
     return q;
 }
 
-// the shortest way from a (w = 0) to b (w = 1) on the unit sphere
+// the shortest path from a (w = 0) to b (w = 1) on the unit sphere
 static inline DpQuat dp_slerp(DpQuat a, DpQuat b, double w)
 {
     double dot = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;

@@ -84,7 +84,7 @@ static PyObject* simulation_rest(Simulation* self, PyObject* args)
         dp_door_result(DP_BAD_ARGUMENT, "asking for heights");
     else if (out && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 && dp_py_enter(self)) {
         Py_BEGIN_ALLOW_THREADS
-        dp_terrain_rest(self->terrain, (int)shape.n[0], xy, out);
+        dp_terrain_base_height(self->terrain, (int)shape.n[0], xy, out);
         Py_END_ALLOW_THREADS
         self->busy = false;
         result = dp_door_result(DP_OK, "");

@@ -66,7 +66,7 @@ static int check_grids(const DpSoilPatch* patch)
     const size_t cells = (size_t)patch->nx * (size_t)patch->ny;
     for (size_t k = 0; k < cells; ++k) {
         const char* bad = NULL;
-        if (isinf(patch->rest[k])) bad = "rest";
+        if (isinf(patch->base_height[k])) bad = "rest";
         if (!(patch->compression[k] >= 0.0f) || isinf(patch->compression[k])) bad = "compression";
         if (!(patch->heap[k] >= 0.0f) || isinf(patch->heap[k])) bad = "heap";
         if (!isfinite(patch->pressure_time[k])) bad = "pressure_time";
@@ -98,7 +98,7 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
         PyErr_SetString(PyExc_ValueError, "patch: cell must be > 0, x0 and y0 finite");
         return -1;
     }
-    if (!(patch->rest = dp_door_open(door, rest, "rest", 'f', shape, false)) ||
+    if (!(patch->base_height = dp_door_open(door, rest, "rest", 'f', shape, false)) ||
         !(patch->compression = dp_door_open(door, compression, "compression", 'f', shape, true)) ||
         !(patch->heap = dp_door_open(door, heap, "heap", 'f', shape, true)) ||
         !(patch->pressure_time =

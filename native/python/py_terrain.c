@@ -35,7 +35,7 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     DpStatus               status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_terrain_create(&terrain, &options, &ground);
-    if (status == DP_OK) dp_terrain_rest(terrain, (int)points.n[0], at, out);
+    if (status == DP_OK) dp_terrain_base_height(terrain, (int)points.n[0], at, out);
     dp_terrain_destroy(terrain);
     Py_END_ALLOW_THREADS
     answer = dp_door_result(status, "asking for heights");

@@ -35,8 +35,8 @@ DpStatus dp_ahead_open(DpSim* sim, int sample, int* limbs)
     const int count = pressing(sim, ahead->limb);
     for (int n = 0; n < count; ++n) {
         const Cells    at = ahead->limb[n]->patch;
-        const DpStatus status = dp_terrain_lend(sim->terrain, ahead->loan[n], at.i0, at.i1, at.j0,
-                                                at.j1, &ahead->patch[n]);
+        const DpStatus status = dp_terrain_acquire(sim->terrain, ahead->loan[n], at.i0, at.i1,
+                                                   at.j0, at.j1, &ahead->patch[n]);
         if (status != DP_OK) return status;
         ahead->was[n] = *ahead->limb[n];
         ahead->status[n] = DP_OK;
@@ -77,8 +77,8 @@ bool dp_ahead_take(DpSim* sim)
         if (ahead->status[n] != DP_OK) drop(ahead);  // in its turn it says what is wrong
     const int count = ahead->count;
     for (int n = 0; n < count; ++n)
-        dp_terrain_give_back(sim->terrain, ahead->loan[n], 0, ahead->patch[n]->nx, 0,
-                             ahead->patch[n]->ny);
+        dp_terrain_commit(sim->terrain, ahead->loan[n], 0, ahead->patch[n]->nx, 0,
+                          ahead->patch[n]->ny);
     ahead->count = 0;
     return count > 0;
 }

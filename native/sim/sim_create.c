@@ -46,13 +46,13 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
     bool whole = sim->bench != NULL;
     for (int b = 0; whole && b < sim->bench_count; ++b) {
         Bench* bench = &sim->bench[b];
-        bench->loan = dp_loan_create();
+        bench->loan = dp_lease_create();
         bench->imprint_scratch = dp_imprint_scratch_create();
         bench->soil_scratch = dp_soil_scratch_create();
         whole = bench->loan && bench->imprint_scratch && bench->soil_scratch;
     }
     for (int n = 0; whole && n < AHEAD_MOST; ++n) {
-        sim->ahead.loan[n] = dp_loan_create();
+        sim->ahead.loan[n] = dp_lease_create();
         whole = sim->ahead.loan[n] != NULL;
     }
     if (!whole) {
@@ -95,7 +95,7 @@ void dp_sim_destroy(DpSim* sim)
     dp_lean_destroy(sim->meadow.lean);
     for (int b = 0; sim->bench && b < sim->bench_count; ++b) {
         Bench* bench = &sim->bench[b];
-        dp_loan_destroy(bench->loan);
+        dp_lease_destroy(bench->loan);
         dp_imprint_scratch_destroy(bench->imprint_scratch);
         dp_soil_scratch_destroy(bench->soil_scratch);
         dp_free(bench->imprint.bottom);
@@ -103,7 +103,7 @@ void dp_sim_destroy(DpSim* sim)
         dp_free(bench->imprint.ring);
         dp_free(bench->met);
     }
-    for (int n = 0; n < AHEAD_MOST; ++n) dp_loan_destroy(sim->ahead.loan[n]);
+    for (int n = 0; n < AHEAD_MOST; ++n) dp_lease_destroy(sim->ahead.loan[n]);
     dp_free(sim->bench);
     dp_free(sim);
 }
@@ -215,8 +215,8 @@ static void lower(DpSim* sim, size_t samples)
     size_t first = 0;
     while (first < samples && !sim->touching[first]) ++first;
     if (first < samples && !sim->meadow.plants)
-        dp_terrain_move_base(sim->terrain, sim->pose[7 * first + 2]);
-    const double base = dp_terrain_base(sim->terrain);
+        dp_terrain_move_datum(sim->terrain, sim->pose[7 * first + 2]);
+    const double base = dp_terrain_datum(sim->terrain);
     for (size_t k = 0; k < samples; ++k) {
         sim->pose[7 * k + 2] -= base;
         sim->pressure_point[3 * k + 2] -= base;

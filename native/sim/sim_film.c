@@ -223,7 +223,7 @@ static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
     film->changed = dp_alloc((size_t)tiles, 1);
     if (!film->changed) return DP_NO_MEMORY;
     bool shows = dp_sim_lean(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
-    for (int f = 0; f < film->fields; ++f) shows |= film->field[f] == DP_FIELD_REST;
+    for (int f = 0; f < film->fields; ++f) shows |= film->field[f] == DP_FIELD_BASE_HEIGHT;
     if (shows) {
         Rest rest = {film, DP_OK};
         dp_parallel_for(tiles, reel->workers, pack_rest, &rest);

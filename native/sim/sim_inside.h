@@ -49,7 +49,7 @@ typedef struct Pressing
 // What one thread needs for itself.
 typedef struct Bench
 {
-    DpLoan*           loan;
+    DpLease*          loan;
     DpImprintScratch* imprint_scratch;
     DpSoilScratch*    soil_scratch;
     DpImprint         imprint;
@@ -106,7 +106,7 @@ typedef struct Ahead
     Limb         was[AHEAD_MOST];
     DpSoilPatch* patch[AHEAD_MOST];
     DpStatus     status[AHEAD_MOST];
-    DpLoan*      loan[AHEAD_MOST];
+    DpLease*     loan[AHEAD_MOST];
 } Ahead;
 
 struct DpSim

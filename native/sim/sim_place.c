@@ -5,7 +5,7 @@ static double height(const void* ground, double x, double y)
 {
     const double xy[2] = {x, y};
     double       z;
-    dp_terrain_rest((const DpTerrain*)ground, 1, xy, &z);
+    dp_terrain_base_height((const DpTerrain*)ground, 1, xy, &z);
     return z;
 }
 

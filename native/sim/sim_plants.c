@@ -34,7 +34,7 @@ DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
     if (!sim || !plants || sim->meadow.plants || sim->limb) return DP_BAD_ARGUMENT;
     DpLean*  lean = NULL;
     DpStatus status = dp_lean_create(&lean, plants, sim->cell, sim->origin_x, sim->origin_y);
-    if (status == DP_OK) status = dp_terrain_plant(sim->terrain, cover_of, plants);
+    if (status == DP_OK) status = dp_terrain_set_cover(sim->terrain, cover_of, plants);
     if (status != DP_OK) {
         dp_lean_destroy(lean);
         return status;
@@ -65,7 +65,7 @@ static double surface(const void* terrain, double x, double y)
 // from heights over the terrain's base
 static void in_the_world(const DpSim* sim, int stand, float* position)
 {
-    const double base = dp_terrain_base(sim->terrain);
+    const double base = dp_terrain_datum(sim->terrain);
     const int    count = dp_plants_shape(sim->meadow.plants, stand).particles;
     for (int n = 0; n < count; ++n)
         position[3 * n + 2] = (float)((double)position[3 * n + 2] + base);
@@ -104,7 +104,7 @@ Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1)
 static void cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
 {
     const Cells at = dp_sim_cells(sim, x0, y0, x1, y1);
-    dp_terrain_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+    dp_terrain_refresh_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
 }
 
 // plants have come or grown within a box [m] around their roots
@@ -124,9 +124,9 @@ static bool stand_on(const DpSim* sim, const DpPlantKind* kind, const float xy[2
     const double x = (double)xy[0], y = (double)xy[1];
     const double at[10] = {x, y, x - d, y, x + d, y, x, y - d, x, y + d};
     double       z[5];
-    dp_terrain_rest(sim->terrain, 5, at, z);
+    dp_terrain_base_height(sim->terrain, 5, at, z);
     if (!isfinite(z[0])) return false;
-    root[0] = xy[0], root[1] = xy[1], root[2] = (float)(z[0] - dp_terrain_base(sim->terrain));
+    root[0] = xy[0], root[1] = xy[1], root[2] = (float)(z[0] - dp_terrain_datum(sim->terrain));
     for (int k = 0; k < 2; ++k) {  // one-sided at an edge
         const double low = z[1 + 2 * k], high = z[2 + 2 * k];
         const double across = (high - low) / (2.0 * d);

@@ -72,7 +72,7 @@ static void slip(Limb* limb, const DpSoil* soil, const DpFootForce* foot, double
     const double more = (wanted - held) * -expm1(-bears * dt / (double)soil->settle_time);
     const DpVec3 slipped = dp_add(limb->slip, dp_scale(way, more));
     limb->sheared = dp_scale(way, held + more);
-    if (dp_length(slipped) <= DP_SLIP_MOST) limb->slip = slipped;
+    if (dp_length(slipped) <= DP_MAX_SLIP) limb->slip = slipped;
 }
 
 // One sub-step: the sole as it stands at fraction w of the interval presses for dt.
@@ -167,14 +167,14 @@ DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench)
     for (;;) {
         DpSoilPatch* patch = NULL;
         DpStatus     status =
-            dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+            dp_terrain_acquire(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
         if (status != DP_OK) return status;
         DpSettled settled;
         status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance,
                                    sim->options.most_sweeps, bench->soil_scratch, &settled);
         if (status != DP_OK) return status;
-        dp_terrain_give_back(sim->terrain, bench->loan, settled.i0, settled.i1, settled.j0,
-                             settled.j1);
+        dp_terrain_commit(sim->terrain, bench->loan, settled.i0, settled.i1, settled.j0,
+                          settled.j1);
         if (!settled.at_edge) return DP_OK;
         at = (Cells){at.i0 - SETTLE_GROWTH, at.i1 + SETTLE_GROWTH, at.j0 - SETTLE_GROWTH,
                      at.j1 + SETTLE_GROWTH};

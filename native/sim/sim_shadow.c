@@ -36,8 +36,8 @@ Shadow* dp_shadow_way(DpSim* sim, int part, int sample)
     shadow->low = fmin(from->z0, to->z0);
     const double xy[2] = {0.25 * (from->x0 + from->x1 + to->x0 + to->x1),
                           0.25 * (from->y0 + from->y1 + to->y0 + to->y1)};
-    dp_terrain_rest(sim->terrain, 1, xy, &shadow->ground);
-    shadow->ground -= dp_terrain_base(sim->terrain);
+    dp_terrain_base_height(sim->terrain, 1, xy, &shadow->ground);
+    shadow->ground -= dp_terrain_datum(sim->terrain);
     return shadow;
 }
 

@@ -19,7 +19,7 @@
 static double slips(const DpSim* sim)
 {
     for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
-        if (dp_terrain_soils(sim->terrain)[s].shear_modulus > 0.0f) return DP_SLIP_MOST;
+        if (dp_terrain_soils(sim->terrain)[s].shear_modulus > 0.0f) return DP_MAX_SLIP;
     return 0.0;
 }
 
@@ -104,11 +104,11 @@ static void work_group(void* context, int group, int worker)
         DpSoilPatch* patch = NULL;
         if (limb->lifts || bench->status != DP_OK) continue;
         bench->status =
-            dp_terrain_lend(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+            dp_terrain_acquire(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
         if (bench->status == DP_OK)
             bench->status = dp_limb_press(sim, limb, step->sample, patch, bench);
         if (bench->status == DP_OK)
-            dp_terrain_give_back(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
+            dp_terrain_commit(sim->terrain, bench->loan, 0, patch->nx, 0, patch->ny);
     }
 }
 

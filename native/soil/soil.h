@@ -50,13 +50,13 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
 
 // ---- slip ---------------------------------------------------------------------------------------
 
-#define DP_SLIP_MOST 0.05  // a sole slips no farther in a stance [m]
+#define DP_MAX_SLIP 0.05  // a sole slips no farther in a stance [m]
 
 // How far soil shears under a sole before it carries a force along the ground: the j at which
 // F = N tan(gamma_r) (1 - exp(-j / K)), Janosi and Hanamoto 1961.
 // @param along   F, along the ground             [N] >= 0
 // @param weight  N, square to the ground         [N] >= 0
-// @return j  0 on soil that does not slip or without a load; no more than DP_SLIP_MOST  [m]
+// @return j  0 on soil that does not slip or without a load; no more than DP_MAX_SLIP  [m]
 double dp_soil_slip(const DpSoil* soil, double along, double weight);
 
 // ---- TRAIL (11)-(13): pushed aside ------------------------------------------------------------
@@ -81,7 +81,7 @@ typedef struct DpHeapOptions
 
 // Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,
 // 1 is enough). Adds to patch->heap only, never on touched cells; the heaps' sum grows by
-// volume / cell^2 up to rounding. `height` is T of the rest law, kept by the caller from step to
+// volume / cell^2 up to rounding. `height` is T of the resting law, kept by the caller from step to
 // step of one stance as the first guess; 0 at touch-down.
 // Without a border cell: DP_NO_GROUND, patch untouched.
 DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const DpFootForce* foot,
@@ -92,15 +92,16 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
 typedef struct DpSettled
 {
-    int  sweeps;          // sweeps made                                            [-]
+    int  sweeps;          // sweeps done                                            [-]
     bool at_rest;         // no loose slope exceeds the rest angle by more than the tolerance
-    bool at_edge;         // loose soil wants to leave the patch: lend a larger one
+    bool at_edge;         // loose soil wants to leave the patch: acquire a larger one
     int  i0, i1, j0, j1;  // cells that changed: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
 } DpSettled;
 
-// Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or `most` sweeps.
+// Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or for `max_sweeps`.
 // Nothing slides onto or off the cells with ring == 0 of `imprint` (a sole stands there);
 // imprint may be NULL. Volume is conserved and the order of cells does not matter.
 // Only cells of the rectangle `within` {i0, i1, j0, j1} are looked at first; NULL = the whole patch.
 DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
-                           double tolerance, int most, DpSoilScratch* scratch, DpSettled* settled);
+                           double tolerance, int max_sweeps, DpSoilScratch* scratch,
+                           DpSettled* settled);

@@ -26,7 +26,7 @@ static double ahead_of(const HeapShares* shares, int i, int j)
     return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
 }
 
-double soil_heap_share(const HeapShares* shares, int i, int j)
+double dp_soil_heap_share(const HeapShares* shares, int i, int j)
 {
     const double coarse = ldexp(1.5, 52 - 30);
     if (shares->even) return 1.0;
@@ -44,9 +44,9 @@ static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, H
     for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
-            if (imprint->ring[p] != 1 || !soil_is_ground(patch->rest[p])) continue;
+            if (imprint->ring[p] != 1 || !soil_is_ground(patch->base_height[p])) continue;
             any = true;
-            ahead = ahead || soil_heap_share(shares, i, j) > 0.0;
+            ahead = ahead || dp_soil_heap_share(shares, i, j) > 0.0;
         }
     shares->even = !ahead;
     return any;
@@ -84,7 +84,7 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
     if (volume <= 0.0) return DP_OK;
 
     if (options->law == DP_HEAP_PAPER)
-        return soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);
+        return dp_soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);
     const double slope = slope_under(patch, &shares);
-    return soil_heap_rest(patch, imprint, &shares, volume, slope, height, scratch);
+    return dp_soil_heap_rest(patch, imprint, &shares, volume, slope, height, scratch);
 }

@@ -29,7 +29,7 @@
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
 #define NOWHERE SIZE_MAX
-#define MOST_ROUNDS 100
+#define MAX_ROUNDS 100
 #define FLOOR_CELLS 4.0   // least contact area: so many cells
 #define FLOOR_SHARE 0.05  // .. or this share of the sole
 #define PRESS_GRID \
@@ -50,7 +50,7 @@ typedef struct Columns
 // The ground under a sole as it would go on where there is none: the mean of what there is, level with it.
 typedef struct Beyond
 {
-    double rest, met;         // at (i, j) [m]
+    double base_height, met;  // at (i, j) [m]
     double i, j;              // [cells]
     double slope_i, slope_j;  // [m per cell]
     double stiffness, depth;  // E/L0 [Pa/m], L0 [m]
@@ -63,10 +63,10 @@ typedef struct Sole
     const DpSoilPatch* patch;
     const DpImprint*   imprint;
     Beyond             beyond;
-    int                i, j;    // where to read on
-    int                filled;  // chunks that hold columns
-    bool               whole;   // all of the sole is held: no need to read again
-    bool               shown;   // .. and was handed out in this round
+    int                i, j;      // where to read on
+    int                filled;    // chunks that hold columns
+    bool               complete;  // all of the sole is held: no need to read again
+    bool               shown;     // .. and was handed out in this round
     Columns            chunk[CHUNKS];
 } Sole;
 
@@ -101,17 +101,17 @@ static void put_column(Columns* columns, const Sole* sole, size_t p)
     const DpSoilPatch* patch = sole->patch;
     const Beyond*      beyond = &sole->beyond;
     const int          k = columns->count++;
-    const bool         ground = soil_is_ground(patch->rest[p]);
+    const bool         ground = soil_is_ground(patch->base_height[p]);
     double             depth = beyond->depth, met = beyond->met, stiffness = beyond->stiffness;
-    double             rest = beyond->rest + beyond->slope_i * ((double)sole->i - beyond->i) +
-                  beyond->slope_j * ((double)sole->j - beyond->j);
+    double base_height = beyond->base_height + beyond->slope_i * ((double)sole->i - beyond->i) +
+                         beyond->slope_j * ((double)sole->j - beyond->j);
     if (ground) {
         depth = (double)patch->soils[patch->kind[p]].layer_depth;
         stiffness = (double)patch->modulus[p] / depth;
         met = met_at(patch, sole->imprint, p);
-        rest = (double)patch->rest[p];
+        base_height = (double)patch->base_height[p];
     }
-    columns->gap[k] = rest - (double)sole->imprint->bottom[p];
+    columns->gap[k] = base_height - (double)sole->imprint->bottom[p];
     columns->pressed[k] = met;
     columns->rigid[k] = SOIL_RIGID * depth;
     columns->share[k] = (double)sole->imprint->cover[p];
@@ -131,7 +131,7 @@ static void fill_up(Columns* columns)
 static void from_the_start(Sole* sole)
 {
     sole->shown = false;
-    if (sole->whole) return;
+    if (sole->complete) return;
     sole->i = sole->imprint->i0;
     sole->j = sole->imprint->j0;
 }
@@ -173,13 +173,13 @@ static void look_beyond(Sole* sole, DpVec3 normal)
             const size_t p = soil_at(patch, i, j);
             const double a = (double)imprint->cover[p];
             if (!(a > 0.0)) continue;
-            if (!soil_is_ground(patch->rest[p])) {
+            if (!soil_is_ground(patch->base_height[p])) {
                 needed = true;
                 continue;
             }
             const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
             share += a;
-            sum.rest += a * (double)patch->rest[p];
+            sum.base_height += a * (double)patch->base_height[p];
             sum.met += a * met_at(patch, imprint, p);
             sum.i += a * i, sum.j += a * j;
             sum.stiffness += a * ((double)patch->modulus[p] / depth);
@@ -188,7 +188,7 @@ static void look_beyond(Sole* sole, DpVec3 normal)
     sole->beyond = (Beyond){.is_there = share > 0.0};
     if (!needed || !sole->beyond.is_there) return;
     const double level = normal.z > 0.0 ? patch->cell / normal.z : 0.0;
-    sole->beyond = (Beyond){.rest = sum.rest / share,
+    sole->beyond = (Beyond){.base_height = sum.base_height / share,
                             .met = sum.met / share,
                             .i = sum.i / share,
                             .j = sum.j / share,
@@ -202,7 +202,7 @@ static void look_beyond(Sole* sole, DpVec3 normal)
 // have the next columns at hand; false when all have been handed out since from_the_start()
 static bool next_columns(Sole* sole)
 {
-    if (sole->whole) {
+    if (sole->complete) {
         const bool more = !sole->shown && sole->filled > 0;
         sole->shown = true;
         return more;
@@ -210,7 +210,7 @@ static bool next_columns(Sole* sole)
     const bool first = sole->i == sole->imprint->i0 && sole->j == sole->imprint->j0;
     sole->filled = 0;
     const bool end = read_columns(sole);
-    sole->whole = sole->shown = first && end;
+    sole->complete = sole->shown = first && end;
     if (sole->filled > 0) fill_up(&sole->chunk[sole->filled - 1]);
     return sole->filled > 0;
 }
@@ -258,12 +258,12 @@ static Answer answer(Sole* sole, const Balance* balance, double s)
 
 // largest spring and gap of `columns`
 DP_CLONES
-static void find_most(const Columns* columns, double* restrict stiffest, double* restrict highest)
+static void find_max(const Columns* columns, double* restrict stiffest, double* restrict highest)
 {
     for (int k = 0; k < LANES; ++k) {
         const double gap = k < columns->count ? columns->gap[k] : -INFINITY;
-        stiffest[k] = soil_most(stiffest[k], columns->spring[k]);
-        highest[k] = soil_most(highest[k], gap);
+        stiffest[k] = soil_max(stiffest[k], columns->spring[k]);
+        highest[k] = soil_max(highest[k], gap);
     }
 }
 
@@ -277,7 +277,7 @@ static void add_up(const Columns* columns, double highest, double slope_grid,
         const double gap = highest - columns->gap[k];
         share[k] += soil_on_grid(columns->share[k], share_grid);
         springs[k] += soil_on_grid(columns->spring[k], slope_grid);
-        hanging[k] += soil_on_grid(columns->spring[k] * soil_least(gap, 1.0), slope_grid);
+        hanging[k] += soil_on_grid(columns->spring[k] * soil_min(gap, 1.0), slope_grid);
     }
 }
 
@@ -291,12 +291,12 @@ static inline double lone_target(double load, double spring, double rigid)
 // the least sink at which some column carries the load alone
 static double lone_sink(const Columns* columns, double load)
 {
-    double least = INFINITY;
+    double lowest = INFINITY;
     for (int k = 0; k < columns->count; ++k) {
         const double target = lone_target(load, columns->spring[k], columns->rigid[k]);
-        least = soil_least(least, target - columns->gap[k]);
+        lowest = soil_min(lowest, target - columns->gap[k]);
     }
-    return least;
+    return lowest;
 }
 
 // look at all columns: scales of the sums, and a first guess; false if there are none
@@ -305,10 +305,10 @@ static bool weigh(Balance* balance, Sole* sole, double load)
     double stiffest[LANES] = {0}, highest[LANES];
     for (int k = 0; k < LANES; ++k) highest[k] = -INFINITY;
     for (from_the_start(sole); next_columns(sole);)
-        for (int c = 0; c < sole->filled; ++c) find_most(&sole->chunk[c], stiffest, highest);
+        for (int c = 0; c < sole->filled; ++c) find_max(&sole->chunk[c], stiffest, highest);
     for (int k = 1; k < LANES; ++k) {
-        stiffest[0] = soil_most(stiffest[0], stiffest[k]);
-        highest[0] = soil_most(highest[0], highest[k]);
+        stiffest[0] = soil_max(stiffest[0], stiffest[k]);
+        highest[0] = soil_max(highest[0], highest[k]);
     }
     if (!(stiffest[0] > 0.0 && isfinite(stiffest[0]) && isfinite(highest[0]))) return false;
     const double slope_grid = soil_grid(RIGID_STIFFER * stiffest[0]);
@@ -336,18 +336,18 @@ static bool weigh(Balance* balance, Sole* sole, double load)
 static double sink_of(Sole* sole, Balance* balance, Answer* found)
 {
     const double load = balance->load;
-    double       most = INFINITY;
+    double       max_sink = INFINITY;
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
-            most = soil_least(most, lone_sink(&sole->chunk[c], load));
+            max_sink = soil_min(max_sink, lone_sink(&sole->chunk[c], load));
     balance->force_grid = soil_grid(load);
     // if all columns carried
-    double s = soil_least((load + balance->hanging) / balance->springs - balance->highest, most);
-    for (int round = 0; round < MOST_ROUNDS; ++round) {
+    double s = soil_min((load + balance->hanging) / balance->springs - balance->highest, max_sink);
+    for (int round = 0; round < MAX_ROUNDS; ++round) {
         *found = answer(sole, balance, s);
         const double missing = load - found->force;
         if (fabs(missing) <= 2e-9 * load || !(found->slope > 0.0)) break;
-        const double next = soil_least(s + missing / found->slope, most);
+        const double next = soil_min(s + missing / found->slope, max_sink);
         if (fabs(next - s) < 1e-15 * fabs(s)) break;
         s = next;
     }
@@ -367,11 +367,11 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
 {
     const DpSoil* soil = &patch->soils[patch->kind[p]];
     const float   c = patch->compression[p], b = patch->heap[p];
-    const double  goal = target.share * target.depth;                             // TRAIL (10)
-    const double  rate = goal * soil_least(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
+    const double  goal = target.share * target.depth;                           // TRAIL (10)
+    const double  rate = goal * soil_min(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
     const double  press =
-        soil_most(soil_least(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
-    const double loose = soil_least(press, (double)b);
+        soil_max(soil_min(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
+    const double loose = soil_min(press, (double)b);
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + (press - loose));
     if (patch->pressure_time)
@@ -386,25 +386,25 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     pressed->firm += soil_on_grid(out_of_firm, PRESS_GRID);
     pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
                                        PRESS_GRID);
-    pressed->deepest = soil_most(pressed->deepest, (double)patch->compression[p]);
+    pressed->deepest = soil_max(pressed->deepest, (double)patch->compression[p]);
 }
 
 // least contact area, so that a first touch is not a needle
-static double least_area(const Sole* sole, const Balance* balance)
+static double min_area(const Sole* sole, const Balance* balance)
 {
     const double area = sole->patch->cell * sole->patch->cell;
-    return soil_least(soil_most(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
+    return soil_min(soil_max(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
 }
 
 // `sole`: balance, then press what carries
 static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balance* balance,
                        double dt, DpPressed* pressed)
 {
-    const double area = patch->cell * patch->cell, least = least_area(sole, balance);
+    const double area = patch->cell * patch->cell, smallest = min_area(sole, balance);
     Answer       found;
     double       s = sink_of(sole, balance, &found);
-    if (found.area > 0.0 && found.area < least) {
-        balance->load *= found.area / least;
+    if (found.area > 0.0 && found.area < smallest) {
+        balance->load *= found.area / smallest;
         s = sink_of(sole, balance, &found);
     }
     pressed->sink = s;
@@ -420,7 +420,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
                 if (p == NOWHERE) continue;
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
-                press_cell(patch, p, (Target){soil_least(t, rigid), stress, columns->share[k]}, dt,
+                press_cell(patch, p, (Target){soil_min(t, rigid), stress, columns->share[k]}, dt,
                            pressed);
             }
         }
@@ -430,7 +430,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
 static double overlap(const Columns* columns, int k)
 {
     const double e = columns->pressed[k], share = columns->share[k];
-    return columns->gap[k] - (e > 0.0 ? soil_least(e / share, columns->rigid[k]) : e);
+    return columns->gap[k] - (e > 0.0 ? soil_min(e / share, columns->rigid[k]) : e);
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
@@ -442,7 +442,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k)
-                highest = soil_most(highest, overlap(&sole->chunk[c], k));
+                highest = soil_max(highest, overlap(&sole->chunk[c], k));
 
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
@@ -453,7 +453,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 if (p != NOWHERE) imprint->ring[p] = 0;
             }
     area *= patch->cell * patch->cell;
-    stress = balance->load / soil_most(area, least_area(sole, balance));  // SOFT22 (9)
+    stress = balance->load / soil_max(area, min_area(sole, balance));  // SOFT22 (9)
 
     for (from_the_start(sole); next_columns(sole);)
         for (int c = 0; c < sole->filled; ++c)
@@ -463,7 +463,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 if (p == NOWHERE || imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
                 const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
-                press_cell(patch, p, (Target){soil_least(depth, rigid), stress, columns->share[k]},
+                press_cell(patch, p, (Target){soil_min(depth, rigid), stress, columns->share[k]},
                            dt,
                            pressed);  // SOFT22 (10)
             }
@@ -487,7 +487,7 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     Sole sole;
     sole.patch = patch;
     sole.imprint = imprint;
-    sole.whole = false;
+    sole.complete = false;
     look_beyond(&sole, foot->normal);
     Balance balance = {0};
     if (load <= 0.0 || !sole.beyond.is_there || !weigh(&balance, &sole, load)) return DP_OK;

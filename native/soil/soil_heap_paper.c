@@ -11,11 +11,11 @@
 //     down in that step, so no soil is in the air.
 #include "soil/soil_heaps.h"
 
-#define STEPS 65536      // of one cell: distances are whole numbers, alike from any side
-#define DIAGONAL 92682   // sqrt(2) cells
-#define FAR (1 << 30)    // farther than any rim reaches
-#define FALLS 0.2        // outer share of the width over which the rim falls to zero
-#define MOST_WIDE 16000  // cells that a rim can be wide
+#define STEPS 65536     // of one cell: distances are whole numbers, alike from any side
+#define DIAGONAL 92682  // sqrt(2) cells
+#define FAR (1 << 30)   // farther than any rim reaches
+#define FALLS 0.2       // outer share of the width over which the rim falls to zero
+#define MAX_WIDE 16000  // cells that a rim can be wide
 
 // The part of the patch a rim can reach, with a frame of one far cell; distances from where it begins.
 typedef struct Reach
@@ -30,9 +30,9 @@ static int32_t* far_at(const Reach* reach, int i, int j)
     return reach->far + (size_t)(j - reach->j0 + 1) * reach->row + (size_t)(i - reach->i0 + 1);
 }
 
-static void nearer(int32_t* far, int32_t other, int32_t way)
+static void nearer(int32_t* far, int32_t other, int32_t step)
 {
-    if (other + way < *far) *far = other + way;
+    if (other + step < *far) *far = other + step;
 }
 
 // from the cells under the sole outward: two passes with straight and slanting steps
@@ -66,7 +66,7 @@ static double profile_to(double x)
 {
     if (x <= 0.0) return 0.0;
     if (x >= 1.0) return 1.0 - 0.5 * FALLS;
-    const double over = soil_most(x - (1.0 - FALLS), 0.0);
+    const double over = soil_max(x - (1.0 - FALLS), 0.0);
     return x - over * over / (2.0 * FALLS);
 }
 
@@ -91,11 +91,11 @@ static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* 
     return reach->far != NULL;
 }
 
-DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                         double volume, double width, DpSoilScratch* scratch)
+DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                            double volume, double width, DpSoilScratch* scratch)
 {
     if (!(width > 0.0)) return DP_BAD_ARGUMENT;
-    const double wide = soil_least(soil_most(width / patch->cell, 1.0), MOST_WIDE);
+    const double wide = soil_min(soil_max(width / patch->cell, 1.0), MAX_WIDE);
     const double coarse = ldexp(1.5, 52 - 30), area = patch->cell * patch->cell;
     Reach        reach;
     if (!open_reach(&reach, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
@@ -106,10 +106,10 @@ DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const Hea
         for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
             for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
                 const size_t p = soil_at(patch, i, j);
-                if (imprint->ring[p] == 0 || !soil_is_ground(patch->rest[p])) continue;
+                if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
                 const double full = falloff(*far_at(&reach, i, j), wide);
                 if (!(full > 0.0)) continue;
-                const double weight = soil_on_grid(soil_heap_share(shares, i, j) * full, coarse);
+                const double weight = soil_on_grid(dp_soil_heap_share(shares, i, j) * full, coarse);
                 if (pass == 0)
                     total += weight;
                 else if (total > 0.0)

@@ -26,10 +26,10 @@
 
 #define NOTHING (-(1 << 30))  // no cone reaches this cell
 #define WALL (1 << 29)        // surface of cells that take no soil: under the sole, no ground
-#define MOST_STEPS (1 << 28)  // heights stay below this, so that no sum can overflow
+#define MAX_STEPS (1 << 28)   // heights stay below this, so that no sum can overflow
 #define HOLLOW 0.5    // cells pressed to this share of the deepest under the sole are hollow
 #define MATCH 0.0002  // a volume this close is right; the rest is a common factor
-#define MOST_ROUNDS 40
+#define MAX_ROUNDS 40
 
 // The part of the patch that is worked on, with a frame of one wall cell around it.
 typedef struct Window
@@ -68,7 +68,7 @@ typedef struct Heap
 // neither under the sole, nor off the ground, nor in the hollow that the sole has left
 static bool takes_soil(const Heap* heap, size_t p)
 {
-    return soil_is_ground(heap->patch->rest[p]) && heap->imprint->ring[p] != 0 &&
+    return soil_is_ground(heap->patch->base_height[p]) && heap->imprint->ring[p] != 0 &&
            heap->patch->compression[p] < heap->hollow;
 }
 
@@ -106,8 +106,8 @@ static int from_row(int32_t* restrict fill, const int32_t* restrict before,
         const int32_t side = before[i - 1] > before[i + 1] ? before[i - 1] : before[i + 1];
         const int32_t up = before[i] - straight, across = side - diagonal;
         const int32_t come = up > across ? up : across;
-        const int32_t most = come > fill[i] ? come : fill[i];
-        const int32_t now = surface[i] == WALL ? NOTHING : most;
+        const int32_t highest = come > fill[i] ? come : fill[i];
+        const int32_t now = surface[i] == WALL ? NOTHING : highest;
         raised |= now > fill[i];
         cones |= now > NOTHING / 2;
         fill[i] = now;
@@ -244,14 +244,14 @@ static Laid fill_to(const Heap* heap, double height)
 
 // lowest firm ground and highest surface of one row; ground that is not there is NaN and not less
 DP_CLONES
-static void range_of_row(const float* restrict rest, const float* restrict compression,
+static void range_of_row(const float* restrict base_height, const float* restrict compression,
                          const float* restrict heap, int count, double* restrict low,
                          double* restrict high)
 {
     for (int i = 0; i < count; i += LANES) {
         const int lanes = count - i < LANES ? count - i : LANES;
         for (int k = 0; k < lanes; ++k) {
-            const double firm = (double)rest[i + k] - (double)compression[i + k];
+            const double firm = (double)base_height[i + k] - (double)compression[i + k];
             const double top = firm + (double)heap[i + k];
             low[k] = firm < low[k] ? firm : low[k];
             high[k] = top > high[k] ? top : high[k];
@@ -261,14 +261,15 @@ static void range_of_row(const float* restrict rest, const float* restrict compr
 
 // the surface in steps above `low`; WALL where takes_soil() says no
 DP_CLONES
-static void surface_of_row(int32_t* restrict surface, const float* restrict rest,
+static void surface_of_row(int32_t* restrict surface, const float* restrict base_height,
                            const float* restrict compression, const float* restrict heap,
                            const int32_t* restrict ring, int count, float hollow, double low,
                            double steps)
 {
     for (int i = 0; i < count; ++i) {
-        const int    takes = (rest[i] == rest[i]) & (ring[i] != 0) & (compression[i] < hollow);
-        const double at = (double)rest[i] - (double)compression[i] - low;
+        const int takes =
+            (base_height[i] == base_height[i]) & (ring[i] != 0) & (compression[i] < hollow);
+        const double at = (double)base_height[i] - (double)compression[i] - low;
         const double top = (at + (double)heap[i]) * steps + 0.5;
         surface[i] = takes ? (int32_t)(takes ? top : 0.0) : WALL;
     }
@@ -294,19 +295,19 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
     for (int k = 0; k < LANES; ++k) lows[k] = INFINITY, highs[k] = -INFINITY;
     for (int j = box[2]; j < box[3]; ++j) {
         const size_t p = soil_at(patch, box[0], j);
-        range_of_row(patch->rest + p, patch->compression + p, patch->heap + p, window->nx, lows,
-                     highs);
+        range_of_row(patch->base_height + p, patch->compression + p, patch->heap + p, window->nx,
+                     lows, highs);
     }
     for (int k = 0; k < LANES; ++k) {
-        low = soil_least(low, lows[k]);
-        high = soil_most(high, highs[k]);
+        low = soil_min(low, lows[k]);
+        high = soil_max(high, highs[k]);
     }
     const double fall = slope * patch->cell * (double)(window->nx + window->ny);
     const double range = high - low + height + fall;
     int          exponent = 0;
     (void)frexp(range, &exponent);
     if (!isfinite(range) || exponent > 40) return false;
-    heap->step = ldexp(1.0, exponent - 28);  // range / step <= MOST_STEPS
+    heap->step = ldexp(1.0, exponent - 28);  // range / step <= MAX_STEPS
     heap->level = low;
     heap->straight = (int32_t)floor(slope * patch->cell / heap->step + 0.5);
     heap->diagonal = (int32_t)floor(slope * patch->cell * sqrt(2.0) / heap->step + 0.5);
@@ -317,7 +318,7 @@ static bool open_window(Heap* heap, double height, double slope, const int box[4
     for (int j = 0; j < window->ny; ++j) {
         const size_t p = soil_at(patch, window->i0, window->j0 + j);
         int32_t*     surface = row_of(window, window->surface, j);
-        surface_of_row(surface, patch->rest + p, patch->compression + p, patch->heap + p,
+        surface_of_row(surface, patch->base_height + p, patch->compression + p, patch->heap + p,
                        heap->imprint->ring + p, window->nx, heap->hollow, low, steps);
         find_turns(row_of(window, window->turn, j), surface, window->nx);
     }
@@ -354,12 +355,12 @@ static double find_height(const Heap* heap, double goal, double width, double sl
     // on level ground a bare border would need T^2 = 2 slope volume/width on top of what lies there
     const double area = heap->patch->cell * heap->patch->cell;
     const double guess = 2.0 * slope * goal * heap->step * area / width;
-    const double limit = 0.25 * (double)MOST_STEPS * heap->step;
+    const double limit = 0.25 * (double)MAX_STEPS * heap->step;
     const double share = width / (heap->patch->cell * (double)heap->apex_count);
     double       low = -1.0, high = INFINITY, root = sqrt(share);  // low < 0: T = 0 not tried yet
-    double       t = soil_least(sqrt(*height * *height + guess), limit), step = sqrt(guess);
+    double       t = soil_min(sqrt(*height * *height + guess), limit), step = sqrt(guess);
     double       last_t = 0.0, last_volume = 0.0, last_cells = 0.0, volume = 0.0;
-    for (int round = 0; round < MOST_ROUNDS; ++round) {
+    for (int round = 0; round < MAX_ROUNDS; ++round) {
         const Laid laid = fill_to(heap, t);
         volume = (double)laid.volume;
         *height = t;
@@ -378,17 +379,17 @@ static double find_height(const Heap* heap, double goal, double width, double sl
             const double raised = 0.5 * (cells + last_cells) * (t - last_t) / heap->step;
             const double learnt =
                 raised > 0.0 || raised < 0.0 ? (volume - last_volume) / raised : root;
-            root = soil_least(soil_most(learnt, 0.05), 1.0);
+            root = soil_min(soil_max(learnt, 0.05), 1.0);
         }
         last_t = t, last_volume = volume, last_cells = cells;
         double next = volume > 0.0 ? t + (goal - volume) / (root * cells) * heap->step : t + step;
         if (isinf(high))
-            next = soil_least(soil_most(next, low + 1e-3 * step), low + 4.0 * step);
+            next = soil_min(soil_max(next, low + 1e-3 * step), low + 4.0 * step);
         else if (low < 0.0)
-            next = round > 8 ? 0.0 : soil_most(next, 0.0);
+            next = round > 8 ? 0.0 : soil_max(next, 0.0);
         else if (!(next > low && next < high) || round > 8)
             next = 0.5 * (low + high);
-        t = soil_least(next, limit);
+        t = soil_min(next, limit);
         step *= 2.0;
     }
     if (volume > 0.0 || isinf(high)) return volume;
@@ -417,7 +418,7 @@ static double edge_of(const DpSoilPatch* patch, const DpImprint* imprint, int i,
             const size_t p = soil_at(patch, i + di, j + dj);
             if (imprint->ring[p] != 0) continue;
             const double far = di && dj ? sqrt(2.0) : 1.0;
-            away = soil_least(away, far - (double)imprint->cover[p]);
+            away = soil_min(away, far - (double)imprint->cover[p]);
         }
     return away;
 }
@@ -454,9 +455,9 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, int
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (imprint->ring[p] != 1 || !takes_soil(heap, p)) continue;
-            const double share = soil_heap_share(shares, i, j);
+            const double share = dp_soil_heap_share(shares, i, j);
             if (!(share > 0.0)) continue;
-            const double firm = (double)patch->rest[p] - (double)patch->compression[p];
+            const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
             heap->apex[count++] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
             sum += share;
             if (i < box[0]) box[0] = i;
@@ -483,8 +484,8 @@ static void grow(int box[4], const int around[4], int reach, const DpSoilPatch* 
     box[3] = around[3] < patch->ny - reach ? around[3] + reach : patch->ny;
 }
 
-DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                        double volume, double slope, double* height, DpSoilScratch* scratch)
+DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                           double volume, double slope, double* height, DpSoilScratch* scratch)
 {
     Heap         heap = {.patch = patch, .imprint = imprint};
     int          border[4], box[4];
@@ -504,9 +505,9 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
 
     // how far a heap like the last one, and this volume, goes on level ground; more where it falls
     const double likely = sqrt(*height * *height + 2.0 * slope * volume / width);
-    double       reach = soil_least(likely / (slope * patch->cell) + 3.0, 30000.0);
+    double       reach = soil_min(likely / (slope * patch->cell) + 3.0, 30000.0);
     double       found = *height;
-    for (bool again = true; again; reach = soil_least(2.0 * reach, 30000.0)) {
+    for (bool again = true; again; reach = soil_min(2.0 * reach, 30000.0)) {
         grow(box, border, (int)reach, patch);
         const size_t row = even_row(box[1] - box[0]);
         const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);
@@ -520,8 +521,8 @@ DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const Heap
         found = *height;
         const double goal = volume / (area * heap.step);
         const double laid = find_height(&heap, goal, width, slope, &found);
-        const bool whole = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
-        again = !whole && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
+        const bool   all = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
+        again = !all && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
         if (again) continue;
         if (!(laid > 0.0)) return DP_NO_GROUND;
 

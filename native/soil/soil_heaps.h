@@ -12,12 +12,12 @@ typedef struct HeapShares
 } HeapShares;
 
 // omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12).
-double soil_heap_share(const HeapShares* shares, int i, int j);
+double dp_soil_heap_share(const HeapShares* shares, int i, int j);
 
 // Lay `volume` [m^3] > 0 in its resting shape; slope = tan(gamma_r).
-DpStatus soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                        double volume, double slope, double* height, DpSoilScratch* scratch);
+DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                           double volume, double slope, double* height, DpSoilScratch* scratch);
 
 // Lay `volume` [m^3] > 0 on a rim `width` [m] wide.
-DpStatus soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                         double volume, double width, DpSoilScratch* scratch);
+DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                            double volume, double width, DpSoilScratch* scratch);

@@ -24,35 +24,35 @@ static inline double soil_on_grid(double x, double grid)
     return (x + grid) - grid;
 }
 
-// A grid on which terms up to `most` keep 32 bits, and 2^21 of them can be added exactly.
-static inline double soil_grid(double most)
+// A grid on which terms up to `largest` keep 32 bits, and 2^21 of them can be added exactly.
+static inline double soil_grid(double largest)
 {
     int exponent = 0;
-    (void)frexp(most > 1e-200 ? most : 1e-200, &exponent);
+    (void)frexp(largest > 1e-200 ? largest : 1e-200, &exponent);
     return ldexp(1.5, 52 + exponent - 32);
 }
 
 // Smaller and larger of two numbers, neither of them NaN; one instruction, where fmin is a call.
-static inline double soil_least(double a, double b)
+static inline double soil_min(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static inline double soil_most(double a, double b)
+static inline double soil_max(double a, double b)
 {
     return a > b ? a : b;
 }
 
-static inline bool soil_is_ground(float rest)
+static inline bool soil_is_ground(float base_height)
 {
-    return rest == rest;
+    return base_height == base_height;
 }
 
 // a grid the kernels can work with
 static inline bool soil_patch_ok(const DpSoilPatch* patch)
 {
     return patch && patch->nx > 0 && patch->ny > 0 && patch->row >= patch->nx &&
-           patch->cell > 0.0 && isfinite(patch->cell) && patch->rest && patch->compression &&
+           patch->cell > 0.0 && isfinite(patch->cell) && patch->base_height && patch->compression &&
            patch->heap && patch->modulus && patch->rest_slope && patch->kind && patch->soils &&
            patch->soil_count > 0;
 }

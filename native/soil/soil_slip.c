@@ -8,11 +8,11 @@
 #include "base/vec.h"
 #include "soil/soil.h"
 
-#define SHARE_MOST 0.95  // of what the soil can carry: beyond it would slide without end
+#define MAX_SHARE 0.95  // of what the soil can carry: beyond it would slide without end
 
 double dp_soil_slip(const DpSoil* soil, double along, double weight)
 {
     if (!(soil->shear_modulus > 0.0f) || !(weight > 0.0) || !(along > 0.0)) return 0.0;
-    const double share = fmin(along / (weight * tan((double)soil->rest_angle)), SHARE_MOST);
-    return fmin(-(double)soil->shear_modulus * log(1.0 - share), DP_SLIP_MOST);
+    const double share = fmin(along / (weight * tan((double)soil->rest_angle)), MAX_SHARE);
+    return fmin(-(double)soil->shear_modulus * log(1.0 - share), DP_MAX_SLIP);
 }

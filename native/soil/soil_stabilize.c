@@ -190,18 +190,18 @@ typedef struct Row
 } Row;
 
 DP_CLONES
-static void fill_row(const Row* to, const float* restrict rest, const float* restrict compression,
-                     const float* restrict loose, const float* restrict rest_slope,
-                     const int32_t* restrict ring, int count, double cell, double level,
-                     double tan_slack)
+static void fill_row(const Row* to, const float* restrict base_height,
+                     const float* restrict compression, const float* restrict loose,
+                     const float* restrict rest_slope, const int32_t* restrict ring, int count,
+                     double cell, double level, double tan_slack)
 {
     float* restrict firm = to->firm, * restrict height = to->height, * restrict heap = to->heap;
     float* restrict fall = to->fall, * restrict slack = to->slack;
     double* restrict sum = to->sum;
     for (int i = 0; i < count; ++i) {
-        const int    open = (rest[i] == rest[i]) & (ring[i] != 0);
+        const int    open = (base_height[i] == base_height[i]) & (ring[i] != 0);
         const double slope = (double)rest_slope[i];
-        const float  ground = (float)((double)rest[i] - (double)compression[i] - level);
+        const float  ground = (float)((double)base_height[i] - (double)compression[i] - level);
         const float  lies = open ? loose[i] : 0.0f;
         firm[i] = open ? ground : BARRIER;
         sum[i] = (double)lies;
@@ -220,8 +220,9 @@ static void read_row(const Window* window, const DpSoilPatch* patch, const int32
     const size_t p = soil_at(patch, window->box.i0, j), w = cell_of(window, window->box.i0, j);
     const Row    row = {window->firm + w, window->height + w, window->heap + w,
                         window->fall + w, window->slack + w,  window->sum + w};
-    fill_row(&row, patch->rest + p, patch->compression + p, patch->heap + p, patch->rest_slope + p,
-             sole, window->box.i1 - window->box.i0, patch->cell, level, tan_slack);
+    fill_row(&row, patch->base_height + p, patch->compression + p, patch->heap + p,
+             patch->rest_slope + p, sole, window->box.i1 - window->box.i0, patch->cell, level,
+             tan_slack);
 }
 
 static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
@@ -256,7 +257,8 @@ static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint
     for (int j = box.j0; j < box.j1; ++j)
         for (int i = box.i0; i < box.i1; ++i) {
             const size_t p = soil_at(patch, i, j);
-            if (!soil_is_ground(patch->rest[p]) || (imprint && imprint->ring[p] == 0)) continue;
+            if (!soil_is_ground(patch->base_height[p]) || (imprint && imprint->ring[p] == 0))
+                continue;
             patch->heap[p] = window->heap[cell_of(window, i, j)];
         }
 }
@@ -287,11 +289,12 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
 #define LANES 16  // the highest of so many columns at once
 
 DP_CLONES
-static void highest_of_row(const float* restrict rest, int count, float* restrict high)
+static void highest_of_row(const float* restrict base_height, int count, float* restrict high)
 {
     for (int i = 0; i < count; i += LANES) {
         const int lanes = count - i < LANES ? count - i : LANES;
-        for (int k = 0; k < lanes; ++k) high[k] = rest[i + k] > high[k] ? rest[i + k] : high[k];
+        for (int k = 0; k < lanes; ++k)
+            high[k] = base_height[i + k] > high[k] ? base_height[i + k] : high[k];
     }
 }
 
@@ -301,7 +304,7 @@ static double level_of(const DpSoilPatch* patch, Box box)
     float high[LANES];
     for (int k = 0; k < LANES; ++k) high[k] = -INFINITY;
     for (int j = box.j0; j < box.j1; ++j)
-        highest_of_row(patch->rest + soil_at(patch, box.i0, j), box.i1 - box.i0, high);
+        highest_of_row(patch->base_height + soil_at(patch, box.i0, j), box.i1 - box.i0, high);
     for (int k = 1; k < LANES; ++k) high[0] = high[k] > high[0] ? high[k] : high[0];
     return isfinite(high[0]) ? floor((double)high[0]) : 0.0;
 }
@@ -399,10 +402,11 @@ static bool at_edge(const DpSoilPatch* patch, Box box, float film)
 }
 
 DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
-                           double tolerance, int most, DpSoilScratch* scratch, DpSettled* settled)
+                           double tolerance, int max_sweeps, DpSoilScratch* scratch,
+                           DpSettled* settled)
 {
     if (!soil_patch_ok(patch) || !scratch || !settled) return DP_BAD_ARGUMENT;
-    if (!(tolerance > 0.0) || !(tolerance < 1.0) || most < 0) return DP_BAD_ARGUMENT;
+    if (!(tolerance > 0.0) || !(tolerance < 1.0) || max_sweeps < 0) return DP_BAD_ARGUMENT;
     Box look = {0, patch->nx, 0, patch->ny};
     if (within) {
         look = (Box){within[0] > 0 ? within[0] : 0, within[1] < patch->nx ? within[1] : patch->nx,
@@ -429,7 +433,7 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
         bool      restless;
         const Box movers = decide(&window, look, film, &restless);
         settled->at_rest = !restless;
-        if (!restless || settled->sweeps == most) break;
+        if (!restless || settled->sweeps == max_sweeps) break;
         const Box change = grown(movers, 1, patch);
         look = grown(movers, 2, patch);
         take(&window, change);

@@ -10,8 +10,8 @@
 #include "base/parallel.h"
 #include "terrain/terrain_inside.h"
 
-#define BASE_STEP 16.0                 // [m]: floats over the base are good to half a micrometre
-#define MOST_TILES_AT_ONCE (1L << 16)  // 4.5 GB: nobody means that
+#define DATUM_STEP 16.0               // [m]: floats over the base are good to half a micrometre
+#define MAX_TILES_AT_ONCE (1L << 16)  // 4.5 GB: nobody means that
 
 static bool is_soil(const DpSoil* soil)
 {
@@ -36,27 +36,28 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     if (!terrain || !options || !ground || !are_options(options)) return DP_BAD_ARGUMENT;
     if (ground->kind_count < 0 || ground->kind_count > options->soil_count) return DP_BAD_ARGUMENT;
 
-    DpTerrain* made = dp_alloc(1, sizeof *made);
-    if (!made) return DP_NO_MEMORY;
+    DpTerrain* created = dp_alloc(1, sizeof *created);
+    if (!created) return DP_NO_MEMORY;
     const size_t soils = (size_t)options->soil_count;
-    made->cell = options->cell;
-    made->origin_x = options->origin_x;
-    made->origin_y = options->origin_y;
-    made->workers = options->workers < 1 ? 1 : options->workers;
-    made->soil_count = options->soil_count;
-    made->soils = dp_alloc(soils, sizeof *made->soils);
-    made->slope = dp_alloc(soils, sizeof *made->slope);
-    DpStatus status =
-        made->soils && made->slope ? rest_create(&made->rest, ground, made->workers) : DP_NO_MEMORY;
+    created->cell = options->cell;
+    created->origin_x = options->origin_x;
+    created->origin_y = options->origin_y;
+    created->workers = options->workers < 1 ? 1 : options->workers;
+    created->soil_count = options->soil_count;
+    created->soils = dp_alloc(soils, sizeof *created->soils);
+    created->slope = dp_alloc(soils, sizeof *created->slope);
+    DpStatus status = created->soils && created->slope
+                          ? dp_source_create(&created->source, ground, created->workers)
+                          : DP_NO_MEMORY;
     if (status != DP_OK) {
-        dp_terrain_destroy(made);
+        dp_terrain_destroy(created);
         return status;
     }
-    memcpy(made->soils, options->soils, soils * sizeof *made->soils);
+    memcpy(created->soils, options->soils, soils * sizeof *created->soils);
     for (size_t s = 0; s < soils; ++s)
-        made->slope[s] = (float)tan((double)made->soils[s].rest_angle);
-    *terrain = made;
-    dp_terrain_move_base(made, made->rest.somewhere);
+        created->slope[s] = (float)tan((double)created->soils[s].rest_angle);
+    *terrain = created;
+    dp_terrain_move_datum(created, created->source.somewhere);
     return DP_OK;
 }
 
@@ -67,7 +68,7 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_free(terrain->sorted);
     dp_free(terrain->marked);
     dp_free(terrain->slot);
-    rest_destroy(&terrain->rest);
+    dp_source_destroy(&terrain->source);
     dp_free(terrain->soils);
     dp_free(terrain->slope);
     dp_free(terrain);
@@ -84,15 +85,15 @@ void dp_terrain_origin(const DpTerrain* terrain, double origin[2])
     origin[1] = terrain->origin_y;
 }
 
-double dp_terrain_base(const DpTerrain* terrain)
+double dp_terrain_datum(const DpTerrain* terrain)
 {
-    return terrain->base;
+    return terrain->datum;
 }
 
-void dp_terrain_move_base(DpTerrain* terrain, double height)
+void dp_terrain_move_datum(DpTerrain* terrain, double height)
 {
     if (terrain->tiles == 0 && !terrain->cover)
-        terrain->base = BASE_STEP * rint(height / BASE_STEP);
+        terrain->datum = DATUM_STEP * rint(height / DATUM_STEP);
 }
 
 int dp_terrain_soil_count(const DpTerrain* terrain)
@@ -129,15 +130,15 @@ static Tile** find_slot(Tile** slot, size_t slots, long tx, long ty)
     return &slot[at];
 }
 
-Tile* tile_find(const DpTerrain* terrain, long tx, long ty)
+Tile* dp_tile_find(const DpTerrain* terrain, long tx, long ty)
 {
     return terrain->slots ? *find_slot(terrain->slot, terrain->slots, tx, ty) : NULL;
 }
 
-TileGrid tile_grid(const DpTerrain* terrain, long tx, long ty)
+TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty)
 {
     const TileGrid grid = {terrain->origin_x, terrain->origin_y, terrain->cell,
-                           terrain->base,     tx * DP_TILE,      ty * DP_TILE};
+                           terrain->datum,    tx * DP_TILE,      ty * DP_TILE};
     return grid;
 }
 
@@ -197,40 +198,40 @@ static void fill_tile(void* context, int index, int worker)
     const Filling*   filling = context;
     const DpTerrain* terrain = filling->terrain;
     Tile*            tile = filling->tile[index];
-    const TileGrid   grid = tile_grid(terrain, tile->tx, tile->ty);
+    const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
-    rest_tile(&terrain->rest, &grid, tile->rest, tile->kind);
-    if (terrain->cover) tile_plant(terrain, tile->tx, tile->ty, tile->plant);
+    dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
+    if (terrain->cover) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
 }
 
 DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1)
 {
     if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
     const long tx0 = tile_of(i0), tx1 = tile_of(i1 - 1), ty0 = tile_of(j0), ty1 = tile_of(j1 - 1);
-    if (tx1 - tx0 >= MOST_TILES_AT_ONCE || ty1 - ty0 >= MOST_TILES_AT_ONCE ||
-        (tx1 - tx0 + 1) * (ty1 - ty0 + 1) > MOST_TILES_AT_ONCE)
+    if (tx1 - tx0 >= MAX_TILES_AT_ONCE || ty1 - ty0 >= MAX_TILES_AT_ONCE ||
+        (tx1 - tx0 + 1) * (ty1 - ty0 + 1) > MAX_TILES_AT_ONCE)
         return DP_NO_MEMORY;
 
     size_t missing = 0;
     for (long ty = ty0; ty <= ty1; ++ty)
-        for (long tx = tx0; tx <= tx1; ++tx) missing += !tile_find(terrain, tx, ty);
+        for (long tx = tx0; tx <= tx1; ++tx) missing += !dp_tile_find(terrain, tx, ty);
     if (missing == 0) return DP_OK;
 
     const size_t size = sizeof(Tile) + (terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0);
     Tile**       fresh = dp_alloc(missing, sizeof *fresh);
-    size_t       made = 0;
+    size_t       created = 0;
     bool         enough = fresh && make_room(terrain, missing);
     for (long ty = ty0; ty <= ty1 && enough; ++ty)
         for (long tx = tx0; tx <= tx1 && enough; ++tx) {
-            if (tile_find(terrain, tx, ty)) continue;
+            if (dp_tile_find(terrain, tx, ty)) continue;
             Tile* tile = dp_alloc(1, size);
             enough = tile != NULL;
             if (!enough) continue;
             tile->tx = tx, tile->ty = ty;
-            fresh[made++] = tile;
+            fresh[created++] = tile;
         }
     if (!enough) {
-        for (size_t t = 0; t < made; ++t) dp_free(fresh[t]);
+        for (size_t t = 0; t < created; ++t) dp_free(fresh[t]);
         dp_free(fresh);
         return DP_NO_MEMORY;
     }
@@ -254,7 +255,7 @@ static int by_row(const void* a, const void* b)
     return comes_before(one, two) ? -1 : comes_before(two, one) ? 1 : 0;
 }
 
-void tile_mark(DpTerrain* terrain, Tile* tile)
+void dp_tile_mark(DpTerrain* terrain, Tile* tile)
 {
     if (atomic_exchange(&tile->changed, 1) == 0)
         terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
@@ -275,16 +276,16 @@ void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed
 {
     const double area = terrain->cell * terrain->cell;
     double       heap = 0.0, compression = 0.0;
-    float        most = 0.0f;
+    float        highest = 0.0f;
     for (size_t t = 0; t < terrain->tiles; ++t) {
         const Tile* tile = terrain->sorted[t];
         for (int n = 0; n < TILE_CELLS; ++n) {
             heap += (double)tile->heap[n];
             compression += (double)tile->compression[n];
-            most = tile->compression[n] > most ? tile->compression[n] : most;
+            highest = tile->compression[n] > highest ? tile->compression[n] : highest;
         }
     }
     *heaped = heap * area;
     *pressed = compression * area;
-    *deepest = (double)most;
+    *deepest = (double)highest;
 }

@@ -1,7 +1,7 @@
-// terrain/terrain.h - ground without end: sparse tiles inside, dense patches lent out.
+// terrain/terrain.h - ground without end: sparse tiles inside, dense patches leased.
 //
 //   ground (flat | heights | mesh) ---first touch---> tile of DP_TILE x DP_TILE cells
-//   tiles ---lend---> DpSoilPatch ---kernels---> give back ---> tiles changed
+//   tiles ---acquire---> DpSoilPatch ---kernels---> commit ---> tiles changed
 //
 // Cell (i, j) of the world has its centre at (origin_x + (i + 0.5) cell, origin_y + (j + 0.5) cell)
 // and may be negative; tile (tx, ty) holds cells tx * DP_TILE .. + DP_TILE - 1. A tile nobody
@@ -12,7 +12,7 @@
 
 typedef struct DpTerrain DpTerrain;
 
-// Where the rest ground is. Arrays are copied.
+// Where the ground is before any walker, its base height. Arrays are copied.
 typedef enum DpGroundKind
 {
     DP_GROUND_FLAT = 0,
@@ -59,36 +59,37 @@ const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4]);
 
-// Heights on tiles are floats, and count from here [m], a whole multiple of 16 near the ground: so prints are as
-// exact far up as at sea level. While there is neither a tile nor a plant it can be moved near to `height`.
-double dp_terrain_base(const DpTerrain* terrain);
-void   dp_terrain_move_base(DpTerrain* terrain, double height);
+// The datum: heights on tiles are floats and count from here [m], a multiple of 16 near the ground, so
+// that prints are as exact far up as at sea level. While there is neither a tile nor a plant it can be
+// moved near to `height`.
+double dp_terrain_datum(const DpTerrain* terrain);
+void   dp_terrain_move_datum(DpTerrain* terrain, double height);
 
-// Height of the rest ground at `count` points xy (count, 2) [m]; NaN where there is none.
-void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, double* height);
+// Height of the ground before any walker at `count` points xy (count, 2) [m]; NaN where there is none.
+void dp_terrain_base_height(const DpTerrain* terrain, int count, const double* xy, double* height);
 
-// Normal of the plane that fits the rest ground best in a disc of `radius` [m] about (x, y);
+// Normal of the plane that fits the base heights best in a disc of `radius` [m] about (x, y);
 // +Z where there is no ground.
 DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius);
 
 // Allocate the tiles of a rectangle of cells (i0 <= i < i1, j0 <= j < j1), in parallel, before
-// many lends. Tiles that are there stay as they are.
+// patches are acquired. Tiles that are there stay as they are.
 DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1);
 
-// A window on the terrain, with its own memory; make one per thread and reuse it.
-typedef struct DpLoan DpLoan;
-DpLoan*               dp_loan_create(void);
-void                  dp_loan_destroy(DpLoan* loan);
+// The memory of one patch of the terrain; create one per thread and reuse it.
+typedef struct DpLease DpLease;
+DpLease*               dp_lease_create(void);
+void                   dp_lease_destroy(DpLease* lease);
 
-// Copy cells i0 <= i < i1, j0 <= j < j1 into the loan and allocate tiles that are missing.
-// The patch is valid until the next lend of this loan. Loans that do not overlap may be out at once
+// Copy cells i0 <= i < i1, j0 <= j < j1 into the lease and allocate tiles that are missing. The patch
+// is valid until the lease acquires another. Patches that do not overlap may be out at once
 // if their tiles were touched before (dp_terrain_touch) -- this is what sim does.
-DpStatus dp_terrain_lend(DpTerrain* terrain, DpLoan* loan, long i0, long i1, long j0, long j1,
-                         DpSoilPatch** patch);
+DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, long i0, long i1, long j0, long j1,
+                            DpSoilPatch** patch);
 
 // Copy compression, heap and pressure_time of patch cells di0 <= i < di1, dj0 <= j < dj1 (patch
 // indices) back into the tiles and mark the tiles in which a value is new.
-void dp_terrain_give_back(DpTerrain* terrain, DpLoan* loan, int di0, int di1, int dj0, int dj1);
+void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, int di0, int di1, int dj0, int dj1);
 
 // A trail somebody left: cells (nx, ny) from (i0, j0) on, all values finite and >= 0.
 typedef struct DpTrail
@@ -112,12 +113,12 @@ DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail);
 typedef void (*DpTerrainCover)(const void* context, double x0, double y0, double cell, int nx,
                                int ny, float* strength, float* roots);
 
-// From now on the ground is planted: a tile asks for its cover when it is made, an untouched one
+// From now on the ground is planted: a tile asks for its cover when it is created, an untouched one
 // whenever it is read. Once tiles are there: DP_BAD_ARGUMENT.
-DpStatus dp_terrain_plant(DpTerrain* terrain, DpTerrainCover cover, const void* context);
+DpStatus dp_terrain_set_cover(DpTerrain* terrain, DpTerrainCover cover, const void* context);
 
 // Cover has changed on cells i0 <= i < i1, j0 <= j < j1: tiles that are there ask for it again.
-void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
+void dp_terrain_refresh_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
 
 // ---- reading ---------------------------------------------------------------------------------
 
@@ -129,7 +130,7 @@ typedef enum DpField
     DP_FIELD_COMPRESSION = 0,     // [m]
     DP_FIELD_HEAP = 1,            // [m]
     DP_FIELD_PRESSURE_TIME = 2,   // [Pa s]
-    DP_FIELD_REST = 3,            // [m], NaN = no ground
+    DP_FIELD_BASE_HEIGHT = 3,     // [m], NaN = no ground
     DP_FIELD_MODULUS = 4,         // E = E_g + E_v, TRAIL (9) [Pa]
     DP_FIELD_KIND = 5,            // soil index
     DP_FIELD_PLANT_STRENGTH = 6,  // alpha_veg, TRAIL (7) [-]; 0 without plants
@@ -137,7 +138,7 @@ typedef enum DpField
 } DpField;
 
 // Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
-// (rest, modulus and kind are computed from the ground). Cells that there cannot be: DP_BAD_ARGUMENT.
+// (base height, modulus and kind are computed from the ground). Cells that there cannot be: DP_BAD_ARGUMENT.
 DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
                          float* out);
 
@@ -146,15 +147,15 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
 typedef void (*DpTileVisit)(void* context, long tx, long ty);
 void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 
-// A field of one whole tile, row 0 = lowest y: cell (i, j) at out[(j * DP_TILE + i) * stride].
+// A field of all of a tile, row 0 = lowest y: cell (i, j) at out[(j * DP_TILE + i) * stride].
 void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
                      int stride);
 
-// Heights of the current surface over the base, h0 - compression + heap [m], NaN = no ground, of a rectangle of
+// Heights of the current surface over the datum, h0 - compression + heap [m], NaN = no ground, of a rectangle of
 // cells whose tiles were touched; out (ny, nx).
 void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out);
 
-// The same at a point, bilinear between cells; the rest height where no tile was touched.
+// The same at a point, bilinear between cells; the base height where no tile was touched.
 double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y);
 
 // Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
@@ -178,7 +179,7 @@ typedef struct DpCut
     int      bad;              // first point that is not finite, -1 = none; else there is no more
     float    low[3], high[3];  // box of all points, in the object's own space
     int      point_count, triangle_count;
-    int32_t* of;        // number of the point in the whole mesh (point_count)
+    int32_t* of;        // number of the point in the mesh that was cut (point_count)
     double*  vertex;    // [m] (point_count, 3)
     int32_t* triangle;  // (triangle_count, 3)
 } DpCut;
@@ -196,6 +197,6 @@ void     dp_cut_free(DpCut* cut);
 bool dp_are_quads(int corners, const int32_t* corner, const int32_t* corner_edge, int edges,
                   const int32_t* edge, int workers);
 
-// Whether all points (count, 3) [m] lie within `most` [cells] of the centres of the cells they lie in.
+// Whether all points (count, 3) [m] lie within `max_offset` [cells] of the centres of the cells they lie in.
 bool dp_are_centres(int count, const double* vertex, double cell, const double origin[2],
-                    double most, int workers);
+                    double max_offset, int workers);

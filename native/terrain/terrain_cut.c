@@ -331,7 +331,7 @@ typedef struct Offsets
 {
     const double* vertex;
     const double* origin;
-    double        cell, most;
+    double        cell, max_offset;
     int           count;
     atomic_bool   off;
 } Offsets;
@@ -348,7 +348,7 @@ static void look_for_centres(void* context, int index, int worker)
                 (offsets->vertex[3 * (size_t)n + (size_t)k] - offsets->origin[k]) / offsets->cell;
             const bool   near = fabs(at) < 1e15;  // farther out a cell has no middle any more
             const double into = near ? at - (double)(int64_t)at : 0.0;  // of its cell, -1..1
-            if (!near || !(fabs(fabs(into) - 0.5) < offsets->most)) {
+            if (!near || !(fabs(fabs(into) - 0.5) < offsets->max_offset)) {
                 atomic_store(&offsets->off, true);
                 return;
             }
@@ -356,9 +356,9 @@ static void look_for_centres(void* context, int index, int worker)
 }
 
 bool dp_are_centres(int count, const double* vertex, double cell, const double origin[2],
-                    double most, int workers)
+                    double max_offset, int workers)
 {
-    Offsets offsets = {vertex, origin, cell, most, count, false};
+    Offsets offsets = {vertex, origin, cell, max_offset, count, false};
     dp_parallel_for(chunks_of(count), workers, look_for_centres, &offsets);
     return !atomic_load(&offsets.off);
 }

@@ -7,14 +7,14 @@
 
 #define TILE_CELLS (DP_TILE * DP_TILE)
 #if LONG_MAX > 0x7fffffff
-#define MOST_CELL_INDEX (1L << 52)  // beyond it a cell's position is no longer exact
+#define MAX_CELL_INDEX (1L << 52)  // beyond it a cell's position is no longer exact
 #else
-#define MOST_CELL_INDEX (1L << 30)
+#define MAX_CELL_INDEX (1L << 30)
 #endif
 
-// ---- ground, terrain_rest.c and terrain_mesh.c ------------------------------------------------
+// ---- ground, terrain_source.c and terrain_mesh.c ------------------------------------------------
 
-#define MOST_GRIDS 16  // of bins: 2^15 bins along a side of the finest, one bin in the coarsest
+#define MAX_GRIDS 16  // of bins: 2^15 bins along a side of the finest, one bin in the coarsest
 
 // one of the grids; grid l has bins 2^l times as wide as the finest
 typedef struct BinGrid
@@ -32,7 +32,7 @@ typedef struct MeshGround
     int32_t* triangle;         // (triangle_count, 3)
     double   x0, y0, per_bin;  // corner of bin (0, 0) [m]; finest bins in a metre [1/m]
     int      nx, ny;           // finest bins
-    BinGrid  grid[MOST_GRIDS];
+    BinGrid  grid[MAX_GRIDS];
     int      grids, bins;  // grids there are; bins of all of them
     int32_t* start;        // (bins + 1)
     int32_t* item;         // triangles, ascending within a bin
@@ -40,8 +40,8 @@ typedef struct MeshGround
     double   somewhere;    // height of a corner of one that faces up or down [m]
 } MeshGround;
 
-// rest ground as it was given; kind_weight goes by mesh vertex or height sample
-typedef struct Rest
+// ground before any walker, as it was given; kind_weight goes by mesh vertex or height sample
+typedef struct Source
 {
     DpGroundKind kind;
     double       height;
@@ -55,34 +55,34 @@ typedef struct Rest
     double       bounds[4];    // {x0, y0, x1, y1} [m]
     double       somewhere;    // height of some point of it [m]
     bool         level;        // all of it lies equally high, to the bit
-} Rest;
+} Source;
 
-DpStatus rest_create(Rest* rest, const DpGround* ground, int workers);
-void     rest_destroy(Rest* rest);
+DpStatus dp_source_create(Source* source, const DpGround* ground, int workers);
+void     dp_source_destroy(Source* source);
 
 // Height at a point, NaN where there is none; the kind of ground there goes to *kind if not NULL.
-double rest_at(const Rest* rest, double x, double y, uint8_t* kind);
+double dp_source_at(const Source* source, double x, double y, uint8_t* kind);
 
 // Where a tile's cells are. Positions come from the world's cell numbers alone (cell_at), so a tile
 // and a point query see the same numbers.
 typedef struct TileGrid
 {
-    double origin_x, origin_y, cell, base;
+    double origin_x, origin_y, cell, datum;
     long   i0, j0;  // world cell of the tile's cell (0, 0)
 } TileGrid;
 
-// Heights over the base and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)(rest_at - base) at
+// Heights over the datum and kinds of a tile, (DP_TILE, DP_TILE): the bits of (float)(dp_source_at - base) at
 // cell centres.
-void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
+void dp_source_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind);
 
-DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4]);
-void     mesh_destroy(MeshGround* mesh);
-double   mesh_at(const Rest* rest, double x, double y, uint8_t* kind);
-void     mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind);
+DpStatus dp_mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4]);
+void     dp_mesh_destroy(MeshGround* mesh);
+double   dp_mesh_at(const Source* source, double x, double y, uint8_t* kind);
+void     dp_mesh_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind);
 
 // Heaviest of the kinds, the first of equals; kind k weighs sum of share[n] *
 // kind_weight[k][of[n]].
-uint8_t heaviest_kind(const Rest* rest, int count, const size_t* of, const double* share);
+uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const double* share);
 
 static inline double cell_at(double origin, double cell, long index)
 {
@@ -93,7 +93,7 @@ static inline double cell_at(double origin, double cell, long index)
 
 typedef struct Tile
 {
-    float      rest[TILE_CELLS];           // over the base, NaN = no ground [m]
+    float      base_height[TILE_CELLS];    // over the datum, NaN = no ground [m]
     float      compression[TILE_CELLS];    // [m]
     float      heap[TILE_CELLS];           // [m]
     float      pressure_time[TILE_CELLS];  // [Pa s]
@@ -105,11 +105,11 @@ typedef struct Tile
 
 struct DpTerrain
 {
-    double  cell, origin_x, origin_y, base;
+    double  cell, origin_x, origin_y, datum;
     int     soil_count, workers;
     DpSoil* soils;
     float*  slope;  // tan(rest_angle) of each soil
-    Rest    rest;
+    Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
     const void*    cover_context;
@@ -122,11 +122,11 @@ struct DpTerrain
     atomic_size_t marks;
 };
 
-// terrain_plant.c: strength and E_v of a whole tile, (2, TILE_CELLS)
-void tile_plant(const DpTerrain* terrain, long tx, long ty, float* plant);
+// terrain_cover.c: strength and E_v of all of a tile, (2, TILE_CELLS)
+void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant);
 
 // let the next dp_terrain_changed tell of a tile
-void tile_mark(DpTerrain* terrain, Tile* tile);
+void dp_tile_mark(DpTerrain* terrain, Tile* tile);
 
 // the part of a rectangle of cells that one tile holds
 typedef struct TilePart
@@ -135,11 +135,11 @@ typedef struct TilePart
     int    i, j, nx, ny;  // in the rectangle
     size_t in_tile;       // its first cell in the tile
 } TilePart;
-TilePart tile_part(long tx, long ty, long i0, long i1, long j0, long j1);
+TilePart dp_tile_part(long tx, long ty, long i0, long i1, long j0, long j1);
 
 // NULL if nobody touched it.
-Tile*    tile_find(const DpTerrain* terrain, long tx, long ty);
-TileGrid tile_grid(const DpTerrain* terrain, long tx, long ty);
+Tile*    dp_tile_find(const DpTerrain* terrain, long tx, long ty);
+TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty);
 
 // which tile holds a cell
 static inline long tile_of(long cell)
@@ -149,6 +149,6 @@ static inline long tile_of(long cell)
 
 static inline bool is_rectangle(long i0, long i1, long j0, long j1)
 {
-    return i0 < i1 && j0 < j1 && i0 > -MOST_CELL_INDEX && i1 < MOST_CELL_INDEX &&
-           j0 > -MOST_CELL_INDEX && j1 < MOST_CELL_INDEX;
+    return i0 < i1 && j0 < j1 && i0 > -MAX_CELL_INDEX && i1 < MAX_CELL_INDEX &&
+           j0 > -MAX_CELL_INDEX && j1 < MAX_CELL_INDEX;
 }

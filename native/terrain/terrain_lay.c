@@ -24,13 +24,13 @@ static bool is_trodden(const DpTrail* trail, const TilePart* part)
     return false;
 }
 
-static DpStatus lay_tile(DpTerrain* terrain, DpLoan* loan, const DpTrail* trail,
+static DpStatus lay_tile(DpTerrain* terrain, DpLease* lease, const DpTrail* trail,
                          const TilePart* part)
 {
     const long     i0 = trail->i0 + part->i, j0 = trail->j0 + part->j;
     DpSoilPatch*   patch = NULL;
     const DpStatus status =
-        dp_terrain_lend(terrain, loan, i0, i0 + part->nx, j0, j0 + part->ny, &patch);
+        dp_terrain_acquire(terrain, lease, i0, i0 + part->nx, j0, j0 + part->ny, &patch);
     if (status != DP_OK) return status;
     for (int j = 0; j < part->ny; ++j)
         for (int i = 0; i < part->nx; ++i) {
@@ -40,7 +40,7 @@ static DpStatus lay_tile(DpTerrain* terrain, DpLoan* loan, const DpTrail* trail,
             patch->heap[to] = trail->heap[from];
             patch->pressure_time[to] = trail->pressure_time[from];
         }
-    dp_terrain_give_back(terrain, loan, 0, part->nx, 0, part->ny);
+    dp_terrain_commit(terrain, lease, 0, part->nx, 0, part->ny);
     return DP_OK;
 }
 
@@ -52,14 +52,14 @@ DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail)
     if (!is_trail(count, trail->compression) || !is_trail(count, trail->heap) ||
         !is_trail(count, trail->pressure_time))
         return DP_BAD_ARGUMENT;
-    DpLoan* loan = dp_loan_create();
-    if (!loan) return DP_NO_MEMORY;
+    DpLease* lease = dp_lease_create();
+    if (!lease) return DP_NO_MEMORY;
     DpStatus status = DP_OK;
     for (long ty = tile_of(j0); status == DP_OK && ty <= tile_of(j1 - 1); ++ty)
         for (long tx = tile_of(i0); status == DP_OK && tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = tile_part(tx, ty, i0, i1, j0, j1);
-            if (is_trodden(trail, &part)) status = lay_tile(terrain, loan, trail, &part);
+            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+            if (is_trodden(trail, &part)) status = lay_tile(terrain, lease, trail, &part);
         }
-    dp_loan_destroy(loan);
+    dp_lease_destroy(lease);
     return status;
 }

@@ -15,7 +15,7 @@
 
 #define NEEDLE 1e-10          // twice the area seen from above, over the longest edge squared
 #define SLACK (2.0 * NEEDLE)  // how far it reaches beyond its edges, over the longest edge
-#define MOST_BINS 30000       // along one side
+#define MAX_BINS 30000        // along one side
 #define FINEST 1e-100         // of the ground's box [m]: thinner is none
 #define CHUNK 32768           // triangles or points looked at by one worker at a time
 #define NOWHERE UINT32_MAX    // the bin of a triangle that is not ground
@@ -29,13 +29,13 @@ typedef struct Facet
     double slack;                       // least value of a side [m^2] < 0
 } Facet;
 
-static inline double least(const double* v)
+static inline double min3(const double* v)
 {
     const double low = v[0] < v[1] ? v[0] : v[1];
     return low < v[2] ? low : v[2];
 }
 
-static inline double most(const double* v)
+static inline double max3(const double* v)
 {
     const double high = v[0] > v[1] ? v[0] : v[1];
     return high > v[2] ? high : v[2];
@@ -50,8 +50,8 @@ static inline Facet facet_box(const MeshGround* mesh, int32_t triangle)
         const double* at = mesh->vertex + 3 * (size_t)of[k];
         facet.x[k] = at[0], facet.y[k] = at[1], facet.z[k] = at[2];
     }
-    const double x_min = least(facet.x), x_max = most(facet.x);
-    const double y_min = least(facet.y), y_max = most(facet.y);
+    const double x_min = min3(facet.x), x_max = max3(facet.x);
+    const double y_min = min3(facet.y), y_max = max3(facet.y);
     const double reach = SLACK * ((x_max - x_min) + (y_max - y_min));
     facet.x_min = x_min - reach, facet.x_max = x_max + reach;
     facet.y_min = y_min - reach, facet.y_max = y_max + reach;
@@ -59,7 +59,7 @@ static inline Facet facet_box(const MeshGround* mesh, int32_t triangle)
     return facet;
 }
 
-// which way it runs and how far it reaches beyond its edges
+// its orientation and how far it reaches beyond its edges
 static inline void facet_finish(Facet* facet)
 {
     double longest = 0.0;  // squared
@@ -102,7 +102,7 @@ static inline bool facet_at(const Facet* facet, double x, double y, double* z, d
     }
     for (int k = 0; k < 3; ++k) share[k] /= sum;
     const double height = share[0] * facet->z[0] + share[1] * facet->z[1] + share[2] * facet->z[2];
-    *z = dp_clamp(height, least(facet->z), most(facet->z));  // level ground stays level to the bit
+    *z = dp_clamp(height, min3(facet->z), max3(facet->z));  // level ground stays level to the bit
     return true;
 }
 
@@ -147,7 +147,7 @@ static void choose_bins(MeshGround* mesh, const double bounds[4], size_t triangl
     const double wide = bounds[2] - bounds[0], high = bounds[3] - bounds[1];
     const double longer = fmax(wide, high);
     const double bin = fmax(2.0 * sqrt(wide * high / (double)triangles),
-                            longer / fmin((double)triangles, (double)MOST_BINS));
+                            longer / fmin((double)triangles, (double)MAX_BINS));
     mesh->x0 = bounds[0], mesh->y0 = bounds[1];
     mesh->per_bin = 1.0 / bin;
     mesh->nx = (int)(wide / bin) + 1;
@@ -228,8 +228,8 @@ static void take_triangles(void* context, int chunk, int worker)
         binning->place[t] = facet.sign == 0.0 ? NOWHERE : place_of(mesh, &facet);
         if (facet.sign == 0.0) continue;
         ++share->facing;
-        const double left = least(facet.x), right = most(facet.x);
-        const double near = least(facet.y), far = most(facet.y);
+        const double left = min3(facet.x), right = max3(facet.x);
+        const double near = min3(facet.y), far = max3(facet.y);
         x0 = left < x0 ? left : x0, x1 = right > x1 ? right : x1;
         y0 = near < y0 ? near : y0, y1 = far > y1 ? far : y1;
     }
@@ -300,7 +300,7 @@ static bool fill_bins(MeshGround* mesh, const uint32_t* place, size_t facing)
     return true;
 }
 
-DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4])
+DpStatus dp_mesh_create(MeshGround* mesh, const DpGround* ground, int workers, double bounds[4])
 {
     if (ground->vertex_count < 3 || ground->triangle_count < 1 || !ground->vertex ||
         !ground->triangle)
@@ -328,7 +328,7 @@ DpStatus mesh_create(MeshGround* mesh, const DpGround* ground, int workers, doub
     return status;
 }
 
-void mesh_destroy(MeshGround* mesh)
+void dp_mesh_destroy(MeshGround* mesh)
 {
     dp_free(mesh->vertex);
     dp_free(mesh->triangle);
@@ -353,14 +353,14 @@ static inline void rise(Highest* top, double z, int32_t triangle)
     }
 }
 
-static uint8_t kind_of(const Rest* rest, int32_t triangle, double x, double y)
+static uint8_t kind_of(const Source* source, int32_t triangle, double x, double y)
 {
-    if (rest->kind_count == 0 || triangle < 0) return 0;
-    const int32_t* corner = rest->mesh.triangle + 3 * (size_t)triangle;
-    const Facet    facet = facet_of(&rest->mesh, triangle);
+    if (source->kind_count == 0 || triangle < 0) return 0;
+    const int32_t* corner = source->mesh.triangle + 3 * (size_t)triangle;
+    const Facet    facet = facet_of(&source->mesh, triangle);
     const size_t   of[3] = {(size_t)corner[0], (size_t)corner[1], (size_t)corner[2]};
     double         z, share[3];
-    return facet_at(&facet, x, y, &z, share) ? heaviest_kind(rest, 3, of, share) : 0;
+    return facet_at(&facet, x, y, &z, share) ? dp_source_kind(source, 3, of, share) : 0;
 }
 
 // the triangles of a row of bins that can lie over a rectangle of finest bins
@@ -385,9 +385,9 @@ static inline int first_row(int l, const Bins* under)
     return before < 0 ? 0 : before;
 }
 
-double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
+double dp_mesh_at(const Source* source, double x, double y, uint8_t* kind)
 {
-    const MeshGround* mesh = &rest->mesh;
+    const MeshGround* mesh = &source->mesh;
     if (!isfinite(x) || !isfinite(y)) return NAN;
     const Bins at = bins_of(mesh, x, x, y, y);
     Highest    top = {NAN, -1};
@@ -405,7 +405,7 @@ double mesh_at(const Rest* rest, double x, double y, uint8_t* kind)
             }
         }
     }
-    if (kind) *kind = kind_of(rest, top.triangle, x, y);
+    if (kind) *kind = kind_of(source, top.triangle, x, y);
     return top.z;
 }
 
@@ -422,9 +422,9 @@ static inline void cell_range(double low, double high, double origin, double per
     *last = (int)(after + 1.0) - 1;
 }
 
-static inline bool can_rise(const Highest* top, double z_most, int32_t triangle)
+static inline bool can_rise(const Highest* top, double z_max, int32_t triangle)
 {
-    return top->triangle < 0 || z_most > top->z || (z_most == top->z && triangle < top->triangle);
+    return top->triangle < 0 || z_max > top->z || (z_max == top->z && triangle < top->triangle);
 }
 
 static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, double per_cell,
@@ -434,13 +434,13 @@ static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, do
     cell_range(facet->x_min, facet->x_max, grid->origin_x, per_cell, grid->i0, &i0, &i1);
     cell_range(facet->y_min, facet->y_max, grid->origin_y, per_cell, grid->j0, &j0, &j1);
     if (i0 > i1 || j0 > j1) return;
-    const double z_most = most(facet->z);
+    const double z_max = max3(facet->z);
     bool         finished = false;
     for (int j = j0; j <= j1; ++j) {
         const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
         for (int i = i0; i <= i1; ++i) {
             Highest* here = &top[j * DP_TILE + i];
-            if (!can_rise(here, z_most, triangle)) continue;
+            if (!can_rise(here, z_max, triangle)) continue;
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
             double       z, share[3];
             if (!finished) facet_finish(facet);
@@ -450,9 +450,9 @@ static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, do
     }
 }
 
-void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind)
+void dp_mesh_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind)
 {
-    const MeshGround* mesh = &rest->mesh;
+    const MeshGround* mesh = &source->mesh;
     const double      per_cell = 1.0 / grid->cell;
     Highest           top[TILE_CELLS];
     for (int n = 0; n < TILE_CELLS; ++n) top[n] = (Highest){NAN, -1};
@@ -478,8 +478,8 @@ void mesh_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
         for (int i = 0; i < DP_TILE; ++i) {
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
             const int    n = j * DP_TILE + i;
-            height[n] = (float)(top[n].z - grid->base);
-            kind[n] = kind_of(rest, top[n].triangle, x, y);
+            height[n] = (float)(top[n].z - grid->datum);
+            kind[n] = kind_of(source, top[n].triangle, x, y);
         }
     }
 }

@@ -103,13 +103,13 @@ static void bench_windows(void)
     const DpGround ground = {.kind = DP_GROUND_FLAT};
     double         seconds, best;
     DpTerrain*     terrain = terrain_on(&ground, &seconds);
-    DpLoan*        loan = dp_loan_create();
+    DpLease*       loan = dp_lease_create();
     DpSoilPatch*   patch;
-    BEST_OF(best, 30, 200, dp_terrain_lend(terrain, loan, 40, 104, 30, 78, &patch));
+    BEST_OF(best, 30, 200, dp_terrain_acquire(terrain, loan, 40, 104, 30, 78, &patch));
     printf("lend     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
-    BEST_OF(best, 30, 200, dp_terrain_give_back(terrain, loan, 0, 64, 0, 48));
+    BEST_OF(best, 30, 200, dp_terrain_commit(terrain, loan, 0, 64, 0, 48));
     printf("give     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
-    dp_loan_destroy(loan);
+    dp_lease_destroy(loan);
     dp_terrain_destroy(terrain);
 }
 
@@ -140,7 +140,8 @@ static void bench_mesh(int side, double size)
            (double)(dp_bytes_live() - before) / ground.triangle_count);
     const long   middle = (long)(size / 0.02);
     static float cells[512 * 512];
-    BEST_OF(best, 3, 1, dp_terrain_read(terrain, DP_FIELD_REST, middle, middle, 512, 512, cells));
+    BEST_OF(best, 3, 1,
+            dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, middle, middle, 512, 512, cells));
     printf("         one tile of heights, mean over 512 x 512 %8.1f us\n", 1e6 * best / 64.0);
     enum
     {
@@ -149,7 +150,7 @@ static void bench_mesh(int side, double size)
     static double xy[2 * POINTS], height[POINTS];
     for (int n = 0; n < POINTS; ++n)
         xy[2 * n] = 0.5 * size + 0.01 * (n % 64), xy[2 * n + 1] = 0.5 * size + 0.01 * (n / 64);
-    BEST_OF(best, 5, 4, dp_terrain_rest(terrain, POINTS, xy, height));
+    BEST_OF(best, 5, 4, dp_terrain_base_height(terrain, POINTS, xy, height));
     printf("         one point                                %8.1f ns\n", 1e9 * best / POINTS);
     BEST_OF(best, 5, 1000, dp_terrain_normal(terrain, 0.5 * size, 0.5 * size, 0.25));
     printf("         one normal                               %8.2f us\n", 1e6 * best);

@@ -93,7 +93,7 @@ TEST(what_cannot_be_filmed_is_refused)
     CHECK(dp_reel_create(&reel, world.sim, 1) == DP_OK);
     options.field[0] = DP_FIELD_LEAN;  // nothing grows here
     CHECK(dp_film_open(reel, &options, &film) == DP_BAD_ARGUMENT && !film);
-    options.field[0] = DP_FIELD_REST, options.tiles_x = 0;
+    options.field[0] = DP_FIELD_BASE_HEIGHT, options.tiles_x = 0;
     CHECK(dp_film_open(reel, &options, &film) == DP_BAD_ARGUMENT && !film);
     options.tiles_x = 1, options.fields = DP_FILM_FIELDS + 1;
     CHECK(dp_film_open(reel, &options, &film) == DP_BAD_ARGUMENT && !film);

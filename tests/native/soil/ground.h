@@ -13,7 +13,7 @@ typedef struct Ground
     DpSoilPatch patch;
     DpImprint   imprint;
     DpSoil      soil[4];
-    float *     rest, *compression, *heap, *pressure_time, *modulus, *rest_slope;
+    float *     base_height, *compression, *heap, *pressure_time, *modulus, *rest_slope;
     uint8_t*    kind;
 } Ground;
 
@@ -30,7 +30,7 @@ static inline Ground ground_make(int nx, int ny, double cell, DpSoil soil)
 {
     Ground       ground = {0};
     const size_t cells = (size_t)nx * (size_t)ny;
-    ground.rest = dp_alloc(cells, sizeof(float));
+    ground.base_height = dp_alloc(cells, sizeof(float));
     ground.compression = dp_alloc(cells, sizeof(float));
     ground.heap = dp_alloc(cells, sizeof(float));
     ground.pressure_time = dp_alloc(cells, sizeof(float));
@@ -47,7 +47,7 @@ static inline Ground ground_make(int nx, int ny, double cell, DpSoil soil)
                                  .cell = cell,
                                  .x0 = -0.5 * (nx - 1) * cell,
                                  .y0 = -0.5 * (ny - 1) * cell,
-                                 .rest = ground.rest,
+                                 .base_height = ground.base_height,
                                  .compression = ground.compression,
                                  .heap = ground.heap,
                                  .pressure_time = ground.pressure_time,
@@ -61,7 +61,7 @@ static inline Ground ground_make(int nx, int ny, double cell, DpSoil soil)
 
 static inline void ground_free(Ground* ground)
 {
-    dp_free(ground->rest), dp_free(ground->compression), dp_free(ground->heap);
+    dp_free(ground->base_height), dp_free(ground->compression), dp_free(ground->heap);
     dp_free(ground->pressure_time), dp_free(ground->modulus), dp_free(ground->rest_slope);
     dp_free(ground->kind), dp_free(ground->imprint.bottom), dp_free(ground->imprint.cover);
     dp_free(ground->imprint.ring);

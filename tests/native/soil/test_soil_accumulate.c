@@ -46,10 +46,10 @@ static double steepest(const Ground* ground)
                 for (int a = -1; a <= 1; ++a) {
                     const int q = p + b * patch->row + a;
                     if (q == p || ground->imprint.ring[q] == 0) continue;
-                    const double from =
-                        (double)(patch->rest[p] - patch->compression[p]) + (double)patch->heap[p];
-                    const double to =
-                        (double)(patch->rest[q] - patch->compression[q]) + (double)patch->heap[q];
+                    const double from = (double)(patch->base_height[p] - patch->compression[p]) +
+                                        (double)patch->heap[p];
+                    const double to = (double)(patch->base_height[q] - patch->compression[q]) +
+                                      (double)patch->heap[q];
                     const double far = patch->cell * (a && b ? sqrt(2.0) : 1.0);
                     most = fmax(most, atan((from - to) / far) - atan((double)patch->rest_slope[p]));
                 }
@@ -106,7 +106,7 @@ TEST(rest_stays_at_rest)
     Ground   ground = ground_make(100, 80, 0.01, sand(15.0));
     unsigned seed = 3;
     for (int k = 0; k < 100 * 80; ++k)
-        ground.rest[k] =
+        ground.base_height[k] =
             0.02f * sinf(0.09f * (float)(k % 100)) + (float)(0.0005 * check_random(&seed));
     touch(&ground, shoe, 1);
     double      height = 0.0;
@@ -173,7 +173,7 @@ TEST(nobody_ahead)
 {
     Ground ground = ground_make(60, 60, 0.01, sand(20.0));
     for (int j = 0; j < 60; ++j)
-        for (int i = 30; i < 60; ++i) ground.rest[j * 60 + i] = NAN;
+        for (int i = 30; i < 60; ++i) ground.base_height[j * 60 + i] = NAN;
     touch(&ground, (BoxSole){.x = -0.05, .length = 0.10, .width = 2.0}, 1);
     DpFootForce foot = ground_load(700.0);
     foot.force.x = 400.0;
@@ -276,7 +276,7 @@ TEST(mirrored_to_the_bit)
                 const int at[3] = {j * SIDE + i, j * SIDE + SIDE - 1 - i, i * SIDE + SIDE - 1 - j};
                 const float high = (float)(0.005 * check_random(&seed));
                 for (int m = 0; m < 3; ++m) {
-                    g[m].rest[at[m]] = high;
+                    g[m].base_height[at[m]] = high;
                     g[m].imprint.cover[at[m]] = g[0].imprint.cover[at[0]];
                     g[m].imprint.ring[at[m]] = g[0].imprint.cover[at[0]] > 0.0f ? 0 : DP_RING_FAR;
                     g[m].imprint.i0 = g[m].imprint.j0 = 0;

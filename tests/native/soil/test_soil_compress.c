@@ -259,7 +259,7 @@ TEST(nothing_to_press)
     CHECK(stand(&ground, shoe, -5.0, DP_CONTACT_SOLE, 0.01, 0.01).area == 0.0);
     const BoxSole away = {.x = 9.0, .length = 0.1, .width = 0.1};
     CHECK(stand(&ground, away, 100.0, DP_CONTACT_SOLE, 0.01, 0.01).area == 0.0);
-    for (int k = 0; k < 400; ++k) ground.rest[k] = NAN;
+    for (int k = 0; k < 400; ++k) ground.base_height[k] = NAN;
     CHECK(stand(&ground, shoe, 100.0, DP_CONTACT_UNIFORM, 0.01, 0.01).area == 0.0);
     CHECK(ground_most(&ground, ground.compression) == 0.0);
     DpPressed         p;
@@ -288,7 +288,7 @@ TEST(mirrored_to_the_bit)
             const float rest = (float)(0.01 * check_random(&seed)),
                         heap = (float)(0.003 * check_random(&seed));
             for (int m = 0; m < 4; ++m) {
-                g[m].rest[at[m]] = rest, g[m].heap[at[m]] = heap;
+                g[m].base_height[at[m]] = rest, g[m].heap[at[m]] = heap;
                 g[m].imprint.cover[at[m]] = g[0].imprint.cover[at[0]];
                 g[m].imprint.bottom[at[m]] = g[0].imprint.bottom[at[0]];
                 g[m].imprint.i0 = g[m].imprint.j0 = 0;
@@ -332,7 +332,7 @@ TEST(over_an_edge)
             BoxSole sole = flat;
             DpPressed on_whole, on_half;
             for (int j = 0; j < 40; ++j)
-                for (int i = 25; i < 50; ++i) half.rest[j * 50 + i] = NAN;
+                for (int i = 25; i < 50; ++i) half.base_height[j * 50 + i] = NAN;
             sole.pitch = tilted ? -0.1 : 0.0;  // its front, over no ground, is the lower end
             ground_sole(&whole, sole), ground_sole(&half, sole);
             const DpFootForce foot = ground_load(700.0);
@@ -344,7 +344,7 @@ TEST(over_an_edge)
                 for (int i = 0; i < 25; ++i)
                     CHECK_CLOSE(half.compression[j * 50 + i], whole.compression[j * 50 + i], 1e-6);
             for (int k = 0; k < 2000; ++k)
-                CHECK(!isnan(half.rest[k]) || half.compression[k] == 0.0f);
+                CHECK(!isnan(half.base_height[k]) || half.compression[k] == 0.0f);
             CHECK(on_whole.deepest > 0.005);
             CHECK_CLOSE(on_half.area, on_whole.area, 1e-9);
             if (!tilted) CHECK_CLOSE(on_half.firm, 0.5 * on_whole.firm, 1e-9);

@@ -37,7 +37,7 @@ TEST(it_carries_what_it_can_once_it_has_slipped_so_far)
             600.0 * tan(32.0 * 3.14159265358979323846 / 180.0) * (1.0 - exp(-j / 0.02));
         CHECK_NEAR(carried, push, 0.01);
     }
-    CHECK_NEAR(dp_soil_slip(&soil, 1e6, 600.0), DP_SLIP_MOST, 1e-9);  // beyond: no farther
+    CHECK_NEAR(dp_soil_slip(&soil, 1e6, 600.0), DP_MAX_SLIP, 1e-9);  // beyond: no farther
 }
 
 int main(void)

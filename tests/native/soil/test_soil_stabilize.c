@@ -37,11 +37,11 @@ static double steepest(const Ground* ground)
                     if (i + a < 0 || i + a >= patch->nx || j + b < 0 || j + b >= patch->ny)
                         continue;
                     const int q = p + b * patch->row + a;
-                    if (q == p || isnan(patch->rest[q])) continue;
-                    const double from = (double)patch->rest[p] - (double)patch->compression[p] +
-                                        (double)patch->heap[p];
-                    const double to = (double)patch->rest[q] - (double)patch->compression[q] +
-                                      (double)patch->heap[q];
+                    if (q == p || isnan(patch->base_height[q])) continue;
+                    const double from = (double)patch->base_height[p] -
+                                        (double)patch->compression[p] + (double)patch->heap[p];
+                    const double to = (double)patch->base_height[q] -
+                                      (double)patch->compression[q] + (double)patch->heap[q];
                     const double far = patch->cell * (a && b ? sqrt(2.0) : 1.0);
                     most = fmax(most, atan((from - to) / far) - atan((double)patch->rest_slope[p]));
                 }
@@ -117,7 +117,7 @@ TEST(keeps_volume)
     unsigned seed = 5;
     ground.patch.soils = ground.soil;
     for (int k = 0; k < 70 * 50; ++k) {
-        ground.rest[k] = (float)(0.1 * check_random(&seed)) + 812.0f;
+        ground.base_height[k] = (float)(0.1 * check_random(&seed)) + 812.0f;
         ground.compression[k] = (float)(0.05 * check_random(&seed));
         ground.heap[k] = (float)fmax(0.06 * check_random(&seed) - 0.03, 0.0);
     }
@@ -134,13 +134,13 @@ TEST(only_loose_soil_moves)
 {
     Ground ground = ground_make(40, 40, 0.01, sand(10.0));
     ground.patch.soils = ground.soil;
-    for (int k = 0; k < 1600; ++k) ground.rest[k] = 0.02f * (float)(k % 40);
+    for (int k = 0; k < 1600; ++k) ground.base_height[k] = 0.02f * (float)(k % 40);
     CHECK(settle(&ground, NULL, NULL, 1000).sweeps == 0);
-    for (int k = 0; k < 1600; ++k) ground.rest[k] = 0.0f;
+    for (int k = 0; k < 1600; ++k) ground.base_height[k] = 0.0f;
     ground_sole(&ground, (BoxSole){.x = 0.105, .length = 0.10, .width = 0.2});
     for (int k = 0; k < 1600; ++k) {
         ground.imprint.ring[k] = ground.imprint.cover[k] > 0.0f ? 0 : DP_RING_FAR;
-        if (k % 40 < 15) ground.rest[k] = NAN;
+        if (k % 40 < 15) ground.base_height[k] = NAN;
     }
     for (int j = 10; j < 30; ++j)
         ground.heap[j * 40 + 20] = 0.05f, ground.heap[j * 40 + 30] = 0.01f;
@@ -192,7 +192,7 @@ TEST(rounding_does_not_matter)
         for (int m = 0; m < 2; ++m) {
             g[m] = ground_make(110, 80, 0.01, sand(turn % 2 ? 15.0 : 30.0));
             for (int k = 0; k < 110 * 80 && m == 1; ++k)
-                g[m].rest[k] = (float)(2e-9 * check_random(&seed));
+                g[m].base_height[k] = (float)(2e-9 * check_random(&seed));
             double        ledger = 0.0;
             const BoxSole sole = {
                 .length = 0.28, .width = 0.10, .heading = 0.1 * turn, .pitch = 0.3};
@@ -223,7 +223,7 @@ TEST(mirrored_to_the_bit)
             const float high = (float)(0.02 * check_random(&seed)),
                         heap = (float)(0.03 * check_random(&seed));
             for (int m = 0; m < 3; ++m) {
-                g[m].rest[at[m]] = high, g[m].heap[at[m]] = heap;
+                g[m].base_height[at[m]] = high, g[m].heap[at[m]] = heap;
                 g[m].patch.soils = g[m].soil;
             }
         }

@@ -7,7 +7,7 @@ static double height_at(const DpTerrain* terrain, double x, double y)
 {
     const double xy[2] = {x, y};
     double       height = -1.0;
-    dp_terrain_rest(terrain, 1, xy, &height);
+    dp_terrain_base_height(terrain, 1, xy, &height);
     return height;
 }
 
@@ -66,7 +66,7 @@ TEST(the_highest_triangle_counts)
             on += !isnan(want);
         }
         static float cells[200 * 160];  // what kernels see is what points say, to the bit
-        CHECK(dp_terrain_read(terrain, DP_FIELD_REST, 0, 0, 200, 160, cells) == DP_OK);
+        CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, 0, 0, 200, 160, cells) == DP_OK);
         for (int n = 0; n < 200 * 160; ++n) {
             const float at_point = (float)height_at(terrain, -4.0 + (n % 200 + 0.5) * 0.05,
                                                     99.0 + (n / 200 + 0.5) * 0.05);
@@ -125,7 +125,7 @@ TEST(shared_edges_have_no_pinholes)
         }
         if (round < 8 && at == 0.0) {
             static float cells[64 * 64];
-            CHECK(dp_terrain_read(terrain, DP_FIELD_REST, 0, 0, 64, 64, cells) == DP_OK);
+            CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, 0, 0, 64, 64, cells) == DP_OK);
             for (int n = 0; n < 64 * 64; ++n) CHECK(cells[n] == 0.1f);
         }
         dp_terrain_destroy(terrain);
@@ -157,13 +157,13 @@ TEST(slopes_join_and_cells_agree)
     make_grid(vertex, triangle, 0.3, -0.2, 0.4);
     const DpGround ground = ground_mesh(GRID * GRID, vertex, 2 * (GRID - 1) * (GRID - 1), triangle);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
-    DpLoan*        loan = dp_loan_create();
+    DpLease*       loan = dp_lease_create();
     DpSoilPatch*   patch = NULL;
-    CHECK(dp_terrain_lend(terrain, loan, -80, 80, -40, 140, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, loan, -80, 80, -40, 140, &patch) == DP_OK);
     int on = 0;
     for (int j = 0; j < patch->ny; ++j)
         for (int i = 0; i < patch->nx; ++i) {
-            const float rest = patch->rest[j * patch->row + i];
+            const float rest = patch->base_height[j * patch->row + i];
             if (isnan(rest)) continue;
             ++on;
             CHECK_NEAR(rest, 0.4 * (patch->x0 + i * 0.01) + 0.1, 1e-7);
@@ -173,7 +173,7 @@ TEST(slopes_join_and_cells_agree)
     const DpVec3 want = dp_unit(dp_vec3(-0.4, 0.0, 1.0));
     CHECK_NEAR(normal.x, want.x, 1e-9);
     CHECK_NEAR(normal.y, 0.0, 1e-9);
-    dp_loan_destroy(loan);
+    dp_lease_destroy(loan);
     dp_terrain_destroy(terrain);
 }
 
@@ -190,7 +190,7 @@ TEST(paint_follows_the_highest_triangle)
     DpTerrain* terrain = ground_terrain(&ground, 1.0 / 16.0, 0.0, 0.0);
     float      kind[256], rest[256];
     CHECK(dp_terrain_read(terrain, DP_FIELD_KIND, 0, 0, 16, 16, kind) == DP_OK);
-    CHECK(dp_terrain_read(terrain, DP_FIELD_REST, 0, 0, 16, 16, rest) == DP_OK);
+    CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, 0, 0, 16, 16, rest) == DP_OK);
     for (int n = 0; n < 256; ++n) {
         const int i = n % 16, j = n / 16;
         CHECK(kind[n] == (j >= 8 ? 2.0f : i < 8 ? 0.0f : 1.0f));
@@ -217,7 +217,8 @@ TEST(any_number_of_workers_gives_the_same_bits)
         options.workers = w + 1;
         CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_OK);
         if (w % 2) CHECK(dp_terrain_touch(terrain, -50, 100, 30, 80) == DP_OK);
-        CHECK(dp_terrain_read(terrain, DP_FIELD_REST, -150, -50, 300, 300, cells[w]) == DP_OK);
+        CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, -150, -50, 300, 300, cells[w]) ==
+              DP_OK);
         CHECK(memcmp(cells[0], cells[w], sizeof cells[0]) == 0);
         dp_terrain_destroy(terrain);
     }

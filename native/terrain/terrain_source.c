@@ -25,32 +25,34 @@ static DpStatus check_heights(const DpGround* ground)
     return DP_NO_GROUND;
 }
 
-static DpStatus copy_heights(Rest* rest, const DpGround* ground)
+static DpStatus copy_heights(Source* source, const DpGround* ground)
 {
     const DpStatus status = check_heights(ground);
     if (status != DP_OK) return status;
     const size_t count = (size_t)ground->nx * (size_t)ground->ny;
-    rest->heights = dp_alloc(count, sizeof(float));
-    if (!rest->heights) return DP_NO_MEMORY;
-    memcpy(rest->heights, ground->heights, count * sizeof(float));
-    rest->height = rest->somewhere = ground->height;
+    source->heights = dp_alloc(count, sizeof(float));
+    if (!source->heights) return DP_NO_MEMORY;
+    memcpy(source->heights, ground->heights, count * sizeof(float));
+    source->height = source->somewhere = ground->height;
     for (size_t n = 0; n < count; ++n)
         if (!isnan(ground->heights[n])) {
-            rest->somewhere += (double)ground->heights[n];
+            source->somewhere += (double)ground->heights[n];
             break;
         }
-    rest->level = true;
-    for (size_t n = 1; n < count && rest->level; ++n)
-        rest->level = ground->heights[n] == ground->heights[0];
-    rest->nx = ground->nx, rest->ny = ground->ny;
-    rest->x0 = ground->x0, rest->y0 = ground->y0;
-    rest->spacing = ground->spacing;
-    rest->bounds[0] = ground->x0, rest->bounds[2] = ground->x0 + (ground->nx - 1) * ground->spacing;
-    rest->bounds[1] = ground->y0, rest->bounds[3] = ground->y0 + (ground->ny - 1) * ground->spacing;
+    source->level = true;
+    for (size_t n = 1; n < count && source->level; ++n)
+        source->level = ground->heights[n] == ground->heights[0];
+    source->nx = ground->nx, source->ny = ground->ny;
+    source->x0 = ground->x0, source->y0 = ground->y0;
+    source->spacing = ground->spacing;
+    source->bounds[0] = ground->x0,
+    source->bounds[2] = ground->x0 + (ground->nx - 1) * ground->spacing;
+    source->bounds[1] = ground->y0,
+    source->bounds[3] = ground->y0 + (ground->ny - 1) * ground->spacing;
     return DP_OK;
 }
 
-static DpStatus copy_weights(Rest* rest, const DpGround* ground, size_t weights)
+static DpStatus copy_weights(Source* source, const DpGround* ground, size_t weights)
 {
     if (ground->kind_count == 0) return DP_OK;
     if (!ground->kind_weight || weights == 0) return DP_BAD_ARGUMENT;  // flat ground is not painted
@@ -58,64 +60,64 @@ static DpStatus copy_weights(Rest* rest, const DpGround* ground, size_t weights)
     for (size_t n = 0; n < count; ++n)
         if (!(ground->kind_weight[n] >= 0.0f) || isinf(ground->kind_weight[n]))
             return DP_BAD_ARGUMENT;
-    rest->kind_weight = dp_alloc(count, sizeof(float));
-    if (!rest->kind_weight) return DP_NO_MEMORY;
-    memcpy(rest->kind_weight, ground->kind_weight, count * sizeof(float));
-    rest->kind_count = ground->kind_count;
-    rest->weights = weights;
+    source->kind_weight = dp_alloc(count, sizeof(float));
+    if (!source->kind_weight) return DP_NO_MEMORY;
+    memcpy(source->kind_weight, ground->kind_weight, count * sizeof(float));
+    source->kind_count = ground->kind_count;
+    source->weights = weights;
     return DP_OK;
 }
 
-DpStatus rest_create(Rest* rest, const DpGround* ground, int workers)
+DpStatus dp_source_create(Source* source, const DpGround* ground, int workers)
 {
     DpStatus status = DP_OK;
     size_t   weights = 0;
-    memset(rest, 0, sizeof *rest);
-    rest->kind = ground->kind;
+    memset(source, 0, sizeof *source);
+    source->kind = ground->kind;
     switch (ground->kind) {
         case DP_GROUND_FLAT:
             if (!isfinite(ground->height)) return DP_BAD_ARGUMENT;
-            rest->height = rest->somewhere = ground->height;
-            rest->level = true;
-            rest->bounds[0] = rest->bounds[1] = -INFINITY;
-            rest->bounds[2] = rest->bounds[3] = INFINITY;
+            source->height = source->somewhere = ground->height;
+            source->level = true;
+            source->bounds[0] = source->bounds[1] = -INFINITY;
+            source->bounds[2] = source->bounds[3] = INFINITY;
             break;
         case DP_GROUND_HEIGHTS:
-            status = copy_heights(rest, ground);
-            weights = (size_t)rest->nx * (size_t)rest->ny;
+            status = copy_heights(source, ground);
+            weights = (size_t)source->nx * (size_t)source->ny;
             break;
         case DP_GROUND_MESH:
-            status = mesh_create(&rest->mesh, ground, workers, rest->bounds);
-            weights = (size_t)rest->mesh.vertex_count;
-            rest->level = rest->mesh.level;
-            rest->somewhere = rest->mesh.somewhere;
+            status = dp_mesh_create(&source->mesh, ground, workers, source->bounds);
+            weights = (size_t)source->mesh.vertex_count;
+            source->level = source->mesh.level;
+            source->somewhere = source->mesh.somewhere;
             break;
         default:
             return DP_BAD_ARGUMENT;
     }
-    if (status == DP_OK) status = copy_weights(rest, ground, weights);
-    if (status != DP_OK) rest_destroy(rest);
+    if (status == DP_OK) status = copy_weights(source, ground, weights);
+    if (status != DP_OK) dp_source_destroy(source);
     return status;
 }
 
-void rest_destroy(Rest* rest)
+void dp_source_destroy(Source* source)
 {
-    dp_free(rest->heights);
-    dp_free(rest->kind_weight);
-    mesh_destroy(&rest->mesh);
-    memset(rest, 0, sizeof *rest);
+    dp_free(source->heights);
+    dp_free(source->kind_weight);
+    dp_mesh_destroy(&source->mesh);
+    memset(source, 0, sizeof *source);
 }
 
-uint8_t heaviest_kind(const Rest* rest, int count, const size_t* of, const double* share)
+uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const double* share)
 {
     int    best = 0;
-    double most = -1.0;
-    for (int k = 0; k < rest->kind_count; ++k) {
-        const float* weight = rest->kind_weight + (size_t)k * rest->weights;
+    double heaviest = -1.0;
+    for (int k = 0; k < source->kind_count; ++k) {
+        const float* weight = source->kind_weight + (size_t)k * source->weights;
         double       sum = 0.0;
         for (int n = 0; n < count; ++n) sum += share[n] * (double)weight[of[n]];
-        if (sum > most) {
-            most = sum;
+        if (sum > heaviest) {
+            heaviest = sum;
             best = k;
         }
     }
@@ -127,8 +129,8 @@ static bool between(double at, int samples, int* before, double* beyond)
 {
     if (!(at >= -EDGE_SLACK && at <= (double)(samples - 1) + EDGE_SLACK)) return false;
     const double held = dp_clamp(at, 0.0, (double)(samples - 1));
-    const int    whole = (int)held;
-    *before = whole < samples - 1 ? whole : samples - 2;
+    const int    floored = (int)held;
+    *before = floored < samples - 1 ? floored : samples - 2;
     *beyond = held - (double)*before;
     return true;
 }
@@ -142,40 +144,40 @@ static double mix(double low, double high, double share)
 }
 
 // bilinear; a square with a hole at one of its corners is a hole, but for its other samples
-static double heights_at(const Rest* rest, double x, double y, uint8_t* kind)
+static double heights_at(const Source* source, double x, double y, uint8_t* kind)
 {
     int    i, j;
     double u, v;
-    if (!between((x - rest->x0) / rest->spacing, rest->nx, &i, &u) ||
-        !between((y - rest->y0) / rest->spacing, rest->ny, &j, &v))
+    if (!between((x - source->x0) / source->spacing, source->nx, &i, &u) ||
+        !between((y - source->y0) / source->spacing, source->ny, &j, &v))
         return NAN;
-    const size_t at = (size_t)j * (size_t)rest->nx + (size_t)i;
-    const float* h = rest->heights + at;
-    const float* above = h + rest->nx;
+    const size_t at = (size_t)j * (size_t)source->nx + (size_t)i;
+    const float* h = source->heights + at;
+    const float* above = h + source->nx;
     const double here = mix((double)h[0], (double)h[1], u);
     const double next = mix((double)above[0], (double)above[1], u);
     const double height = mix(here, next, v);
-    if (kind && rest->kind_count && !isnan(height)) {
-        const size_t nearest = at + (u >= 0.5 ? 1 : 0) + (v >= 0.5 ? (size_t)rest->nx : 0);
-        const double whole = 1.0;
-        *kind = heaviest_kind(rest, 1, &nearest, &whole);
+    if (kind && source->kind_count && !isnan(height)) {
+        const size_t nearest = at + (u >= 0.5 ? 1 : 0) + (v >= 0.5 ? (size_t)source->nx : 0);
+        const double full = 1.0;
+        *kind = dp_source_kind(source, 1, &nearest, &full);
     }
-    return height + rest->height;
+    return height + source->height;
 }
 
-double rest_at(const Rest* rest, double x, double y, uint8_t* kind)
+double dp_source_at(const Source* source, double x, double y, uint8_t* kind)
 {
     if (kind) *kind = 0;
-    if (rest->kind == DP_GROUND_FLAT)
-        return isfinite(x) && isfinite(y) ? rest->height : (double)NAN;
-    if (rest->kind == DP_GROUND_HEIGHTS) return heights_at(rest, x, y, kind);
-    return mesh_at(rest, x, y, kind);
+    if (source->kind == DP_GROUND_FLAT)
+        return isfinite(x) && isfinite(y) ? source->height : (double)NAN;
+    if (source->kind == DP_GROUND_HEIGHTS) return heights_at(source, x, y, kind);
+    return dp_mesh_at(source, x, y, kind);
 }
 
-void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* kind)
+void dp_source_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind)
 {
-    if (rest->kind == DP_GROUND_MESH) {
-        mesh_tile(rest, grid, height, kind);
+    if (source->kind == DP_GROUND_MESH) {
+        dp_mesh_tile(source, grid, height, kind);
         return;
     }
     for (int j = 0; j < DP_TILE; ++j) {
@@ -183,7 +185,7 @@ void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
         for (int i = 0; i < DP_TILE; ++i) {
             const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
             height[j * DP_TILE + i] =
-                (float)(rest_at(rest, x, y, &kind[j * DP_TILE + i]) - grid->base);
+                (float)(dp_source_at(source, x, y, &kind[j * DP_TILE + i]) - grid->datum);
         }
     }
 }
@@ -192,13 +194,13 @@ void rest_tile(const Rest* rest, const TileGrid* grid, float* height, uint8_t* k
 
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4])
 {
-    memcpy(bounds, terrain->rest.bounds, sizeof terrain->rest.bounds);
+    memcpy(bounds, terrain->source.bounds, sizeof terrain->source.bounds);
 }
 
-void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, double* height)
+void dp_terrain_base_height(const DpTerrain* terrain, int count, const double* xy, double* height)
 {
     for (int n = 0; n < count; ++n)
-        height[n] = rest_at(&terrain->rest, xy[2 * n], xy[2 * n + 1], NULL);
+        height[n] = dp_source_at(&terrain->source, xy[2 * n], xy[2 * n + 1], NULL);
 }
 
 #define DISC 5  // lattice points across the disc; without its four corners, 21 points
@@ -206,7 +208,7 @@ void dp_terrain_rest(const DpTerrain* terrain, int count, const double* xy, doub
 DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius)
 {
     const DpVec3 up = {0.0, 0.0, 1.0};
-    if (terrain->rest.level) return up;
+    if (terrain->source.level) return up;
     const double step = radius / sqrt(5.0);  // the points (2, 1) lie on the rim
     double       at_u[DISC * DISC], at_v[DISC * DISC], at_z[DISC * DISC];
     double       mean_u = 0.0, mean_v = 0.0, mean_z = 0.0;
@@ -214,7 +216,7 @@ DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double ra
     for (int b = -2; b <= 2; ++b)
         for (int a = -2; a <= 2; ++a) {
             if (a * a + b * b > 5) continue;
-            const double z = rest_at(&terrain->rest, x + a * step, y + b * step, NULL);
+            const double z = dp_source_at(&terrain->source, x + a * step, y + b * step, NULL);
             if (isnan(z)) continue;
             at_u[count] = a, at_v[count] = b, at_z[count] = z;
             mean_u += a, mean_v += b, mean_z += z - at_z[0];
@@ -228,9 +230,9 @@ DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double ra
         const double u = at_u[n] - mean_u, v = at_v[n] - mean_v, z = at_z[n] - mean_z;
         uu += u * u, uv += u * v, vv += v * v, uz += u * z, vz += v * z;
     }
-    const double whole = uu * vv - uv * uv;
-    if (!(whole > 1e-9) || !(step > 0.0)) return up;  // all in one line
-    const double slope_x = (uz * vv - vz * uv) / (whole * step);
-    const double slope_y = (vz * uu - uz * uv) / (whole * step);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 1e-9) || !(step > 0.0)) return up;  // all in one line
+    const double slope_x = (uz * vv - vz * uv) / (determinant * step);
+    const double slope_y = (vz * uu - uz * uv) / (determinant * step);
     return dp_unit(dp_vec3(-slope_x, -slope_y, 1.0));
 }

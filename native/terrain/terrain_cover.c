@@ -5,7 +5,7 @@
 
 #include "terrain/terrain_inside.h"
 
-DpStatus dp_terrain_plant(DpTerrain* terrain, DpTerrainCover cover, const void* context)
+DpStatus dp_terrain_set_cover(DpTerrain* terrain, DpTerrainCover cover, const void* context)
 {
     if (!terrain || terrain->tiles > 0) return DP_BAD_ARGUMENT;
     terrain->cover = cover;
@@ -13,7 +13,7 @@ DpStatus dp_terrain_plant(DpTerrain* terrain, DpTerrainCover cover, const void* 
     return DP_OK;
 }
 
-void tile_plant(const DpTerrain* terrain, long tx, long ty, float* plant)
+void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant)
 {
     const double x0 = cell_at(terrain->origin_x, terrain->cell, tx * DP_TILE);
     const double y0 = cell_at(terrain->origin_y, terrain->cell, ty * DP_TILE);
@@ -40,10 +40,10 @@ static void replant(DpTerrain* terrain, Tile* tile, const TilePart* part)
             tile->plant[to] = fresh[from];
             tile->plant[TILE_CELLS + to] = roots[from];
         }
-    if (differs) tile_mark(terrain, tile);
+    if (differs) dp_tile_mark(terrain, tile);
 }
 
-void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1)
+void dp_terrain_refresh_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1)
 {
     if (!terrain->cover || !is_rectangle(i0, i1, j0, j1)) return;
     for (size_t t = 0; t < terrain->tiles; ++t) {
@@ -51,7 +51,7 @@ void dp_terrain_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1)
         if (tile->ty < tile_of(j0) || tile->ty > tile_of(j1 - 1) || tile->tx < tile_of(i0) ||
             tile->tx > tile_of(i1 - 1))
             continue;
-        const TilePart part = tile_part(tile->tx, tile->ty, i0, i1, j0, j1);
+        const TilePart part = dp_tile_part(tile->tx, tile->ty, i0, i1, j0, j1);
         replant(terrain, tile, &part);
     }
 }
@@ -61,14 +61,15 @@ void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int 
     const long i1 = i0 + nx, j1 = j0 + ny;
     for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
         for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = tile_part(tx, ty, i0, i1, j0, j1);
-            const Tile*    tile = tile_find(terrain, tx, ty);
+            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+            const Tile*    tile = dp_tile_find(terrain, tx, ty);
             for (int j = 0; j < part.ny; ++j) {
                 float*       to = out + (size_t)(part.j + j) * (size_t)nx + (size_t)part.i;
                 const size_t at = part.in_tile + (size_t)j * DP_TILE;
                 for (int i = 0; i < part.nx; ++i) {
                     const size_t p = at + (size_t)i;
-                    to[i] = tile ? tile->rest[p] - tile->compression[p] + tile->heap[p] : NAN;
+                    to[i] =
+                        tile ? tile->base_height[p] - tile->compression[p] + tile->heap[p] : NAN;
                 }
             }
         }
@@ -78,26 +79,26 @@ void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int 
 static double surface_of(const DpTerrain* terrain, const Tile* tile, long i, long j)
 {
     if (!tile)
-        return rest_at(&terrain->rest, cell_at(terrain->origin_x, terrain->cell, i),
-                       cell_at(terrain->origin_y, terrain->cell, j), NULL) -
-               terrain->base;
+        return dp_source_at(&terrain->source, cell_at(terrain->origin_x, terrain->cell, i),
+                            cell_at(terrain->origin_y, terrain->cell, j), NULL) -
+               terrain->datum;
     const long p = (j - tile->ty * DP_TILE) * DP_TILE + (i - tile->tx * DP_TILE);
-    return (double)(tile->rest[p] - tile->compression[p] + tile->heap[p]);
+    return (double)(tile->base_height[p] - tile->compression[p] + tile->heap[p]);
 }
 
 double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y)
 {
     const double u = (x - terrain->origin_x) / terrain->cell - 0.5;
     const double v = (y - terrain->origin_y) / terrain->cell - 0.5;
-    if (!(fabs(u) < (double)MOST_CELL_INDEX && fabs(v) < (double)MOST_CELL_INDEX)) return NAN;
+    if (!(fabs(u) < (double)MAX_CELL_INDEX && fabs(v) < (double)MAX_CELL_INDEX)) return NAN;
     const long   i = (long)floor(u), j = (long)floor(v);
     const double a = u - (double)i, b = v - (double)j;
     double       h[4];
-    Tile*        tile = tile_find(terrain, tile_of(i), tile_of(j));
+    Tile*        tile = dp_tile_find(terrain, tile_of(i), tile_of(j));
     for (int n = 0; n < 4; ++n) {
         const long ci = i + n % 2, cj = j + n / 2, tx = tile_of(ci), ty = tile_of(cj);
         if (tx != tile_of(i) || ty != tile_of(j))
-            h[n] = surface_of(terrain, tile_find(terrain, tx, ty), ci, cj);
+            h[n] = surface_of(terrain, dp_tile_find(terrain, tx, ty), ci, cj);
         else
             h[n] = surface_of(terrain, tile, ci, cj);
     }

@@ -7,7 +7,7 @@ static double height_at(const DpTerrain* terrain, double x, double y)
 {
     const double xy[2] = {x, y};
     double       height = -1.0;
-    dp_terrain_rest(terrain, 1, xy, &height);
+    dp_terrain_base_height(terrain, 1, xy, &height);
     return height;
 }
 
@@ -38,7 +38,7 @@ TEST(heights_are_bilinear)
     CHECK(bounds[0] == -1.0 && bounds[1] == 2.0 && bounds[2] == 1.0 && bounds[3] == 3.5);
 
     float cells[32 * 24];  // what kernels see is what points say
-    CHECK(dp_terrain_read(terrain, DP_FIELD_REST, 0, 0, 32, 24, cells) == DP_OK);
+    CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, 0, 0, 32, 24, cells) == DP_OK);
     for (int n = 0; n < 32 * 24; ++n) {
         const double x = -1.0 + (n % 32 + 0.5) * 0.0625, y = 2.0 + (n / 32 + 0.5) * 0.0625;
         CHECK(cells[n] == (float)height_at(terrain, x, y));
