@@ -37,14 +37,14 @@ static uint64_t checksum(const unsigned char* head, size_t size)
 
 // ---- writing -----------------------------------------------------------------------------------
 
-void dp_writer_drop(DpWriter* writer)
+void dp_write_drop(DpStateWriter* writer)
 {
     dp_free(writer->bytes);
-    *writer = (DpWriter){.status = writer->status};
+    *writer = (DpStateWriter){.status = writer->status};
 }
 
 // room for so many bytes more, which count as written; NULL once something went wrong
-static unsigned char* extend(DpWriter* writer, size_t count)
+static unsigned char* extend(DpStateWriter* writer, size_t count)
 {
     if (writer->status != DP_OK) return NULL;
     if (count > writer->room - writer->size) {
@@ -62,7 +62,7 @@ static unsigned char* extend(DpWriter* writer, size_t count)
     return writer->bytes + writer->size - count;
 }
 
-void dp_write_chunk(DpWriter* writer, const char* name, uint32_t version)
+void dp_write_chunk(DpStateWriter* writer, const char* name, uint32_t version)
 {
     DP_ASSERT(!writer->open && strlen(name) == NAME && version > 0);
     writer->chunk = writer->size, writer->open = true;
@@ -73,7 +73,7 @@ void dp_write_chunk(DpWriter* writer, const char* name, uint32_t version)
     put_number(head + NAME, version, 4);
 }
 
-void dp_write_end(DpWriter* writer)
+void dp_write_end(DpStateWriter* writer)
 {
     DP_ASSERT(writer->open);
     writer->open = false;
@@ -84,35 +84,35 @@ void dp_write_end(DpWriter* writer)
     put_number(head + NAME + 12, checksum(head, size), 8);
 }
 
-void dp_write_bytes(DpWriter* writer, const void* bytes, size_t count)
+void dp_write_bytes(DpStateWriter* writer, const void* bytes, size_t count)
 {
     unsigned char* to = extend(writer, count);
     if (to && count > 0) memcpy(to, bytes, count);
 }
 
-void dp_write_u8(DpWriter* writer, uint8_t value)
+void dp_write_u8(DpStateWriter* writer, uint8_t value)
 {
     dp_write_bytes(writer, &value, 1);
 }
 
-void dp_write_u64(DpWriter* writer, uint64_t value)
+void dp_write_u64(DpStateWriter* writer, uint64_t value)
 {
     unsigned char* to = extend(writer, 8);
     if (to) put_number(to, value, 8);
 }
 
-void dp_write_i64(DpWriter* writer, int64_t value)
+void dp_write_i64(DpStateWriter* writer, int64_t value)
 {
     dp_write_u64(writer, (uint64_t)value);
 }
 
-void dp_write_f64(DpWriter* writer, double value)
+void dp_write_f64(DpStateWriter* writer, double value)
 {
     dp_write_doubles(writer, &value, 1);
 }
 
 // `count` numbers of 4 bytes
-static void write_words(DpWriter* writer, const void* value, size_t count)
+static void write_words(DpStateWriter* writer, const void* value, size_t count)
 {
     unsigned char* to = count < SIZE_MAX / 4 ? extend(writer, 4 * count) : NULL;
     for (size_t k = 0; to && k < count; ++k) {
@@ -122,17 +122,17 @@ static void write_words(DpWriter* writer, const void* value, size_t count)
     }
 }
 
-void dp_write_ints(DpWriter* writer, const int32_t* value, size_t count)
+void dp_write_ints(DpStateWriter* writer, const int32_t* value, size_t count)
 {
     write_words(writer, value, count);
 }
 
-void dp_write_floats(DpWriter* writer, const float* value, size_t count)
+void dp_write_floats(DpStateWriter* writer, const float* value, size_t count)
 {
     write_words(writer, value, count);
 }
 
-void dp_write_doubles(DpWriter* writer, const double* value, size_t count)
+void dp_write_doubles(DpStateWriter* writer, const double* value, size_t count)
 {
     unsigned char* to = count < SIZE_MAX / 8 ? extend(writer, 8 * count) : NULL;
     for (size_t k = 0; to && k < count; ++k) {
@@ -144,23 +144,23 @@ void dp_write_doubles(DpWriter* writer, const double* value, size_t count)
 
 // ---- reading -----------------------------------------------------------------------------------
 
-DpReader dp_reader(const void* bytes, size_t size)
+DpStateReader dp_read_open(const void* bytes, size_t size)
 {
-    return (DpReader){.bytes = bytes, .size = size};
+    return (DpStateReader){.bytes = bytes, .size = size};
 }
 
-void dp_read_check(DpReader* reader, bool holds)
+void dp_read_check(DpStateReader* reader, bool holds)
 {
     if (!holds && reader->status == DP_OK) reader->status = DP_BAD_FILE;
 }
 
-bool dp_read_is(const DpReader* reader, const char* name)
+bool dp_read_is(const DpStateReader* reader, const char* name)
 {
     return reader->status == DP_OK && !reader->open && reader->size - reader->at >= HEAD &&
            memcmp(reader->bytes + reader->at, name, NAME) == 0;
 }
 
-uint32_t dp_read_chunk(DpReader* reader, const char* name, uint32_t newest)
+uint32_t dp_read_chunk(DpStateReader* reader, const char* name, uint32_t newest)
 {
     DP_ASSERT(!reader->open && strlen(name) == NAME);
     dp_read_check(reader, dp_read_is(reader, name));
@@ -175,14 +175,14 @@ uint32_t dp_read_chunk(DpReader* reader, const char* name, uint32_t newest)
     return (uint32_t)version;
 }
 
-void dp_read_end(DpReader* reader)
+void dp_read_end(DpStateReader* reader)
 {
     dp_read_check(reader, reader->open && reader->at == reader->end);
     reader->open = false;
 }
 
 // the next `count` bytes of the open chunk; NULL once something went wrong
-static const unsigned char* take(DpReader* reader, size_t count)
+static const unsigned char* take(DpStateReader* reader, size_t count)
 {
     dp_read_check(reader, reader->open && count <= reader->end - reader->at);
     if (reader->status != DP_OK) return NULL;
@@ -190,7 +190,7 @@ static const unsigned char* take(DpReader* reader, size_t count)
     return reader->bytes + reader->at - count;
 }
 
-void dp_read_bytes(DpReader* reader, void* bytes, size_t count)
+void dp_read_bytes(DpStateReader* reader, void* bytes, size_t count)
 {
     const unsigned char* from = take(reader, count);
     if (count == 0) return;
@@ -200,20 +200,20 @@ void dp_read_bytes(DpReader* reader, void* bytes, size_t count)
         memset(bytes, 0, count);
 }
 
-uint8_t dp_read_u8(DpReader* reader)
+uint8_t dp_read_u8(DpStateReader* reader)
 {
     uint8_t value;
     dp_read_bytes(reader, &value, 1);
     return value;
 }
 
-uint64_t dp_read_u64(DpReader* reader)
+uint64_t dp_read_u64(DpStateReader* reader)
 {
     const unsigned char* from = take(reader, 8);
     return from ? number_at(from, 8) : 0;
 }
 
-int64_t dp_read_i64(DpReader* reader)
+int64_t dp_read_i64(DpStateReader* reader)
 {
     const uint64_t bits = dp_read_u64(reader);
     int64_t        value;
@@ -221,7 +221,7 @@ int64_t dp_read_i64(DpReader* reader)
     return value;
 }
 
-double dp_read_f64(DpReader* reader)
+double dp_read_f64(DpStateReader* reader)
 {
     double value;
     dp_read_doubles(reader, &value, 1);
@@ -229,7 +229,7 @@ double dp_read_f64(DpReader* reader)
 }
 
 // `count` numbers of 4 bytes
-static void read_words(DpReader* reader, void* value, size_t count)
+static void read_words(DpStateReader* reader, void* value, size_t count)
 {
     const unsigned char* from = take(reader, count < SIZE_MAX / 4 ? 4 * count : SIZE_MAX);
     for (size_t k = 0; k < count; ++k) {
@@ -238,17 +238,17 @@ static void read_words(DpReader* reader, void* value, size_t count)
     }
 }
 
-void dp_read_ints(DpReader* reader, int32_t* value, size_t count)
+void dp_read_ints(DpStateReader* reader, int32_t* value, size_t count)
 {
     read_words(reader, value, count);
 }
 
-void dp_read_floats(DpReader* reader, float* value, size_t count)
+void dp_read_floats(DpStateReader* reader, float* value, size_t count)
 {
     read_words(reader, value, count);
 }
 
-void dp_read_doubles(DpReader* reader, double* value, size_t count)
+void dp_read_doubles(DpStateReader* reader, double* value, size_t count)
 {
     const unsigned char* from = take(reader, count < SIZE_MAX / 8 ? 8 * count : SIZE_MAX);
     for (size_t k = 0; k < count; ++k) {
@@ -257,7 +257,7 @@ void dp_read_doubles(DpReader* reader, double* value, size_t count)
     }
 }
 
-int64_t dp_read_int(DpReader* reader, int64_t low, int64_t high)
+int64_t dp_read_int(DpStateReader* reader, int64_t low, int64_t high)
 {
     const int64_t value = dp_read_i64(reader);
     const bool    holds = value >= low && value <= high;
@@ -265,7 +265,7 @@ int64_t dp_read_int(DpReader* reader, int64_t low, int64_t high)
     return holds ? value : low;
 }
 
-double dp_read_number(DpReader* reader, double low, double high)
+double dp_read_number(DpStateReader* reader, double low, double high)
 {
     const double value = dp_read_f64(reader);
     const bool   holds = value >= low && value <= high;
@@ -273,7 +273,7 @@ double dp_read_number(DpReader* reader, double low, double high)
     return holds ? value : low;
 }
 
-size_t dp_read_count(DpReader* reader, size_t most, size_t each)
+size_t dp_read_count(DpStateReader* reader, size_t most, size_t each)
 {
     const uint64_t count = dp_read_u64(reader);
     const size_t   left = reader->open ? reader->end - reader->at : 0;

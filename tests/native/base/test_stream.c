@@ -7,7 +7,7 @@ static const double doubles[2] = {1.0 / 3.0, -1e300};
 static const int    ints[2] = {INT32_MIN, 7};
 
 // two chunks with one of everything
-static void write_all(DpWriter* writer)
+static void write_all(DpStateWriter* writer)
 {
     dp_write_chunk(writer, "ones", 3);
     dp_write_u8(writer, 200);
@@ -26,7 +26,7 @@ static void write_all(DpWriter* writer)
 
 static DpStatus read_all(const void* bytes, size_t size, bool look)
 {
-    DpReader       reader = dp_reader(bytes, size);
+    DpStateReader  reader = dp_read_open(bytes, size);
     float          f[3];
     double         d[2];
     int32_t        n[2];
@@ -55,18 +55,18 @@ static DpStatus read_all(const void* bytes, size_t size, bool look)
 
 TEST(reads_what_was_written)
 {
-    DpWriter writer = {0};
+    DpStateWriter writer = {0};
     write_all(&writer);
     CHECK(writer.status == DP_OK && read_all(writer.bytes, writer.size, true) == DP_OK);
     // low bytes first, on any machine
     CHECK(memcmp(writer.bytes, "ones\3\0\0\0\31\0\0\0", 12) == 0);
     CHECK(writer.bytes[24] == 200 && writer.bytes[25] == 0xef && writer.bytes[32] == 0x01);
-    dp_writer_drop(&writer);
+    dp_write_drop(&writer);
 }
 
 TEST(refuses_what_is_damaged)
 {
-    DpWriter writer = {0};
+    DpStateWriter writer = {0};
     write_all(&writer);
     for (size_t size = 0; size < writer.size; ++size) {
         unsigned char* cut = malloc(size + 1);  // of its own, so that reading beyond is seen
@@ -79,61 +79,61 @@ TEST(refuses_what_is_damaged)
         CHECK(read_all(writer.bytes, writer.size, false) == DP_BAD_FILE);
         writer.bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
     }
-    dp_writer_drop(&writer);
+    dp_write_drop(&writer);
 }
 
 // chunks in the wrong order, too new, read too far or not to the end
 TEST(refuses_what_is_not_asked_for)
 {
-    DpWriter writer = {0};
+    DpStateWriter writer = {0};
     write_all(&writer);
-    DpReader reader = dp_reader(writer.bytes, writer.size);
+    DpStateReader reader = dp_read_open(writer.bytes, writer.size);
     CHECK(dp_read_is(&reader, "ones") && !dp_read_is(&reader, "many"));
     CHECK(dp_read_chunk(&reader, "many", 1) == 0 && reader.status == DP_BAD_FILE);
-    reader = dp_reader(writer.bytes, writer.size);
+    reader = dp_read_open(writer.bytes, writer.size);
     CHECK(dp_read_chunk(&reader, "ones", 2) == 0 && reader.status == DP_BAD_FILE);
-    reader = dp_reader(writer.bytes, writer.size);
+    reader = dp_read_open(writer.bytes, writer.size);
     CHECK(dp_read_chunk(&reader, "ones", 3) == 3);
     dp_read_end(&reader);
     CHECK(reader.status == DP_BAD_FILE && dp_read_u64(&reader) == 0);
-    reader = dp_reader(writer.bytes, writer.size);
+    reader = dp_read_open(writer.bytes, writer.size);
     float far[16] = {1.0f};
     dp_read_chunk(&reader, "ones", 3);
     dp_read_floats(&reader, far, 16);  // the chunk after it is none of its business
     CHECK(reader.status == DP_BAD_FILE && far[0] == 0.0f && far[15] == 0.0f);
-    dp_writer_drop(&writer);
-    reader = dp_reader(NULL, 0);
+    dp_write_drop(&writer);
+    reader = dp_read_open(NULL, 0);
     CHECK(!dp_read_is(&reader, "ones") && dp_read_chunk(&reader, "ones", 1) == 0);
 }
 
 TEST(numbers_keep_to_their_range)
 {
-    DpWriter writer = {0};
+    DpStateWriter writer = {0};
     dp_write_chunk(&writer, "nums", 1);
     dp_write_f64(&writer, (double)NAN);
     dp_write_i64(&writer, 11);
     dp_write_u64(&writer, UINT64_MAX);
     dp_write_end(&writer);
-    DpReader reader = dp_reader(writer.bytes, writer.size);
+    DpStateReader reader = dp_read_open(writer.bytes, writer.size);
     dp_read_chunk(&reader, "nums", 1);
     CHECK(dp_read_number(&reader, 2.0, 3.0) == 2.0 && reader.status == DP_BAD_FILE);
     reader.status = DP_OK;
     CHECK(dp_read_int(&reader, 1, 10) == 1 && reader.status == DP_BAD_FILE);
     reader.status = DP_OK;
     CHECK(dp_read_count(&reader, SIZE_MAX, 1) == 0 && reader.status == DP_BAD_FILE);
-    dp_writer_drop(&writer);
+    dp_write_drop(&writer);
 }
 
 TEST(without_memory_it_says_so)
 {
     for (long left = 0; left < 2; ++left) {
-        DpWriter writer = {0};
+        DpStateWriter writer = {0};
         dp_alloc_fail_after(left);
         write_all(&writer);
         for (int k = 0; k < 1000; ++k) dp_write_u64(&writer, 1);
         dp_alloc_fail_after(-1);
         CHECK(writer.status == DP_NO_MEMORY);
-        dp_writer_drop(&writer);
+        dp_write_drop(&writer);
         CHECK(writer.status == DP_NO_MEMORY && !writer.bytes);
     }
 }
