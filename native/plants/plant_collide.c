@@ -1,15 +1,15 @@
-// plants/plant_clear.c - one particle out of everything that a step pushes through it.
+// plants/plant_collide.c - one particle out of everything that a step pushes through it.
 //
 // A particle under a sole stays between it and the ground; one that a sole has run into leaves by
 // the shorter way, down or to the side. Legs push along the shortest way out.
-#include "plants/plant_clear.h"
+#include "plants/plant_collide.h"
 
 #include <string.h>
 
 #define CERTAIN 1e-6  // this far out of a sole's swept box it is not met [m]
 
 // distances to the nearest cell without sole, by the two-pass chamfer metric; a border of none
-void plant_side_field(const DpPlantCollider* c, float* out)
+void dp_plant_side_field(const DpPlantCollider* c, float* out)
 {
     const float     one = (float)c->cell, two = (float)(c->cell * 1.4142135623730951);
     const ptrdiff_t row = c->nx + 2;
@@ -34,9 +34,9 @@ void plant_side_field(const DpPlantCollider* c, float* out)
 }
 
 // the ground below a point
-double plant_ground_below(const PlantProbe* probe, double x, double y)
+double dp_plant_ground_below(const PlantProbe* probe, double x, double y)
 {
-    return plant_floor_at(probe->block, probe->ground, probe->lane, x, y);
+    return dp_plant_floor_at(probe->block, probe->ground, probe->lane, x, y);
 }
 
 // cell of a sole over (x, y), -1 where there is none
@@ -57,7 +57,7 @@ static bool is_clear(const PlantPush* push, const DpVec3* p)
 }
 
 // underside of the lowest sole whose column holds (x, y, z): +inf if none
-double plant_sole_over(const PlantProbe* probe, const DpVec3* p, const PlantPush** which)
+double dp_plant_sole_over(const PlantProbe* probe, const DpVec3* p, const PlantPush** which)
 {
     double lowest = INFINITY;
     for (int k = 0; k < probe->count; ++k) {
@@ -95,7 +95,7 @@ static bool leave_by_side(const PlantProbe* probe, const PlantPush* push, DpVec3
     const double size = sqrt(gx * gx + gy * gy);
     if (!(size > 0.0)) return false;
     const DpVec3 aside = {p->x + way * gx / size, p->y + way * gy / size, p->z};
-    if (isfinite(plant_sole_over(probe, &aside, NULL))) return false;
+    if (isfinite(dp_plant_sole_over(probe, &aside, NULL))) return false;
     *p = aside;
     return true;
 }
@@ -117,7 +117,7 @@ static bool leave_capsule(const DpPlantCollider* c, double left, double radius, 
 }
 
 // bring a particle out of everything; returns how far it was pushed, and by what
-double plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** by)
+double dp_plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** by)
 {
     const DpVec3 was = *p;
     double       pushed = 0.0;
@@ -131,9 +131,9 @@ double plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** b
     double       ground = -INFINITY;  // not asked for yet
     for (int pass = 0; pass < 3; ++pass) {
         const PlantPush* push = NULL;
-        const double     bottom = plant_sole_over(probe, p, &push);
+        const double     bottom = dp_plant_sole_over(probe, p, &push);
         if (!push && p->z > high) return pushed;  // in the open, over all ground around
-        if (!(ground > -INFINITY)) ground = plant_ground_below(probe, p->x, p->y);
+        if (!(ground > -INFINITY)) ground = dp_plant_ground_below(probe, p->x, p->y);
         if (!push) break;
         const double floor_here = fmin(ground, bottom);
         const double room = dp_clamp(0.5 * (bottom - floor_here), 0.0, probe->radius);
@@ -145,7 +145,7 @@ double plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** b
         *by = push->collider;
         pushed = fmax(pushed, p->z - most);
         if (!probe->only_down && leave_by_side(probe, push, p, p->z - most)) {
-            ground = plant_ground_below(probe, p->x, p->y);
+            ground = dp_plant_ground_below(probe, p->x, p->y);
             continue;
         }
         p->z = most;

@@ -1,4 +1,4 @@
-// plants/plant_clear.h - what a particle meets in a sub-step, and the way out.
+// plants/plant_collide.h - what a particle meets in a sub-step, and the way out.
 #pragma once
 #include "plants/plant_inside.h"
 
@@ -15,8 +15,8 @@ typedef struct PlantProbe
 } PlantProbe;
 
 // the ground below a point [m]
-double plant_ground_below(const PlantProbe* probe, double x, double y);
+double dp_plant_ground_below(const PlantProbe* probe, double x, double y);
 // underside of the lowest sole whose column holds (x, y, z): +inf if none [m]
-double plant_sole_over(const PlantProbe* probe, const DpVec3* p, const PlantPush** which);
+double dp_plant_sole_over(const PlantProbe* probe, const DpVec3* p, const PlantPush** which);
 // bring a particle out of everything; returns how far it was pushed [m], and by what if by anything
-double plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** by);
+double dp_plant_clear(const PlantProbe* probe, DpVec3* p, const DpPlantCollider** by);

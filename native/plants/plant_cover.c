@@ -73,7 +73,7 @@ static Sums sums_at(const DpPlants* plants, double x, double y, double wide)
     return sums;
 }
 
-float plant_cover_around(const DpPlants* plants, float x, float y)
+float dp_plant_cover_around(const DpPlants* plants, float x, float y)
 {
     const Sums sums = sums_at(plants, (double)x, (double)y, RUNNERS);
     return (float)(sums.whole / fmax(sums.full, 1.0));
@@ -174,12 +174,12 @@ DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, Dp
 // what wears a stem keeps it down until its strength is back
 static double heal_rate(const DpPlantKind* kind)
 {
-    const double swing = plant_rise_rate(kind),
+    const double swing = dp_plant_rise_rate(kind),
                  back = (double)kind->recover_rate / (double)kind->strength;
     return kind->degrade_rate > 0.0f ? fmin(swing, back) : swing;
 }
 
-void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out)
+void dp_plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out)
 {
     for (int j = 0; j < window->ny; ++j)
         for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {
@@ -188,7 +188,7 @@ void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const Pl
             double    heal[CHUNK] = {0}, limp[CHUNK] = {0};
             for (int s = 0; s < plants->stands; ++s) {
                 const DpPlantKind* kind = &plants->stand[s].kind;
-                const double       swings = plant_rise_rate(kind), heals = heal_rate(kind);
+                const double       swings = dp_plant_rise_rate(kind), heals = heal_rate(kind);
                 const double       bears = 1.0 - cos(fmin((double)kind->degrade_angle, 0.5 * PI));
                 Row                row = {0};
                 add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,

@@ -1,4 +1,4 @@
-// plants/plant_laid.c - stems as they are shown: down for as long as the lean of their cell says.
+// plants/plant_display.c - stems as they are shown: down for as long as the lean of their cell says.
 //
 // A stem that was simulated swings up as soon as nothing holds it, and that is how it wears; what
 // was trodden stays down until its strength is back, and the lean knows how long. Shown is
@@ -60,7 +60,7 @@ void dp_laid_destroy(DpLaid* laid)
 
 static DpVec3 particle_at(const PlantStand* stand, const PlantBlock* block, int particle, int l)
 {
-    if (!block->state) return plant_rest_at(stand, block, particle, l);
+    if (!block->state) return dp_plant_rest_at(stand, block, particle, l);
     const int at = particle * DP_LANES + l;
     return dp_vec3((double)block->state->at[0][at], (double)block->state->at[1][at],
                    (double)block->state->at[2][at]);
@@ -165,7 +165,7 @@ static bool swings(const PlantStand* stand, const PlantBlock* block, int stem, i
 
 static double low_of(const Stem* stem, double tall)
 {
-    return dp_clamp(1.0 - stem_high(stem) / tall, 0.0, 1.0);
+    return dp_clamp(1.0 - dp_stem_high(stem) / tall, 0.0, 1.0);
 }
 
 static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell, double tall,
@@ -184,26 +184,26 @@ static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell
         return look;
     }
     const double down = look.share * cell->down,
-                 turns = free ? 0.0 : stem_smooth(TURNS, 1.0, share / look.share);
+                 turns = free ? 0.0 : dp_stem_smooth(TURNS, 1.0, share / look.share);
     look.as_it_is = false;
     if (was_laid) {
         const Stem was = recall(kept, own, stem, l);
         const Stem laid =
-            stem_unfolded(&was, UNFOLDS * stem_smooth(0.0, 1.0, 1.0 - share / look.share));
-        const double up = stem_risen_by(&laid, own, (1.0 - down) * tall);
-        const double more = fmax(turns, 1.0 - stem_smooth(0.0, SLIGHT, down));
-        look.shown = stem_risen(&laid, own, up + (1.0 - up) * more);
+            dp_stem_unfolded(&was, UNFOLDS * dp_stem_smooth(0.0, 1.0, 1.0 - share / look.share));
+        const double up = dp_stem_risen_by(&laid, own, (1.0 - down) * tall);
+        const double more = fmax(turns, 1.0 - dp_stem_smooth(0.0, SLIGHT, down));
+        look.shown = dp_stem_risen(&laid, own, up + (1.0 - up) * more);
     } else {
         look.shown =
-            stem_bent(own, cell->lean, stem_bent_by(own, cell->lean, down) * (1.0 - turns));
+            dp_stem_bent(own, cell->lean, dp_stem_bent_by(own, cell->lean, down) * (1.0 - turns));
     }
     return look;
 }
 
 static LeanStem cell_of(const DpLaid* laid, const PlantBlock* block, const Stem* stem)
 {
-    return lean_stem_at(laid->lean, block->origin[0] + stem->foot.x,
-                        block->origin[1] + stem->foot.y);
+    return dp_lean_stem_at(laid->lean, block->origin[0] + stem->foot.x,
+                           block->origin[1] + stem->foot.y);
 }
 
 static bool step_block(DpLaid* laid, const PlantStand* stand, const PlantBlock* block,
@@ -261,7 +261,8 @@ static void put_down(const Stem* stem, const PlantBlock* block, const DpPlantGro
         DpVec3       to = dp_add(at, stem->way[k]);
         along += length;
         for (int pass = 0; pass < PASSES; ++pass) {
-            const double least = plant_floor_at(block, ground, l, to.x, to.y) + fmin(lift, along);
+            const double least =
+                dp_plant_floor_at(block, ground, l, to.x, to.y) + fmin(lift, along);
             if (to.z >= least) break;
             to.z = least;
             if (pass + 1 == PASSES) break;
@@ -278,7 +279,7 @@ static void put_down(const Stem* stem, const PlantBlock* block, const DpPlantGro
 DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand_name, int plant,
                       float* position)
 {
-    if (!laid || !position || !plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
+    if (!laid || !position || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
     const DpStatus status = dp_plants_read(laid->plants, stand_name, plant, position, NULL, NULL);
     if (status != DP_OK) return status;
     const PlantStand* stand = &laid->plants->stand[stand_name];
@@ -286,7 +287,7 @@ DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand
     const PlantBlock* block = &stand->block[slot / DP_LANES];
     const LaidBlock*  kept =
         stand_name < laid->stands ? laid->stand[stand_name][slot / DP_LANES] : NULL;
-    const uint64_t name = plant_name(block->root[0][l], block->root[1][l]);
+    const uint64_t name = dp_plant_name(block->root[0][l], block->root[1][l]);
     for (int stem = 0; stem < stand->shape.stems; ++stem) {
         const Stem     foot = {.foot = particle_at(stand, block, stem * rows + 1, l)};
         const LeanStem cell = cell_of(laid, block, &foot);
@@ -295,7 +296,8 @@ DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand
         const Look look = look_at(&own, kept, &cell, rest_high(stand, stem),
                                   swings(stand, block, stem, l), stem, l);
         if (look.as_it_is) continue;
-        const float chance = (float)plant_hash(laid->plants->seed, name, LIFT_OF + (uint64_t)stem);
+        const float chance =
+            (float)dp_plant_hash(laid->plants->seed, name, LIFT_OF + (uint64_t)stem);
         const float lift = (LIFT_LEAST + (1.0f - LIFT_LEAST) * chance) * stand->kind.radius;
         put_down(&look.shown, block, ground, l, (double)lift,
                  position + 3 * (stem * rows + DP_PLANT_HELD));

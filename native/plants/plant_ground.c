@@ -19,7 +19,7 @@ static bool piece_ok(const DpPlantGround* g)
            g->cell < 1e6 && fabs(g->x0) < 1e9 && fabs(g->y0) < 1e9;
 }
 
-bool plant_ground_ok(const DpPlantGround* ground)
+bool dp_plant_ground_ok(const DpPlantGround* ground)
 {
     bool ok = true;
     for (; ground && ok; ground = ground->next) ok = piece_ok(ground);
@@ -41,7 +41,7 @@ static double grid_at(const DpPlantGround* ground, double x, double y)
            b * ((1.0 - a) * (double)high[i] + a * (double)high[i1]);
 }
 
-double plant_ground_at(const DpPlantGround* ground, double x, double y)
+double dp_plant_ground_at(const DpPlantGround* ground, double x, double y)
 {
     double height = NAN;
     for (; ground && !isfinite(height); ground = ground->next)
@@ -49,10 +49,10 @@ double plant_ground_at(const DpPlantGround* ground, double x, double y)
     return height;
 }
 
-double plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int l, double x,
-                      double y)
+double dp_plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int l, double x,
+                         double y)
 {
-    const double height = plant_ground_at(ground, x, y);
+    const double height = dp_plant_ground_at(ground, x, y);
     if (isfinite(height)) return height;
     return (double)block->root[2][l] +
            (double)block->slope[0][l] * (x - (double)block->root[0][l]) +
@@ -135,8 +135,8 @@ static double around(const PlantStand* stand)
     return (double)(stand->extent + stand->kind.radius);
 }
 
-void plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
-                       int l)
+void dp_plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                          int l)
 {
     const double x = (double)block->root[0][l], y = (double)block->root[1][l];
     if (block->ceiling[l] > -INFINITY) return;
@@ -146,8 +146,8 @@ void plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlant
 
 // ---- plants on it ----------------------------------------------------------------------------
 
-bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
-                       int l)
+bool dp_plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                          int l)
 {
     const double x = (double)block->root[0][l], y = (double)block->root[1][l];
     const Square square = look_around(ground, x, y, around(stand));
@@ -157,15 +157,15 @@ bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlant
         *ceiling = square.highest;
     else if (*ceiling > -INFINITY)  // the rest is as it was
         *ceiling = fmaxf(*ceiling, square.highest);
-    const double height = plant_ground_at(ground, x, y);
+    const double height = dp_plant_ground_at(ground, x, y);
     if (!isfinite(height)) return true;
     const double d = fmax(ground->cell, 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth));
     block->root[2][l] = (float)height;
     block->foot[2][l] = (float)(height - block->origin[2]);
     for (int k = 0; k < 2; ++k) {
         const double dx = k ? 0.0 : d, dy = k ? d : 0.0;
-        const double lower = plant_ground_at(ground, x - dx, y - dy);
-        const double upper = plant_ground_at(ground, x + dx, y + dy);
+        const double lower = dp_plant_ground_at(ground, x - dx, y - dy);
+        const double upper = dp_plant_ground_at(ground, x + dx, y + dy);
         double       slope = (upper - lower) / (2.0 * d);
         if (!isfinite(slope)) slope = isfinite(upper) ? (upper - height) / d : (height - lower) / d;
         if (!isfinite(slope)) slope = 0.0;
@@ -182,7 +182,7 @@ static bool lies_still(const PlantState* state, int k)
            state->at[2][k] >= state->floor[k];
 }
 
-void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
+void dp_plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground)
 {
     const int    rows = stand->shape.rows;
     float* const z = block->state->at[2];
@@ -196,7 +196,7 @@ void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlan
                 if (!block->told_lane[l] && lies_still(block->state, k)) continue;
                 const double x = block->origin[0] + (double)block->state->at[0][k];
                 const double y = block->origin[1] + (double)block->state->at[1][k];
-                height = plant_ground_at(ground, x, y);
+                height = dp_plant_ground_at(ground, x, y);
                 for (int d = 0; d < 2; ++d) block->state->seen[d][k] = block->state->at[d][k];
             }
             block->state->floor[k] =

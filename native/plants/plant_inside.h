@@ -11,6 +11,7 @@
 #define DP_PLANT_HELD 2         // rows held by the ground
 #define DP_SUBSTEP (1.0 / 480)  // longest sub-step [s]
 #define DP_SUBSTEPS_MOST 64
+#define DP_PLANT_MAX_ROWS 64
 #define DP_STRETCH_MOST 1.05f  // no stem is longer
 #define DP_NO_FLOOR -1e30f     // not seen yet: the plane a plant stands on
 #define DP_SPEED_MOST 6.0f     // of a particle [m/s]
@@ -97,57 +98,43 @@ struct DpPlants
     size_t            side_room;
 };
 
+// ---- plant_kind.c
+
+// speed over distance of a stem on its way back to its rest shape: it swings, or creeps if
+// overdamped [1/s]
+double dp_plant_return_rate(const DpPlantKind* kind);
+// at which its swings die away, or it creeps [1/s]
+double dp_plant_rise_rate(const DpPlantKind* kind);
+
+// ---- plant_random.c
+
 // a number 0..1 from three names; the same on every machine
-double plant_hash(uint64_t seed, uint64_t a, uint64_t b);
+double dp_plant_hash(uint64_t seed, uint64_t a, uint64_t b);
 // what a plant is called by its root, whoever planted it with whatever others
-uint64_t plant_name(float x, float y);
+uint64_t dp_plant_name(float x, float y);
 // a number of mean 0 and deviation 1 that lies far out more often than a normal one: its density is
 // as exp(-sqrt(|z|)). |z| <= 8
-double plant_vigour(uint64_t seed, uint64_t a, uint64_t b);
+double dp_plant_vigour(uint64_t seed, uint64_t a, uint64_t b);
 
+// ---- plant_shape.c
+
+// rest shape, edges and limits of a stand, from its kind
+void dp_plant_shape_stand(PlantStand* stand);
 // rest position of a particle from the block's origin, at its present root
-DpVec3 plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int lane);
-// give a block its state, in the rest shape; false without memory
-bool plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
-// strength that came back while asleep
-void plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
-// strength of a bend that regained `gain` at rest
-double plant_rested(const PlantStand* stand, const PlantBlock* block, int bend, int lane,
-                    double gain);
-void   plant_limits(PlantStand* stand);
-// speed over distance of a stem on its way back to rest: it swings, or creeps if overdamped [1/s]
-double plant_return_rate(const DpPlantKind* kind);
-// at which its swings die away, or it creeps [1/s]
-double plant_rise_rate(const DpPlantKind* kind);
-// alpha_veg around a point, as far as plants grow again from
-float plant_cover_around(const DpPlants* plants, float x, float y);
-// One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
-typedef struct PlantStature
-{
-    float* height;  // [m]; NULL = all but `broken` are left out
-    float* rate;    // at which it swings up [1/s]
-    float* heal;    // at which it rises when its strength has to return first [1/s], <= rate
-    float* limp;    // share of height lost from which that is so
-    float* broken;  // share of bends that is broken
-} PlantStature;
-void plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out);
-void plant_count_broken(const PlantStand* stand, PlantBlock* block);
+DpVec3 dp_plant_rest_at(const PlantStand* stand, const PlantBlock* block, int particle, int lane);
 
-// stiffness of edges over a sub-step of h
-void plant_soften(const PlantStand* stand, float* soft, double h);
-// stiffness of bends over a sub-step of h, from strength (bends, lanes)
-void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h);
-// edges between stems: length at rest on the ground's slope, and 1 if they hold (edges, 2, lanes)
-void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length);
-// one sub-step. TRAIL (5)
-void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
-                   const float* length, float* before, const float* soft, double h);
-// no stem longer than DP_STRETCH_MOST
-void plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length);
-// speeds from where particles were; returns the largest squared speed
-float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);
-// TRAIL (6) for all bends
-void plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
+// ---- plant_sleep.c
+
+// give a block its state, in the rest shape; false without memory
+bool dp_plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
+void dp_plant_put_to_sleep(const DpPlants* plants, const PlantStand* stand, PlantBlock* block);
+// strength that came back while asleep
+void dp_plant_catch_up(const PlantStand* stand, PlantBlock* block, double seconds);
+// strength of a bend that regained `gain` while nothing bent it
+double dp_plant_recovered(const PlantStand* stand, const PlantBlock* block, int bend, int lane,
+                          double gain);
+
+// ---- plant_broadphase.c
 
 // A collider made ready: the way out to its side.
 typedef struct PlantPush
@@ -157,27 +144,82 @@ typedef struct PlantPush
     double                 x0, y0, z0, x1, y1, z1;  // swept box
 } PlantPush;
 
+bool dp_plant_collider_ok(const DpPlantCollider* collider);
+// the box that push->collider goes through in dt; false if it is nowhere
+bool dp_plant_sweep(PlantPush* push, double dt);
+// how far from its root a plant can be met [m]
+double dp_plant_span(const PlantStand* stand);
+// can any of the colliders, which may be far apart, meet a block whose roots lie within the box?
+bool dp_plant_meets_any(const float box[4], const PlantPush* push, int count, double span);
+// mark the plants that a collider can meet, as they are and as far as they move in a step of dt
+void dp_plant_touch(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
+                    double dt);
+
+// ---- plant_solve.c, TRAIL (5)
+
+// stiffness of edges over a sub-step of h
+void dp_plant_soften(const PlantStand* stand, float* soft, double h);
+// stiffness of bends over a sub-step of h, from strength (bends, lanes)
+void dp_plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h);
+// edges between stems: length at rest on the ground's slope, and 1 if they hold (edges, 2, lanes)
+void dp_plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length);
+// one sub-step. TRAIL (5)
+void dp_plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+                      const float* length, float* before, const float* soft, double h);
+// no stem longer than DP_STRETCH_MOST
+void dp_plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length);
+// speeds from where particles were; returns the largest squared speed
+float dp_plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);
+
+// ---- plant_push.c
+
 // push a block's plants out of the colliders, `left` seconds before the end of the step
-void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
-                      const DpPlantGround* ground, const float* before, double left, double h);
-// a root on the ground, the ground's slope there and its ceiling; false where no grid tells of it
-bool plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
-                       int lane);
-// a ceiling that is not known yet
-void plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
-                       int lane);
+void dp_plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push,
+                         int count, const DpPlantGround* ground, const float* before, double left,
+                         double h);
 // roots of a block on the ground, under soles
-void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
-                      const DpPlantGround* ground);
+void dp_plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push,
+                         int count, const DpPlantGround* ground);
+
+// ---- plant_ground.c
+
+// a root on the ground, the ground's slope there and its ceiling; false where no grid tells of it
+bool dp_plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                          int lane);
+// a ceiling that is not known yet
+void dp_plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground,
+                          int lane);
 // no particle below the ground
-void plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
+void dp_plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
+// can all pieces be read? NULL can
+bool dp_plant_ground_ok(const DpPlantGround* ground);
+// surface at a point; NaN off the ground
+double dp_plant_ground_at(const DpPlantGround* ground, double x, double y);
+// the same, or off the ground the plane a plant stands on
+double dp_plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int lane, double x,
+                         double y);
+
+// ---- plant_collide.c
+
 // fill the distances to the side of a sole (ny + 2, nx + 2)
 #define PLANT_SIDE_CELLS(sole) ((size_t)((sole)->nx + 2) * (size_t)((sole)->ny + 2))
-void plant_side_field(const DpPlantCollider* collider, float* out);
-// can all pieces be read? NULL can
-bool plant_ground_ok(const DpPlantGround* ground);
-// surface at a point; NaN off the ground
-double plant_ground_at(const DpPlantGround* ground, double x, double y);
-// the same, or off the ground the plane a plant stands on
-double plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int lane, double x,
-                      double y);
+void dp_plant_side_field(const DpPlantCollider* collider, float* out);
+
+// ---- plant_wear.c, TRAIL (6), and plant_cover.c
+
+// TRAIL (6) for all bends
+void dp_plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
+// alpha of every plant and what hangs limp, from the bends' strength
+void dp_plant_count_broken(const PlantStand* stand, PlantBlock* block);
+// alpha_veg around a point, as far as plants grow again from
+float dp_plant_cover_around(const DpPlants* plants, float x, float y);
+// One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
+typedef struct PlantStature
+{
+    float* height;  // [m]; NULL = all but `broken` are left out
+    float* rate;    // at which it swings up [1/s]
+    float* heal;    // at which it rises when its strength has to return first [1/s], <= rate
+    float* limp;    // share of height lost from which that is so
+    float* broken;  // share of bends that is broken
+} PlantStature;
+void dp_plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out);

@@ -34,7 +34,7 @@ void dp_lean_destroy(DpLean* lean)
 {
     if (!lean) return;
     for (int t = 0; t < lean->tiles; ++t) dp_free(lean->tile[t]);
-    for (int k = 0; k < lean->print_room; ++k) lean_drop_print(&lean->print[k]);
+    for (int k = 0; k < lean->print_room; ++k) dp_lean_drop_print(&lean->print[k]);
     dp_free(lean->tile), dp_free(lean->print), dp_free(lean);
 }
 
@@ -74,11 +74,11 @@ static void grow(const DpLean* lean, LeanTile* tile, int i0, int i1, int j0, int
     const int           at = j0 * DP_TILE + i0;
     const PlantStature  stature = {first ? tile->height + at : NULL, tile->rate + at,
                                   tile->heal + at, tile->limp + at, tile->stays + at};
-    plant_stature(lean->plants, &window, &stature);
+    dp_plant_stature(lean->plants, &window, &stature);
     for (size_t p = 0; first && p < CELLS; ++p) tile->healing = fmaxf(tile->healing, tile->heal[p]);
 }
 
-LeanTile* lean_touch(DpLean* lean, long tx, long ty)
+LeanTile* dp_lean_touch(DpLean* lean, long tx, long ty)
 {
     LeanTile* tile = find(lean, tx, ty);
     if (tile) return tile;
@@ -106,7 +106,7 @@ static void widen(LeanBox* box, int i, int j)
     box->j0 = none || j < box->j0 ? j : box->j0, box->j1 = none || j >= box->j1 ? j + 1 : box->j1;
 }
 
-void lean_may_move(LeanTile* tile, int i, int j)
+void dp_lean_may_move(LeanTile* tile, int i, int j)
 {
     widen(&tile->moves, i, j);
     widen(&tile->brisk, i, j);
@@ -141,7 +141,7 @@ static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
             const size_t p = (size_t)j * DP_TILE + (size_t)i;
             if (!(tile->crushed[p] > 0.0f)) continue;
             if (tile->held[p] == lean->step) {
-                lean_may_move(tile, i, j);
+                dp_lean_may_move(tile, i, j);
                 continue;
             }
             if (tile->crushed[p] > tile->limp[p]) {
@@ -159,7 +159,7 @@ static void rise_tile(const DpLean* lean, LeanTile* tile, double dt)
                 rate = tile->rate[p];
                 keep = (float)exp(-(double)rate * dt);
             }
-            if (rise(tile, p, keep)) lean_may_move(tile, i, j);
+            if (rise(tile, p, keep)) dp_lean_may_move(tile, i, j);
         }
     if (due) tile->waited = 0.0;
 }
@@ -169,11 +169,11 @@ DpStatus dp_lean_ready(DpLean* lean, const DpPlantCollider* colliders, int count
     if (!lean || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
     for (int k = 0; k < count; ++k) {
         if (!colliders[k].bottom) continue;
-        const LeanPrint at = lean_window(lean, &colliders[k]);
+        const LeanPrint at = dp_lean_window(lean, &colliders[k]);
         if (at.nx < 1) continue;
         for (long ty = lean_tile(at.j0); ty <= lean_tile(at.j0 + at.ny - 1); ++ty)
             for (long tx = lean_tile(at.i0); tx <= lean_tile(at.i0 + at.nx - 1); ++tx)
-                if (!lean_touch(lean, tx, ty)) return DP_NO_MEMORY;
+                if (!dp_lean_touch(lean, tx, ty)) return DP_NO_MEMORY;
     }
     return DP_OK;
 }
@@ -190,7 +190,7 @@ static DpStatus look(DpLean* lean, const DpPlantGround* ground, const DpPlantCol
     for (int k = 0; k < count; ++k) {
         if (!colliders[k].bottom) continue;
         const DpStatus status =
-            lean_look_at(lean, &lean->print[lean->prints], ground, &colliders[k]);
+            dp_lean_look_at(lean, &lean->print[lean->prints], ground, &colliders[k]);
         if (status != DP_OK) return status;
         ++lean->prints;
     }
@@ -200,12 +200,13 @@ static DpStatus look(DpLean* lean, const DpPlantGround* ground, const DpPlantCol
 DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
                       int count, double dt)
 {
-    if (!lean || count < 0 || (count > 0 && !colliders) || !(dt > 0.0) || !plant_ground_ok(ground))
+    if (!lean || count < 0 || (count > 0 && !colliders) || !(dt > 0.0) ||
+        !dp_plant_ground_ok(ground))
         return DP_BAD_ARGUMENT;
     ++lean->step;
     DpStatus status = look(lean, ground, colliders, count);
     for (int k = 0; k < lean->prints && status == DP_OK; ++k)
-        status = lean_press_print(lean, &lean->print[k], ground);
+        status = dp_lean_press_print(lean, &lean->print[k], ground);
     if (status != DP_OK) return status;
     for (int t = 0; t < lean->tiles; ++t)
         if (lean->tile[t]->moves.i0 < lean->tile[t]->moves.i1) rise_tile(lean, lean->tile[t], dt);
@@ -225,7 +226,7 @@ static void grow_box(const DpLean* lean, LeanTile* tile, const double box[4], bo
     if (from[0] >= to[0] || from[1] >= to[1]) return;
     grow(lean, tile, from[0], to[0], from[1], to[1], first);
     tile->changed = true;
-    lean_may_move(tile, from[0], from[1]), lean_may_move(tile, to[0] - 1, to[1] - 1);
+    dp_lean_may_move(tile, from[0], from[1]), dp_lean_may_move(tile, to[0] - 1, to[1] - 1);
 }
 
 void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1)
@@ -241,7 +242,7 @@ DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1)
     const long   tx1 = lean_tile(lean_cell(lean, 0, x1)), ty1 = lean_tile(lean_cell(lean, 1, y1));
     for (long ty = lean_tile(lean_cell(lean, 1, y0)); ty <= ty1; ++ty)
         for (long tx = lean_tile(lean_cell(lean, 0, x0)); tx <= tx1; ++tx) {
-            LeanTile* tile = lean_touch(lean, tx, ty);
+            LeanTile* tile = dp_lean_touch(lean, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             grow_box(lean, tile, box, false);
         }
@@ -271,7 +272,7 @@ void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* l
 }
 
 // Of `most`, the share `stays` is that of broken stems, the rest that of whole ones.
-LeanStem lean_stem_at(const DpLean* lean, double x, double y)
+LeanStem dp_lean_stem_at(const DpLean* lean, double x, double y)
 {
     const long      i = lean_cell(lean, 0, x), j = lean_cell(lean, 1, y);
     const LeanTile* tile = find(lean, lean_tile(i), lean_tile(j));

@@ -69,9 +69,9 @@ static inline long lean_tile(long cell)
 }
 
 // a tile, made if nobody touched it yet; NULL without memory
-LeanTile* lean_touch(DpLean* lean, long tx, long ty);
+LeanTile* dp_lean_touch(DpLean* lean, long tx, long ty);
 // a cell of a tile is not at rest
-void lean_may_move(LeanTile* tile, int i, int j);
+void dp_lean_may_move(LeanTile* tile, int i, int j);
 // How the whole stems of a cell lie; those that are broken lie by themselves.
 typedef struct LeanStem
 {
@@ -79,10 +79,10 @@ typedef struct LeanStem
     double lean[2];  // which way
     bool   pressed;  // a sole lies on it
 } LeanStem;
-LeanStem lean_stem_at(const DpLean* lean, double x, double y);
+LeanStem dp_lean_stem_at(const DpLean* lean, double x, double y);
 // plant_part.c: where a sole can meet grass; what it covers; then the grass under and beside it
-LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* sole);
-DpStatus  lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
-                       const DpPlantCollider* sole);
-DpStatus  lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground);
-void      lean_drop_print(LeanPrint* print);
+LeanPrint dp_lean_window(const DpLean* lean, const DpPlantCollider* sole);
+DpStatus  dp_lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
+                          const DpPlantCollider* sole);
+DpStatus  dp_lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground);
+void      dp_lean_drop_print(LeanPrint* print);

@@ -103,7 +103,7 @@ static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, do
     }
     tile->most[p] = fmaxf(tile->most[p], tile->crushed[p]);
     tile->held[p] = lean->step;
-    lean_may_move(tile, i, j);
+    dp_lean_may_move(tile, i, j);
 }
 
 // how far a cell lies inside the sole's edge, < 0 outside [cells]
@@ -126,7 +126,7 @@ static double ground_at(const DpLean* lean, const DpPlantGround* ground, long i,
             if (isfinite(height)) return (double)height;
         }
     }
-    return plant_ground_at(ground, x, y);
+    return dp_plant_ground_at(ground, x, y);
 }
 
 // a stem beside a sole leans away from its edge, the less the farther it stands
@@ -203,18 +203,18 @@ static bool make_room(LeanPrint* print)
 {
     const size_t cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
     if (cells <= print->room) return true;
-    lean_drop_print(print);
+    dp_lean_drop_print(print);
     print->room = cells + cells / 4;
     print->across = dp_alloc(print->room, sizeof(int32_t));
     print->up = dp_alloc(print->room, sizeof(int32_t));
     print->bottom = dp_alloc(print->room, sizeof(float));
     print->under = dp_alloc(print->room, 1);
     if (print->across && print->up && print->bottom && print->under) return true;
-    lean_drop_print(print);
+    dp_lean_drop_print(print);
     return false;
 }
 
-void lean_drop_print(LeanPrint* print)
+void dp_lean_drop_print(LeanPrint* print)
 {
     dp_free(print->across), dp_free(print->up), dp_free(print->bottom), dp_free(print->under);
     print->across = print->up = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
@@ -265,7 +265,7 @@ static double margin_of(const DpLean* lean)
     return fmin(PARTED * plants_tallest(lean->plants), PARTED_MOST) + 2.0 * lean->cell;
 }
 
-LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* c)
+LeanPrint dp_lean_window(const DpLean* lean, const DpPlantCollider* c)
 {
     const double margin = margin_of(lean);
     LeanPrint    print = {.sole = c};
@@ -278,10 +278,10 @@ LeanPrint lean_window(const DpLean* lean, const DpPlantCollider* c)
     return print;
 }
 
-DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
-                      const DpPlantCollider* c)
+DpStatus dp_lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
+                         const DpPlantCollider* c)
 {
-    const LeanPrint window = lean_window(lean, c);
+    const LeanPrint window = dp_lean_window(lean, c);
     print->sole = c;
     print->i0 = window.i0, print->j0 = window.j0, print->nx = window.nx, print->ny = window.ny;
     if (print->nx < 1) return DP_OK;
@@ -296,7 +296,7 @@ DpStatus lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround*
     return room ? DP_OK : DP_NO_MEMORY;
 }
 
-DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground)
+DpStatus dp_lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground)
 {
     const int nx = print->nx, ny = print->ny;
     if (nx < 1 || ny < 1) return DP_OK;
@@ -304,7 +304,7 @@ DpStatus lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGro
         (margin_of(lean) - 1.5 * lean->cell) / lean->cell;  // nothing is parted there
     for (long ty = lean_tile(print->j0); ty <= lean_tile(print->j0 + ny - 1); ++ty)
         for (long tx = lean_tile(print->i0); tx <= lean_tile(print->i0 + nx - 1); ++tx) {
-            LeanTile* tile = lean_touch(lean, tx, ty);
+            LeanTile* tile = dp_lean_touch(lean, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             const long from_i = tx * DP_TILE - print->i0, from_j = ty * DP_TILE - print->j0;
             for (int j = from_j > 0 ? (int)from_j : 0; j < ny && j < from_j + DP_TILE; ++j)

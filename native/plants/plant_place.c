@@ -68,7 +68,7 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
     }
     // what is wanted of a fraction of a plant is left to chance
     const int    given = *count;
-    const double wanted = floor(area * density * mean + plant_hash(seed, 0, 3));
+    const double wanted = floor(area * density * mean + dp_plant_hash(seed, 0, 3));
     const int    goal = wanted < most - given ? given + (int)wanted : most;
     if (goal == given) return DP_OK;
 
@@ -81,9 +81,9 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
     for (int k = 0; field.first && field.next && k < given; ++k)
         put(&field, k, (double)root[2 * k], (double)root[2 * k + 1]);
     for (uint64_t k = 0; field.first && field.next && *count < goal && (double)k < darts; ++k) {
-        const double u = plant_hash(seed, k, 0), v = plant_hash(seed, k, 1);
+        const double u = dp_plant_hash(seed, k, 0), v = dp_plant_hash(seed, k, 1);
         const double want = weight_at(weight, wx, wy, u, v);
-        if (!(plant_hash(seed, k, 2) < want)) continue;
+        if (!(dp_plant_hash(seed, k, 2) < want)) continue;
         const float  x = (float)(x0 + u * (x1 - x0)), y = (float)(y0 + v * (y1 - y0));
         const double near = apart / sqrt(fmax(want, THINNEST));
         if (!has_room(&field, root, (double)x, (double)y, near)) continue;

@@ -10,7 +10,7 @@
 // ground is asked for in the last sub-step; until then the one of the step before holds.
 #include "base/wide.h"
 
-#include "plants/plant_clear.h"
+#include "plants/plant_collide.h"
 
 #define ROW_PASSES 4
 #define SWEPT_MOST 16    // soles; where more are near, every particle is looked at
@@ -53,14 +53,14 @@ static DpVec3 settle(const PlantProbe* probe, DpVec3 p, DpVec3 below, double mos
         const double length = dp_length(arm);
         if (length > most) p = dp_add(below, dp_scale(arm, most / length));
         const DpVec3 was = p;
-        plant_clear(probe, &p, &by);
+        dp_plant_clear(probe, &p, &by);
         if (dp_length(dp_sub(p, was)) <= 0.0) return p;
         if (dp_length(dp_sub(p, below)) <= most * (double)(DP_STRETCH_MOST / LAST_WORD)) return p;
     }
     // halfway, and again: beside the particle below there is room
     for (double share = 0.5; share > 0.01; share *= 0.5) {
         DpVec3 q = dp_add(below, dp_scale(dp_sub(p, below), share));
-        plant_clear(probe, &q, &by);
+        dp_plant_clear(probe, &q, &by);
         if (dp_length(dp_sub(q, below)) <= most) return q;
     }
     return below;
@@ -72,12 +72,12 @@ static void push_one(const PlantProbe* probe, int k, DpVec3 before, DpVec3 below
 {
     const DpPlantCollider* by = NULL;
     DpVec3                 p = get(probe->block, k);
-    const double           pushed = plant_clear(probe, &p, &by);
+    const double           pushed = dp_plant_clear(probe, &p, &by);
     if (by) {
         PlantProbe down = *probe;
         down.only_down = true;
         rub(by, &p, before, pushed, h);
-        plant_clear(&down, &p, &by);  // where it was taken to, the sole may be lower
+        dp_plant_clear(&down, &p, &by);  // where it was taken to, the sole may be lower
     }
     const DpVec3 arm = dp_sub(p, below);
     if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
@@ -172,7 +172,7 @@ static void shrink_row(const PlantStand* stand, const PlantProbe* probe, int fir
             const DpVec3 below = get(probe->block, k - DP_LANES);
             const DpVec3 arm = dp_sub(get(probe->block, k), below);
             DpVec3       p = dp_add(below, dp_scale(arm, share));
-            if (share > 0.0) plant_clear(probe, &p, &by);
+            if (share > 0.0) dp_plant_clear(probe, &p, &by);
             put(probe->block, k, p);
         }
         if (!(share > 0.0)) return;
@@ -277,8 +277,9 @@ static void push_row(const PlantStand* stand, PlantBlock* block, const PlantProb
     if (torn) shrink_row(stand, probe, first);
 }
 
-void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
-                      const DpPlantGround* ground, const float* before, double left, double h)
+void dp_plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push,
+                         int count, const DpPlantGround* ground, const float* before, double left,
+                         double h)
 {
     const DpPlantShape shape = stand->shape;
     const bool         last = !(left > 0.5 * h);
@@ -305,22 +306,23 @@ void plant_push_block(const PlantStand* stand, PlantBlock* block, const PlantPus
         }
 }
 
-void plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push, int count,
-                      const DpPlantGround* ground)
+void dp_plant_hold_block(const PlantStand* stand, PlantBlock* block, const PlantPush* push,
+                         int count, const DpPlantGround* ground)
 {
     const DpPlantShape shape = stand->shape;
     for (int l = 0; l < DP_LANES; ++l) {
-        const bool known = plant_ground_lane(stand, block, ground, l);
-        plant_ask_ceiling(stand, block, ground, l);
+        const bool known = dp_plant_ground_lane(stand, block, ground, l);
+        dp_plant_ask_ceiling(stand, block, ground, l);
         block->told_lane[l] = known;
         if (!known && !block->touched_lane[l]) continue;  // it stands as it stood
         const PlantProbe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {
             const int root = stem * shape.rows;
-            DpVec3    foot = plant_rest_at(stand, block, root + 1, l);
+            DpVec3    foot = dp_plant_rest_at(stand, block, root + 1, l);
             foot = world(block, foot.x, foot.y, foot.z);
-            foot.z = plant_ground_below(&probe, foot.x, foot.y);
-            if (block->touched_lane[l]) foot.z = fmin(foot.z, plant_sole_over(&probe, &foot, NULL));
+            foot.z = dp_plant_ground_below(&probe, foot.x, foot.y);
+            if (block->touched_lane[l])
+                foot.z = fmin(foot.z, dp_plant_sole_over(&probe, &foot, NULL));
             put(block, (root + 1) * DP_LANES + l, foot);
             foot.z -= (double)stand->gap;
             put(block, root * DP_LANES + l, foot);

@@ -13,8 +13,8 @@ static void lift_out(const PlantStand* stand, const PlantBlock* block, const DpP
         const double own = block->origin[2] + (double)block->state->at[2][k];
         if (p % stand->shape.rows < DP_PLANT_HELD || own > (double)block->ceiling[l]) continue;
         const double height =
-            plant_ground_at(ground, block->origin[0] + (double)block->state->at[0][k],
-                            block->origin[1] + (double)block->state->at[1][k]);
+            dp_plant_ground_at(ground, block->origin[0] + (double)block->state->at[0][k],
+                               block->origin[1] + (double)block->state->at[1][k]);
         if (own < height) block->state->at[2][k] = (float)(height - block->origin[2]);
     }
 }
@@ -39,12 +39,12 @@ static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantG
                     continue;
                 }
                 PlantBlock was = *block;
-                plant_ground_lane(stand, block, ground, l);
+                dp_plant_ground_lane(stand, block, ground, l);
                 if (!block->state) continue;
                 for (int p = 0; p < stand->shape.particles; ++p)  // a sleeper rises and sinks whole
                     block->state->at[2][p * DP_LANES + l] +=
-                        (float)(plant_rest_at(stand, block, p, l).z -
-                                plant_rest_at(stand, &was, p, l).z);
+                        (float)(dp_plant_rest_at(stand, block, p, l).z -
+                                dp_plant_rest_at(stand, &was, p, l).z);
                 if (piece->rose) lift_out(stand, block, ground, l);
             }
         }
@@ -53,7 +53,7 @@ static void follow(DpPlants* plants, const DpPlantGround* ground, const DpPlantG
 
 DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
 {
-    if (!plants || !ground || !plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
+    if (!plants || !ground || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
     for (const DpPlantGround* piece = ground; piece; piece = piece->next)
         if (!piece->at) follow(plants, ground, piece);
     return DP_OK;
@@ -108,7 +108,7 @@ DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float
     for (int p = 0; p < stand->shape.particles; ++p)
         for (int d = 0; d < 3; ++d) {
             const int    at = p * DP_LANES + lane;
-            const DpVec3 rest = plant_rest_at(stand, block, p, lane);
+            const DpVec3 rest = dp_plant_rest_at(stand, block, p, lane);
             const double still = d == 0 ? rest.x : d == 1 ? rest.y : rest.z;
             const double from = block->state ? (double)block->state->at[d][at] : still;
             if (position) position[3 * p + d] = (float)(block->origin[d] + from);
@@ -118,7 +118,7 @@ DpStatus dp_plants_read(const DpPlants* plants, int stand_name, int plant, float
     for (int b = 0; strength && b < stand->shape.bends; ++b) {
         const double gain = (double)stand->kind.recover_rate * slept;
         const double now =
-            block->state ? plant_rested(stand, block, b, lane, gain) : block->reserve[lane];
+            block->state ? dp_plant_recovered(stand, block, b, lane, gain) : block->reserve[lane];
         strength[b] = now;
     }
     return DP_OK;
@@ -138,7 +138,7 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
     for (int b = 0; strength && b < stand->shape.bends; ++b)
         if (!(strength[b] >= 0.0 && strength[b] <= 1.000001 * block->reserve[lane]))
             return DP_BAD_ARGUMENT;
-    if (!plant_wake(plants, stand, block)) return DP_NO_MEMORY;
+    if (!dp_plant_wake(plants, stand, block)) return DP_NO_MEMORY;
     stand->up[block - stand->block] = 1;
     for (int p = 0; p < stand->shape.particles; ++p)
         for (int d = 0; d < 3; ++d) {
@@ -149,7 +149,7 @@ DpStatus dp_plants_write(DpPlants* plants, int stand_name, int plant, const floa
         }
     for (int b = 0; strength && b < stand->shape.bends; ++b)
         block->state->strength[b * DP_LANES + lane] = fmin(strength[b], block->reserve[lane]);
-    plant_count_broken(stand, block);
+    dp_plant_count_broken(stand, block);
     return DP_OK;
 }
 

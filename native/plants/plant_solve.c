@@ -104,7 +104,7 @@ INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
 }
 
 // stiffness of edges over a sub-step: how much of a correction is made
-void plant_soften(const PlantStand* stand, float* soft, double h)
+void dp_plant_soften(const PlantStand* stand, float* soft, double h)
 {
     for (int e = 0; e < stand->edges; ++e) {
         const PlantEdge* edge = &stand->edge[e];
@@ -317,28 +317,28 @@ static float speeds_of(const PlantStand* stand, PlantBlock* block, const float* 
 
 // ---- the door of this file: loaders pick the build of static functions only
 
-void plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
+void dp_plant_prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
 {
     prepare(stand, block, give, h);
 }
 
-void plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
+void dp_plant_lengths(const PlantStand* stand, const PlantBlock* block, float* length)
 {
     lengths_of_edges(stand, block, length);
 }
 
-void plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
-                   const float* length, float* before, const float* soft, double h)
+void dp_plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
+                      const float* length, float* before, const float* soft, double h)
 {
     substep(stand, block, give, length, before, soft, h);
 }
 
-void plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length)
+void dp_plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length)
 {
     shorten(stand, block, length);
 }
 
-float plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)
+float dp_plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h)
 {
     return speeds_of(stand, block, before, h);
 }

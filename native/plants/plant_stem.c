@@ -9,7 +9,7 @@
 #define FOOT_STIFF 1.5  // a stem bends less at its foot
 #define TIP_SLACK 0.75  // and more at its tip
 
-double stem_high(const Stem* stem)
+double dp_stem_high(const Stem* stem)
 {
     double at = 0.0, most = 0.0;
     for (int k = 0; k < stem->pieces; ++k) {
@@ -25,7 +25,7 @@ static DpVec3 between(DpVec3 a, DpVec3 b, double share)
     return dp_add(dp_scale(a, 1.0 - share), dp_scale(b, share));
 }
 
-Stem stem_risen(const Stem* laid, const Stem* own, double share)
+Stem dp_stem_risen(const Stem* laid, const Stem* own, double share)
 {
     Stem out = *own;
     for (int k = 0; k < own->pieces; ++k) {
@@ -36,7 +36,7 @@ Stem stem_risen(const Stem* laid, const Stem* own, double share)
     return out;
 }
 
-Stem stem_bent(const Stem* own, const double lean[2], double share)
+Stem dp_stem_bent(const Stem* own, const double lean[2], double share)
 {
     Stem         out = *own;
     const double size = sqrt(lean[0] * lean[0] + lean[1] * lean[1]);
@@ -51,29 +51,29 @@ Stem stem_bent(const Stem* own, const double lean[2], double share)
     return out;
 }
 
-double stem_smooth(double from, double to, double at)
+double dp_stem_smooth(double from, double to, double at)
 {
     const double x = dp_clamp((at - from) / (to - from), 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
 }
 
-Stem stem_unfolded(const Stem* stem, double share)
+Stem dp_stem_unfolded(const Stem* stem, double share)
 {
     Stem         out = *stem;
     DpVec3       sum = dp_vec3(0, 0, 0);
     double       length = 0.0;
-    const double most = stem_high(stem);
+    const double most = dp_stem_high(stem);
     for (int k = 0; k < stem->pieces; ++k) {
         sum = dp_add(sum, stem->way[k]);
         length += dp_length(stem->way[k]);
     }
-    share *= length > 0.0 ? stem_smooth(0.2, 0.6, dp_length(sum) / length) : 0.0;
+    share *= length > 0.0 ? dp_stem_smooth(0.2, 0.6, dp_length(sum) / length) : 0.0;
     for (int k = 0; k < stem->pieces; ++k) {
         const DpVec3 way = between(dp_unit(stem->way[k]), dp_unit(sum), share);
         if (dp_length(way) > 1e-6) out.way[k] = dp_scale(dp_unit(way), dp_length(stem->way[k]));
     }
-    for (int pass = 0; pass < FLATTENINGS && stem_high(&out) > most; ++pass) {
-        const double lost = 1.0 - most / stem_high(&out);
+    for (int pass = 0; pass < FLATTENINGS && dp_stem_high(&out) > most; ++pass) {
+        const double lost = 1.0 - most / dp_stem_high(&out);
         for (int k = 0; k < stem->pieces; ++k) {
             DpVec3 way = out.way[k];
             way.z -= lost * (way.z - stem->slope[0] * way.x - stem->slope[1] * way.y);
@@ -83,13 +83,13 @@ Stem stem_unfolded(const Stem* stem, double share)
     return out;
 }
 
-double stem_risen_by(const Stem* laid, const Stem* own, double height)
+double dp_stem_risen_by(const Stem* laid, const Stem* own, double height)
 {
     double low = 0.0, top = 1.0;
-    for (int k = 0; k < HALVINGS && stem_high(laid) < height; ++k) {
+    for (int k = 0; k < HALVINGS && dp_stem_high(laid) < height; ++k) {
         const double share = 0.5 * (low + top);
-        const Stem   stem = stem_risen(laid, own, share);
-        if (stem_high(&stem) > height)
+        const Stem   stem = dp_stem_risen(laid, own, share);
+        if (dp_stem_high(&stem) > height)
             top = share;
         else
             low = share;
@@ -97,15 +97,15 @@ double stem_risen_by(const Stem* laid, const Stem* own, double height)
     return low;
 }
 
-double stem_bent_by(const Stem* own, const double lean[2], double lost)
+double dp_stem_bent_by(const Stem* own, const double lean[2], double lost)
 {
     Stem   straight = {.pieces = own->pieces};
     double low = 0.0, top = 1.0;
     for (int k = 0; k < own->pieces; ++k) straight.way[k].z = 1.0;
     for (int k = 0; k < HALVINGS; ++k) {
         const double share = 0.5 * (low + top);
-        const Stem   stem = stem_bent(&straight, lean, share);
-        if (stem_high(&stem) > (1.0 - lost) * own->pieces)
+        const Stem   stem = dp_stem_bent(&straight, lean, share);
+        if (dp_stem_high(&stem) > (1.0 - lost) * own->pieces)
             low = share;
         else
             top = share;

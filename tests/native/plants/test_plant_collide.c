@@ -1,5 +1,5 @@
 // A particle comes out of a sole by the shorter way, or stays between it and the ground.
-#include "plants/plant_clear.h"
+#include "plants/plant_collide.h"
 
 #include "lawn.h"
 
@@ -37,7 +37,7 @@ TEST(sides_are_as_far_as_they_are)
     float           bottom[SIDE * SIDE], out[(SIDE + 2) * (SIDE + 2)];
     DpPlantCollider sole = square(bottom, 0.02f);
     CHECK(PLANT_SIDE_CELLS(&sole) == (SIDE + 2) * (SIDE + 2));
-    plant_side_field(&sole, out);
+    dp_plant_side_field(&sole, out);
     for (int j = -1; j <= SIDE; ++j)
         for (int i = -1; i <= SIDE; ++i) {
             const int in = 6 - (abs(i - 10) > abs(j - 10) ? abs(i - 10) : abs(j - 10));
@@ -45,7 +45,7 @@ TEST(sides_are_as_far_as_they_are)
         }
     // a sole that fills its grid ends with it
     for (int k = 0; k < SIDE * SIDE; ++k) bottom[k] = 0.0f;
-    plant_side_field(&sole, out);
+    dp_plant_side_field(&sole, out);
     CHECK_NEAR(out[(SIDE + 2) + 1], CELL, 1e-6);
     CHECK_NEAR(out[11 * (SIDE + 2) + 11], 11 * CELL, 1e-6);
 }
@@ -55,34 +55,34 @@ TEST(out_by_the_shorter_way)
     float            bottom[SIDE * SIDE], out[(SIDE + 2) * (SIDE + 2)];
     DpPlantCollider  sole = square(bottom, 0.02f);
     const PlantBlock block = on_level_ground();
-    plant_side_field(&sole, out);
+    dp_plant_side_field(&sole, out);
     const PlantPush  push = {&sole, out, -0.055, -0.055, 0.02, 0.055, 0.055, 0.12};
     const PlantProbe probe = {&push, 1, NULL, &block, 0, 0.005, 0.0, false};
 
     const DpPlantCollider* by = NULL;
     DpVec3                 p = {0.05, 0.0, 0.09};  // 7 cm over its underside, 1 cm from its side
-    CHECK(plant_clear(&probe, &p, &by) > 0.0 && by == &sole);
+    CHECK(dp_plant_clear(&probe, &p, &by) > 0.0 && by == &sole);
     CHECK_NEAR(p.z, 0.09, 1e-12);
     CHECK(p.x > 0.055 && p.x < 0.075 && fabs(p.y) < 1e-9);
 
     p = dp_vec3(0.0, 0.0, 0.03);  // 1 cm over its underside, in the middle
-    plant_clear(&probe, &p, &by);
+    dp_plant_clear(&probe, &p, &by);
     CHECK_NEAR(p.x, 0.0, 1e-12);
     CHECK(p.z <= 0.02 && p.z >= 0.0);  // down, as far as there is room for its radius
 
     PlantProbe down = probe;
     down.only_down = true;
     p = dp_vec3(0.05, 0.0, 0.09);
-    plant_clear(&down, &p, &by);
+    dp_plant_clear(&down, &p, &by);
     CHECK_NEAR(p.x, 0.05, 1e-12);
     CHECK(p.z <= 0.02);
 
     by = NULL;
     p = dp_vec3(0.2, 0.0, 0.01);  // beside the sole nothing happens
-    CHECK(!(plant_clear(&probe, &p, &by) > 0.0) && !by);
+    CHECK(!(dp_plant_clear(&probe, &p, &by) > 0.0) && !by);
     CHECK_NEAR(p.z, 0.01, 1e-12);
     p.z = -0.01;  // but nobody stays in the ground
-    plant_clear(&probe, &p, &by);
+    dp_plant_clear(&probe, &p, &by);
     CHECK_NEAR(p.z, 0.0, 1e-12);
 }
 
@@ -98,10 +98,10 @@ TEST(a_moving_sole_is_met_where_it_is)
     PlantProbe       before = now;
     before.left = 0.1;
     const DpVec3 here = {0.0, 0.0, 0.05}, there = {-0.1, 0.0, 0.05};
-    CHECK(isfinite(plant_sole_over(&now, &here, NULL)));
-    CHECK(!isfinite(plant_sole_over(&now, &there, NULL)));
-    CHECK(!isfinite(plant_sole_over(&before, &here, NULL)));
-    CHECK(isfinite(plant_sole_over(&before, &there, NULL)));
+    CHECK(isfinite(dp_plant_sole_over(&now, &here, NULL)));
+    CHECK(!isfinite(dp_plant_sole_over(&now, &there, NULL)));
+    CHECK(!isfinite(dp_plant_sole_over(&before, &here, NULL)));
+    CHECK(isfinite(dp_plant_sole_over(&before, &there, NULL)));
 }
 
 int main(void)

@@ -48,13 +48,8 @@ TEST(limp_stems_lie_still_over_a_rim)
 TEST(stems_stand_upright_on_both_sides_of_an_edge)
 {
     float               height[41 * 41];  // a print's edge: 2 cm down within one cell
-    const DpPlantGround ground = {.nx = 41,
-                                  .ny = 41,
-                                  .row = 41,
-                                  .cell = CELL,
-                                  .x0 = -0.205,
-                                  .y0 = -0.2,
-                                  .height = height};
+    const DpPlantGround ground = {
+        .nx = 41, .ny = 41, .row = 41, .cell = CELL, .x0 = -0.205, .y0 = -0.2, .height = height};
     for (int k = 0; k < 41 * 41; ++k) height[k] = k % 41 > 20 ? -0.02f : 0.0f;
     for (int form = 0; form < 2; ++form) {
         DpPlantKind kind = dp_plant_kind_default();

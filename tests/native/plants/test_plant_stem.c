@@ -35,11 +35,11 @@ static void check_lengths(const Stem* stem)
 TEST(heights_are_over_the_slope)
 {
     Stem stem = upright(0.5);
-    CHECK_CLOSE(stem_high(&stem), 0.12, 1e-12);
+    CHECK_CLOSE(dp_stem_high(&stem), 0.12, 1e-12);
     for (int k = 0; k < PIECES; ++k) stem.way[k] = dp_vec3(0.02, 0.0, 0.01);
-    CHECK_NEAR(stem_high(&stem), 0.0, 1e-12);
+    CHECK_NEAR(dp_stem_high(&stem), 0.0, 1e-12);
     for (int k = 0; k < PIECES; ++k) stem.way[k] = dp_vec3(0.0, 0.0, k < 3 ? 0.02 : -0.02);
-    CHECK_CLOSE(stem_high(&stem), 0.06, 1e-12);  // its highest point, not its tip
+    CHECK_CLOSE(dp_stem_high(&stem), 0.06, 1e-12);  // its highest point, not its tip
 }
 
 TEST(a_bent_stem_loses_what_it_is_told_to)
@@ -48,46 +48,46 @@ TEST(a_bent_stem_loses_what_it_is_told_to)
     for (int k = 0; k <= 10; ++k) {
         const Stem   own = upright(0.0);
         const double lost = 0.1 * k;
-        const Stem   stem = stem_bent(&own, lean, stem_bent_by(&own, lean, lost));
-        CHECK_NEAR(stem_high(&stem), (1.0 - lost) * 0.12, 1e-5);
+        const Stem   stem = dp_stem_bent(&own, lean, dp_stem_bent_by(&own, lean, lost));
+        CHECK_NEAR(dp_stem_high(&stem), (1.0 - lost) * 0.12, 1e-5);
         check_lengths(&stem);
         for (int p = 0; p < PIECES; ++p)
             CHECK(k == 0 || (stem.way[p].y < 0.0 && !(fabs(stem.way[p].x) > 0.0)));
     }
-    const Stem own = upright(0.3), flat = stem_bent(&own, (const double[2]){1.0, 0.0}, 1.0);
-    CHECK_NEAR(stem_high(&flat), 0.0, 1e-9);
+    const Stem own = upright(0.3), flat = dp_stem_bent(&own, (const double[2]){1.0, 0.0}, 1.0);
+    CHECK_NEAR(dp_stem_high(&flat), 0.0, 1e-9);
     CHECK(flat.way[0].z > 0.005);  // up the slope
 }
 
 TEST(a_stem_rises_to_a_height)
 {
-    const Stem own = upright(0.2), laid = stem_bent(&own, (const double[2]){0.0, 1.0}, 1.0);
+    const Stem own = upright(0.2), laid = dp_stem_bent(&own, (const double[2]){0.0, 1.0}, 1.0);
     for (int k = 1; k < 10; ++k) {
-        const Stem stem = stem_risen(&laid, &own, stem_risen_by(&laid, &own, 0.012 * k));
-        CHECK_NEAR(stem_high(&stem), 0.012 * k, 1e-5);
+        const Stem stem = dp_stem_risen(&laid, &own, dp_stem_risen_by(&laid, &own, 0.012 * k));
+        CHECK_NEAR(dp_stem_high(&stem), 0.012 * k, 1e-5);
         check_lengths(&stem);
     }
-    CHECK(!(stem_risen_by(&own, &own, 0.01) > 0.0));  // it is higher already
+    CHECK(!(dp_stem_risen_by(&own, &own, 0.01) > 0.0));  // it is higher already
 }
 
 TEST(folds_are_drawn_out_and_nothing_rises)
 {
     for (int k = 0; k < 3; ++k) {
-        const Stem stem = folded(0.3 * k - 0.3), out = stem_unfolded(&stem, 1.0);
+        const Stem stem = folded(0.3 * k - 0.3), out = dp_stem_unfolded(&stem, 1.0);
         double     least = 1.0;
-        CHECK(stem_high(&out) < 1.05 * stem_high(&stem));
+        CHECK(dp_stem_high(&out) < 1.05 * dp_stem_high(&stem));
         check_lengths(&out);
         for (int p = 0; p + 1 < PIECES; ++p)
             least = fmin(least, dp_dot(dp_unit(out.way[p]), dp_unit(out.way[p + 1])));
         CHECK(least > 0.98);
-        const Stem same = stem_unfolded(&stem, 0.0);
+        const Stem same = dp_stem_unfolded(&stem, 0.0);
         for (int p = 0; p < PIECES; ++p) CHECK(dp_length(dp_sub(same.way[p], stem.way[p])) < 1e-12);
     }
     Stem back = upright(0.0);
     for (int p = 0; p < PIECES; ++p) back.way[p].z = p < 3 ? 0.02 : -0.02;
-    const Stem out = stem_unfolded(&back, 1.0);  // goes nowhere
+    const Stem out = dp_stem_unfolded(&back, 1.0);  // goes nowhere
     check_lengths(&out);
-    CHECK_CLOSE(stem_high(&out), 0.06, 1e-9);
+    CHECK_CLOSE(dp_stem_high(&out), 0.06, 1e-9);
 }
 
 int main(void)
