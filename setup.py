@@ -24,10 +24,21 @@ class CMakeBuild(build_ext):
         cmake = shutil.which("cmake")
         if not cmake:
             raise RuntimeError("cmake is missing: install it and try again")
-        subprocess.run([cmake, "-S", str(HERE / "native"), "-B", str(folder), "-DDP_TESTS=OFF",
-                        f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
-        subprocess.run([cmake, "--build", str(folder), "--target", "_native", "--parallel",
-                        str(os.cpu_count() or 1)], check=True)
+        subprocess.run(
+            [
+                cmake,
+                "-S",
+                str(HERE / "native"),
+                "-B",
+                str(folder),
+                "-DDP_TESTS=OFF",
+                f"-DPython3_EXECUTABLE={sys.executable}",
+            ],
+            check=True,
+        )
+        subprocess.run(
+            [cmake, "--build", str(folder), "--target", "_native", "--parallel", str(os.cpu_count() or 1)], check=True
+        )
         target = Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(folder / "_native.abi3.so", target)
@@ -38,8 +49,9 @@ class WithCore(sdist):
 
     def add_defaults(self):
         super().add_defaults()
-        self.filelist.extend(str(path.relative_to(HERE)) for path in sorted((HERE / "native").rglob("*"))
-                             if path.is_file())
+        self.filelist.extend(
+            str(path.relative_to(HERE)) for path in sorted((HERE / "native").rglob("*")) if path.is_file()
+        )
 
 
 def version():

@@ -18,18 +18,36 @@ bl_info = {
 
 __version__ = ".".join(str(part) for part in bl_info["version"])
 
-__getattr__, __dir__, __all__ = lazy.names(__name__, {
-    "Gait": "motion.gait", "Sole": "motion.gait", "Walker": "loads.walker", "place_feet": "placement.place",
-    "Soil": "ground.soil", "SOILS": "ground.soil", "Kind": "ground.plants", "KINDS": "ground.plants",
-    "Planting": "ground.plants", "Ground": "ground.sim", "Simulation": "ground.sim", "Parcel": "ground.parcels",
-    "Bake": "bake.bake", "read_index": "bake.folder", "DesirePathError": "errors"}, other=old_names.serve(__name__))
+__getattr__, __dir__, __all__ = lazy.names(
+    __name__,
+    {
+        "Gait": "motion.gait",
+        "Sole": "motion.gait",
+        "Walker": "loads.walker",
+        "place_feet": "placement.place",
+        "Soil": "ground.soil",
+        "SOILS": "ground.soil",
+        "Kind": "ground.plants",
+        "KINDS": "ground.plants",
+        "Planting": "ground.plants",
+        "Ground": "ground.sim",
+        "Simulation": "ground.sim",
+        "Parcel": "ground.parcels",
+        "Bake": "bake.bake",
+        "read_index": "bake.folder",
+        "DesirePathError": "errors",
+    },
+    other=old_names.serve(__name__),
+)
 
 
 def register():
     from . import blender
+
     blender.register()
 
 
 def unregister():
     from . import blender
+
     blender.unregister()

@@ -76,9 +76,17 @@ def _along(args, gait, ground):
         return place_feet(gait, ground) if args.place_feet else gait
     cell, origin = _cells(args, ground)
     below = Simulation(ground, args.soil, cell, origin=origin)
-    return gait.along(paths.read(args.along)[:, :2], args.passes, back_and_forth=not args.one_way,
-                      lateral=args.lateral, timing=args.timing, stride=args.stride, seed=args.seed, pause=args.pause,
-                      ground=below)
+    return gait.along(
+        paths.read(args.along)[:, :2],
+        args.passes,
+        back_and_forth=not args.one_way,
+        lateral=args.lateral,
+        timing=args.timing,
+        stride=args.stride,
+        seed=args.seed,
+        pause=args.pause,
+        ground=below,
+    )
 
 
 def _bar(fraction, what):
@@ -94,9 +102,22 @@ def _bake(args):
     plants = [_planting(text, args.seed) for text in args.plants]
     cell, origin = _cells(args, ground)
     bake = Bake(
-        _along(args, gait, ground), ground, args.soil, args.out, cell_size=cell,
-        frame_start=args.frame_start, frame_end=args.frame_end, load_model=args.model, law=args.law,
-        heap=args.heap, rim_width=args.rim_width, threads=args.threads, origin=origin, plants=plants, film=args.film, limits=limits,
+        _along(args, gait, ground),
+        ground,
+        args.soil,
+        args.out,
+        cell_size=cell,
+        frame_start=args.frame_start,
+        frame_end=args.frame_end,
+        load_model=args.model,
+        law=args.law,
+        heap=args.heap,
+        rim_width=args.rim_width,
+        threads=args.threads,
+        origin=origin,
+        plants=plants,
+        film=args.film,
+        limits=limits,
     )
     try:
         check_idle(args.out)
@@ -108,8 +129,10 @@ def _bake(args):
     report = bake.report
     print(f"contacts      {report['contacts']}")
     print(f"deepest       {1000 * report['deepest_m']:.1f} mm")
-    print(f"pressed       {1000 * report['pressed_m3']:.3f} l of firm ground, "
-          f"{1000 * report['pressed_heap_m3']:.3f} l of loose heaps")
+    print(
+        f"pressed       {1000 * report['pressed_m3']:.3f} l of firm ground, "
+        f"{1000 * report['pressed_heap_m3']:.3f} l of loose heaps"
+    )
     print(f"heaped        {1000 * report['heaped_m3']:.3f} l")
     print(f"seconds       {report['seconds']:.2f}")
     for warning in report["warnings"]:
@@ -150,9 +173,19 @@ def _plot(args):
 
 
 def _lane(args):
-    rows = trampling.measure(_kind(args.kind), length=args.length, width=args.width, passes=_counts(args.passes),
-                        mass=args.mass, seed=args.seed, rest_days=args.rest_days, soil=args.soil,
-                        cell_size=args.cell, threads=args.threads, progress=lambda done: _bar(done, "of the passes"))
+    rows = trampling.measure(
+        _kind(args.kind),
+        length=args.length,
+        width=args.width,
+        passes=_counts(args.passes),
+        mass=args.mass,
+        seed=args.seed,
+        rest_days=args.rest_days,
+        soil=args.soil,
+        cell_size=args.cell,
+        threads=args.threads,
+        progress=lambda done: _bar(done, "of the passes"),
+    )
     for count, cover in rows:
         print(f"{count:5} passes  {cover:5.1f} % cover")
     trampling.write(args.out, rows)
@@ -160,8 +193,14 @@ def _lane(args):
 
 
 def _fit(args):
-    found = calibrate.fit(trampling.read(args.cover), _kind(args.kind), length=args.length, width=args.width, mass=args.mass,
-                    progress=lambda done: _bar(done, "of the lanes, at most"))
+    found = calibrate.fit(
+        trampling.read(args.cover),
+        _kind(args.kind),
+        length=args.length,
+        width=args.width,
+        mass=args.mass,
+        progress=lambda done: _bar(done, "of the lanes, at most"),
+    )
     for count, wanted, reached in zip(found.passes, found.wanted, found.reached):
         print(f"{count:5} passes  {wanted:5.1f} % wanted  {reached:5.1f} % reached")
     print(f"fit           {found.rms:.1f} points off on average (rms), {found.worst:.1f} at worst")
@@ -172,9 +211,12 @@ def _fit(args):
 
 
 def _load_options(task):
-    task.add_argument("--settle-time", type=float, metavar="T",
-                      help="tau of the model impulse, in which the soil yields [s] (0.2)")
-    task.add_argument("--ground", help="what is walked on: flat, flat:HEIGHT, or an EXR of heights (where the feet rest)")
+    task.add_argument(
+        "--settle-time", type=float, metavar="T", help="tau of the model impulse, in which the soil yields [s] (0.2)"
+    )
+    task.add_argument(
+        "--ground", help="what is walked on: flat, flat:HEIGHT, or an EXR of heights (where the feet rest)"
+    )
     task.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if its header does not say")
 
 
@@ -185,17 +227,30 @@ def _parser():
 
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
-    bake.add_argument("--ground", default="flat", help="flat, flat:HEIGHT, an EXR of heights [m] (channel height, Z, "
-                      "V or Y), or a bake's maps_final.exr: its trail goes on")
+    bake.add_argument(
+        "--ground",
+        default="flat",
+        help="flat, flat:HEIGHT, an EXR of heights [m] (channel height, Z, "
+        "V or Y), or a bake's maps_final.exr: its trail goes on",
+    )
     bake.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if it does not say")
     bake.add_argument("--soil", default="dry-sand", help=f"one of {', '.join(SOILS)}")
     bake.add_argument("--cell", type=float, help="side of a cell [m] (0.01, or that of the trail that goes on)")
-    bake.add_argument("--origin", type=float, nargs=2, metavar=("X", "Y"), help="where cells begin [m] (0 0, or as in "
-                      "the trail that goes on); a report.json says where another bake's did")
+    bake.add_argument(
+        "--origin",
+        type=float,
+        nargs=2,
+        metavar=("X", "Y"),
+        help="where cells begin [m] (0 0, or as in "
+        "the trail that goes on); a report.json says where another bake's did",
+    )
     bake.add_argument("--out", required=True, help="folder for the files")
-    bake.add_argument("--place-feet", action="store_true",
-                      help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
-                      "is always done")
+    bake.add_argument(
+        "--place-feet",
+        action="store_true",
+        help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
+        "is always done",
+    )
     bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
     bake.add_argument("--passes", type=int, default=1, help="how often it goes along the path (1)")
     bake.add_argument("--one-way", action="store_true", help="every pass from the start, not there and back")
@@ -204,19 +259,36 @@ def _parser():
     bake.add_argument("--stride", type=float, default=0.05, help="by how much their strides differ, a share (0.05)")
     bake.add_argument("--pause", type=float, default=0.0, help="time between passes [s] (0)")
     bake.add_argument("--seed", type=int, default=0, help="of the scatter and the plants (0)")
-    bake.add_argument("--film", choices=FILMS, help="a playback frame for every scene frame, or for every pass; "
-                      "passes, if there are several")
-    bake.add_argument("--plants", nargs="+", action="extend", default=[], metavar="KIND[:DENSITY]",
-                      help=f"what grows here: {', '.join(KINDS)}, or a kind's file (.json); plants for each m^2")
+    bake.add_argument(
+        "--film",
+        choices=FILMS,
+        help="a playback frame for every scene frame, or for every pass; passes, if there are several",
+    )
+    bake.add_argument(
+        "--plants",
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="KIND[:DENSITY]",
+        help=f"what grows here: {', '.join(KINDS)}, or a kind's file (.json); plants for each m^2",
+    )
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")
     bake.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
     bake.add_argument("--law", choices=LAWS, default="sole", help="how a sole presses")
     bake.add_argument("--heap", choices=HEAPS, default="rest", help="how displaced soil is laid")
-    bake.add_argument("--rim-width", type=float, default=0.04, metavar="METRES", help="how wide the rim of a paper heap is")
+    bake.add_argument(
+        "--rim-width", type=float, default=0.04, metavar="METRES", help="how wide the rim of a paper heap is"
+    )
     bake.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
-    bake.add_argument("--limit", nargs="+", action="extend", default=[], metavar="NAME=NUMBER",
-                      help=f"how much a bake may take before it is refused: {', '.join(ADVICE)} (GB of memory and disk)")
+    bake.add_argument(
+        "--limit",
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="NAME=NUMBER",
+        help=f"how much a bake may take before it is refused: {', '.join(ADVICE)} (GB of memory and disk)",
+    )
     bake.set_defaults(task=_bake)
 
     loads = tasks.add_parser("loads", help="write the forces of every part as a table")
@@ -238,7 +310,9 @@ def _parser():
     tread.add_argument("--kind", default="carex", help=f"{', '.join(KINDS)}, or a kind's file (.json)")
     tread.add_argument("--length", type=float, default=5.0, help="of the lane [m] (5)")
     tread.add_argument("--width", type=float, default=0.5, help="of the lane [m] (0.5)")
-    tread.add_argument("--passes", default=",".join(map(str, trampling.PASSES)), help="counts to measure at (25,75,200,500)")
+    tread.add_argument(
+        "--passes", default=",".join(map(str, trampling.PASSES)), help="counts to measure at (25,75,200,500)"
+    )
     tread.add_argument("--mass", type=float, default=75.0, help="of who walks [kg] (75)")
     tread.add_argument("--seed", type=int, default=0, help="of the plants and the walkers' scatter (0)")
     tread.add_argument("--rest-days", type=float, default=0.0, help="days of growth before every count (0)")

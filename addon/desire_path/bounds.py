@@ -49,7 +49,9 @@ class Limits:
             if value is None and each.default is None:
                 continue
             if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
-                raise DesirePathError(f"A limit of {str(value)[:40]} {each.name} cannot be kept: give a number above 0.")
+                raise DesirePathError(
+                    f"A limit of {str(value)[:40]} {each.name} cannot be kept: give a number above 0."
+                )
 
     @staticmethod
     def read(words):
@@ -62,8 +64,10 @@ class Limits:
             except ValueError:
                 name = ""
             if name not in ADVICE:
-                raise DesirePathError(f"There is no limit '{word}': write one of {', '.join(ADVICE)} and a number, as in "
-                                      "frames=1000000; memory and disk in GB.")
+                raise DesirePathError(
+                    f"There is no limit '{word}': write one of {', '.join(ADVICE)} and a number, as in "
+                    "frames=1000000; memory and disk in GB."
+                )
         return Limits(**found)
 
     def check(self, name, amount, folder=None):
@@ -79,8 +83,10 @@ class Limits:
         unit, advice = ADVICE[name]
         size = 1e9 if name in ("memory", "disk") else 1.0
         has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
-        raise DesirePathError(f"This would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
-                              f"{has}: {advice}, or raise the limit of {name}.")
+        raise DesirePathError(
+            f"This would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
+            f"{has}: {advice}, or raise the limit of {name}."
+        )
 
 
 def _number(value):

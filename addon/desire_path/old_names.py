@@ -10,17 +10,24 @@ import warnings
 from importlib import import_module
 from importlib.machinery import ModuleSpec
 
-MODULES = {name: f"{room}.{name}" for room, names in {
-    "files": "disk npz table",
-    "motion": "gait rotation jumps stays freeze size",
-    "loads": "walker report plot",
-    "ground": "sim soil maps mesh plants tuft plant_mesh trail parcels",
-    "placement": "cycle passes path place",
-    "rig": "rigs rig_bones rig_feet rig_names rig_shape body foot sole mass solid leg slope",
-    "bake": "folder output share",
-}.items() for name in names.split()} | {
-    "whole": "files.atomic_file", "sink": "placement.settle_feet", "tread": "rig.sole_mesh",
-    "lane": "study.trampling", "fit": "study.calibrate",
+MODULES = {
+    name: f"{room}.{name}"
+    for room, names in {
+        "files": "disk npz table",
+        "motion": "gait rotation jumps stays freeze size",
+        "loads": "walker report plot",
+        "ground": "sim soil maps mesh plants tuft plant_mesh trail parcels",
+        "placement": "cycle passes path place",
+        "rig": "rigs rig_bones rig_feet rig_names rig_shape body foot sole mass solid leg slope",
+        "bake": "folder output share",
+    }.items()
+    for name in names.split()
+} | {
+    "whole": "files.atomic_file",
+    "sink": "placement.settle_feet",
+    "tread": "rig.sole_mesh",
+    "lane": "study.trampling",
+    "fit": "study.calibrate",
 }
 
 
@@ -48,8 +55,9 @@ class Finder:
     def asked(self, name, calls):
         """What a module is called, after a warning to who asks for it, so many calls up."""
         new = f"{self.package}.{MODULES[name]}"
-        warnings.warn(f"{self.package}.{name} is an old name of {new}: import that.", DeprecationWarning,
-                      stacklevel=calls + 1)
+        warnings.warn(
+            f"{self.package}.{name} is an old name of {new}: import that.", DeprecationWarning, stacklevel=calls + 1
+        )
         return new
 
     def find_spec(self, name, path=None, target=None):

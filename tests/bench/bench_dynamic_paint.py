@@ -167,8 +167,18 @@ def dynamic_paint(form, count, frame_rate, folder, centre, gait):
 
 def image_bake(count, frame_rate, folder, centre):
     """Seconds of an image bake, in a process of its own: its end is only told when Blender leaves."""
-    words = [sys.executable, __file__, "--image", str(count), "--frame-rate", str(frame_rate), "--folder",
-             str(folder), "--centre", *map(str, centre)]
+    words = [
+        sys.executable,
+        __file__,
+        "--image",
+        str(count),
+        "--frame-rate",
+        str(frame_rate),
+        "--folder",
+        str(folder),
+        "--centre",
+        *map(str, centre),
+    ]
     said = subprocess.run(words, capture_output=True, text=True).stdout
     found = re.search(r"Bake complete! \(([0-9.]+)\)", said)
     if not found:
@@ -185,7 +195,7 @@ def main():
     parser.add_argument("--image", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--centre", type=float, nargs=2, help=argparse.SUPPRESS)
-    args = parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else None)
+    args = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else None)
 
     globals()["SOIL"] = args.soil
     desire_path.register()
@@ -204,8 +214,9 @@ def main():
         gait = Gait.load(folder / "walk.npz")
         at = gait.com[0, :, :2]
         centre = (at.min(axis=0) + at.max(axis=0)) / 2
-        print(f"Blender {bpy.app.version_string}, {last} frames at {args.frame_rate}/s, ms a frame "
-              f"(least of {args.runs})")
+        print(
+            f"Blender {bpy.app.version_string}, {last} frames at {args.frame_rate}/s, ms a frame (least of {args.runs})"
+        )
         print(f"{'grid':>6} {'ours':>8} {'vertex':>8} {'image':>8}   {'vertex/ours':>11} {'image/ours':>11}")
         best = {}
         for count in map(int, args.sizes.split(",")):
@@ -237,8 +248,10 @@ def main():
             place.mkdir()
             wide.append(ours(large, args.frame_rate, place, centre, large / small))
         spent = min(wide, key=lambda each: each["whole"])
-        print(f"ours at {large} against {small}, same cells: {spent['whole'] / best[small]['whole']:.2f}x "
-              f"a frame ({1000 * spent['whole'] / last:.2f} ms)")
+        print(
+            f"ours at {large} against {small}, same cells: {spent['whole'] / best[small]['whole']:.2f}x "
+            f"a frame ({1000 * spent['whole'] / last:.2f} ms)"
+        )
         print(f"       {stages.line(spent)}")
 
 

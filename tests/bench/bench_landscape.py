@@ -3,6 +3,7 @@
     python tests/bench/bench_landscape.py      (bpy module, or blender -b --python)
 The same walk on 10 m x 10 m stands beside it: cost follows the walk and not the land.
 """
+
 import pathlib
 import sys
 import tempfile
@@ -50,8 +51,10 @@ def main():
                 frames = sum(1 for _ in bake.run())
                 best = min(best, time.perf_counter() - begun)
                 most = _native.bytes_peak() - held
-        print(f"{side / 1000:>5g} km {(side / 0.01) ** 2:10.0e} {most / 2 ** 20:7.1f} MB {best:6.2f} s "
-              f"{1000 * best / frames:5.2f} ms  ({bake.report['contacts']} contacts)")
+        print(
+            f"{side / 1000:>5g} km {(side / 0.01) ** 2:10.0e} {most / 2**20:7.1f} MB {best:6.2f} s "
+            f"{1000 * best / frames:5.2f} ms  ({bake.report['contacts']} contacts)"
+        )
 
 
 main()

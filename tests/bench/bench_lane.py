@@ -5,6 +5,7 @@
 Aim: 500 passes in under 60 s on two cores. The lane's cover and soil are worked out on one core and on all;
 making the passes and finding their forces is told apart.
 """
+
 import os
 import pathlib
 import sys
@@ -20,18 +21,26 @@ from desire_path.ground.plants import KINDS  # noqa: E402
 def main():
     passes = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     begun = time.perf_counter()
-    gait = trampling.walk().along([(-trampling.BEYOND, 0.0), (5.0 + trampling.BEYOND, 0.0)], passes, lateral=trampling.SCATTER * 0.5)
+    gait = trampling.walk().along(
+        [(-trampling.BEYOND, 0.0), (5.0 + trampling.BEYOND, 0.0)], passes, lateral=trampling.SCATTER * 0.5
+    )
     made = time.perf_counter()
     walker.loads(gait)
-    print(f"{passes} passes, {len(gait.time)} samples: made in {made - begun:.2f} s, "
-          f"forces in {time.perf_counter() - made:.2f} s")
+    print(
+        f"{passes} passes, {len(gait.time)} samples: made in {made - begun:.2f} s, "
+        f"forces in {time.perf_counter() - made:.2f} s"
+    )
     for threads in sorted({1, os.cpu_count() or 1}):
-        sim, marks = trampling.trodden(KINDS["carex"], passes, **{**trampling.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads)
+        sim, marks = trampling.trodden(
+            KINDS["carex"], passes, **{**trampling.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads
+        )
         begun, spent = time.perf_counter(), time.process_time()
         sim.run(marks[-1])
         took, spent = time.perf_counter() - begun, time.process_time() - spent
-        print(f"{threads} threads: {took:.1f} s ({spent:.1f} s of processors), {1e3 * spent / len(gait.time):.3f} ms a "
-              f"step, {sim.plants_count()} plants, cover {trampling.cover(sim):.1f} %")
+        print(
+            f"{threads} threads: {took:.1f} s ({spent:.1f} s of processors), {1e3 * spent / len(gait.time):.3f} ms a "
+            f"step, {sim.plants_count()} plants, cover {trampling.cover(sim):.1f} %"
+        )
 
 
 if __name__ == "__main__":

@@ -38,9 +38,11 @@ SEEN = (
 
 def row(name, found):
     late = 1000 * abs(found.late)
-    print(f"  {name:26s} {found.rmse[0]:.3f} {found.rmse[1]:.3f}  {found.r[0]:.3f} {found.r[1]:.3f}  "
-          f"{found.drive[0]:.3f} {found.drive[1]:.3f}  {found.mean:.3f}  {late.mean():3.0f} {late.max():3.0f}  "
-          f"{100 * found.apart[0]:.1f} {100 * found.apart[1]:.1f}")
+    print(
+        f"  {name:26s} {found.rmse[0]:.3f} {found.rmse[1]:.3f}  {found.r[0]:.3f} {found.r[1]:.3f}  "
+        f"{found.drive[0]:.3f} {found.drive[1]:.3f}  {found.mean:.3f}  {late.mean():3.0f} {late.max():3.0f}  "
+        f"{100 * found.apart[0]:.1f} {100 * found.apart[1]:.1f}"
+    )
 
 
 def known():

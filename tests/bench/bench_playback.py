@@ -5,6 +5,7 @@ Random tiles of a walk's width are changed in every frame; the mesh is a square 
 (Closest), the same shifted by a third of a cell (Linear), and a landscape of which the image covers
 a sixteenth.
 """
+
 import pathlib
 import statistics
 import sys
@@ -47,29 +48,40 @@ def measure(obj):
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
     for side in [int(w) for w in words if w.isdigit()] or [512, 1024]:
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             frames(folder, side)
-            for name, shift, stretch, groups in (("closest", 0.5, 1, 0), ("linear", 0.83, 1, 0),
-                                                 ("landscape", 0.5, 4, 0), ("groups", 0.5, 1, 1)):
+            for name, shift, stretch, groups in (
+                ("closest", 0.5, 1, 0),
+                ("linear", 0.83, 1, 0),
+                ("landscape", 0.5, 4, 0),
+                ("groups", 0.5, 1, 1),
+            ):
                 bpy.ops.wm.read_factory_settings(use_empty=True)
                 obj = meshes.grid(side, side, CELL * stretch, CELL * shift, CELL * shift)
-                at = types.SimpleNamespace(cell=CELL, x0=0.0, y0=0.0, nx=side, ny=side,
-                                           frame_start=1, frame_end=COUNT)
+                at = types.SimpleNamespace(cell=CELL, x0=0.0, y0=0.0, nx=side, ny=side, frame_start=1, frame_end=COUNT)
                 if groups:
                     for each in playback.GROUPS:
                         obj.vertex_groups.new(name=playback.group_name(each))
                 co = compat.positions(obj.data)
-                box = np.array([(x, y, 0.0) for x in (co[0, 0], co[-1, 0])
-                                for y in (co[0, 1], co[-1, 1])])
-                playback.attach(obj, str(folder / "frames"), at, count=COUNT, world=np.eye(4),
-                                scale=1.0, smooth=name == "linear", corners=box,
-                                layer_depth=0.3 if groups else 0.0)
+                box = np.array([(x, y, 0.0) for x in (co[0, 0], co[-1, 0]) for y in (co[0, 1], co[-1, 1])])
+                playback.attach(
+                    obj,
+                    str(folder / "frames"),
+                    at,
+                    count=COUNT,
+                    world=np.eye(4),
+                    scale=1.0,
+                    smooth=name == "linear",
+                    corners=box,
+                    layer_depth=0.3 if groups else 0.0,
+                )
                 middle, worst = measure(obj)
-                print(f"{bpy.app.version_string} {side:5d}^2 {name:10s} {middle:7.1f} ms a frame_set "
-                      f"(worst {worst:.1f})")
+                print(
+                    f"{bpy.app.version_string} {side:5d}^2 {name:10s} {middle:7.1f} ms a frame_set (worst {worst:.1f})"
+                )
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 The character is skinned to the rig, subdivided and smoothed. Compared with the plain way, frame_set in the
 scene itself and reading the bones, which is timed over a few frames.
 """
+
 import pathlib
 import sys
 import time
@@ -51,8 +52,10 @@ def main():
     shown = len(body.evaluated_get(bpy.context.view_layer.depsgraph).data.vertices)
     ours = min(timed(lambda: sample.record(bpy.context.scene, armature, 1, frames)) for _ in range(RUNS))
     slow = min(timed(lambda: plain(armature)) for _ in range(RUNS)) * frames / PLAIN
-    print(f"Blender {bpy.app.version_string}, {len(armature.data.bones)} bones, a character of "
-          f"{len(body.data.vertices)} points, {shown} as it is shown; {frames} frames")
+    print(
+        f"Blender {bpy.app.version_string}, {len(armature.data.bones)} bones, a character of "
+        f"{len(body.data.vertices)} points, {shown} as it is shown; {frames} frames"
+    )
     print(f"ours {ours:.2f} s ({1000 * ours / frames:.2f} ms a frame; {alone:.2f} s with the character plain)")
     print(f"frame_set in the scene {slow:.1f} s: {slow / ours:.0f}x as long")
 

@@ -6,6 +6,7 @@
 
 A stage's seconds are without the stages inside it; `rest` of a line is what no stage claims.
 """
+
 import contextlib
 import time
 
@@ -35,6 +36,7 @@ STAGES = {  # name -> module and function below desire_path
 def clock():
     """Seconds by stage, filled while the block runs; `whole` is the block itself."""
     import importlib
+
     spent, inside, put_back = dict.fromkeys(STAGES, 0.0), [], []
 
     def timed(name, function):
@@ -48,6 +50,7 @@ def clock():
                 spent[name] += took - inside.pop()
                 if inside:
                     inside[-1] += took
+
         return around
 
     for name, (module, path) in STAGES.items():
@@ -72,6 +75,7 @@ def line(spent):
     whole = spent["whole"]
     claimed = {name: each for name, each in spent.items() if name != "whole"}
     claimed["rest"] = whole - sum(claimed.values())
-    parts = [f"{name} {1000 * each:.0f}" for name, each in sorted(claimed.items(), key=lambda i: -i[1])
-             if each >= 0.0005]
+    parts = [
+        f"{name} {1000 * each:.0f}" for name, each in sorted(claimed.items(), key=lambda i: -i[1]) if each >= 0.0005
+    ]
     return f"{1000 * whole:.0f} ms: " + ", ".join(parts)

@@ -5,6 +5,7 @@
     .. -- playback sampling                  only the files whose name contains a word
 Each test is a plain function `test_*` of a file test_*.py here; it starts from an empty file.
 """
+
 import importlib.util
 import pathlib
 import sys
@@ -24,7 +25,7 @@ class Skip(Exception):
 
 
 def wanted():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     if "--" not in sys.argv and sys.argv and sys.argv[0].endswith("run.py"):
         words = sys.argv[1:]
     for path in sorted(HERE.glob("test_*.py")):
@@ -35,6 +36,7 @@ def wanted():
 def run(test):
     """Run one test in an empty file; returns None, or what went wrong."""
     import bpy
+
     bpy.ops.wm.read_factory_settings(use_empty=True)
     try:
         with tempfile.TemporaryDirectory(prefix="desire_path_") as folder:
@@ -53,6 +55,7 @@ def run(test):
 def main():
     import bpy
     import desire_path
+
     sys.modules.setdefault("run", sys.modules["__main__"])
     desire_path.register()
     passed = failed = skipped = 0
@@ -79,8 +82,7 @@ def main():
             sys.stdout.flush()
     desire_path.unregister()
     version = ".".join(map(str, bpy.app.version))
-    print(f"Blender {version}: {passed} passed, {failed} failed"
-          + (f", {skipped} skipped" if skipped else ""))
+    print(f"Blender {version}: {passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))
     print(f"{passed} passed, {failed} failed, {skipped} skipped")
     sys.stdout.flush()
     return 1 if failed or not passed else 0

@@ -1,4 +1,5 @@
 """The whole way in Blender: choose, bake, play, free; and what happens when something is wrong."""
+
 import json
 import os
 import pathlib
@@ -57,9 +58,15 @@ def state(obj):
     for each in mesh.attributes:
         attributes.append((each.name, each.domain, each.data_type))
     weights = [[(m.group, m.weight) for m in v.groups] for v in mesh.vertices]
-    return (compat.positions(mesh).tobytes(), compat.triangles(mesh).tobytes(), sorted(attributes),
-            [g.name for g in obj.vertex_groups], weights, [m.name for m in obj.modifiers],
-            np.array(obj.matrix_world).tobytes())
+    return (
+        compat.positions(mesh).tobytes(),
+        compat.triangles(mesh).tobytes(),
+        sorted(attributes),
+        [g.name for g in obj.vertex_groups],
+        weights,
+        [m.name for m in obj.modifiers],
+        np.array(obj.matrix_world).tobytes(),
+    )
 
 
 def test_bake_plays_what_the_core_pressed(folder):
@@ -323,17 +330,22 @@ def test_record_bakes_the_same_without_blender(folder):
     gait = Gait.load(str(folder / "walk.npz"))
     assert gait.walker_name == ("Walker",) and gait.mass[0] == 75.0 and len(gait.time) == 16
     from desire_path.ground.sim import Ground
+
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     vertices = compat.positions(ground.data).astype(np.float64)
-    job = bake.Bake(gait, Ground.mesh(vertices, compat.triangles(ground.data)), "dry-sand",
-                    str(folder / "plain"), cell_size=0.02,
-                    origin=origin_of(folder))
+    job = bake.Bake(
+        gait,
+        Ground.mesh(vertices, compat.triangles(ground.data)),
+        "dry-sand",
+        str(folder / "plain"),
+        cell_size=0.02,
+        origin=origin_of(folder),
+    )
     for _ in job.run():
         pass
     for name in ("compression", "heap", "pressure_time"):
-        one, two = (maps.read(str(folder / place / "maps_final.exr")).planes[name]
-                    for place in ("bake", "plain"))
+        one, two = (maps.read(str(folder / place / "maps_final.exr")).planes[name] for place in ("bake", "plain"))
         assert one.tobytes() == two.tobytes(), name
 
 
@@ -597,8 +609,7 @@ def test_bad_input(folder):
     meshes.activate(walker)
     refused(operator.desire_path_record, "'foot.L'", filepath=str(folder / "walk.npz"))
     walker.data.bones["renamed"].name = "foot.L"
-    refused(operator.desire_path_record, "cannot be written",
-            filepath=str(folder / "nowhere" / "walk.npz"))
+    refused(operator.desire_path_record, "cannot be written", filepath=str(folder / "nowhere" / "walk.npz"))
     meshes.activate(ground)
     (folder / "file").write_text("in the way")
     settings.folder = str(folder / "file")
@@ -664,13 +675,13 @@ def test_killed_in_the_middle(folder):
     addon = pathlib.Path(op_bake.__file__).parents[2]
     path = os.environ["PATH"]
     if bpy.app.binary_path:
-        command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-expr", KILLED, "--",
-                   str(addon), file]
+        command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-expr", KILLED, "--", str(addon), file]
         path = "/usr/bin:/bin"
     else:
         command = [sys.executable, "-c", KILLED, str(addon), file]
-    child = subprocess.Popen(command, env={**os.environ, "PATH": path}, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT)
+    child = subprocess.Popen(
+        command, env={**os.environ, "PATH": path}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
     place = folder / "here" / "desire_path" / "a" / "Ground"
     until = time.monotonic() + 60
     while not list(place.rglob("trail_0006.exr")) and time.monotonic() < until:

@@ -1,4 +1,5 @@
 """Feet that control bones lead: found by nudges, put on a hill, left alone where nothing leads them."""
+
 import bpy
 import numpy as np
 
@@ -25,13 +26,15 @@ def puppet(apart=False):
     obj = people.biped()
     more = [("all", None, (0, 0.3, 0), (0, 0.5, 0)), ("body", "all", (0, 0, 0.95), (0, 0.2, 0.95))]
     for side, x in ((".L", 0.1), (".R", -0.1)):
-        more += [("mch-hips" + side, "body", (x, 0, 0.95), (x, 0, 1.0)),
-                 ("mch-thigh" + side, "mch-hips" + side, (x, 0, 0.92), (x, -0.01, 0.50)),
-                 ("mch-shin" + side, "mch-thigh" + side, (x, -0.01, 0.50), (x, 0.02, 0.08)),
-                 ("go" + side, "all", (x, 0.05, 0), (x, 0.25, 0)),
-                 ("way" + side, "all", (x, 0.02, 0.3), (x, 0.2, 0.3)),
-                 ("mch-goal" + side, "way" + side if apart else "go" + side, (x, 0.02, 0.08), (x, 0.1, 0.08)),
-                 ("mch-foot" + side, "go" + side, (x, 0.02, 0.08), (x, -0.11, 0.02))]
+        more += [
+            ("mch-hips" + side, "body", (x, 0, 0.95), (x, 0, 1.0)),
+            ("mch-thigh" + side, "mch-hips" + side, (x, 0, 0.92), (x, -0.01, 0.50)),
+            ("mch-shin" + side, "mch-thigh" + side, (x, -0.01, 0.50), (x, 0.02, 0.08)),
+            ("go" + side, "all", (x, 0.05, 0), (x, 0.25, 0)),
+            ("way" + side, "all", (x, 0.02, 0.3), (x, 0.2, 0.3)),
+            ("mch-goal" + side, "way" + side if apart else "go" + side, (x, 0.02, 0.08), (x, 0.1, 0.08)),
+            ("mch-foot" + side, "go" + side, (x, 0.02, 0.08), (x, -0.11, 0.02)),
+        ]
     add_bones(obj, *more)
     pose = obj.pose.bones
 
@@ -68,8 +71,11 @@ def leads(obj, frames=tuple(range(1, 49))):
 
 def stand(obj):
     """What the channels of all bones hold, and the names of all actions."""
-    return ({b.name: (tuple(b.location), tuple(b.rotation_quaternion), tuple(b.rotation_euler))
-             for b in obj.pose.bones}, {each.name for each in bpy.data.actions}, len(bpy.data.scenes))
+    return (
+        {b.name: (tuple(b.location), tuple(b.rotation_quaternion), tuple(b.rotation_euler)) for b in obj.pose.bones},
+        {each.name for each in bpy.data.actions},
+        len(bpy.data.scenes),
+    )
 
 
 def placed(obj):
@@ -101,14 +107,20 @@ def test_rigify_feet_are_found():
     obj = person()
     operator.desire_path_rig_detect()
     assert [(f.foot, f.toe, f.thigh, f.shank) for f in obj.desire_path.feet] == [
-        tuple(f"DEF-{bone}.{side}" for bone in ("foot", "toe", "thigh", "shin")) for side in SIDES]
+        tuple(f"DEF-{bone}.{side}" for bone in ("foot", "toe", "thigh", "shin")) for side in SIDES
+    ]
     before = stand(obj)
-    assert leads(obj) == {f"DEF-foot.{side}": {("whole", f"foot_ik.{side}"), ("toe", f"toe_ik.{side}")}
-                          for side in SIDES}
+    assert leads(obj) == {
+        f"DEF-foot.{side}": {("whole", f"foot_ik.{side}"), ("toe", f"toe_ik.{side}")} for side in SIDES
+    }
     assert stand(obj) == before
     rigified.to_fk(obj, range(1, 49))
-    assert leads(obj)["DEF-foot.L"] == {("thigh", "thigh_fk.L"), ("shank", "shin_fk.L"), ("turn", "foot_fk.L"),
-                                        ("toe", "toe_fk.L")}
+    assert leads(obj)["DEF-foot.L"] == {
+        ("thigh", "thigh_fk.L"),
+        ("shank", "shin_fk.L"),
+        ("turn", "foot_fk.L"),
+        ("toe", "toe_fk.L"),
+    }
 
 
 def test_rigify_walks_uphill():
@@ -172,21 +184,25 @@ def test_rigify_paws_go_uphill_under_a_trunk_that_leans():
 
 def test_rigify_horses_and_cats_walk_uphill():
     for kind, size, thigh, shank, feet in (
-            ("horse", 1.0, ("thigh", "upper_arm"), ("lower_leg", "forearm"), (("r_hoof", ""), ("f_hoof", ""))),
-            ("cat", 0.15, ("thigh", "upper_arm"), ("shin", "forearm"), (("foot", "DEF-r_toe"), ("hand", "DEF-f_toe")))):
+        ("horse", 1.0, ("thigh", "upper_arm"), ("lower_leg", "forearm"), (("r_hoof", ""), ("f_hoof", ""))),
+        ("cat", 0.15, ("thigh", "upper_arm"), ("shin", "forearm"), (("foot", "DEF-r_toe"), ("hand", "DEF-f_toe"))),
+    ):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         obj = rigified.beast(kind)
         operator.desire_path_rig_detect()
         assert [(f.foot, f.toe, f.thigh, f.shank) for f in obj.desire_path.feet] == [
             (f"DEF-{foot}.{side}", toe and f"{toe}.{side}", f"DEF-{top}.{side}", f"DEF-{low}.{side}")
-            for (foot, toe), top, low in zip(feet, thigh, shank) for side in SIDES]
+            for (foot, toe), top, low in zip(feet, thigh, shank)
+            for side in SIDES
+        ]
         obj.desire_path.mass = 300.0 * size
         flat = record(obj, 36)
         scene_of(obj, size=size)
         land = sample_land(obj, size)
         np.testing.assert_array_equal(  # plain baking leaves level feet level
             sample.record(bpy.context.scene, obj, 1, 36, land=land).pose,
-            sample.record(bpy.context.scene, obj, 1, 36).pose)
+            sample.record(bpy.context.scene, obj, 1, 36).pose,
+        )
         assert operator.desire_path_place_feet() == {"FINISHED"}
         gait = sample.record(bpy.context.scene, obj, 1, 36, land=land)
         places, before = walker.point_places(gait), walker.point_places(flat)[..., 2]

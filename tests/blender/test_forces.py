@@ -1,4 +1,5 @@
 """Arrows of the forces: where they begin, how long they are, and when there are none."""
+
 import json
 
 import bpy
@@ -94,10 +95,10 @@ def test_the_mass_centre_and_where_feet_press():
     forces, _ = read(bpy.context.scene, standing())
     lines = op_forces.mass_marks(forces, 12)
     centre = forces.mass[11]
-    plumb = lines[3 * 2 * op_forces.ROUND:][:2]
+    plumb = lines[3 * 2 * op_forces.ROUND :][:2]
     np.testing.assert_allclose(plumb, [centre, (centre[0], centre[1], 0.0)], atol=1e-6)
     assert 0.7 < centre[2] < 1.2
-    around = np.linalg.norm(lines[:2 * op_forces.ROUND] - centre, axis=1)
+    around = np.linalg.norm(lines[: 2 * op_forces.ROUND] - centre, axis=1)
     np.testing.assert_allclose(around, around[0], rtol=1e-4)
     marks = op_forces.pressure_marks(forces, 12)
     assert len(marks) == 2 * (2 * op_forces.ROUND + 2)  # a ring for each foot, and the cross
@@ -115,8 +116,9 @@ def test_the_graph_shows_what_the_loads_say():
     x, y, width, height = made.paper
     curves = [points for points, _, size in made.lines if size == 2.0]
     assert len(curves) == 2
-    body = next(points[0][1] for points, colour, _ in made.lines
-                if colour == force_graph.INK and points[0][1] == points[1][1])
+    body = next(
+        points[0][1] for points, colour, _ in made.lines if colour == force_graph.INK and points[0][1] == points[1][1]
+    )
     zero = next(y for _, y, text, _, _ in made.labels if text == "0") + 4.0
     vertical = -np.array([found.loads.force[found.gait.part_limb == k, :, 2].sum(axis=0) for k in (0, 1)])
     for curve, force in zip(curves, vertical / (75.0 * 9.81)):

@@ -1,4 +1,5 @@
 """Any mesh is ground, as it looks; walls, holes and broken meshes are refused in a sentence."""
+
 import bpy
 import numpy as np
 
@@ -171,11 +172,9 @@ def test_faces_of_any_size():
     assert abs(area(read(dart)) - 2.0) < 1e-6
     turned = polygons("Turned", [(0, 0, 0), (1, 1, 0), (0, 2, 0), (-1, 1, 0)], [(1, 2, 3, 0)])
     assert abs(area(read(turned)) - 2.0) < 1e-6
-    dent = polygons("Dent", [(0, 0, 0), (2, 0, 0), (2, 2, 0), (1, 0.5, 0), (0, 2, 0)],
-                    [(0, 1, 2, 3, 4)])
+    dent = polygons("Dent", [(0, 0, 0), (2, 0, 0), (2, 2, 0), (1, 0.5, 0), (0, 2, 0)], [(0, 1, 2, 3, 4)])
     assert abs(area(read(dent)) - 2.5) < 1e-6
-    mixed = polygons("Mixed", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)],
-                     [(0, 1, 2, 3), (1, 4, 2)])
+    mixed = polygons("Mixed", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)], [(0, 1, 2, 3), (1, 4, 2)])
     assert abs(area(read(mixed)) - 1.5) < 1e-6
 
 

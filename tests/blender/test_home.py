@@ -1,4 +1,5 @@
 """A bake belongs to one ground of one file: nobody else replaces it, frees it, or plays another's for it."""
+
 import json
 import os
 import stat

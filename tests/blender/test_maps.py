@@ -1,4 +1,5 @@
 """The maps of a bake as Blender's own image: layers by name, and the bits of the grid (oracle 14)."""
+
 import bpy
 import numpy as np
 
@@ -44,7 +45,7 @@ def layers(image, shape, folder):
         tree.links.new(socket, leave.inputs[0])
     assert bpy.ops.render.render() == {"FINISHED"}
     for socket in source.outputs:
-        written, = (folder / socket.name).glob("*.exr")
+        (written,) = (folder / socket.name).glob("*.exr")
         found[socket.name] = maps.read(written).planes["R"]
     return found
 

@@ -1,4 +1,5 @@
 """The frames of a bake are those in which anything moves the walker, asked anew at every bake."""
+
 import json
 
 import bpy
@@ -102,8 +103,11 @@ def test_an_action_counts_as_far_as_its_slot_and_its_range():
 
 
 def test_a_clip_that_goes_on_by_itself_goes_on_to_the_end_of_the_shot():
-    for change in (lambda curve: curve.modifiers.new("CYCLES"), lambda curve: curve.modifiers.new("NOISE"),
-                   lambda curve: setattr(curve, "extrapolation", "LINEAR")):
+    for change in (
+        lambda curve: curve.modifiers.new("CYCLES"),
+        lambda curve: curve.modifiers.new("NOISE"),
+        lambda curve: setattr(curve, "extrapolation", "LINEAR"),
+    ):
         obj = still()
         slide(obj, (1, 41))
         assert frames(obj) == (1, 41)
@@ -326,8 +330,9 @@ def test_placed_feet_and_hips_know_nothing_of_a_pose_before_the_walk():
             walker.location.z = 0.0
             walker.keyframe_insert("location", index=2, frame=1)
             for curve in compat.curves(walker.animation_data, walker):  # far ahead, its feet high over the ground
-                curve.keyframe_points.insert(0, {1: -2.0, 2: 3.0}.get(curve.array_index, 0.0)
-                                             if curve.data_path == "location" else 0.0)
+                curve.keyframe_points.insert(
+                    0, {1: -2.0, 2: 3.0}.get(curve.array_index, 0.0) if curve.data_path == "location" else 0.0
+                )
                 curve.update()
         meshes.activate(walker)
         assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}

@@ -1,5 +1,6 @@
 """How deep, how much, whatever the frame rate: oracles 1, 2, 3, 7 and 11 of the pressed ground, from an
 armature's keys to the mesh that plays. What is expected is reckoned here, not taken from a bake."""
+
 import csv
 import math
 
@@ -76,8 +77,7 @@ def test_depth_is_proportional_to_mass_and_layer_and_softness(folder):
         within(stands.bake(ground, 0.6).drop.max(), factor * base, 0.01)
         obj.desire_path.mass = 40.0
         own = SOILS["dry-soil"]
-        for numbers in ({"layer_depth": factor * own.layer_depth},
-                        {"young_modulus": own.young_modulus / factor}):
+        for numbers in ({"layer_depth": factor * own.layer_depth}, {"young_modulus": own.young_modulus / factor}):
             with stands.soil(**numbers):
                 within(stands.bake(ground, 0.6).drop.max(), factor * base, 0.01)
 
@@ -95,8 +95,10 @@ def test_a_rigid_sole_sinks_evenly_and_even_pressure_by_each_soil(folder):
     ground.desire_path.painted[0].soil = "soil"
     half = 0.5 * 0.12 * LENGTH
     together = mass * stands.GRAVITY / sum(each.young_modulus / each.layer_depth * half for each in (soft, firm))
-    for law, wanted in (("sole", (together, together)), ("uniform", (depth(mass, soft, 2.0 * half),
-                                                                     depth(mass, firm, 2.0 * half)))):
+    for law, wanted in (
+        ("sole", (together, together)),
+        ("uniform", (depth(mass, soft, 2.0 * half), depth(mass, firm, 2.0 * half))),
+    ):
         trail = stands.bake(ground, 0.6, law=law)
         for side, deep in zip((-1.0, 1.0), wanted):
             at = np.abs(trail.rest[..., 0] - stands.ASIDE - 0.03 * side) < 0.02
@@ -128,8 +130,10 @@ def stepping(folder, rate, subframes=1):
     obj = stands.walks(stands.figure(), stands.plate(WIDTH, LENGTH))
     stands.move(obj, "hips", 0.0)
     up, aside, there = (0.0, 0.0, 0.25), (0.0, 0.3, 0.25), (0.0, 0.35, 0.0)
-    for bone, keys in (("foot.L", ((0.0, up), (0.25, (0, 0, 0)), (1.0, (0, 0, 0)), (1.25, aside))),
-                       ("foot.R", ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (0.75, aside), (1.0, there)))):
+    for bone, keys in (
+        ("foot.L", ((0.0, up), (0.25, (0, 0, 0)), (1.0, (0, 0, 0)), (1.25, aside))),
+        ("foot.R", ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (0.75, aside), (1.0, there))),
+    ):
         for seconds, offset in keys:
             stands.move(obj, bone, seconds, offset)
     return stands.bake(ground, 1.25)
@@ -208,7 +212,7 @@ def drop(folder, mass=MASS, rate=60):
     obj = stands.walks(stands.figure("L"), sole, mass)
     obj.desire_path.load_model = "impulse"
     for frame in range(math.ceil(1.3 * rate)):
-        height = max(HEIGHT - 0.5 * stands.GRAVITY * (frame / rate)**2, 0.0)
+        height = max(HEIGHT - 0.5 * stands.GRAVITY * (frame / rate) ** 2, 0.0)
         for bone in ("hips", "foot.L"):
             stands.move(obj, bone, frame / rate, (0.0, 0.0, height))
     ground.desire_path.frame_start, ground.desire_path.frame_end = 1, math.ceil(1.3 * rate)

@@ -1,5 +1,6 @@
 """What a print looks like, however the scene stands and the work is cut: oracles 4, 5 and 6 of the pressed
 ground, from an armature's keys to the mesh that plays."""
+
 import math
 
 import bpy
@@ -38,8 +39,15 @@ def dance(folder, mirrored=False, apart=0.0, name="soil", **ground):
     for frame in range(37):
         seconds = frame / 24.0
         flown = max(seconds - JUMP, 0.0)
-        key("hips", seconds, (0.04 * math.sin(6.8 * seconds), 0.03 * math.cos(8.4 * seconds),
-                              1.5 * flown - 0.5 * stands.GRAVITY * flown**2))
+        key(
+            "hips",
+            seconds,
+            (
+                0.04 * math.sin(6.8 * seconds),
+                0.03 * math.cos(8.4 * seconds),
+                1.5 * flown - 0.5 * stands.GRAVITY * flown**2,
+            ),
+        )
     for seconds, lift, turn in ((0.0, 0.0, 0.3), (0.5, 0.0, 0.3), (0.8, 0.0, 0.5), (1.0, 0.25, 0.5)):
         key("foot.L", seconds, (0.03, 0.05, lift), (0.04, 0.06, turn))
     for seconds, lift in ((0.0, 0.3), (0.3, 0.0), (JUMP, 0.0), (1.5, 0.25)):
@@ -62,8 +70,10 @@ def test_a_mirrored_armature_leaves_mirrored_prints(folder):
 
 
 def test_a_step_of_the_other_foot_leaves_the_mirrored_print(folder):
-    base, other = (stands.bake(dance(folder / str(mirrored), mirrored, apart=0.3, cell=CELL)[0], SECONDS)
-                   for mirrored in (False, True))
+    base, other = (
+        stands.bake(dance(folder / str(mirrored), mirrored, apart=0.3, cell=CELL)[0], SECONDS)
+        for mirrored in (False, True)
+    )
     near(other.compression[:, ::-1], base.compression, FIRM)
     near(other.drop[:, ::-1], base.drop, LOOSE)
 
@@ -81,8 +91,11 @@ def test_a_turned_scene_leaves_the_same_prints_turned(folder):
     obj.matrix_parent_inverse = ground.matrix_parent_inverse = mathutils.Matrix()
     carrier.rotation_euler.z = 0.5 * math.pi  # as users turn it: with rounding
     rounded = stands.bake(ground, SECONDS)
-    for other, wanted, loose in ((alone, lambda x: np.rot90(x, -1), LOOSE),  # rows go up: +x becomes +y
-                                 (both, lambda x: x, LOOSE), (rounded, lambda x: x, 0.01 * base.drop.max())):
+    for other, wanted, loose in (
+        (alone, lambda x: np.rot90(x, -1), LOOSE),  # rows go up: +x becomes +y
+        (both, lambda x: x, LOOSE),
+        (rounded, lambda x: x, 0.01 * base.drop.max()),
+    ):
         near(other.compression, wanted(base.compression), FIRM)
         near(other.drop, wanted(base.drop), loose)
 
@@ -110,8 +123,9 @@ def test_threads_do_not_change_a_bit(folder):
         stands.bake(ground, SECONDS, threads=threads, folder=str(place))
         index = bake.read_index(str(place))
         frames = [(place / "frames" / f"trail_{n:04d}.exr").read_bytes() for n in range(index.frames + 1)]
-        files.append(frames + [stands.planes(ground)[name].tobytes()
-                               for name in ("compression", "heap", "pressure_time")])
+        files.append(
+            frames + [stands.planes(ground)[name].tobytes() for name in ("compression", "heap", "pressure_time")]
+        )
         assert len(set(frames)) > 20  # the frames differ from each other
     assert files[0] == files[1] == files[2]
 

@@ -1,4 +1,5 @@
 """Recorded people and skinned characters bake with default settings: armature, ground and mass."""
+
 import hashlib
 import json
 import os
@@ -42,9 +43,11 @@ def walk_over(walker, ground, folder, mass=75.0):
 
 
 def check(report, ground, folder, contacts, deepest=(0.004, 0.12)):
-    print(f"        {report['contacts']} contacts, deepest {1000 * report['deepest_m']:.0f} mm, "
-          f"{1000 * report['pressed_m3']:.2f} l pressed, {1000 * report['heaped_m3']:.2f} l in rims, "
-          f"{report['seconds']:.1f} s; {report['warnings']}")
+    print(
+        f"        {report['contacts']} contacts, deepest {1000 * report['deepest_m']:.0f} mm, "
+        f"{1000 * report['pressed_m3']:.2f} l pressed, {1000 * report['heaped_m3']:.2f} l in rims, "
+        f"{report['seconds']:.1f} s; {report['warnings']}"
+    )
     assert contacts[0] <= report["contacts"] <= contacts[1], report["contacts"]
     assert deepest[0] < report["deepest_m"] < deepest[1], report["deepest_m"]
     index = bake.read_index(str(folder / "bake"))
@@ -165,8 +168,10 @@ def test_measured_walks_agree_with_force_plates(folder):
                 print(f"        {name} {bone} {model}: RMSE {rmse:.3f} body weights, r {r:.3f}")
                 if model == "inertia":
                     assert rmse <= 0.10 and r >= 0.97
-            print(f"        {name} {model}: mean total {total:.3f} body weights, {len(edges)} contact "
-                  f"times within {1000 * max(edges):.0f} ms")
+            print(
+                f"        {name} {model}: mean total {total:.3f} body weights, {len(edges)} contact "
+                f"times within {1000 * max(edges):.0f} ms"
+            )
             if model == "inertia":
                 assert 0.97 <= total <= 1.05 and len(edges) >= 5 and max(edges) <= 0.060
         bpy.data.objects.remove(walker_object)
@@ -177,8 +182,7 @@ def late(on, down, time, inside):
     out = []
     for way in (1, -1):
         ours, plates = (np.flatnonzero(np.diff(each.astype(int)) == way) + 1 for each in (on, down))
-        out += [np.abs(time[ours] - time[edge]).min() for edge in plates
-                if inside[edge] and 2 < edge < len(time) - 2]
+        out += [np.abs(time[ours] - time[edge]).min() for edge in plates if inside[edge] and 2 < edge < len(time) - 2]
     return out
 
 
@@ -191,8 +195,7 @@ def test_recordings_agree_in_every_blender(folder):
     if not os.path.exists(path):
         gait.save(path)
     other = Gait.load(path)
-    apart = max(np.abs(other.pose[..., :3] - gait.pose[..., :3]).max(),
-                np.abs(other.com - gait.com).max())
+    apart = max(np.abs(other.pose[..., :3] - gait.pose[..., :3]).max(), np.abs(other.com - gait.com).max())
     print(f"        differs from the first Blender by {apart:.1e} m")
     assert apart < 1e-5
 
@@ -208,8 +211,7 @@ def test_one_recording_gives_the_same_bits(folder):
     gait = Gait.load(path)
     found = set()
     for threads in (1, 2, 4):
-        job = bake.Bake(gait, sim.Ground.flat(), "dry-sand", str(folder / f"t{threads}"),
-                        threads=threads)
+        job = bake.Bake(gait, sim.Ground.flat(), "dry-sand", str(folder / f"t{threads}"), threads=threads)
         for _ in job.run():
             pass
         planes = maps.read(str(folder / f"t{threads}" / "maps_final.exr")).planes

@@ -1,4 +1,5 @@
 """Feet put on a hill in a new action: where they come to be, what stays, what is refused."""
+
 import json
 import pathlib
 
@@ -26,8 +27,7 @@ def hill(x, y):
 
 def scene_of(obj, height=hill, size=1.0):
     """The armature as a walker of a hill; returns the ground."""
-    ground = meshes.grid(51, 101, 0.1 * size, -2.5 * size, -7.0 * size,
-                         lambda x, y: size * height(x / size, y / size))
+    ground = meshes.grid(51, 101, 0.1 * size, -2.5 * size, -7.0 * size, lambda x, y: size * height(x / size, y / size))
     operator.desire_path_ground_add()
     meshes.activate(obj)
     operator.desire_path_walker_add()
@@ -40,8 +40,10 @@ def keys(action, obj):
     animation = obj.animation_data
     now, slot = animation.action, getattr(animation, "action_slot", None)
     compat.use_action(animation, action)
-    found = sorted((curve.data_path, curve.array_index, tuple(tuple(p.co) for p in curve.keyframe_points))
-                   for curve in compat.curves(animation, obj))
+    found = sorted(
+        (curve.data_path, curve.array_index, tuple(tuple(p.co) for p in curve.keyframe_points))
+        for curve in compat.curves(animation, obj)
+    )
     compat.use_action(animation, now, slot)
     return found
 
@@ -72,8 +74,7 @@ def check_placed(obj, flat, first=1, last=48, height=hill):
     assert over.min() > min(before.min() - stood, 0.0) - 0.006
     normal = np.array((-(height(1e-3, 0) - height(0, 0)) / 1e-3, -(height(0, 1e-3) - height(0, 0)) / 1e-3, 1.0))
     normal /= np.linalg.norm(normal)
-    tilts = [(rotation.matrix(g.pose[::2, :, 3:]) @ (0, 0, 1.0)) @ n for g, n in ((flat, (0, 0, 1.0)),
-                                                                                (gait, normal))]
+    tilts = [(rotation.matrix(g.pose[::2, :, 3:]) @ (0, 0, 1.0)) @ n for g, n in ((flat, (0, 0, 1.0)), (gait, normal))]
     stands = low[::4] & low[1::4]
     assert np.abs(tilts[0] - tilts[1])[stands].max() < 0.01
     return gait, loads
@@ -199,8 +200,7 @@ def test_quaternions_and_a_turned_object():
 
 def test_legs_that_follow_ik_targets():
     obj = people.walk(people.biped())
-    add_bones(obj, *((f"ik.{side}", None, (x, 0.02, 0.08), (x, 0.2, 0.08))
-                     for side, x in (("L", 0.1), ("R", -0.1))))
+    add_bones(obj, *((f"ik.{side}", None, (x, 0.02, 0.08), (x, 0.2, 0.08)) for side, x in (("L", 0.1), ("R", -0.1))))
     seen = posing.look(bpy.context.scene, obj, ["foot.L", "foot.R"], range(1, 49))
     for side in "LR":
         target = np.tile(np.eye(4), (48, 1, 1))
@@ -366,7 +366,7 @@ def prints(folder, steep, aside, *, character):
     assert operator.desire_path_bake() == {"FINISHED"}
     found = maps.read(settings.folder + "/maps_final.exr")
     pressed, heap = found.planes["compression"], found.planes["heap"]
-    y, x = np.mgrid[:pressed.shape[0], :pressed.shape[1]] * 0.01
+    y, x = np.mgrid[: pressed.shape[0], : pressed.shape[1]] * 0.01
     rows = np.sort(-y[pressed > 0.25 * pressed.max()])
     cuts = np.flatnonzero(np.diff(rows) > 0.2) + 1
     assert 6 <= len(cuts) + 1 <= 8, len(cuts)
@@ -447,8 +447,13 @@ def test_a_beast_of_four_legs():
 def check_trunk(obj, lean):
     """The trunk leans (along -Y, along X), and each leg is as long from hip to ankle as it was, but for what legs do
     sideways."""
-    seen = posing.look(bpy.context.scene, obj, ["hips", "spine"] + [
-        f"{word}{bone}.{side}" for word in ("", "front_") for bone in ("thigh", "foot") for side in "LR"], [1, 4, 6])
+    seen = posing.look(
+        bpy.context.scene,
+        obj,
+        ["hips", "spine"]
+        + [f"{word}{bone}.{side}" for word in ("", "front_") for bone in ("thigh", "foot") for side in "LR"],
+        [1, 4, 6],
+    )
     rest = {bone.name: np.array(bone.matrix_local) for bone in obj.data.bones}
     for name in ("hips", "spine"):
         turn = seen.at(name)[:, :3, :3] @ np.linalg.inv(rest[name][:3, :3])

@@ -1,4 +1,5 @@
 """Plants on a ground: where they stand, what is seen of them, and how they lie where they were trodden."""
+
 import os
 import struct
 import types
@@ -64,7 +65,7 @@ def test_plants_stand_on_the_ground_as_dense_as_asked():
     for kind in ("carex", "fern", "moss"):
         each = add(ground, kind)
         place = roots(each)
-        asked = KINDS[kind].density * NX * NY * CELL ** 2
+        asked = KINDS[kind].density * NX * NY * CELL**2
         assert each.density == np.float32(KINDS[kind].density)
         assert len(place) == each.count and abs(len(place) - asked) < 0.15 * asked + 4, (kind, len(place), asked)
         wanted = 0.1 * np.sin(4 * place[:, 0]) + 0.2 * place[:, 1]
@@ -119,8 +120,7 @@ def test_a_painted_group_thins_and_moves_nobody():
 def test_a_float_attribute_thins_as_well():
     ground = bed()
     at = compat.positions(ground.data)
-    ground.data.attributes.new("wet", "FLOAT", "POINT").data.foreach_set(
-        "value", (at[:, 1] > 0.6).astype(np.float32))
+    ground.data.attributes.new("wet", "FLOAT", "POINT").data.foreach_set("value", (at[:, 1] > 0.6).astype(np.float32))
     each = add(ground)
     each.density_group = "wet"
     assert roots(each)[:, 1].min() > 0.56 and each.count > 20
@@ -152,7 +152,7 @@ def picture(value, name="mask", **more):
 def halves(share_left=0.0, rows=8, columns=64):
     """Bright on the right, as bright as told on the left."""
     value = np.ones((rows, columns), np.float32)
-    value[:, :columns // 2] = share_left
+    value[:, : columns // 2] = share_left
     return value
 
 
@@ -245,6 +245,7 @@ def test_islands_of_a_uv_map_do_not_mix_and_the_upper_face_counts():
 
 def test_pixels_count_as_they_are_stored(folder):
     from desire_path.blender import picture as pictures
+
     red = np.zeros((2, 3, 3), np.float32)
     red[..., 0], red[0, 1] = 1.0, (0.0, 1.0, 0.0)
     wanted = np.full((2, 3), 0.2126)
@@ -281,7 +282,7 @@ def png(grey, bits):
         return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
 
     head = struct.pack(">IIBBBBB", value.shape[1], value.shape[0], bits, 0, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b"")
 
 
 def used(image):
@@ -326,7 +327,7 @@ def test_other_pixels_are_another_bake():
     each = add(ground, "carex", density_image=image.name)
 
     def planted():
-        planting, = plants.plantings(bpy.context.scene, ground)
+        (planting,) = plants.plantings(bpy.context.scene, ground)
         return b"".join(array.tobytes() for array in planting.arrays()), planting
 
     once, planting = planted()
@@ -348,7 +349,9 @@ def test_off_the_images_the_ground_says_what_an_image_let_grow(folder):
     bpy.ops.object.desire_path_ground_add()
     paint(ground, lambda x, y: np.where(y < 0.0, 0.5, 1.0))
     value = np.tile(np.linspace(0.0, 1.0, 34, dtype=np.float32), (2, 1))
-    each = add(ground, "lycopodium", density=32.0, grass=False, density_group="grown", density_image=picture(value).name)
+    each = add(
+        ground, "lycopodium", density=32.0, grass=False, density_group="grown", density_image=picture(value).name
+    )
     add(ground, "lycopodium", density=4.0, grass=False)
     have = everything()
     trail, lean, *_ = blank()
@@ -452,14 +455,34 @@ def images(folder, trail, lean):
     for number, (ground, plant) in enumerate((rest, (trail, lean))):
         exr.write(folder / "frames" / f"trail_{number:04d}.exr", ground)
         exr.write(folder / "frames" / f"lean_{number:04d}.exr", plant)
-    return types.SimpleNamespace(cell=CELL, x0=0.0, y0=0.0, nx=NX, ny=NY, frame_start=1, frame_end=1, frames=1,
-                                 lean=True, folder=str(folder / "frames"))
+    return types.SimpleNamespace(
+        cell=CELL,
+        x0=0.0,
+        y0=0.0,
+        nx=NX,
+        ny=NY,
+        frame_start=1,
+        frame_end=1,
+        frames=1,
+        lean=True,
+        folder=str(folder / "frames"),
+    )
 
 
 def play(ground, index, **more):
     bpy.context.view_layer.update()
-    playback.attach(ground, index.folder, index, count=1, world=axes.matrix(ground.matrix_world, "g"), scale=1.0,
-                    smooth=False, corners=corners(ground), standing=plants.standing(ground), **more)
+    playback.attach(
+        ground,
+        index.folder,
+        index,
+        count=1,
+        world=axes.matrix(ground.matrix_world, "g"),
+        scale=1.0,
+        smooth=False,
+        corners=corners(ground),
+        standing=plants.standing(ground),
+        **more,
+    )
     plants.show(ground, index)
 
 

@@ -1,4 +1,5 @@
 """Frames come back from the files bit for bit, in this process and in one without the add-on."""
+
 import os
 import subprocess
 import sys
@@ -26,22 +27,30 @@ def frames(folder, count=5, nx=NX, ny=NY, seed=1):
 
 
 def index(x0=0.0, y0=0.0, frame_start=10, count=5, nx=NX, ny=NY, cell=CELL):
-    return types.SimpleNamespace(cell=cell, x0=x0, y0=y0, nx=nx, ny=ny, frame_start=frame_start,
-                                 frame_end=frame_start + count - 1)
+    return types.SimpleNamespace(
+        cell=cell, x0=x0, y0=y0, nx=nx, ny=ny, frame_start=frame_start, frame_end=frame_start + count - 1
+    )
 
 
 def corners(obj):
     low, high = (f(compat.positions(obj.data), axis=0) for f in (np.min, np.max))
-    return np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])
-                     for z in (low[2], high[2])])
+    return np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
 def play(obj, folder, where, count=5, smooth=False, scale=1.0, layer_depth=0.0):
     bpy.context.view_layer.update()
     world = axes.matrix(obj.matrix_world, obj.name)
-    return playback.attach(obj, playback.join(str(folder), "frames"), where, count=count,
-                           world=world, scale=scale, smooth=smooth, corners=corners(obj),
-                           layer_depth=layer_depth)
+    return playback.attach(
+        obj,
+        playback.join(str(folder), "frames"),
+        where,
+        count=count,
+        world=world,
+        scale=scale,
+        smooth=smooth,
+        corners=corners(obj),
+        layer_depth=layer_depth,
+    )
 
 
 def shown(obj, frame, subframe=0.0):
@@ -92,7 +101,7 @@ def test_points_outside_stay(folder):
             np.testing.assert_allclose(colour[inner][..., :3], value[5][..., :3], atol=1e-6)
         else:
             assert colour[inner].tobytes() == value[5].tobytes()
-        colour[NY - 1:2 * NY + 1, NX - 1:2 * NX + 1] = 0.0  # 3.4 repeats the last cell once
+        colour[NY - 1 : 2 * NY + 1, NX - 1 : 2 * NX + 1] = 0.0  # 3.4 repeats the last cell once
         assert not colour.any()
         away = np.ones((3 * NY, 3 * NX), bool)
         away[inner] = False
@@ -108,8 +117,7 @@ def test_between_cells_is_smooth(folder):
     i, j = np.floor(at).astype(int).T
     fx, fy = (at - np.floor(at)).T
     v = value[3][..., 0].astype(np.float64)
-    wanted = ((1 - fy) * ((1 - fx) * v[j, i] + fx * v[j, i + 1])
-              + fy * ((1 - fx) * v[j + 1, i] + fx * v[j + 1, i + 1]))
+    wanted = (1 - fy) * ((1 - fx) * v[j, i] + fx * v[j, i + 1]) + fy * ((1 - fx) * v[j + 1, i] + fx * v[j + 1, i + 1])
     np.testing.assert_allclose(colour[:, 0], wanted, atol=2e-6)
 
 
@@ -134,8 +142,7 @@ def test_tilted_scaled_ground_in_centimetres(folder):
     i, j = np.floor(at).astype(int).T
     fx, fy = (at - np.floor(at)).T
     v = value[4][..., 0].astype(np.float64)
-    wanted = ((1 - fy) * ((1 - fx) * v[j, i] + fx * v[j, i + 1])
-              + fy * ((1 - fx) * v[j + 1, i] + fx * v[j + 1, i + 1]))
+    wanted = (1 - fy) * ((1 - fx) * v[j, i] + fx * v[j, i + 1]) + fy * ((1 - fx) * v[j + 1, i] + fx * v[j + 1, i + 1])
     assert np.abs(colour[:, 0]).max() > 0.02
     np.testing.assert_allclose(colour[:, 0], wanted, atol=1e-5)
 
@@ -175,8 +182,11 @@ def test_detach_leaves_nothing(folder):
 
 
 def ids():
-    return {(kind, each.name) for kind in ("node_groups", "images", "objects", "meshes", "scenes")
-            for each in getattr(bpy.data, kind)}
+    return {
+        (kind, each.name)
+        for kind in ("node_groups", "images", "objects", "meshes", "scenes")
+        for each in getattr(bpy.data, kind)
+    }
 
 
 FRESH = """
@@ -200,8 +210,17 @@ np.savez(sys.argv[-1], **{f"{k}{i}": v for i, o in enumerate(out) for k, v in zi
 def fresh(script, *arguments):
     """Run a script in a new process of this Blender, without the add-on."""
     if bpy.app.binary_path:
-        command = [bpy.app.binary_path, "-b", "--factory-startup", "--python-exit-code", "1",
-                   "--python-expr", script, "--", *map(str, arguments)]
+        command = [
+            bpy.app.binary_path,
+            "-b",
+            "--factory-startup",
+            "--python-exit-code",
+            "1",
+            "--python-expr",
+            script,
+            "--",
+            *map(str, arguments),
+        ]
     else:
         command = [sys.executable, "-c", script, *map(str, arguments)]
     path = "/usr/bin:/bin" if bpy.app.binary_path else os.environ.get("PATH", "")

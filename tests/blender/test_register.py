@@ -1,4 +1,5 @@
 """The add-on comes, goes and comes back without leftovers."""
+
 import subprocess
 import sys
 
@@ -6,16 +7,30 @@ import bpy
 
 import desire_path
 
-OPERATORS = ("ground_add", "walker_add", "bake", "free", "record", "cancel", "remove", "paint_add",
-             "paint_remove", "rig_detect", "forces_show")
+OPERATORS = (
+    "ground_add",
+    "walker_add",
+    "bake",
+    "free",
+    "record",
+    "cancel",
+    "remove",
+    "paint_add",
+    "paint_remove",
+    "rig_detect",
+    "forces_show",
+)
 
 
 def there():
     known = [name for name in dir(bpy.types) if "desire_path" in name.lower()]
-    handlers = [f for group in dir(bpy.app.handlers)
-                if isinstance(getattr(bpy.app.handlers, group), list)
-                for f in getattr(bpy.app.handlers, group)
-                if getattr(f, "__module__", "").startswith("desire_path")]
+    handlers = [
+        f
+        for group in dir(bpy.app.handlers)
+        if isinstance(getattr(bpy.app.handlers, group), list)
+        for f in getattr(bpy.app.handlers, group)
+        if getattr(f, "__module__", "").startswith("desire_path")
+    ]
     return known, hasattr(bpy.types.Object, "desire_path"), len(handlers)
 
 
@@ -59,9 +74,12 @@ def test_version_is_a_literal():
 
 def test_importable_without_bpy():
     import pathlib
+
     place = pathlib.Path(desire_path.__file__).parent.parent
-    script = ("import sys; sys.modules['bpy'] = None; sys.path.insert(0, sys.argv[1]); "
-              "import desire_path; print(desire_path.bl_info['version'])")
+    script = (
+        "import sys; sys.modules['bpy'] = None; sys.path.insert(0, sys.argv[1]); "
+        "import desire_path; print(desire_path.bl_info['version'])"
+    )
     python = sys.executable
     done = subprocess.run([python, "-c", script, str(place)], capture_output=True, text=True)
     assert done.returncode == 0 and "(0, 1, 0)" in done.stdout, done.stdout + done.stderr
@@ -70,11 +88,10 @@ def test_importable_without_bpy():
 def test_a_script_that_only_registers_ends(folder):
     # with bpy as a module a registered class must not keep Python from ending
     import pathlib
+
     if bpy.app.binary_path:
         return
     place = pathlib.Path(desire_path.__file__).parent.parent
-    script = ("import sys, bpy; sys.path.insert(0, sys.argv[1]); "
-              "import desire_path; desire_path.register()")
-    done = subprocess.run([sys.executable, "-c", script, str(place)], capture_output=True, text=True,
-                          timeout=60)
+    script = "import sys, bpy; sys.path.insert(0, sys.argv[1]); import desire_path; desire_path.register()"
+    done = subprocess.run([sys.executable, "-c", script, str(place)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr

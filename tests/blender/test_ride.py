@@ -1,4 +1,5 @@
 """On a ship, a lift or a turning platform the prints stay where the feet were set, as on firm ground."""
+
 import json
 
 import bpy
@@ -68,9 +69,11 @@ def test_a_ground_that_only_could_move_changes_nothing():
 
 
 def test_what_riding_leaves_out_is_told():
-    for turn, at, words in (((0, 0, 0), ((0, 0, 0), (0, 0, 0.1)), ()),
-                            ((0.1, 0, 0), ((0, 0, 0), (0, 0, 0)), ("tilts by up to 6 degrees",)),
-                            ((0, 0, 0), ((0, 0, 0), (9, 0, 0)), ("times gravity near frame",))):
+    for turn, at, words in (
+        ((0, 0, 0), ((0, 0, 0), (0, 0, 0.1)), ()),
+        ((0.1, 0, 0), ((0, 0, 0), (0, 0, 0)), ("tilts by up to 6 degrees",)),
+        ((0, 0, 0), ((0, 0, 0), (9, 0, 0)), ("times gravity near frame",)),
+    ):
         ground, walker = strip()
         carrier(ground, walker, turn=turn, at=at)
         told = rode(record(walker))
@@ -101,6 +104,7 @@ def test_who_walks_on_a_belt_walks_ahead():
 
 def _curves(obj):
     from desire_path.blender import compat
+
     return compat.curves(obj.animation_data, obj)
 
 
@@ -165,8 +169,9 @@ def test_a_crate_on_a_ship_lies_where_it_lay():
     assert np.ptp(gait.pose[0, :, :3], axis=0).max() < 1e-5
     moved = Matrix(np.array(crate.matrix_world))
     bpy.context.scene.frame_set(LAST)
-    assert (crate.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
-            - moved.translation).length > 3.0
+    assert (
+        crate.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation - moved.translation
+    ).length > 3.0
 
 
 def test_a_deck_of_two_pieces_is_trodden_on_both(folder):

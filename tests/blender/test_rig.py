@@ -1,4 +1,5 @@
 """What a walker's rig is taken for: found, shown in slots, overridden by hand, and heeded."""
+
 import json
 
 import bpy
@@ -62,9 +63,12 @@ def test_slots_set_by_hand_are_heeded():
     operator.desire_path_rig_detect()
     before = record(obj)
     settings = obj.desire_path
-    add_bones(obj, ("other", "shin.L", (0.10, 0.02, 0.08), (0.10, -0.11, 0.02)),
-              ("other toe", "other", (0.10, -0.09, 0.02), (0.10, -0.16, 0.02)),
-              ("belly", "hips", (0, 0, 1.2), (0, 0, 1.3)))
+    add_bones(
+        obj,
+        ("other", "shin.L", (0.10, 0.02, 0.08), (0.10, -0.11, 0.02)),
+        ("other toe", "other", (0.10, -0.09, 0.02), (0.10, -0.16, 0.02)),
+        ("belly", "hips", (0, 0, 1.2), (0, 0, 1.3)),
+    )
     settings.feet[0].foot = "other"
     assert settings.feet[0].shank == "" and settings.feet[1].shank == "shin.R"
     settings.feet[0].toe = ""
@@ -95,8 +99,7 @@ def test_a_heel_set_by_hand_brings_its_faces():
     add_bones(obj, ("spur", "shin.L", (0.10, 0.02, 0.08), (0.10, 0.06, 0.01)))
     mesh = meshes.grid(8, 16, 0.02, 0.03, -0.22, height=lambda x, y: 0.0 * x + 0.005, name="Shoe")
     rows = np.arange(8 * 16) // 8
-    for bone, mine in (("foot.L", (rows > 4) & (rows < 12)), ("toe.L", rows <= 4),
-                       ("spur", rows >= 12)):
+    for bone, mine in (("foot.L", (rows > 4) & (rows < 12)), ("toe.L", rows <= 4), ("spur", rows >= 12)):
         mesh.vertex_groups.new(name=bone).add(np.flatnonzero(mine).tolist(), 1.0, "REPLACE")
     mesh.modifiers.new("Armature", "ARMATURE").object = obj
     mesh.parent = obj
@@ -115,8 +118,11 @@ def test_feet_are_added_and_removed_by_hand():
         obj.data.bones[name].name = "b" + str(len(name) * 7 + ord(name[0])) + name[-1].lower() + "x"  # nothing to go by
     names = {bone.name: bone for bone in obj.data.bones}
     low = sorted(names, key=lambda name: names[name].head_local.z)
-    feet = [name for name in low if names[name].children and names[name].head_local.z < 0.09
-            and names[name].head_local.y > 0.0]
+    feet = [
+        name
+        for name in low
+        if names[name].children and names[name].head_local.z < 0.09 and names[name].head_local.y > 0.0
+    ]
     assert len(feet) == 2
     settings = obj.desire_path
     settings.feet.clear()
@@ -202,15 +208,21 @@ def test_library_overrides_keep_what_they_were_told(folder):
         legs = [(each.thigh, each.shank) for each in walker.desire_path.feet]
         for _ in range(2):
             bpy.ops.wm.open_mainfile(filepath=shot)
-            walker, ground = (next(each for each in bpy.context.scene.objects if each.override_library
-                                   and each.type == kind) for kind in ("ARMATURE", "MESH"))
+            walker, ground = (
+                next(each for each in bpy.context.scene.objects if each.override_library and each.type == kind)
+                for kind in ("ARMATURE", "MESH")
+            )
             settings = walker.desire_path
             assert settings.is_walker and settings.mass == 50.0 and settings.ground == ground
             assert slots(walker) == [("left", "foot.L", "toe.L", ""), ("right", "foot.R", "", "")]
             assert [(each.thigh, each.shank) for each in settings.feet] == legs
             settings = ground.desire_path
             assert settings.is_ground and settings.soil == "snow" and abs(settings.cell_size - 0.03) < 1e-6
-            assert settings.frames_auto and settings.folder_auto and settings.folder == f"//desire_path/shot{once_told:d}/Ground"
+            assert (
+                settings.frames_auto
+                and settings.folder_auto
+                and settings.folder == f"//desire_path/shot{once_told:d}/Ground"
+            )
             assert [each.vertex_group for each in settings.painted] == ["wet"]
             assert [(each.kind, each.density, each.count > 10) for each in settings.plants] == [("moss", 20.0, True)]
             assert settings.bake_state == "FRESH", settings.missing

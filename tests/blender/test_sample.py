@@ -1,4 +1,5 @@
 """Armatures are recorded as they move, whatever their scale, parents and constraints."""
+
 import math
 
 import bpy
@@ -32,8 +33,7 @@ def direct(obj, names, frames, subframe=0.0):
         scene.frame_set(frame, subframe=subframe)
         found = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
         for b, name in enumerate(names):
-            out[t, b] = (np.array(found.matrix_world, np.float64)
-                         @ np.array(found.pose.bones[name].matrix, np.float64))
+            out[t, b] = np.array(found.matrix_world, np.float64) @ np.array(found.pose.bones[name].matrix, np.float64)
     return out
 
 
@@ -43,9 +43,11 @@ def privately(obj, names, frames):
 
 
 def ids():
-    return {(kind, each.name) for kind in ("scenes", "objects", "collections", "meshes", "armatures",
-                                           "actions", "node_groups")
-            for each in getattr(bpy.data, kind)}
+    return {
+        (kind, each.name)
+        for kind in ("scenes", "objects", "collections", "meshes", "armatures", "actions", "node_groups")
+        for each in getattr(bpy.data, kind)
+    }
 
 
 def everything():

@@ -1,4 +1,5 @@
 """Sizes that cannot be are asked about first, small creatures step as people do, and a held pose is no step."""
+
 import bpy
 import numpy as np
 
@@ -15,7 +16,7 @@ def person(by=1.0):
     """The recorded walk at another size, its frames as much quicker as Froude has it."""
     walker = people.bvh(people.SCENES.joinpath("walks", WALK), global_scale=CMU * by)
     render = bpy.context.scene.render
-    render.fps, render.fps_base = round(render.fps / by ** 0.5), 1.0
+    render.fps, render.fps_base = round(render.fps / by**0.5), 1.0
     return walker
 
 
@@ -87,7 +88,7 @@ def test_an_armature_at_rest_is_named():
 
 def test_a_small_creature_has_the_contacts_of_a_person(folder):
     found = []
-    for by, mass in ((1.0, 75.0), (0.04, 75.0 * 0.04 ** 3)):
+    for by, mass in ((1.0, 75.0), (0.04, 75.0 * 0.04**3)):
         for each in list(bpy.data.objects):
             bpy.data.objects.remove(each)
         walker = person(by)

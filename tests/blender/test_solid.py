@@ -1,4 +1,5 @@
 """Meshes that move leave prints as rigid bodies: by keys, parents, constraints and Blender's own rigid bodies."""
+
 import json
 import math
 

@@ -1,4 +1,5 @@
 """Our modifier goes after what shapes the ground and before what stands on it, and speaks truly of what is seen."""
+
 import bpy
 import numpy as np
 
@@ -45,8 +46,10 @@ def real_scatter(wire, geometry):
 
 def scatter_around(wire, geometry):
     """Real stones before the ground's own points and after them."""
-    real = [wire.add("GeometryNodeRealizeInstances", Geometry=stones(wire, geometry, density)).outputs[0]
-            for density in (100.0, 200.0)]
+    real = [
+        wire.add("GeometryNodeRealizeInstances", Geometry=stones(wire, geometry, density)).outputs[0]
+        for density in (100.0, 200.0)
+    ]
     return joined(wire, real[0], geometry, real[1])
 
 
@@ -85,10 +88,17 @@ def place(obj):
 
 def test_what_nodes_do_is_seen():
     before = ids()
-    for build, wanted in ((scatter, (0, False, False)), (real_scatter, (0, False, False)),
-                          (scatter_around, (0, False, False)), (subdivided, (1, False, False)), (raised, (1, False, False)),
-                          (raised_and_scattered, (1, False, True)), (twice, (1, False, False)),
-                          (tiled, (1, True, False)), (coloured, (1, False, False))):
+    for build, wanted in (
+        (scatter, (0, False, False)),
+        (real_scatter, (0, False, False)),
+        (scatter_around, (0, False, False)),
+        (subdivided, (1, False, False)),
+        (raised, (1, False, False)),
+        (raised_and_scattered, (1, False, True)),
+        (twice, (1, False, False)),
+        (tiled, (1, True, False)),
+        (coloured, (1, False, False)),
+    ):
         obj = meshes.grid(21, 21, 0.1)
         tree = tree_of(obj, build.__name__, build).node_group
         found = place(obj)
@@ -176,9 +186,19 @@ def test_hair_goes_down_with_the_ground(folder):
 
 def instances(obj):
     """Where the instances of a ground are (n, 3), made points by a last modifier."""
-    last = tree_of(obj, "points", lambda wire, geometry: wire.add(
-        "GeometryNodePointsToVertices", Points=wire.add("GeometryNodeInstancesToPoints", Instances=compat.socket(
-            wire.add("GeometryNodeSeparateComponents", Geometry=geometry).outputs, "Instances")).outputs[0]).outputs[0])
+    last = tree_of(
+        obj,
+        "points",
+        lambda wire, geometry: wire.add(
+            "GeometryNodePointsToVertices",
+            Points=wire.add(
+                "GeometryNodeInstancesToPoints",
+                Instances=compat.socket(
+                    wire.add("GeometryNodeSeparateComponents", Geometry=geometry).outputs, "Instances"
+                ),
+            ).outputs[0],
+        ).outputs[0],
+    )
     found = compat.positions(shown(obj).data)
     obj.modifiers.remove(last)
     return found
@@ -205,14 +225,21 @@ def test_a_ground_of_instances_is_pressed(folder):
 
 
 def test_prints_that_only_renders_or_the_viewport_show(folder):
-    for levels, render, word in ((0, 3, "the viewport does not"), (3, 0, "renders do not"), (0, 0, "cannot be seen"),
-                                 (3, 3, ""), (2, 2, "")):
+    for levels, render, word in (
+        (0, 3, "the viewport does not"),
+        (3, 0, "renders do not"),
+        (0, 0, "cannot be seen"),
+        (3, 3, ""),
+        (2, 2, ""),
+    ):
         ground = strip(0.1)
         fine = ground.modifiers.new("Fine", "SUBSURF")
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", levels, render
         said = trodden(ground, folder / f"{levels} {render}")
         for each in ("the viewport does not", "renders do not", "cannot be seen", "lie 0."):
-            assert (each in said) == (each == word or each == "lie 0." and "not" in word and word != "cannot be seen"), said
+            assert (each in said) == (
+                each == word or each == "lie 0." and "not" in word and word != "cannot be seen"
+            ), said
         bpy.data.objects.remove(ground)
 
 

@@ -1,4 +1,5 @@
 """The state of a bake is told truly: what was changed, lost or stopped, and that nothing was."""
+
 import json
 import shutil
 
@@ -35,16 +36,29 @@ def test_whatever_is_changed_and_changed_back(folder):
     bump.strength, bump.show_viewport, bump.show_render = 0.01, False, False
     bone = walker.data.bones["foot.L"]
     changes = (  # who, what, another value, the words it is told with
-        (settings, "cell_size", 0.031, "settings"), (settings, "soil", "snow", "settings"),
-        (settings, "frame_end", 7, "settings"), (settings, "law", "uniform", "settings"),
-        (settings, "attributes", False, "settings"), (settings, "vertex_group", True, "settings"),
-        (wears, "mass", 74.5, "walk"), (wears, "load_model", "impulse", "settings"), (wears, "place_feet", True, "settings"),
-        (wears, "subframes", 2, "walk"), (wears, "ground", None, "Nobody walks"),
-        (key, "co", (key.co[0], key.co[1] + 0.004), "walk"), (walker.location, "x", 0.01, "walk"),
-        (bpy.context.scene.render, "fps", 31, "settings"), (ground.location, "z", -0.01, "ground"),
-        (ground, "rotation_euler", (0.0, 0.0, 0.01), "ground"), (lambda: ground.data.vertices[0].co, "z", 0.02, "ground"),
-        (bone, "use_deform", bone.use_deform, None), (walker, "hide_viewport", True, None),
-        (walker, "name", "Somebody", None), (ground, "name", "Beach", None), (settings, "threads", 1, None))
+        (settings, "cell_size", 0.031, "settings"),
+        (settings, "soil", "snow", "settings"),
+        (settings, "frame_end", 7, "settings"),
+        (settings, "law", "uniform", "settings"),
+        (settings, "attributes", False, "settings"),
+        (settings, "vertex_group", True, "settings"),
+        (wears, "mass", 74.5, "walk"),
+        (wears, "load_model", "impulse", "settings"),
+        (wears, "place_feet", True, "settings"),
+        (wears, "subframes", 2, "walk"),
+        (wears, "ground", None, "Nobody walks"),
+        (key, "co", (key.co[0], key.co[1] + 0.004), "walk"),
+        (walker.location, "x", 0.01, "walk"),
+        (bpy.context.scene.render, "fps", 31, "settings"),
+        (ground.location, "z", -0.01, "ground"),
+        (ground, "rotation_euler", (0.0, 0.0, 0.01), "ground"),
+        (lambda: ground.data.vertices[0].co, "z", 0.02, "ground"),
+        (bone, "use_deform", bone.use_deform, None),
+        (walker, "hide_viewport", True, None),
+        (walker, "name", "Somebody", None),
+        (ground, "name", "Beach", None),
+        (settings, "threads", 1, None),
+    )
     for who, what, value, words in changes:
         find = who if callable(who) else lambda who=who: who
         before = getattr(find(), what)
@@ -52,7 +66,11 @@ def test_whatever_is_changed_and_changed_back(folder):
         setattr(find(), what, value)  # and nobody updates anything
         told = settings.missing
         assert settings.bake_state == ("OUTDATED" if words else "FRESH"), (who, what, told)
-        assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (who, what, told)
+        assert (words in told and "bake again" in told or words == "Nobody walks" in told) if words else not told, (
+            who,
+            what,
+            told,
+        )
         setattr(find(), what, before)
         assert settings.bake_state == "FRESH", (who, what, settings.missing)
     known = ids()

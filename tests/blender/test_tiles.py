@@ -1,4 +1,5 @@
 """A walk over several ground objects, as the tiles of a terrain: one bake presses them all, and leaves others alone."""
+
 import json
 
 import bpy
@@ -94,8 +95,10 @@ def test_tiles_are_pressed_as_the_ground_they_were_cut_from(folder):
         before = 0.0 if height is None else hill(*seen(whole, 0)[:, :2].T)
         pressed = float((before - seen(whole, last)[:, 2]).max())
         assert pressed > 0.005, pressed
-        assert abs(both["deepest_m"] - alone["deepest_m"]) < 1e-6 or abs(
-            told(south)["deepest_m"] - alone["deepest_m"]) < 1e-6
+        assert (
+            abs(both["deepest_m"] - alone["deepest_m"]) < 1e-6
+            or abs(told(south)["deepest_m"] - alone["deepest_m"]) < 1e-6
+        )
 
 
 def test_either_tile_bakes_both_alike(folder):
@@ -104,8 +107,13 @@ def test_either_tile_bakes_both_alike(folder):
     files = []
     for each in (north, south):
         bake_it(each)
-        files.append({(name, path.name): path.read_bytes() for name in ("north", "south")
-                      for path in (folder / name / "frames").glob("*.exr")})
+        files.append(
+            {
+                (name, path.name): path.read_bytes()
+                for name in ("north", "south")
+                for path in (folder / name / "frames").glob("*.exr")
+            }
+        )
     assert len(files[0]) > 90 and files[0] == files[1]
 
 
@@ -168,7 +176,8 @@ def test_walkers_of_both_tiles_press_both(folder):
     for each in (north, south):
         bake_it(each)
         assert {ground.name: told(ground)["contacts"] for ground in (north, south)} == {
-            name: 2 * count for name, count in one.items()}
+            name: 2 * count for name, count in one.items()
+        }
 
 
 def test_grounds_that_nobody_links_are_left_alone(folder):
@@ -196,8 +205,9 @@ def test_grounds_that_nobody_links_are_left_alone(folder):
 
 def test_on_a_bridge_the_bridge_is_pressed(folder):
     """Banks at both ends of a bridge; the bed of the river 0.8 m below."""
-    bank, bridge, other = (tile(folder, *each) for each in (
-        ("bank", -0.7, 0.6), ("bridge", -1.9, -0.7), ("other bank", -3.2, -1.9)))
+    bank, bridge, other = (
+        tile(folder, *each) for each in (("bank", -0.7, 0.6), ("bridge", -1.9, -0.7), ("other bank", -3.2, -1.9))
+    )
     bed = tile(folder, "bed", -2.0, -0.6)
     bed.location.z = -0.8
     walker(bank)
@@ -269,15 +279,18 @@ def test_feet_go_down_into_the_prints_of_both(folder):
 
 
 def test_state_of_all_tiles(folder):
-    north, south, beside = (tile(folder, *each) for each in (
-        ("north", -1.2, 0.6), ("south", -3.2, -1.2), ("beside", -6.0, -3.2)))
+    north, south, beside = (
+        tile(folder, *each) for each in (("north", -1.2, 0.6), ("south", -3.2, -1.2), ("beside", -6.0, -3.2))
+    )
     obj = walker(north)
     bake_it(north)
     assert [each.desire_path.bake_state for each in (north, south, beside)] == ["FRESH", "FRESH", "NONE"], [
-        each.desire_path.missing for each in (north, south, beside)]
+        each.desire_path.missing for each in (north, south, beside)
+    ]
     bake_it(south)
     assert [each.desire_path.bake_state for each in (north, south, beside)] == ["FRESH", "FRESH", "NONE"], [
-        each.desire_path.missing for each in (north, south, beside)]
+        each.desire_path.missing for each in (north, south, beside)
+    ]
     south.desire_path.soil = "mud"
     assert [each.desire_path.bake_state for each in (north, south)] == ["OUTDATED", "OUTDATED"]
     south.desire_path.soil = north.desire_path.soil

@@ -1,4 +1,5 @@
 """Baked with plants: what the files say is what the ground and its grass show; passes; nothing is left."""
+
 import json
 import struct
 
@@ -53,8 +54,9 @@ def test_a_bake_shows_how_its_plants_lie(folder):
     # final values on the mesh, too
     last = compat.float_attribute(ground.data, "plant_strength")
     assert (~inside).sum() > 1000 and (last[~inside] == 1.0).all()
-    np.testing.assert_allclose(last[inside], maps.read(index.lean_path(24)).planes["A"][j[inside], i[inside]],
-                               atol=1e-6)
+    np.testing.assert_allclose(
+        last[inside], maps.read(index.lean_path(24)).planes["A"][j[inside], i[inside]], atol=1e-6
+    )
 
 
 def test_plants_hold_the_soil(folder):
@@ -317,6 +319,7 @@ def test_passes_along_a_curve_are_a_frame_each(folder):
 
 def test_walkers_with_and_without_paths_go_in_turn(folder):
     from scenes import people
+
     ground, walker = scene(folder, frames=24, size=(2.2, 3.0))
     other = people.walk(people.biped(), frames=24)
     meshes.activate(other)
@@ -355,8 +358,10 @@ def test_all_of_it_without_the_addon(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     bpy.context.scene.frame_set(15)
     graph = bpy.context.evaluated_depsgraph_get()
-    wanted = {name: compat.positions(bpy.data.objects["Ground " + name].evaluated_get(graph).data)
-              for name in ("Plants", "Carex")}
+    wanted = {
+        name: compat.positions(bpy.data.objects["Ground " + name].evaluated_get(graph).data)
+        for name in ("Plants", "Carex")
+    }
     bpy.ops.wm.save_mainfile()
     fresh(FRESH, folder / "a.blend", folder / "out.npz")
     with np.load(folder / "out.npz") as out:

@@ -1,4 +1,5 @@
 """A picked object is the sole of every foot, and its tread shows in the print."""
+
 import bpy
 import mathutils
 import numpy as np
@@ -65,8 +66,7 @@ def print_of(ground, folder):
     index = bake.read_index(str(folder))
     found = maps.read(folder / "maps_final.exr").planes["compression"]
     ny, nx = found.shape
-    return found, index.x0 + (np.arange(nx) + 0.5) * index.cell, \
-        index.y0 + (np.arange(ny) + 0.5) * index.cell
+    return found, index.x0 + (np.arange(nx) + 0.5) * index.cell, index.y0 + (np.arange(ny) + 0.5) * index.cell
 
 
 def test_a_tread_shows_in_the_print(folder):
@@ -107,8 +107,9 @@ def test_it_is_the_same_sole_however_the_walker_stands():
     sole.parent, sole.parent_type, sole.parent_bone = obj, "BONE", "foot.R"
     sole.modifiers.clear()
     bpy.context.view_layer.update()
-    sole.matrix_world = (mathutils.Matrix.Translation((-0.10, -0.05, 0.0))
-                         @ mathutils.Matrix.Diagonal((1.0, 8.0, 1.0, 1.0)))
+    sole.matrix_world = mathutils.Matrix.Translation((-0.10, -0.05, 0.0)) @ mathutils.Matrix.Diagonal(
+        (1.0, 8.0, 1.0, 1.0)
+    )
     bpy.context.view_layer.update()
     hung = sample.record(scene, obj, 1, 4)
     assert not [w for w in hung.warnings if "Bar" in w], hung.warnings

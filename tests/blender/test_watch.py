@@ -1,4 +1,5 @@
 """A baked ground that is changed goes on showing its prints where they were pressed."""
+
 import bpy
 import numpy as np
 
@@ -80,8 +81,11 @@ def test_points_that_came_to_lie_between_cells_are_smooth(folder):
     """Cells are shown as they are by points on their centres, between them by finer ones."""
     ground = strip()
     trodden(ground, folder)
-    sampled = lambda: next(node.interpolation for node in playback.modifier(ground).node_group.nodes
-                           if node.bl_idname == "GeometryNodeImageTexture")
+    sampled = lambda: next(
+        node.interpolation
+        for node in playback.modifier(ground).node_group.nodes
+        if node.bl_idname == "GeometryNodeImageTexture"
+    )
     assert sampled() == "Closest"
     sub = ground.modifiers.new("Fine", "SUBSURF")
     sub.subdivision_type = "SIMPLE"

@@ -1,4 +1,5 @@
 """What presses is what renders show: shoes of every kind of binding, as their modifiers make them, in the rest pose."""
+
 import bpy
 import numpy as np
 
@@ -64,6 +65,7 @@ def child_of(obj, mesh, bone, kind="CHILD_OF"):
             return
         each.target, each.subtarget = obj, bone
         each.inverse_matrix = (obj.matrix_world @ obj.pose.bones[bone].matrix).inverted()
+
     in_rest(obj, bind)
 
 
@@ -106,12 +108,15 @@ def test_shoes_bound_to_a_skin_move_with_the_bones_under_them():
         with bpy.context.temp_override(object=shoe_mesh, active_object=shoe_mesh):
             bpy.ops.object.surfacedeform_bind(modifier="Follows")
         assert each.is_bound
+
     in_rest(obj, bind)
     found = skin_of(obj)
     assert set(found.weights) == {"foot.L", "toe.L"}
     same(found.vertices, wanted, 1e-4)
     y = found.vertices[:, 1]
-    assert (found.weights["toe.L"][y < toe - 0.03] == 1.0).all() and (found.weights["foot.L"][y > toe + 0.03] == 1.0).all()
+    assert (found.weights["toe.L"][y < toe - 0.03] == 1.0).all() and (
+        found.weights["foot.L"][y > toe + 0.03] == 1.0
+    ).all()
 
 
 def weighted(obj, bone="foot.L"):
@@ -176,6 +181,7 @@ def test_a_shoe_that_is_a_shown_collection():
         empty.parent, empty.parent_type, empty.parent_bone = obj, "BONE", "foot.L"
         bpy.context.view_layer.update()
         empty.matrix_world = np.eye(4)
+
     in_rest(obj, bind)
     found = skin_of(obj)
     assert set(found.weights) == {"foot.L"}
@@ -237,6 +243,7 @@ def test_a_shoe_of_nodes_moves_with_its_bone():
 
     def shown(wire, _geometry):
         return wire.add("GeometryNodeObjectInfo", {"transform_space": "RELATIVE"}, Object=mesh).outputs["Geometry"]
+
     tree_of(holder, "shows", shown)
     mesh.hide_render = True
     found = skin_of(obj)
@@ -251,8 +258,11 @@ def test_looking_leaves_nothing_to_be_done():
     skin_of(obj)
     seen = []
     handler = lambda _scene, depsgraph: seen.extend(
-        each.id.name for each in depsgraph.updates if not isinstance(each.id, (bpy.types.Scene, bpy.types.Collection))
-        and (each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object)))
+        each.id.name
+        for each in depsgraph.updates
+        if not isinstance(each.id, (bpy.types.Scene, bpy.types.Collection))
+        and (each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object))
+    )
     bpy.app.handlers.depsgraph_update_post.append(handler)
     try:
         world = axes.matrix(obj.matrix_world, obj.name)
@@ -305,8 +315,10 @@ def test_a_character_of_a_library_wears_its_shoes(folder):
     linked = list(here.objects)
     for each in linked:
         bpy.context.scene.collection.objects.link(each)
-    own, shoe_of = (next(each for each in linked if each.type == kind).override_create(remap_local_usages=True)
-                    for kind in ("ARMATURE", "MESH"))
+    own, shoe_of = (
+        next(each for each in linked if each.type == kind).override_create(remap_local_usages=True)
+        for kind in ("ARMATURE", "MESH")
+    )
     shoe_of.parent = shoe_of.modifiers["Armature"].object = own
     bpy.context.view_layer.update()
     assert own.data.library is not None and own.library is None

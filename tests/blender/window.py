@@ -1,4 +1,5 @@
 """window.py - run by test_window.py in a Blender with a window: presses what a user presses."""
+
 import pathlib
 import sys
 import time
@@ -11,6 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
+
 desire_path.register()
 from desire_path.bake import bake  # noqa: E402
 from desire_path.ground import sim  # noqa: E402

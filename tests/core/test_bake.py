@@ -25,8 +25,9 @@ REPO = Path(__file__).resolve().parents[2]
 
 def standing(seconds=1.5, rate=24.0, at=(0.0, 0.0)):
     """A box of 0.25 x 0.11 m that stands and is lifted, recorded at `rate`."""
-    gait, _ = gaits.pressed([gaits.box(0.25, 0.11)], [[*at, 0, 1, 0, 0, 0]], [[0, 0, -700]],
-                            seconds=seconds, rate=rate, lift=0.5)
+    gait, _ = gaits.pressed(
+        [gaits.box(0.25, 0.11)], [[*at, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=seconds, rate=rate, lift=0.5
+    )
     return gait
 
 
@@ -40,12 +41,19 @@ def content(folder):
     return {path.name: path.read_bytes() for path in Path(folder, "frames").glob("*.exr")}
 
 
-@pytest.mark.parametrize("length, cell, good", [(0.25, 0.5, False), (0.25, 0.2, True), (0.002, 0.01, False),
-                                                (0.002, 0.0005, True), (0.25, 0.05, True)])
+@pytest.mark.parametrize(
+    "length, cell, good",
+    [(0.25, 0.5, False), (0.25, 0.2, True), (0.002, 0.01, False), (0.002, 0.0005, True), (0.25, 0.05, True)],
+)
 def test_feet_lost_between_cells_are_named_before_the_bake(tmp_path, length, cell, good):
     """Not as a walk beside the ground; the cell size that is proposed shows them."""
-    gait, _ = gaits.pressed([gaits.box(length, 0.44 * length)], [[0.011, 0.007, 0, 1, 0, 0, 0]], [[0, 0, -7]], rate=24.0,
-                            mass=70 * (length / 0.25) ** 2)
+    gait, _ = gaits.pressed(
+        [gaits.box(length, 0.44 * length)],
+        [[0.011, 0.007, 0, 1, 0, 0, 0]],
+        [[0, 0, -7]],
+        rate=24.0,
+        mass=70 * (length / 0.25) ** 2,
+    )
     if not good:
         with pytest.raises(DesirePathError, match=f"lost between cells of {cell:g} m: choose a cell size of") as said:
             baked(tmp_path, gait, cell_size=cell)
@@ -56,8 +64,12 @@ def test_feet_lost_between_cells_are_named_before_the_bake(tmp_path, length, cel
 
 
 def test_one_foot_of_many_that_is_lost_is_a_warning(tmp_path):
-    gait, _ = gaits.pressed([gaits.box(0.25, 0.11), gaits.box(0.003, 0.003)],
-                            [[0, 0, 0, 1, 0, 0, 0], [0, 0.3, 0, 1, 0, 0, 0]], [[0, 0, -7]] * 2, rate=24.0)
+    gait, _ = gaits.pressed(
+        [gaits.box(0.25, 0.11), gaits.box(0.003, 0.003)],
+        [[0, 0, 0, 1, 0, 0, 0], [0, 0.3, 0, 1, 0, 0, 0]],
+        [[0, 0, -7]] * 2,
+        rate=24.0,
+    )
     bake, _ = baked(tmp_path, gait)
     assert [each for each in bake.report["warnings"] if "lost between cells of 0.01 m" in each]
     assert not any("beside" in each for each in bake.report["warnings"])
@@ -71,8 +83,16 @@ def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
     assert len(content(tmp_path)) == len(frames) + 1
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["contacts"] == 1
-    assert {"deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "seconds", "warnings", "version",
-            "parameters"} <= set(report)
+    assert {
+        "deepest_m",
+        "pressed_m3",
+        "pressed_heap_m3",
+        "heaped_m3",
+        "seconds",
+        "warnings",
+        "version",
+        "parameters",
+    } <= set(report)
     assert 0.005 < report["deepest_m"] < 0.05
     final = maps.read(tmp_path / "maps_final.exr")
     assert set(final.planes) == {"compression", "heap", "pressure_time", "plant_strength", "rest", "pressure", "Y"}
@@ -105,15 +125,17 @@ def test_the_pressure_now_and_its_sum_are_told_apart(tmp_path):
     index, weight = read_index(tmp_path), 75 * 9.81
     second = maps.read(tmp_path / "maps" / "second_0001.exr")
     cell = second.notes["cell"]
-    assert second.planes["pressure"].astype(float).sum() * cell ** 2 == pytest.approx(weight, rel=1e-5)
+    assert second.planes["pressure"].astype(float).sum() * cell**2 == pytest.approx(weight, rel=1e-5)
     assert second.notes["unit_pressure"] == "Pa" and second.notes["unit_pressure_time"] == "Pa s"
     sums = []
     for number in (0, 24, 25, index.frames):
         frame = maps.read(index.path(number))
         assert frame.notes["channelA"] == "pressure_time [Pa s]"
-        sums.append(frame.planes["A"].astype(float).sum() * cell ** 2)
+        sums.append(frame.planes["A"].astype(float).sum() * cell**2)
     assert sums[0] == 0 and sums[2] - sums[1] == pytest.approx(weight / 24, rel=1e-3)
-    assert sums[3] == pytest.approx(maps.read(tmp_path / "maps_final.exr").planes["pressure_time"].sum() * cell ** 2, rel=1e-5)
+    assert sums[3] == pytest.approx(
+        maps.read(tmp_path / "maps_final.exr").planes["pressure_time"].sum() * cell**2, rel=1e-5
+    )
     assert sums[3] > 1.5 * weight  # until it is lifted
 
 
@@ -166,7 +188,7 @@ def test_damaged_frames_count_as_missing_and_are_written_again(tmp_path):
     good = content(whole)
     frame = whole / "frames" / "trail_0005.exr"
     data = frame.read_bytes()
-    for wrong in (b"", data[:8], data[:len(data) // 2], data[:-1], bytes(len(data)), b"text" + data[4:], data + b"x"):
+    for wrong in (b"", data[:8], data[: len(data) // 2], data[:-1], bytes(len(data)), b"text" + data[4:], data + b"x"):
         frame.write_bytes(wrong)
         index = read_index(whole)
         assert index.frames == 4 and not index.complete
@@ -269,8 +291,11 @@ def test_an_earlier_bake_plays_until_the_new_one_is_whole(tmp_path):
 
 def test_a_bake_belongs_to_its_ground(tmp_path):
     baked(tmp_path, owner="the meadow")
-    assert read_index(tmp_path).owner == json.loads((tmp_path / "frames/index.json").read_text())["bake_folder_owner"] \
+    assert (
+        read_index(tmp_path).owner
+        == json.loads((tmp_path / "frames/index.json").read_text())["bake_folder_owner"]
         == "the meadow"
+    )
     before = content(tmp_path)
     with pytest.raises(DesirePathError, match="another ground.*the meadow.*choose another folder"):
         baked(tmp_path, owner="the lane", cell_size=0.02)
@@ -326,16 +351,19 @@ def sentence(error):
     return text
 
 
-@pytest.mark.parametrize("words, wrong", [
-    ("cell size", {"cell_size": 0.0}),
-    ("cell size", {"cell_size": float("nan")}),
-    ("frame range", {"frame_start": 5, "frame_end": 5}),
-    ("frame range", {"frame_start": 9, "frame_end": 2}),
-    ("law", {"law": "magic"}),
-    ("heap", {"heap": "magic"}),
-    ("load model", {"load_model": "magic"}),
-    ("threads", {"threads": -1}),
-])
+@pytest.mark.parametrize(
+    "words, wrong",
+    [
+        ("cell size", {"cell_size": 0.0}),
+        ("cell size", {"cell_size": float("nan")}),
+        ("frame range", {"frame_start": 5, "frame_end": 5}),
+        ("frame range", {"frame_start": 9, "frame_end": 2}),
+        ("law", {"law": "magic"}),
+        ("heap", {"heap": "magic"}),
+        ("load model", {"load_model": "magic"}),
+        ("threads", {"threads": -1}),
+    ],
+)
 def test_bad_parameters_are_a_sentence(tmp_path, words, wrong):
     with pytest.raises(DesirePathError, match=words) as error:
         baked(tmp_path, **wrong)
@@ -354,17 +382,20 @@ def test_bad_ground_is_a_sentence():
     assert not os.path.exists("unused")
 
 
-@pytest.mark.parametrize("words, make", [
-    ("positions", lambda: Ground.mesh([0, 0, 0], [[0, 0, 0]])),
-    ("not there", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]])),
-    ("weights", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[1, 1]])),
-    ("weights", lambda: Ground.heights(np.zeros((3, 3)), 0.5, kind_weight=np.ones((2, 3)))),
-    ("rim width", lambda: Simulation(Ground.flat(), rim_width=0.0)),
-    ("origin", lambda: Simulation(Ground.flat(), origin=(0.0, float("inf")))),
-    ("soil", lambda: Simulation(Ground.flat(), [])),
-    ("at least one", lambda: Simulation(Ground.flat()).read("heap", 0, 0, 0, 4)),
-    ("no field", lambda: Simulation(Ground.flat()).read("gold", 0, 0, 4, 4)),
-])
+@pytest.mark.parametrize(
+    "words, make",
+    [
+        ("positions", lambda: Ground.mesh([0, 0, 0], [[0, 0, 0]])),
+        ("not there", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]])),
+        ("weights", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[1, 1]])),
+        ("weights", lambda: Ground.heights(np.zeros((3, 3)), 0.5, kind_weight=np.ones((2, 3)))),
+        ("rim width", lambda: Simulation(Ground.flat(), rim_width=0.0)),
+        ("origin", lambda: Simulation(Ground.flat(), origin=(0.0, float("inf")))),
+        ("soil", lambda: Simulation(Ground.flat(), [])),
+        ("at least one", lambda: Simulation(Ground.flat()).read("heap", 0, 0, 0, 4)),
+        ("no field", lambda: Simulation(Ground.flat()).read("gold", 0, 0, 4, 4)),
+    ],
+)
 def test_bad_numbers_are_a_sentence(words, make):
     with pytest.raises(DesirePathError, match=words) as error:
         make()
@@ -431,8 +462,11 @@ def test_a_write_that_fails_in_the_middle_loses_nothing(tmp_path):
     index = read_index(folder)
     assert 2 <= index.frames < index.frames + index.missing
     maps.read(index.path(index.frames))
-    leftovers = [name for name in os.listdir(os.path.join(folder, "frames"))
-                 if not name.startswith("trail_") and name != "index.json"]
+    leftovers = [
+        name
+        for name in os.listdir(os.path.join(folder, "frames"))
+        if not name.startswith("trail_") and name != "index.json"
+    ]
     assert not leftovers, leftovers
 
 
@@ -442,8 +476,20 @@ def test_another_program_reads_the_same_bits(tmp_path):
     final = maps.read(tmp_path / "maps_final.exr").planes
     for name, plane in final.items():
         raw = tmp_path / f"{name}.exr"
-        subprocess.run(["oiiotool", str(tmp_path / "maps_final.exr"), "--ch", maps.channel(name), "--compression", "none",
-                        "-o", str(raw)], check=True, env={**os.environ, "LD_LIBRARY_PATH": ""})
+        subprocess.run(
+            [
+                "oiiotool",
+                str(tmp_path / "maps_final.exr"),
+                "--ch",
+                maps.channel(name),
+                "--compression",
+                "none",
+                "-o",
+                str(raw),
+            ],
+            check=True,
+            env={**os.environ, "LD_LIBRARY_PATH": ""},
+        )
         again = maps.read(raw).planes
         assert np.array_equal(next(iter(again.values())), plane)
 
@@ -452,14 +498,18 @@ def test_a_player_shows_the_first_map(tmp_path):
     baked(tmp_path)
     for name, shown in (("maps_final", "compression"), ("maps_start", "young_modulus_in")):
         plane = maps.read(tmp_path / f"{name}.exr").planes[shown]
-        told = subprocess.run(["ffmpeg", "-v", "error", "-i", str(tmp_path / f"{name}.exr"), "-f", "rawvideo", "-"],
-                              check=True, capture_output=True)
+        told = subprocess.run(
+            ["ffmpeg", "-v", "error", "-i", str(tmp_path / f"{name}.exr"), "-f", "rawvideo", "-"],
+            check=True,
+            capture_output=True,
+        )
         assert np.array_equal(np.frombuffer(told.stdout, np.float32).reshape(plane.shape), plane[::-1])
 
 
 def test_a_print_down_to_the_rigid_ground_is_told(tmp_path):
-    heavy, _ = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]],
-                             seconds=1.0, rate=24.0, lift=0.5, mass=1e5)
+    heavy, _ = gaits.pressed(
+        [gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=1.0, rate=24.0, lift=0.5, mass=1e5
+    )
     bake, _ = baked(tmp_path / "heavy", heavy)
     assert any("rigid ground" in warning for warning in bake.report["warnings"])
     bake, _ = baked(tmp_path / "light")

@@ -82,8 +82,9 @@ def test_a_trot_never_pulls(duty, bob):
 
 def test_a_walk_on_four_legs():
     bones = beasts.skeleton()
-    g = gait(bones, beasts.motion(bones, speed=1.0, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25)),
-             by_volume(bones))
+    g = gait(
+        bones, beasts.motion(bones, speed=1.0, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25)), by_volume(bones)
+    )
     loads = walker.loads(g)
     force = legs(g, loads)[..., 2] / (60 * 9.81)
     assert force.sum(axis=0)[30:-30] == pytest.approx(1.0, abs=0.1)

@@ -18,8 +18,15 @@ PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
 
 def joints(side):
     """Hip, knee, ankle, ball, tip of one leg of a person who faces -Y."""
-    return np.array([(0.1 * side, 0, 0.92), (0.1 * side, -0.01, 0.5), (0.1 * side, 0.02, 0.09),
-                     (0.1 * side, -0.12, 0.025), (0.1 * side, -0.18, 0.02)])
+    return np.array(
+        [
+            (0.1 * side, 0, 0.92),
+            (0.1 * side, -0.01, 0.5),
+            (0.1 * side, 0.02, 0.09),
+            (0.1 * side, -0.12, 0.025),
+            (0.1 * side, -0.18, 0.02),
+        ]
+    )
 
 
 def person(toes=True, scale=1.0, turn=np.eye(3), roll=0.0):
@@ -66,13 +73,16 @@ def walk(skeleton, turn=np.eye(3), scale=1.0, toes_bend=True, count=240, rate=12
         phase = time * 0.9 + (0.5 if side < 0 else 0.0)
         step, u = np.floor(phase), phase % 1.0
         swing = np.clip((u - 0.62) / 0.38, 0, 1)
-        at = 1.1 * scale / 0.9 * (step + swing ** 2 * (3 - 2 * swing) - phase[0])
+        at = 1.1 * scale / 0.9 * (step + swing**2 * (3 - 2 * swing) - phase[0])
         lift = 0.10 * scale * np.sin(np.pi * swing) ** 2
         pitch = 0.6 * np.clip((u - 0.45) / 0.17, 0, 1) * (1 - swing) - 0.2 * np.sin(np.pi * swing) ** 2
         ball = joints(side)[3] * scale
         roll = about_x(pitch)  # heel up about the ball
-        turned = roll if name.startswith(("foot", "shin")) or not toes_bend and name.startswith("toe") \
+        turned = (
+            roll
+            if name.startswith(("foot", "shin")) or not toes_bend and name.startswith("toe")
             else about_x(0 * pitch)
+        )
         if name.startswith("thigh"):
             world[:, b, 1, 3] -= ahead
             continue
@@ -146,8 +156,10 @@ def test_parts_tile_without_a_gap():
     split = toe.vertices[:, 0] + 0.15
     assert heel.vertices[:, 0].max() == pytest.approx(0.15, abs=1e-6)
     assert split.min() < 0.15 - 0.008  # the toe part laps behind the ball
-    at_split = [np.ptp(heel.vertices[abs(heel.vertices[:, 0] - 0.15) < 1e-6, 1]),
-                np.ptp(toe.vertices[abs(split - 0.15) < 1e-6, 1])]
+    at_split = [
+        np.ptp(heel.vertices[abs(heel.vertices[:, 0] - 0.15) < 1e-6, 1]),
+        np.ptp(toe.vertices[abs(split - 0.15) < 1e-6, 1]),
+    ]
     assert at_split[0] == pytest.approx(at_split[1], abs=1e-6)
     assert 150 <= len(heel.triangles) + len(toe.triangles) <= 400
 
@@ -196,8 +208,9 @@ def test_feet_without_toe_bones_have_two_parts_of_the_same_foot():
 # ---- robustness ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("turn", [np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]),
-                                  np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]])])
+@pytest.mark.parametrize(
+    "turn", [np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]), np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]])]
+)
 def test_any_rest_orientation(turn):
     plain, turned = person(), person(turn=turn)
     a, b = gait(plain, walk(plain)), gait(turned, walk(turned, turn=turn))
@@ -221,9 +234,22 @@ def retailed(bones, motion, parts, tail, length):
     return replace(bones, rest=rest, length=lengths), Motion(motion.time, motion.bones, matrix)
 
 
-@pytest.mark.parametrize("toes, parts", [(True, ("foot", "toe")), (True, ("toe",)), (True, ("foot",)), (False, ("foot",))])
-@pytest.mark.parametrize("tail, length", [((0, 0, 1), 0.1), ((0, 0, -1), 0.1), ((0, 0, 1), 5.0), ((1, 0, 0), 0.1),
-                                          ((-1, 0.2, 0.1), 0.2), ((0, -1, 0), 5.0), ((0, 1, 0), 0.1), ((1, 1, 1), 0.2)])
+@pytest.mark.parametrize(
+    "toes, parts", [(True, ("foot", "toe")), (True, ("toe",)), (True, ("foot",)), (False, ("foot",))]
+)
+@pytest.mark.parametrize(
+    "tail, length",
+    [
+        ((0, 0, 1), 0.1),
+        ((0, 0, -1), 0.1),
+        ((0, 0, 1), 5.0),
+        ((1, 0, 0), 0.1),
+        ((-1, 0.2, 0.1), 0.2),
+        ((0, -1, 0), 5.0),
+        ((0, 1, 0), 0.1),
+        ((1, 1, 1), 0.2),
+    ],
+)
 def test_tails_of_bones_may_point_anywhere(toes, parts, tail, length):
     bones = person(toes=toes)
     want = gait(bones, walk(bones))
@@ -358,8 +384,20 @@ def boots(depth=0.02):
     """A skin of two boots: a box under each heel and toe, the heels with a tread, and a leg above."""
     vertices, triangles, weights = [], [], {n: [] for n in ("foot.L", "toe.L", "foot.R", "toe.R", "shin.L")}
     box = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
-             (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+    faces = [
+        (0, 2, 1),
+        (1, 2, 3),
+        (4, 5, 6),
+        (5, 7, 6),
+        (0, 1, 4),
+        (1, 5, 4),
+        (2, 6, 3),
+        (3, 6, 7),
+        (0, 4, 2),
+        (2, 4, 6),
+        (1, 3, 5),
+        (3, 7, 5),
+    ]
 
     def add(low, high, owner):
         first = len(vertices)
@@ -403,7 +441,7 @@ def test_soles_of_few_faces_are_told():
         said = sole.few_faces(boxes, cell)
         assert len(said) == 1 and "foot.L and foot.R" in said[0] and "sole" in said[0]  # alike on both feet
         faces, cells = (int(word) for word in said[0].split() if word.isdigit())
-        assert faces < 12 and cells == pytest.approx(0.1 * 0.29 / cell ** 2, rel=0.3)
+        assert faces < 12 and cells == pytest.approx(0.1 * 0.29 / cell**2, rel=0.3)
     assert not sole.few_faces(boxes, 0.08)  # such cells show no more than the faces do
     built_in = gait(bones, walk(bones))
     assert not sole.few_faces(built_in, 0.004)
@@ -417,9 +455,15 @@ def finer(shape):
     """Every triangle cut into four."""
     corner = np.asarray(shape.vertices, float)[shape.triangles]
     middle = (corner + np.roll(corner, -1, axis=1)) / 2.0
-    parts = [np.stack(each, axis=1) for each in (
-        (corner[:, 0], middle[:, 0], middle[:, 2]), (middle[:, 0], corner[:, 1], middle[:, 1]),
-        (middle[:, 2], middle[:, 1], corner[:, 2]), (middle[:, 0], middle[:, 1], middle[:, 2]))]
+    parts = [
+        np.stack(each, axis=1)
+        for each in (
+            (corner[:, 0], middle[:, 0], middle[:, 2]),
+            (middle[:, 0], corner[:, 1], middle[:, 1]),
+            (middle[:, 2], middle[:, 1], corner[:, 2]),
+            (middle[:, 0], middle[:, 1], middle[:, 2]),
+        )
+    ]
     vertices = np.concatenate(parts).reshape(-1, 3)
     return Sole(vertices, np.arange(len(vertices), dtype="i4").reshape(-1, 3))
 
@@ -427,8 +471,10 @@ def finer(shape):
 def test_a_skin_without_toe_weights_is_split_at_the_ball():
     bones = person(toes=False)
     skin = boots()
-    fold = {n: skin.weights[n] + (skin.weights[n.replace("foot", "toe")] if "foot" in n else 0)
-            for n in ("foot.L", "foot.R", "shin.L")}
+    fold = {
+        n: skin.weights[n] + (skin.weights[n.replace("foot", "toe")] if "foot" in n else 0)
+        for n in ("foot.L", "foot.R", "shin.L")
+    }
     g = gait(bones, walk(bones), skin=replace(skin, weights=fold))
     assert not g.warnings
     assert len(g.soles[0].triangles) + len(g.soles[1].triangles) == 36
@@ -448,9 +494,17 @@ def test_quaternions_come_back():
     q = random.normal(size=(200, 4))
     q /= np.linalg.norm(q, axis=1, keepdims=True)
     w, x, y, z = q.T
-    turn = np.moveaxis(np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                                 [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                                 [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]), -1, 0)
+    turn = np.moveaxis(
+        np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        ),
+        -1,
+        0,
+    )
     assert abs((rotation.quaternion(turn) * q).sum(axis=1)) == pytest.approx(np.ones(200), abs=1e-12)
 
 
@@ -474,8 +528,10 @@ def test_a_leg_without_a_knee_bends_it_ahead():
     time = np.arange(count) / 30.0
     whole = body.gait_from_bones(bones, Motion(time, bones.names, motion), mass=70.0, frame_rate=30.0)
     keep = [k for k, name in enumerate(bones.names) if not name.startswith(("thigh", "shin"))]
-    parents = [0 if name.startswith(("foot", "neck")) else keep.index(bones.parents[k]) if k else -1
-               for k, name in ((k, bones.names[k]) for k in keep)]
+    parents = [
+        0 if name.startswith(("foot", "neck")) else keep.index(bones.parents[k]) if k else -1
+        for k, name in ((k, bones.names[k]) for k in keep)
+    ]
     names = tuple(bones.names[k] for k in keep)
     few = Skeleton(names, np.array(parents, "i4"), bones.rest[keep], bones.length[keep])
     kneeless = body.gait_from_bones(few, Motion(time, names, motion[:, keep]), mass=70.0, frame_rate=30.0)

@@ -44,7 +44,7 @@ def striding(seconds):
 
 
 def test_frames_without_end_are_refused(tmp_path):
-    text = refused(tmp_path / "bake", frame_end=10 ** 9)
+    text = refused(tmp_path / "bake", frame_end=10**9)
     assert "1,000,000,000 frames" in text and "250,000 are the limit" in text
     text = refused(tmp_path / "bake", limits=Limits(frames=10))
     assert "49 frames, and 10 are the limit" in text
@@ -127,7 +127,7 @@ def test_frames_take_about_what_is_estimated(tmp_path, cell):
     index = read_index(tmp_path)
     taken = sum(os.path.getsize(index.path(n)) for n in range(index.frames + 1))
     area = bounds.pressed_area(bake.gait, bake.loads.touching)
-    told = index.frames * bounds.frame_bytes(index.nx * index.ny, area / cell ** 2, False)
+    told = index.frames * bounds.frame_bytes(index.nx * index.ny, area / cell**2, False)
     assert 0.1 * taken < told < 2.0 * taken, (told, taken)
 
 
@@ -140,13 +140,27 @@ def test_limits_are_read_from_words():
         sentence(error)
     with pytest.raises(DesirePathError):
         Limits(memory=True)
-    Limits(frames=math.inf).check("frames", 10 ** 12)
+    Limits(frames=math.inf).check("frames", 10**12)
 
 
 def test_the_command_says_what_is_too_much(tmp_path):
     run = lambda *more: subprocess.run(
-        [sys.executable, "-m", "desire_path", "bake", str(WALK), "--cell", "0.05", "--out", str(tmp_path / "bake"), *more],
-        capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(REPO / "addon")})
+        [
+            sys.executable,
+            "-m",
+            "desire_path",
+            "bake",
+            str(WALK),
+            "--cell",
+            "0.05",
+            "--out",
+            str(tmp_path / "bake"),
+            *more,
+        ],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(REPO / "addon")},
+    )
     done = run("--limit", "frames=20", "memory=100")
     assert done.returncode == 1 and "20 are the limit" in done.stderr and not (tmp_path / "bake").exists()
     assert run("--limit", "frames=2000").returncode == 0 and read_index(tmp_path / "bake").complete
@@ -166,9 +180,26 @@ sys.exit(main(sys.argv[2:]))
 def test_a_command_without_memory_is_a_sentence(tmp_path, megabytes):
     """The system gives no more at some point: whatever asks first says so."""
     done = subprocess.run(
-        [sys.executable, "-c", STARVED, str(megabytes), "bake", str(WALK), "--cell", "0.005", "--threads", "1",
-         "--frame-end", "9", "--out", str(tmp_path / "bake")], capture_output=True, text=True,
-        env={**os.environ, "PYTHONPATH": str(REPO / "addon"), "OPENBLAS_NUM_THREADS": "1"})
+        [
+            sys.executable,
+            "-c",
+            STARVED,
+            str(megabytes),
+            "bake",
+            str(WALK),
+            "--cell",
+            "0.005",
+            "--threads",
+            "1",
+            "--frame-end",
+            "9",
+            "--out",
+            str(tmp_path / "bake"),
+        ],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(REPO / "addon"), "OPENBLAS_NUM_THREADS": "1"},
+    )
     assert "Traceback" not in done.stderr, done.stderr[-2000:]
     if done.returncode:
         assert done.returncode == 1 and "memory" in done.stderr and len(done.stderr.strip().splitlines()) == 1, done

@@ -130,8 +130,9 @@ def test_a_bake_with_impulse_stops_feet_in_the_time_of_its_soil(tmp_path):
     pose = np.zeros((1, 100, 7))
     pose[0, :, 2], pose[0, :, 3] = np.maximum(0.5 - time, 0.0), 1.0
     base = tilted_gait()
-    gait = replace(base, time=time, pose=pose, com=pose[:, :, :3] + [0, 0, 0.3], mass=[10.0], frame_rate=rate,
-                   cut=np.zeros(0, int))
+    gait = replace(
+        base, time=time, pose=pose, com=pose[:, :, :3] + [0, 0, 0.3], mass=[10.0], frame_rate=rate, cut=np.zeros(0, int)
+    )
     for tau in (0.05, 0.2, 0.5):
         made = bake(tmp_path / str(tau), gait, replace(SOIL, settle_time=tau), load_model="impulse")
         assert -made.loads.force[0, :, 2].min() == pytest.approx(10.0 * (G + 1.0 / tau), rel=0.03)

@@ -19,8 +19,13 @@ REPO = Path(__file__).resolve().parents[2]
 
 def run(*arguments, cwd=None):
     environment = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
-    return subprocess.run([sys.executable, "-m", "desire_path", *map(str, arguments)], cwd=cwd,
-                          capture_output=True, text=True, env=environment)
+    return subprocess.run(
+        [sys.executable, "-m", "desire_path", *map(str, arguments)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        env=environment,
+    )
 
 
 @pytest.fixture
@@ -31,8 +36,7 @@ def walk(tmp_path):
 
 
 def test_bake_on_flat_ground(tmp_path, walk):
-    done = run("bake", walk, "--ground", "flat", "--soil", "dry-sand", "--cell", "0.01", "--out",
-               tmp_path / "folder")
+    done = run("bake", walk, "--ground", "flat", "--soil", "dry-sand", "--cell", "0.01", "--out", tmp_path / "folder")
     assert done.returncode == 0, done.stderr
     assert "contacts      1" in done.stdout and "deepest" in done.stdout
     report = json.loads((tmp_path / "folder" / "report.json").read_text())
@@ -52,8 +56,9 @@ def test_kinds_add_up_however_they_are_listed(tmp_path, walk):
 def test_feet_are_placed_on_a_hill(tmp_path, walk):
     step = np.arange(-2.0, 2.01, 0.1)
     hill = 3.0 + 0.3 * np.broadcast_to(step, (len(step), len(step)))
-    maps.write(tmp_path / "hill.exr", {"height": hill.astype("f4")},
-               [("cell", 0.1), ("originX", -2.05), ("originY", -2.05)])
+    maps.write(
+        tmp_path / "hill.exr", {"height": hill.astype("f4")}, [("cell", 0.1), ("originX", -2.05), ("originY", -2.05)]
+    )
     on_hill = ("bake", walk, "--ground", tmp_path / "hill.exr", "--out", tmp_path / "folder")
     assert run(*on_hill).returncode == 1  # it stands three metres deep in the hill
     done = run(*on_hill, "--place-feet")
@@ -74,16 +79,22 @@ def test_cells_begin_where_they_are_told(tmp_path, walk):
 
 def test_bake_on_a_height_map(tmp_path, walk):
     y, x = np.mgrid[-1:1:81j, -1:1:81j]
-    maps.write(tmp_path / "height.exr", {"height": (0.05 * x).astype(np.float32)},
-               [("cell", 0.025), ("originX", -1.0125), ("originY", -1.0125)])
+    maps.write(
+        tmp_path / "height.exr",
+        {"height": (0.05 * x).astype(np.float32)},
+        [("cell", 0.025), ("originX", -1.0125), ("originY", -1.0125)],
+    )
     done = run("bake", walk, "--ground", tmp_path / "height.exr", "--soil", "mud", "--out", tmp_path / "folder")
     assert done.returncode == 0, done.stderr
     assert json.loads((tmp_path / "folder" / "report.json").read_text())["deepest_m"] > 0.005
 
 
 def test_a_height_map_that_lies_nowhere_is_one_sentence(tmp_path, walk):
-    maps.write(tmp_path / "height.exr", {"height": np.zeros((9, 9), np.float32)},
-               [("cell", 0.5), ("originX", "left"), ("originY", -2.0)])
+    maps.write(
+        tmp_path / "height.exr",
+        {"height": np.zeros((9, 9), np.float32)},
+        [("cell", 0.5), ("originX", "left"), ("originY", -2.0)],
+    )
     done = run("bake", walk, "--ground", tmp_path / "height.exr", "--out", tmp_path / "folder")
     assert done.returncode == 1 and "originX" in done.stderr and "Traceback" not in done.stderr
 
@@ -98,17 +109,20 @@ def test_loads_are_a_table(tmp_path, walk):
     assert np.mean(stands) == pytest.approx(-75 * 9.81, rel=0.02)
 
 
-@pytest.mark.parametrize("arguments, words", [
-    (("bake", "nowhere.npz", "--out", "x"), "nowhere.npz"),
-    (("bake", "{walk}", "--soil", "cheese", "--out", "x"), "cheese"),
-    (("bake", "{walk}", "--cell", "-1", "--out", "x"), "cell size"),
-    (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
-    (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),
-    (("loads", "{walk}", "--out", "no/such/folder/loads.csv"), "loads.csv"),
-    (("plot", "{walk}", "--out", "no/such/folder/forces.png"), "forces.png"),
-    (("plot", "{walk}", "--out", "forces.gif"), "forces.gif"),
-    (("plot", "nowhere.npz", "--out", "forces.png"), "nowhere.npz"),
-])
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (("bake", "nowhere.npz", "--out", "x"), "nowhere.npz"),
+        (("bake", "{walk}", "--soil", "cheese", "--out", "x"), "cheese"),
+        (("bake", "{walk}", "--cell", "-1", "--out", "x"), "cell size"),
+        (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
+        (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),
+        (("loads", "{walk}", "--out", "no/such/folder/loads.csv"), "loads.csv"),
+        (("plot", "{walk}", "--out", "no/such/folder/forces.png"), "forces.png"),
+        (("plot", "{walk}", "--out", "forces.gif"), "forces.gif"),
+        (("plot", "nowhere.npz", "--out", "forces.png"), "nowhere.npz"),
+    ],
+)
 def test_bad_input_is_one_sentence(tmp_path, walk, arguments, words):
     done = run(*(text.replace("{walk}", str(walk)) for text in arguments), cwd=tmp_path)
     assert done.returncode == 1

@@ -31,7 +31,7 @@ def bare():
     return _native.Simulation(("flat", 0.0), np.array([_native.soil_default()], "f4"), 0.02)
 
 
-@pytest.mark.parametrize("at", [2**63 - 1, 2**63 - 4, -2**63, 2**55])
+@pytest.mark.parametrize("at", [2**63 - 1, 2**63 - 4, -(2**63), 2**55])
 def test_windows_at_the_end_of_all_numbers_are_refused(at):
     core, out = bare(), np.zeros((8, 8), "f4")
     for i0, j0 in ((at, 0), (0, at)):
@@ -73,9 +73,20 @@ def test_recordings_out_of_reach_are_refused(place, value):
     sole = gait.soles[0]
 
     def load(pose):
-        core.load(gait.time, gait.mass, pose, np.zeros(1, "i4"), np.zeros(1, "i4"), sole.vertices.astype("f4"),
-                  np.array([len(sole.vertices)], "i4"), sole.triangles.astype("i4"),
-                  np.array([len(sole.triangles)], "i4"), loads.touching, np.ascontiguousarray(loads.force), loads.point)
+        core.load(
+            gait.time,
+            gait.mass,
+            pose,
+            np.zeros(1, "i4"),
+            np.zeros(1, "i4"),
+            sole.vertices.astype("f4"),
+            np.array([len(sole.vertices)], "i4"),
+            sole.triangles.astype("i4"),
+            np.array([len(sole.triangles)], "i4"),
+            loads.touching,
+            np.ascontiguousarray(loads.force),
+            loads.point,
+        )
 
     bad = gait.pose.copy()
     bad[0, 3, place] = value

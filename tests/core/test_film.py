@@ -12,8 +12,9 @@ from tests.scenes import gaits
 @pytest.fixture
 def trodden():
     """A simulation whose foot stands over the corner of four tiles, and the samples of its walk."""
-    gait, loads = gaits.pressed([gaits.box(0.25, 0.11)], [[0.02, 0.01, 0, 1, 0, 0, 0]], [[0, 0, -700]],
-                                seconds=0.5, rate=60.0, lift=0.5)
+    gait, loads = gaits.pressed(
+        [gaits.box(0.25, 0.11)], [[0.02, 0.01, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5, rate=60.0, lift=0.5
+    )
     sim = Simulation(Ground.flat(), "mud", 0.01, threads=2)
     sim.load(gait, loads)
     return sim, len(gait.time)
@@ -35,7 +36,7 @@ def test_films_side_by_side_are_the_film_of_the_whole(trodden, tmp_path):
             part = maps.read(tmp_path / f"part{number}{(tx, ty)}.exr").planes
             j, i = (ty + 1) * TILE, (tx + 1) * TILE
             for name, plane in part.items():
-                assert plane[...].tobytes() == np.ascontiguousarray(planes[name][j:j + TILE, i:i + TILE]).tobytes()
+                assert plane[...].tobytes() == np.ascontiguousarray(planes[name][j : j + TILE, i : i + TILE]).tobytes()
             assert part["B"].any()
 
 
@@ -74,7 +75,9 @@ def test_pressure_is_there_while_somebody_stands_and_nowhere_else(trodden, tmp_p
         sim.run(sample)
         film.write_maps(tmp_path / f"{name}.exr", 0.0)
         now = sim.read("pressure", *window)
-        assert now.sum(dtype=float) * 1e-4 == pytest.approx(700.0 if name in ("stands", "still") else 0.0, abs=1e-3), name
+        assert now.sum(dtype=float) * 1e-4 == pytest.approx(700.0 if name in ("stands", "still") else 0.0, abs=1e-3), (
+            name
+        )
         assert not now.any() or (np.count_nonzero(now) * 1e-4 == pytest.approx(0.25 * 0.11, rel=0.2))
     sim.flush()
     planes = {name: maps.read(tmp_path / f"{name}.exr").planes for name in ("before", "stands", "still", "gone")}

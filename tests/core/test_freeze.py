@@ -26,7 +26,7 @@ def walk(name="walk"):
         early = trial.motion.time < 2.45
         return trial.skeleton, Motion(trial.motion.time[early], trial.motion.bones, trial.motion.matrix[early])
     skeleton, motion, rate = bvh.load(bvh.WALKS / f"{name}.bvh", scale=0.056444)
-    matrix = motion.matrix[::round(rate / RATE)]
+    matrix = motion.matrix[:: round(rate / RATE)]
     return skeleton, Motion(np.arange(len(matrix)) / RATE, motion.bones, matrix)
 
 
@@ -136,8 +136,8 @@ def test_who_is_held_in_the_air_falls_on():
     floats = replace(gait, time=np.arange(len(pick)) / 120.0, com=gait.com[:, pick], pose=gait.pose[:, pick])
     found = walker.loads(floats)
     assert freeze.holds(floats) == [((air, air + 120),)]
-    assert not found.touching[:, air:air + 120].any()
-    assert found.force[:, air + 121:] == pytest.approx(walker.loads(gait).force[:, air + 1:], abs=1e-6)
+    assert not found.touching[:, air : air + 120].any()
+    assert found.force[:, air + 121 :] == pytest.approx(walker.loads(gait).force[:, air + 1 :], abs=1e-6)
 
 
 def test_stays_are_votes():
@@ -177,7 +177,7 @@ def test_who_waits_before_a_walk_in_place_is_carried_all_the_same():
     assert alone == pytest.approx(1.25, abs=0.05)
     assert speed(gait_of(skeleton, held(in_place, 0, 10.0))) == pytest.approx(alone, abs=0.02)
     small = body.gait_from_bones(*scaled(skeleton, in_place, 0.05), mass=0.01, frame_rate=RATE)
-    assert speed(small) == pytest.approx(alone * 0.05 ** 0.5, rel=0.02)
+    assert speed(small) == pytest.approx(alone * 0.05**0.5, rel=0.02)
 
 
 def test_a_wait_does_not_decide_what_a_clip_walked_on():

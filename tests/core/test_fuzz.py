@@ -30,16 +30,20 @@ def mumbles(path):
     raise DesirePathError("line 4711")
 
 
-@pytest.mark.parametrize("fault, words", [(raises, "nobody caught this"), (takes_long, "took longer than 1 s"),
-                                          (mumbles, "says 'line 4711'")])
+@pytest.mark.parametrize(
+    "fault, words",
+    [(raises, "nobody caught this"), (takes_long, "took longer than 1 s"), (mumbles, "says 'line 4711'")],
+)
 def test_faults_are_found_and_their_files_kept(fault, words, tmp_path, monkeypatch):
     good = trampling.read
     monkeypatch.setattr(parsers, "LONG", 1)
-    monkeypatch.setattr(trampling, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path))
+    monkeypatch.setattr(
+        trampling, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path)
+    )
     (tmp_path / "place").mkdir()
-    found, = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
+    (found,) = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
     assert words in found
-    kept, = tmp_path.glob("fuzz_cover_*")
+    (kept,) = tmp_path.glob("fuzz_cover_*")
     assert b"25,86.3" not in kept.read_bytes()
 
 
@@ -50,5 +54,6 @@ def test_the_same_seed_damages_alike(change):
     def damaged(seed):
         chance = random.Random(seed)
         return [change(chance, good, good) for _ in range(200)]
+
     assert damaged(3) == damaged(3) != damaged(4)
     assert sum(a != b for a, b in itertools.pairwise(damaged(3))) > 190

@@ -17,15 +17,28 @@ def gait(count=10, rate=24.0, shift=0.0):
     pose = np.concatenate([random.normal(size=(2, count, 3)) + shift, turn], axis=-1)
     sole = Sole([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     other = Sole([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]])
-    return Gait(time=np.arange(count) / rate, com=random.normal(size=(1, count, 3)), mass=[70], pose=pose,
-                limb_walker=[0], part_limb=[0, 0], soles=(sole, other), point=random.normal(size=(3, 3)),
-                point_part=[0, 1, 1], point_role=[0, 1, 2], limb_name=("fóot.L",), part_name=("heel", "toe"),
-                walker_name=("Wanderer",), frame_rate=rate, frame_start=7, warnings=("Watch out.",))
+    return Gait(
+        time=np.arange(count) / rate,
+        com=random.normal(size=(1, count, 3)),
+        mass=[70],
+        pose=pose,
+        limb_walker=[0],
+        part_limb=[0, 0],
+        soles=(sole, other),
+        point=random.normal(size=(3, 3)),
+        point_part=[0, 1, 1],
+        point_role=[0, 1, 2],
+        limb_name=("fóot.L",),
+        part_name=("heel", "toe"),
+        walker_name=("Wanderer",),
+        frame_rate=rate,
+        frame_start=7,
+        warnings=("Watch out.",),
+    )
 
 
 def same(a, b):
-    for name in ("time", "com", "mass", "pose", "limb_walker", "part_limb", "point", "point_part",
-                 "point_role", "cut"):
+    for name in ("time", "com", "mass", "pose", "limb_walker", "part_limb", "point", "point_part", "point_role", "cut"):
         assert np.array_equal(getattr(a, name), getattr(b, name))
         assert getattr(a, name).dtype == getattr(b, name).dtype
     for name in ("limb_name", "part_name", "walker_name", "frame_rate", "frame_start", "warnings"):
@@ -56,9 +69,9 @@ def test_damaged_files_get_a_sentence(tmp_path):
     path = tmp_path / "walk.npz"
     gait().save(path)
     whole = path.read_bytes()
-    cases = [b"", b"PK", b"not a recording", whole[:200], whole[:-50], whole[:len(whole) // 2]]
+    cases = [b"", b"PK", b"not a recording", whole[:200], whole[:-50], whole[: len(whole) // 2]]
     for k in range(0, len(whole), 97):
-        cases.append(whole[:k] + bytes([whole[k] ^ 255]) + whole[k + 1:])
+        cases.append(whole[:k] + bytes([whole[k] ^ 255]) + whole[k + 1 :])
     refused = 0
     for data in cases:
         path.write_bytes(data)
@@ -89,28 +102,31 @@ def nan(array, *at):
     return array
 
 
-@pytest.mark.parametrize("change,words", [
-    (lambda g: dict(pose=nan(g.pose, 0, 4, 1)), "fóot.L has no finite position at frame 11"),
-    (lambda g: dict(pose=nan(g.pose, 1, 0, 5)), "at frame 7"),
-    (lambda g: dict(com=nan(g.com, 0, 3, 2)), "mass centre of Wanderer .* at frame 10"),
-    (lambda g: dict(pose=g.pose * 2), "broken rotation"),
-    (lambda g: dict(mass=[0]), "mass of 0 kg"),
-    (lambda g: dict(mass=[-3]), "mass of -3 kg"),
-    (lambda g: dict(time=g.time[::-1]), "times do not increase"),
-    (lambda g: dict(time=g.time[:0], com=g.com[:, :0], pose=g.pose[:, :0]), "no frames"),
-    (lambda g: dict(pose=g.pose[:1]), "shape"),
-    (lambda g: dict(part_limb=[0, 3]), "part_limb points at something"),
-    (lambda g: dict(point_role=[0, 1, 5]), "point_role points at something"),
-    (lambda g: dict(point_part=[0, 0, 0]), "no contact point"),
-    (lambda g: dict(point=nan(g.point, 0, 0)), "contact point"),
-    (lambda g: dict(soles=g.soles[:1]), "one sole"),
-    (lambda g: dict(soles=(Sole(np.zeros((0, 3)), np.zeros((0, 3))),) * 2), "no faces"),
-    (lambda g: dict(soles=(Sole(np.zeros((2, 3)), [[0, 1, 2]]),) * 2), "without its vertices"),
-    (lambda g: dict(frame_rate=0), "frame rate"),
-    (lambda g: dict(cut=[0]), "cuts do not rise"),
-    (lambda g: dict(cut=[10]), "cuts do not rise"),
-    (lambda g: dict(cut=[5, 5]), "cuts do not rise"),
-])
+@pytest.mark.parametrize(
+    "change,words",
+    [
+        (lambda g: dict(pose=nan(g.pose, 0, 4, 1)), "fóot.L has no finite position at frame 11"),
+        (lambda g: dict(pose=nan(g.pose, 1, 0, 5)), "at frame 7"),
+        (lambda g: dict(com=nan(g.com, 0, 3, 2)), "mass centre of Wanderer .* at frame 10"),
+        (lambda g: dict(pose=g.pose * 2), "broken rotation"),
+        (lambda g: dict(mass=[0]), "mass of 0 kg"),
+        (lambda g: dict(mass=[-3]), "mass of -3 kg"),
+        (lambda g: dict(time=g.time[::-1]), "times do not increase"),
+        (lambda g: dict(time=g.time[:0], com=g.com[:, :0], pose=g.pose[:, :0]), "no frames"),
+        (lambda g: dict(pose=g.pose[:1]), "shape"),
+        (lambda g: dict(part_limb=[0, 3]), "part_limb points at something"),
+        (lambda g: dict(point_role=[0, 1, 5]), "point_role points at something"),
+        (lambda g: dict(point_part=[0, 0, 0]), "no contact point"),
+        (lambda g: dict(point=nan(g.point, 0, 0)), "contact point"),
+        (lambda g: dict(soles=g.soles[:1]), "one sole"),
+        (lambda g: dict(soles=(Sole(np.zeros((0, 3)), np.zeros((0, 3))),) * 2), "no faces"),
+        (lambda g: dict(soles=(Sole(np.zeros((2, 3)), [[0, 1, 2]]),) * 2), "without its vertices"),
+        (lambda g: dict(frame_rate=0), "frame rate"),
+        (lambda g: dict(cut=[0]), "cuts do not rise"),
+        (lambda g: dict(cut=[10]), "cuts do not rise"),
+        (lambda g: dict(cut=[5, 5]), "cuts do not rise"),
+    ],
+)
 def test_bad_recordings_name_bone_and_frame(change, words):
     good = gait()
     with pytest.raises(DesirePathError, match=words):
@@ -137,8 +153,7 @@ def test_resampling_keeps_samples_and_names():
     fine = g.resample(240.0).check()
     assert len(fine.time) == 91 and fine.rate() == pytest.approx(240.0)
     assert fine.com[:, ::10] == pytest.approx(g.com, abs=1e-9)
-    assert abs((fine.pose[:, ::10, 3:] * g.pose[..., 3:]).sum(axis=-1)) == pytest.approx(
-        np.ones((2, 10)), abs=1e-9)
+    assert abs((fine.pose[:, ::10, 3:] * g.pose[..., 3:]).sum(axis=-1)) == pytest.approx(np.ones((2, 10)), abs=1e-9)
     assert fine.limb_name == g.limb_name and fine.frame_start == 7
     assert fine.frame(90) == pytest.approx(g.frame(9))
     again = g.resample(240.0)
@@ -152,8 +167,7 @@ def test_resampling_keeps_samples_and_names():
 
 def test_thinned_motion_comes_back():
     time = np.arange(0, 2.0001, 1 / 240)
-    path = lambda t: np.stack([1.2 * t + 0.02 * np.sin(12 * t), 0.03 * np.sin(6 * t), np.cos(12 * t) * 0.03],
-                              axis=-1)
+    path = lambda t: np.stack([1.2 * t + 0.02 * np.sin(12 * t), 0.03 * np.sin(6 * t), np.cos(12 * t) * 0.03], axis=-1)
     g = gait(len(time), 240.0)
     g = replace(g, com=path(time)[None])
     for every in (4, 8, 10):

@@ -16,8 +16,9 @@ def shoe(rng, around=9, along=7):
     """A closed, bumpy lump about as large as a foot."""
     u = np.pi * np.arange(along + 1)[:, None] / along
     v = 2 * np.pi * np.arange(around) / around
-    vertices = np.stack(np.broadcast_arrays(
-        -0.14 * np.cos(u), 0.05 * np.sin(u) * np.cos(v), 0.03 * np.sin(u) * np.sin(v)), axis=-1)
+    vertices = np.stack(
+        np.broadcast_arrays(-0.14 * np.cos(u), 0.05 * np.sin(u) * np.cos(v), 0.03 * np.sin(u) * np.sin(v)), axis=-1
+    )
     vertices = vertices.reshape(-1, 3) + rng.normal(0, 0.003, (vertices.size // 3, 3))
     a, b = np.mgrid[0:along, 0:around]
     p, q = a * around + b, a * around + (b + 1) % around
@@ -98,9 +99,18 @@ def test_bad_arguments_are_refused():
         arguments[place] = value
         return _native.imprint_foot(*arguments, grid, grid.copy())
 
-    for place, value in [(0, [(vertices, triangles + 70)]), (1, good[1] * np.nan), (2, np.nan),
-                         (4, 0.0), (4, -1.0), (5, 0), (5, 5), (0, [(vertices,)]),
-                         (0, good[0] * 17), (1, np.zeros((2, 7)))]:
+    for place, value in [
+        (0, [(vertices, triangles + 70)]),
+        (1, good[1] * np.nan),
+        (2, np.nan),
+        (4, 0.0),
+        (4, -1.0),
+        (5, 0),
+        (5, 5),
+        (0, [(vertices,)]),
+        (0, good[0] * 17),
+        (1, np.zeros((2, 7))),
+    ]:
         with pytest.raises(ValueError):
             call(place, value)
     for place, value in [(0, 3), (0, [(vertices.astype(float), triangles)]), (1, None)]:

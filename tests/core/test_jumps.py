@@ -83,7 +83,7 @@ def test_a_teleport_a_change_of_take_and_a_frozen_end_are_cuts(fps):
     stray = jumps.found(moved(gait, slice(middle, middle + 1), (0.8, 0.8, 0.0)))
     assert stray.cut.tolist() == [middle, middle + 1] and "and 1 more" in stray.warnings[-1]
     pick = np.r_[np.arange(middle), np.arange(fps // 4, middle)]  # it starts again where it began
-    again = replace(gait, time=gait.time[:len(pick)], com=gait.com[:, pick], pose=gait.pose[:, pick])
+    again = replace(gait, time=gait.time[: len(pick)], com=gait.com[:, pick], pose=gait.pose[:, pick])
     assert jumps.found(again).cut.tolist() == [middle]
     statue = np.repeat([0, middle], (middle, end - middle))
     put = replace(gait, com=gait.com[:, statue], pose=gait.pose[:, statue])
@@ -98,8 +98,13 @@ def test_what_bodies_do_is_no_jump(name, fps):
     fast = replace(gait, time=gait.time / 1.5, frame_rate=gait.frame_rate * 1.5)
     for size in (0.01, 0.1, 30.0):  # of another size, its motion as long as animators make it, or as physics does
         for slower in (1.0, np.sqrt(size)):
-            other = replace(fast, com=size * fast.com, time=slower * fast.time, frame_rate=fast.frame_rate / slower,
-                            pose=np.concatenate([size * fast.pose[..., :3], fast.pose[..., 3:]], axis=-1))
+            other = replace(
+                fast,
+                com=size * fast.com,
+                time=slower * fast.time,
+                frame_rate=fast.frame_rate / slower,
+                pose=np.concatenate([size * fast.pose[..., :3], fast.pose[..., 3:]], axis=-1),
+            )
             assert not len(jumps.found(other).cut), (size, slower)
 
 
@@ -131,8 +136,8 @@ def test_a_jump_spread_over_the_samples_of_a_frame_is_one():
     cut = jumps.found(moved(fine, slice(None), way[:, None] * (0.0, -1.5, 0.0)))
     assert cut.cut.tolist() == list(range(ends[10] + 1, ends[11] + 1)) and len(cut.warnings) == len(fine.warnings) + 1
     loads, first = walker.loads(cut), walker.loads(fine.piece(0, ends[10] + 1))
-    assert not loads.touching[:, ends[10]:ends[11] + 1].any()
-    np.testing.assert_array_equal(loads.touching[:, :ends[10]], first.touching[:, :-1])
+    assert not loads.touching[:, ends[10] : ends[11] + 1].any()
+    np.testing.assert_array_equal(loads.touching[:, : ends[10]], first.touching[:, :-1])
 
 
 def test_who_does_not_jump_is_not_cut():
@@ -206,8 +211,14 @@ def test_loads_of_a_recording_are_cut_where_it_jumps():
 
 def test_who_has_no_feet_does_not_jump():
     gait = recorded()
-    ghost = replace(gait, com=np.concatenate([gait.com, gait.com]), mass=[75.0, 75.0], walker_name=("Walker", "Ghost"),
-                    leg=np.r_[gait.leg, gait.leg],
-                    limb_walker=np.r_[gait.limb_walker, 1], limb_name=(*gait.limb_name, "none"))
+    ghost = replace(
+        gait,
+        com=np.concatenate([gait.com, gait.com]),
+        mass=[75.0, 75.0],
+        walker_name=("Walker", "Ghost"),
+        leg=np.r_[gait.leg, gait.leg],
+        limb_walker=np.r_[gait.limb_walker, 1],
+        limb_name=(*gait.limb_name, "none"),
+    )
     ghost.com[1, 40:] += 3.0
     assert jumps.found(ghost.check()) is ghost

@@ -56,14 +56,16 @@ def test_carex_keeps_the_cover_of_coles_lanes(cole, trodden):
 
 
 def test_finer_cells_keep_the_same_cover(cole, trodden):
-    fine = np.array([cover for _, cover in trampling.measure("carex", passes=trampling.PASSES[:3], seed=SEED, cell_size=0.01)])
+    fine = np.array(
+        [cover for _, cover in trampling.measure("carex", passes=trampling.PASSES[:3], seed=SEED, cell_size=0.01)]
+    )
     assert abs(fine - cole[0.0][1][:3]).max() < 4.0, fine
     assert abs(fine - trodden[0][:3]).max() < 4.0, (fine, trodden[0])
 
 
 def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
     counts, wanted = cole[365.0]
-    rested, = side_by_side(("carex", dict(passes=(25, 75, 200), rest_days=365.0)))
+    (rested,) = side_by_side(("carex", dict(passes=(25, 75, 200), rest_days=365.0)))
     reached = np.r_[rested, trodden[1]]
     assert abs(reached - wanted).max() < 8.0, reached
 
@@ -77,8 +79,13 @@ def test_cover_falls_monotonically_and_convexly(trodden):
 def test_what_must_not_matter_does_not():
     """The walkers' mass, the seed and the frame rate; the kind does."""
     seeds = [("carex", dict(passes=FEW, seed=seed)) for seed in (SEED, 11, 12, 13, 14)]
-    found = side_by_side(*seeds, ("carex", dict(passes=FEW, mass=65.0)), ("carex", dict(passes=FEW, mass=85.0)),
-                         ("carex", dict(passes=FEW, frame_rate=30.0)), ("lycopodium", dict(passes=FEW)))
+    found = side_by_side(
+        *seeds,
+        ("carex", dict(passes=FEW, mass=65.0)),
+        ("carex", dict(passes=FEW, mass=85.0)),
+        ("carex", dict(passes=FEW, frame_rate=30.0)),
+        ("lycopodium", dict(passes=FEW)),
+    )
     by_seed, light, heavy, slow, lycopodium = np.array(found[:5]), *found[5:]
     assert np.ptp(by_seed, axis=0).max() < 4.0, by_seed
     assert abs(light - heavy).max() < 5.0, (light, heavy)
@@ -95,7 +102,7 @@ def test_vigour_has_mean_0_and_deviation_1_and_the_law_it_says():
     assert share_below(vigour)[within] == pytest.approx(share[within], abs=1e-9)
     density = np.histogram(vigour, np.linspace(-4.0, 4.0, 81))[0] / (100_000 * 0.1)
     middle = np.linspace(-3.95, 3.95, 80)
-    c = 120.0 ** -0.5
+    c = 120.0**-0.5
     law = np.exp(-np.sqrt(abs(middle) / c)) / (4.0 * c)
     assert density[abs(middle) > 0.5] == pytest.approx(law[abs(middle) > 0.5], rel=0.05)
 
@@ -128,13 +135,32 @@ def test_few_plants_are_as_mixed_as_many():
 
 def command(*words, cwd):
     env = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
-    return subprocess.run([sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True,
-                          env=env, cwd=cwd)
+    return subprocess.run(
+        [sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True, env=env, cwd=cwd
+    )
 
 
 def test_the_command_line_measures_a_lane(tmp_path):
-    done = command("lane", "--kind", "lycopodium", "--length", 1, "--width", 0.5, "--passes", "2,5", "--mass", 75,
-                   "--seed", 7, "--cell", 0.04, "--out", "cover.csv", cwd=tmp_path)
+    done = command(
+        "lane",
+        "--kind",
+        "lycopodium",
+        "--length",
+        1,
+        "--width",
+        0.5,
+        "--passes",
+        "2,5",
+        "--mass",
+        75,
+        "--seed",
+        7,
+        "--cell",
+        0.04,
+        "--out",
+        "cover.csv",
+        cwd=tmp_path,
+    )
     assert done.returncode == 0, done.stderr
     text = (tmp_path / "cover.csv").read_text()
     assert text.startswith("passes,cover\n2,") and text.count("\n") == 3
@@ -142,12 +168,20 @@ def test_the_command_line_measures_a_lane(tmp_path):
     assert [row[0] for row in rows] == [2, 5] and 100.0 >= rows[0][1] >= rows[1][1] > 50.0
 
 
-@pytest.mark.parametrize("words, told", [
-    (("--passes", "some"), "some"), (("--passes", "0,5"), "whole numbers"), (("--kind", "nettle"), "nettle"),
-    (("--length", "0"), "length"), (("--mass", "-5"), "mass"), (("--soil", "cheese"), "cheese"),
-    (("--kind", "nothing.json"), "nothing.json"), (("--rest-days", "-1"), "rest"),
-    (("--seed", "-1"), "seed of -1"),
-])
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (("--passes", "some"), "some"),
+        (("--passes", "0,5"), "whole numbers"),
+        (("--kind", "nettle"), "nettle"),
+        (("--length", "0"), "length"),
+        (("--mass", "-5"), "mass"),
+        (("--soil", "cheese"), "cheese"),
+        (("--kind", "nothing.json"), "nothing.json"),
+        (("--rest-days", "-1"), "rest"),
+        (("--seed", "-1"), "seed of -1"),
+    ],
+)
 def test_bad_words_are_one_sentence(tmp_path, words, told):
     done = command("lane", "--passes", "1", *words, "--out", "cover.csv", cwd=tmp_path)
     assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
@@ -167,9 +201,15 @@ def test_what_cannot_be_written_is_told_before_the_work(tmp_path):
 
 def test_tables_are_read(tmp_path):
     file = tmp_path / "cover.csv"
-    for text, words in (("", "no columns"), ("a,b\n", "no columns"), ("passes,cover\nten,3\n", "Line 2"),
-                        ("passes,cover\n10\n", "Line 2"), ("passes,cover\n10,101\n", "Line 2"),
-                        ("passes,cover\n1.5,90\n", "Line 2"), ("passes,cover\n5,nan\n", "Line 2")):
+    for text, words in (
+        ("", "no columns"),
+        ("a,b\n", "no columns"),
+        ("passes,cover\nten,3\n", "Line 2"),
+        ("passes,cover\n10\n", "Line 2"),
+        ("passes,cover\n10,101\n", "Line 2"),
+        ("passes,cover\n1.5,90\n", "Line 2"),
+        ("passes,cover\n5,nan\n", "Line 2"),
+    ):
         file.write_text(text)
         with pytest.raises(DesirePathError, match=words):
             trampling.read(file)
@@ -209,10 +249,16 @@ def test_a_fit_needs_a_table_it_can_work_with():
 
 def test_without_scipy_a_sentence_says_how_to_get_it(tmp_path):
     (tmp_path / "cover.csv").write_text("passes,cover\n2,99\n4,98\n")
-    code = ("import sys; sys.modules['scipy'] = None; sys.path.insert(0, sys.argv[1]); "
-            "from desire_path.__main__ import main; sys.exit(main(sys.argv[2:]))")
-    done = subprocess.run([sys.executable, "-c", code, str(REPO / "addon"), "fit", "cover.csv", "--out", "kind.json"],
-                          capture_output=True, text=True, cwd=tmp_path)
+    code = (
+        "import sys; sys.modules['scipy'] = None; sys.path.insert(0, sys.argv[1]); "
+        "from desire_path.__main__ import main; sys.exit(main(sys.argv[2:]))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(REPO / "addon"), "fit", "cover.csv", "--out", "kind.json"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
     assert done.returncode == 1 and "desire-path[fit]" in done.stderr and done.stderr.count("\n") == 1
     assert not (tmp_path / "kind.json").exists()
 

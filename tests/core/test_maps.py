@@ -76,9 +76,25 @@ def test_oiiotool_reads_the_same_bits(tmp_path, grids):
 
 def test_a_file_of_oiiotool_is_read(tmp_path):
     path = tmp_path / "theirs.exr"
-    subprocess.run(["oiiotool", "--pattern", "fill:topleft=0,0.5,1:topright=1,0.5,0:"
-                    "bottomleft=0,0,0:bottomright=1,1,1", "65x33", "3", "-d", "half", "--tile",
-                    "16", "16", "--compression", "piz", "-o", str(path)], check=True)
+    subprocess.run(
+        [
+            "oiiotool",
+            "--pattern",
+            "fill:topleft=0,0.5,1:topright=1,0.5,0:bottomleft=0,0,0:bottomright=1,1,1",
+            "65x33",
+            "3",
+            "-d",
+            "half",
+            "--tile",
+            "16",
+            "16",
+            "--compression",
+            "piz",
+            "-o",
+            str(path),
+        ],
+        check=True,
+    )
     picture = maps.read(path)
     assert picture.shape == (33, 65) and sorted(picture.planes) == ["B", "G", "R"]
     red, blue = picture.planes["R"], picture.planes["B"]
@@ -93,10 +109,29 @@ def test_heights_of_every_packing_are_read(tmp_path, packing):
     maps.write(tmp_path / "own.exr", {"Y": height})
     path = tmp_path / "theirs.exr"
     for name in ("height", "Z", "V", "Y"):
-        for kind, tiles in (("float", []), ("half", []), ("float", ["--tile", "32", "32"]), ("half", ["--tile", "64", "64"])):
-            subprocess.run(["oiiotool", str(tmp_path / "own.exr"), "--chnames", name, "-d", kind, *tiles,
-                            "--compression", packing, "-o", str(path)], check=True)
-            plane, = maps.read(path).planes.values()
+        for kind, tiles in (
+            ("float", []),
+            ("half", []),
+            ("float", ["--tile", "32", "32"]),
+            ("half", ["--tile", "64", "64"]),
+        ):
+            subprocess.run(
+                [
+                    "oiiotool",
+                    str(tmp_path / "own.exr"),
+                    "--chnames",
+                    name,
+                    "-d",
+                    kind,
+                    *tiles,
+                    "--compression",
+                    packing,
+                    "-o",
+                    str(path),
+                ],
+                check=True,
+            )
+            (plane,) = maps.read(path).planes.values()
             assert np.abs(plane - height).max() < (0.02 if packing.startswith("b44") else 0.005), (name, kind, tiles)
 
 
@@ -111,15 +146,18 @@ def test_a_packing_of_a_newer_openexr_is_named(tmp_path, grids):
             maps.read(path)
 
 
-@pytest.mark.parametrize("planes, words", [
-    ({}, "nothing to write"),
-    ({"heap": np.zeros(4)}, "rows and columns"),
-    ({"heap": np.zeros((0, 4))}, "rows and columns"),
-    ({"heap": np.zeros((2, 2)), "rest": np.zeros((2, 3))}, "differ in shape"),
-    ({"": np.zeros((2, 2))}, "different names"),
-    ({"x" * 30: np.zeros((2, 2))}, "different names"),
-    ({f"n{k}": np.zeros((2, 2)) for k in range(65)}, "up to 64 maps"),
-])
+@pytest.mark.parametrize(
+    "planes, words",
+    [
+        ({}, "nothing to write"),
+        ({"heap": np.zeros(4)}, "rows and columns"),
+        ({"heap": np.zeros((0, 4))}, "rows and columns"),
+        ({"heap": np.zeros((2, 2)), "rest": np.zeros((2, 3))}, "differ in shape"),
+        ({"": np.zeros((2, 2))}, "different names"),
+        ({"x" * 30: np.zeros((2, 2))}, "different names"),
+        ({f"n{k}": np.zeros((2, 2)) for k in range(65)}, "up to 64 maps"),
+    ],
+)
 def test_bad_planes_are_told(tmp_path, planes, words):
     path = tmp_path / "never.exr"
     with pytest.raises(DesirePathError, match=words) as told:
@@ -128,8 +166,7 @@ def test_bad_planes_are_told(tmp_path, planes, words):
     assert not path.exists()
 
 
-@pytest.mark.parametrize("notes", [{"dataWindow": "mine"}, {"": 1.0}, [("a", 1.0), ("a", 2.0)],
-                                   {"zero": "a\0b"}])
+@pytest.mark.parametrize("notes", [{"dataWindow": "mine"}, {"": 1.0}, [("a", 1.0), ("a", 2.0)], {"zero": "a\0b"}])
 def test_bad_notes_are_told(tmp_path, notes):
     with pytest.raises(DesirePathError, match="cannot be written"):
         maps.write(tmp_path / "never.exr", {"heap": np.zeros((2, 2))}, notes)
@@ -177,10 +214,17 @@ def test_damaged_files_are_told(tmp_path, grids):
 def test_the_door_refuses_what_it_cannot_take(tmp_path):
     path, grid = str(tmp_path / "door.exr"), np.zeros((2, 2), np.float32)
     for arguments in [
-        (path, ["a"], [grid.astype(np.float64)], []), (path, ["a"], [grid[:, ::2]], []),
-        (path, ["a"], [grid.ravel()], []), (path, ["a", "b"], [grid], []), (path, [1], [grid], []),
-        (path, ["a"], [grid], [("n",)]), (path, ["a"], [grid], [("n", None)]),
-        (path, ["a"], [grid], 5), (path, 5, [grid], []), (None, ["a"], [grid], []), (path,),
+        (path, ["a"], [grid.astype(np.float64)], []),
+        (path, ["a"], [grid[:, ::2]], []),
+        (path, ["a"], [grid.ravel()], []),
+        (path, ["a", "b"], [grid], []),
+        (path, [1], [grid], []),
+        (path, ["a"], [grid], [("n",)]),
+        (path, ["a"], [grid], [("n", None)]),
+        (path, ["a"], [grid], 5),
+        (path, 5, [grid], []),
+        (None, ["a"], [grid], []),
+        (path,),
     ]:
         with pytest.raises((TypeError, ValueError)):
             _native.maps_write(*arguments)
@@ -192,5 +236,4 @@ def test_the_door_refuses_what_it_cannot_take(tmp_path):
 def test_the_table_names_every_map_once():
     names = [entry.name for entry in maps.MAPS]
     assert names == ["compression", "heap", "pressure_time", "plant_strength"]
-    assert all(entry.unit and entry.equation.startswith("TRAIL (") and entry.meaning
-               for entry in maps.MAPS)
+    assert all(entry.unit and entry.equation.startswith("TRAIL (") and entry.meaning for entry in maps.MAPS)

@@ -17,7 +17,7 @@ def test_height_from_legs():
     leg = np.hypot(0.42, 0.01) + np.hypot(0.41, 0.03)
     assert mass.standing_height(bones, rigs.detect(bones)) == pytest.approx(leg / 0.491, rel=1e-6)
     kilograms, height = mass.estimate(bones, rigs.detect(bones))
-    assert 1.6 < height < 1.8 and kilograms == pytest.approx(22.0 * height ** 2)
+    assert 1.6 < height < 1.8 and kilograms == pytest.approx(22.0 * height**2)
     words = mass.sentence("Ann", kilograms, height)
     assert "Ann" in words and f"{kilograms:.3g} kg" in words and f"{height:.2f} m" in words
 

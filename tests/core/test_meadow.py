@@ -57,7 +57,7 @@ def test_the_same_seed_gives_the_same_roots_wherever_the_walk_goes():
     near, far = planting.within(-1, -1, 1, 1), planting.within(-7, -1, 1, 3)
     known = {tuple(root) for root in far.tolist()}
     assert len(near) > 100 and all(tuple(root) in known for root in near.tolist())
-    assert not np.array_equal(near, Planting("carex", seed=12).within(-1, -1, 1, 1)[:len(near)])
+    assert not np.array_equal(near, Planting("carex", seed=12).within(-1, -1, 1, 1)[: len(near)])
 
 
 @pytest.mark.parametrize("density", [0.02, 3.0, 80.0])
@@ -66,7 +66,7 @@ def test_squares_have_no_seams(density):
     roots = Planting("carex", density=density, seed=5).within(-wide, -wide, wide, wide).astype(float)
     inside = roots[(abs(roots) < wide).all(1)]
     assert abs(len(inside) / (4 * wide * wide * density) - 1.0) < max(0.02, 1.5 / np.sqrt(len(inside)))
-    apart = min(np.hypot(*(roots[k + 1:] - root).T).min() for k, root in enumerate(roots[:-1]))
+    apart = min(np.hypot(*(roots[k + 1 :] - root).T).min() for k, root in enumerate(roots[:-1]))
     assert apart >= np.sqrt(0.5 / density) - 1e-5
 
 
@@ -80,10 +80,16 @@ def test_weight_thins_and_rectangles_end():
 
 
 def test_plantings_that_make_no_sense_are_refused():
-    for wrong in (dict(kind="cactus"), dict(kind=3), dict(kind="carex", density=0), dict(kind="carex", seed=-1),
-                  dict(kind="carex", rectangle=(1, 0, 0, 1)), dict(kind="carex", weight=np.ones((2, 2))),
-                  dict(kind="carex", weight=np.full((2, 2), np.nan), rectangle=(0, 0, 1, 1)),
-                  dict(kind="carex", roots=np.zeros((3, 3)))):
+    for wrong in (
+        dict(kind="cactus"),
+        dict(kind=3),
+        dict(kind="carex", density=0),
+        dict(kind="carex", seed=-1),
+        dict(kind="carex", rectangle=(1, 0, 0, 1)),
+        dict(kind="carex", weight=np.ones((2, 2))),
+        dict(kind="carex", weight=np.full((2, 2), np.nan), rectangle=(0, 0, 1, 1)),
+        dict(kind="carex", roots=np.zeros((3, 3))),
+    ):
         with pytest.raises(DesirePathError) as problem:
             Planting(**wrong)
         assert str(problem.value).count(".") >= 1
@@ -99,8 +105,9 @@ def lean(sim, window=(-64, -64, 128, 128)):
 def standing(kind, seconds_after):
     """A lawn under a standing box (cells -14..13, -5..4), and so long after it has left."""
     sim = Simulation(Ground.flat(), "wet-soil", 0.01, plants=[kind])
-    gait, loads = gaits.pressed([gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -735]],
-                                seconds=0.5 + seconds_after)
+    gait, loads = gaits.pressed(
+        [gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -735]], seconds=0.5 + seconds_after
+    )
     loads.force[:, 60:] = 0.0
     loads.touching[:, 60:] = 0
     gait.pose[:, 60:, 2] = 1.0
@@ -121,9 +128,9 @@ def test_grass_is_flat_under_the_sole_and_leans_away_beside_it():
     assert (y[above] > 0.05).all() and (y[below] < -0.05).all()  # away from the sole
     reach = int(np.ceil(kind.height / 2 / 0.01)) + 1
     far = np.ones_like(crushed, bool)
-    far[59 - reach:69 + reach, 50 - reach:78 + reach] = False
+    far[59 - reach : 69 + reach, 50 - reach : 78 + reach] = False
     assert not crushed[far].any() and not size[far].any()
-    assert (np.diff(size[69:69 + reach, 64]) <= 0.0).all()  # less and less
+    assert (np.diff(size[69 : 69 + reach, 64]) <= 0.0).all()  # less and less
 
 
 def test_grass_stands_up_with_its_kinds_time_to_the_share_that_is_whole():
@@ -177,22 +184,30 @@ def stepping(kind, seconds=2.0, *, threads=1, newtons=735.0, lay=True):
     look() tells of every stem: `shown` and `own` particles from the foot up (plants, stems, rows, 3), its foot's cell
     as an index into maps read with WINDOW.
     """
-    sim = Simulation(Ground.flat(), "wet-soil", 0.01, threads=threads,
-                     plants=[Planting(kind, density=max(kind.density, 150.0), rectangle=(-0.6, -0.6, 0.6, 0.6))])
+    sim = Simulation(
+        Ground.flat(),
+        "wet-soil",
+        0.01,
+        threads=threads,
+        plants=[Planting(kind, density=max(kind.density, 150.0), rectangle=(-0.6, -0.6, 0.6, 0.6))],
+    )
     if lay:
         sim.lay_plants()
-    gait, loads = gaits.pressed([gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -newtons]],
-                                seconds=1.0 + seconds)
+    gait, loads = gaits.pressed(
+        [gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -newtons]], seconds=1.0 + seconds
+    )
     away = np.where(gait.time < 0.3, gait.time - 0.3, np.maximum(gait.time - 0.8, 0.0))
     gait.pose[:, :, 0], gait.pose[:, :, 2] = 0.7 * away, 1.5 * abs(away)
     loads.force[:, away != 0.0], loads.touching[:, away != 0.0] = 0.0, 0
     sim.load(gait, loads)
-    (stand, _, count), = sim.stands
+    ((stand, _, count),) = sim.stands
     rows, stems = sim.plants_shape(stand)[:2]
 
     def look():
-        shown, own = (at(stand).reshape(count, stems, rows, 3)[:, :, 1:].astype(float)
-                      for at in (sim.plants_shown, sim.plants_positions))
+        shown, own = (
+            at(stand).reshape(count, stems, rows, 3)[:, :, 1:].astype(float)
+            for at in (sim.plants_shown, sim.plants_positions)
+        )
         i, j = np.floor(shown[:, :, 0, :2] / 0.01).astype(int).transpose(2, 0, 1)
         return shown, own, (j + 128, i + 128)
 
@@ -200,8 +215,16 @@ def stepping(kind, seconds=2.0, *, threads=1, newtons=735.0, lay=True):
 
 
 WINDOW = (-128, -128, 256, 256)
-WHOLE = {name: replace(KINDS[name], strength=100.0, spread=0.0, recover_rate=100.0 * KINDS[name].recover_rate
-                       / KINDS[name].strength, break_angle=10.0) for name in ("carex", "lawn", "meadow")}
+WHOLE = {
+    name: replace(
+        KINDS[name],
+        strength=100.0,
+        spread=0.0,
+        recover_rate=100.0 * KINDS[name].recover_rate / KINDS[name].strength,
+        break_angle=10.0,
+    )
+    for name in ("carex", "lawn", "meadow")
+}
 
 
 def tall(stems):
@@ -262,7 +285,7 @@ def test_limp_stems_are_shown_as_they_lie():
     rest, _, _ = look()
     sim.run(len(time) - 1)
     shown, own, _ = look()
-    (stand, _, _), = sim.stands
+    ((stand, _, _),) = sim.stands
     broken = (sim.plants_strength(stand).reshape(*rest.shape[:2], -1) <= 0.0)[:, :, 0]  # at the foot
     high = tall(rest)[broken]
     assert broken.sum() > 5 and (tall(own)[broken] / high).mean() < 0.3
@@ -285,9 +308,16 @@ def test_laying_stems_changes_nothing_else():
         sim.run(len(time) - 1)
         shown, own, _ = look()
         assert (shown == own).all() != lay  # nobody asked: as they are
-        (stand, _, _), = sim.stands
-        told.append((own.tobytes(), sim.plants_strength(stand).tobytes(), sim.report(),
-                     *(sim.read(name, *WINDOW).tobytes() for name in FIELDS), *(p.tobytes() for p in lean(sim, WINDOW))))
+        ((stand, _, _),) = sim.stands
+        told.append(
+            (
+                own.tobytes(),
+                sim.plants_strength(stand).tobytes(),
+                sim.report(),
+                *(sim.read(name, *WINDOW).tobytes() for name in FIELDS),
+                *(p.tobytes() for p in lean(sim, WINDOW)),
+            )
+        )
     assert told[0] == told[1]
 
 
@@ -295,8 +325,9 @@ def test_laying_stems_changes_nothing_else():
 
 
 def bake(folder, plants, **more):
-    gait, _ = gaits.pressed([gaits.box(0.28, 0.10)] * 2, [[0, 0, 0, 1, 0, 0, 0], [0.1, 0.3, 0, 1, 0, 0, 0]],
-                            [[0, 0, -370]] * 2, seconds=1.2)
+    gait, _ = gaits.pressed(
+        [gaits.box(0.28, 0.10)] * 2, [[0, 0, 0, 1, 0, 0, 0], [0.1, 0.3, 0, 1, 0, 0, 0]], [[0, 0, -370]] * 2, seconds=1.2
+    )
     made = Bake(gait, Ground.flat(), "snow", folder, plants=plants, **more)
     for _ in made.run():
         pass
@@ -340,15 +371,25 @@ def test_a_stopped_bake_with_plants_goes_on_and_other_plants_are_another_bake(tm
         for film in ("path", "lean_path"):
             with open(getattr(one, film)(number), "rb") as a, open(getattr(two, film)(number), "rb") as b:
                 assert a.read() == b.read()
-    signatures = {Bake(gait, Ground.flat(), "snow", tmp_path, plants=plants)._signature()
-                  for plants in ((), ["carex"], ["lawn"], [Planting("carex", seed=1)], [Planting("carex", density=9)],
-                                 [Planting("carex", roots=[[0, 0]])], [Planting("carex", roots=[[0, 1]])])}
+    signatures = {
+        Bake(gait, Ground.flat(), "snow", tmp_path, plants=plants)._signature()
+        for plants in (
+            (),
+            ["carex"],
+            ["lawn"],
+            [Planting("carex", seed=1)],
+            [Planting("carex", density=9)],
+            [Planting("carex", roots=[[0, 0]])],
+            [Planting("carex", roots=[[0, 1]])],
+        )
+    }
     assert len(signatures) == 7
 
 
 def test_the_plants_themselves_play_as_a_mesh_cache(tmp_path):
-    made = bake(tmp_path, [Planting("carex", rectangle=(-0.3, -0.3, 0.4, 0.6)), Planting("fern", seed=3)],
-                plant_mesh=True)
+    made = bake(
+        tmp_path, [Planting("carex", rectangle=(-0.3, -0.3, 0.4, 0.6)), Planting("fern", seed=3)], plant_mesh=True
+    )
     mesh = np.load(tmp_path / "plants.npz")
     raw = (tmp_path / "plants.pc2").read_bytes()
     magic, version, count, start, rate, samples = struct.unpack("<12siiffi", raw[:32])
@@ -398,7 +439,7 @@ def walked(plants, rate=60.0, passes=4, soil="dry-sand"):
     sim = Simulation(Ground.flat(), soil, 0.01, plants=plants)
     for number in range(passes):
         sim.load(*gaits.strides(2.5, rate=rate, y=0.04 * (number % 3 - 1), shift=0.23 * number))
-        sim.run(10 ** 6)
+        sim.run(10**6)
         sim.settle()
     return sim
 
@@ -440,15 +481,16 @@ def test_prints_follow_the_stiffness_of_soil_and_roots():
 def test_where_plants_broke_prints_are_nearly_as_deep_as_on_bare_ground():
     x = np.arange(-0.25, 0.25, 0.01)
     roots = np.stack(np.meshgrid(x, x), -1).reshape(-1, 2)
-    brittle = replace(KINDS["carex"], degrade_angle=0.02, break_angle=0.02, reach=0.02, full_density=5000.0,
-                      modulus=1e6)
+    brittle = replace(
+        KINDS["carex"], degrade_angle=0.02, break_angle=0.02, reach=0.02, full_density=5000.0, modulus=1e6
+    )
     tough = replace(brittle, break_angle=4.0, degrade_rate=0.0)
     depth = []
     for plants in ([], [Planting(tough, roots=roots)], [Planting(brittle, roots=roots)]):
         sim = Simulation(Ground.flat(), "snow", 0.01, plants=plants)
         for _ in range(2):
             sim.load(*gaits.pressed([gaits.box(0.28, 0.10)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -300]]))
-            sim.run(10 ** 6)
+            sim.run(10**6)
         depth.append(sim.read("compression", -14, -5, 28, 10).mean())
     under, beside = (sim.read("plant_strength", -12, j, 24, 6) for j in (-3, 10))
     assert under.max() < 0.01 and beside.min() > 0.99

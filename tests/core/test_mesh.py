@@ -1,4 +1,5 @@
 """Meshes near a walk and maps at points, beside slow twins."""
+
 import numpy as np
 import pytest
 
@@ -99,8 +100,16 @@ def test_marks_tell_what_differs_and_no_last_digits():
     moved, nudged = walked.copy(), points.copy()
     moved[17, 2] += 1e-5
     nudged[17, 2] = np.nextafter(nudged[17, 2], np.float32(9.0))
-    others = {mesh.mark(*each) for each in (
-        ([moved, points], words), ([walked, nudged], words), ([walked, points[:-1]], words), ([points, walked], words),
-        ([walked, points], words | {"passes": 4}), ([walked, points], words | {"soil": [1e-3, "mud"]}),
-        ([walked.reshape(3, 40), points], words))}
+    others = {
+        mesh.mark(*each)
+        for each in (
+            ([moved, points], words),
+            ([walked, nudged], words),
+            ([walked, points[:-1]], words),
+            ([points, walked], words),
+            ([walked, points], words | {"passes": 4}),
+            ([walked, points], words | {"soil": [1e-3, "mud"]}),
+            ([walked.reshape(3, 40), points], words),
+        )
+    }
     assert len(others) == 7 and first not in others

@@ -14,8 +14,7 @@ from desire_path.ground.soil import SOILS, Soil
 from tests.scenes import gaits, slopes
 
 G = 9.81
-FIRM = Soil(layer_depth=0.3, young_modulus=0.35e6, poisson_ratio=0.35, settle_time=0.15,
-            rest_angle=math.radians(20))
+FIRM = Soil(layer_depth=0.3, young_modulus=0.35e6, poisson_ratio=0.35, settle_time=0.15, rest_angle=math.radians(20))
 
 
 def press(soles, poses, forces, *, soil=FIRM, cell=0.01, law="sole", heap="rest", threads=1, **more):
@@ -61,8 +60,10 @@ def rolled(soil, mass, law, heap):
 @pytest.mark.parametrize("heap", ["rest", "paper"])
 @pytest.mark.parametrize("law", ["sole", "uniform"])
 def test_firmer_ground_and_lighter_bodies_leave_less_down_to_nothing(law, heap):
-    firm = [rolled(replace(FIRM, young_modulus=e), 75.0, law, heap)["pressed_m3"]
-            for e in (0.3e6, 3e6, 30e6, 300e6, 3e9, 1e12)]
+    firm = [
+        rolled(replace(FIRM, young_modulus=e), 75.0, law, heap)["pressed_m3"]
+        for e in (0.3e6, 3e6, 30e6, 300e6, 3e9, 1e12)
+    ]
     light = [rolled(FIRM, m, law, heap)["pressed_m3"] for m in (75.0, 7.5, 0.75, 0.075, 0.0075, 7.5e-6, 1e-300)]
     for volume in (firm, light):
         assert all(more > less for more, less in zip(volume, volume[1:]))
@@ -80,9 +81,11 @@ def test_two_feet_share_the_depth(law):
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_depth_is_proportional_to_load_and_layer_and_softness(factor):
     _, base = press([FOOT], [AT_ORIGIN], [[0, 0, -40 * G]])
-    for soil, load in [(FIRM, 40 * factor),
-                       (replace(FIRM, layer_depth=0.3 * factor), 40),
-                       (replace(FIRM, young_modulus=0.35e6 / factor), 40)]:
+    for soil, load in [
+        (FIRM, 40 * factor),
+        (replace(FIRM, layer_depth=0.3 * factor), 40),
+        (replace(FIRM, young_modulus=0.35e6 / factor), 40),
+    ]:
         _, other = press([FOOT], [AT_ORIGIN], [[0, 0, -load * G]], soil=soil)
         assert other["deepest_m"] == pytest.approx(factor * base["deepest_m"], rel=0.01)
 
@@ -107,8 +110,9 @@ def test_the_ledger_balances_after_crossing_prints(heap, name):
     sim = Simulation(Ground.flat(), soil, 0.01, heap=heap)
     for k in range(6):
         turned = gaits.turn_z(0.7 * k)
-        gait, loads = gaits.pressed([FOOT], [[0.05 * k, 0.03 * (k % 3), 0, *turned]],
-                                    [[60 * (k % 2), 40, -700]], seconds=0.4)
+        gait, loads = gaits.pressed(
+            [FOOT], [[0.05 * k, 0.03 * (k % 3), 0, *turned]], [[60 * (k % 2), 40, -700]], seconds=0.4
+        )
         sim.load(gait, loads)
         sim.run(len(gait.time) - 1)
         report = sim.report()
@@ -136,8 +140,10 @@ def test_a_turned_scene_leaves_the_same_print_turned():
     base, _ = press([FOOT], [AT_ORIGIN], [[90, 20, -600]])
     quarter, _ = press([FOOT], [[0, 0, 0, *gaits.turn_z(math.pi / 2)]], [[-20, 90, -600]])
     for name in ("compression", "heap"):
-        assert np.abs(np.rot90(base[name], -1) - quarter[name]).max() < 1e-5 or \
-               np.abs(np.rot90(base[name], 1) - quarter[name]).max() < 1e-5
+        assert (
+            np.abs(np.rot90(base[name], -1) - quarter[name]).max() < 1e-5
+            or np.abs(np.rot90(base[name], 1) - quarter[name]).max() < 1e-5
+        )
 
 
 def test_every_loose_slope_rests():
@@ -163,8 +169,7 @@ def test_volume_and_rim_do_not_depend_on_the_cell(turn):
     mud = SOILS["mud"]
     stamp, load = gaits.box(0.8, 0.6), mud.young_modulus * 0.48 * 0.12 / mud.layer_depth
     place = [0.013, 0.021, 0, *gaits.turn_z(turn)]
-    runs = {cell: press([stamp], [place], [[0, 0, -load]], soil=mud, cell=cell)
-            for cell in (0.04, 0.02, 0.01)}
+    runs = {cell: press([stamp], [place], [[0, 0, -load]], soil=mud, cell=cell) for cell in (0.04, 0.02, 0.01)}
     fine_maps, fine = runs[0.01]
     assert fine_maps["heap"].max() > 0.05
     for cell in (0.04, 0.02):
@@ -231,6 +236,7 @@ def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
 @pytest.mark.parametrize("kind", ["flat", "heights", "mesh"])
 def test_a_print_far_up_is_that_of_one_at_sea_level(kind, plants):
     """On a slope, at the height of ships, of planes, and of the edge of space."""
+
     def ground(up):
         x, y = np.meshgrid(np.arange(-2, 2.01, 0.5), np.arange(-2, 2.01, 0.5))
         z = up + 0.1 * x
@@ -277,14 +283,23 @@ def falling_sphere(mass=50.0, height=2.5, radius=0.15):
     z = np.maximum(height - G * time**2 / 2, 0.0)
     at = np.stack([0 * time, 0 * time, z + radius], axis=1)
     pose = np.concatenate([at, np.tile([1.0, 0, 0, 0], (len(time), 1))], axis=1)
-    return Gait(time=time, com=at[None], mass=[mass], pose=pose[None], limb_walker=[0], part_limb=[0],
-                soles=[gaits.sphere(radius)], point=[[0, 0, -radius]], point_part=[0], point_role=[1],
-                frame_rate=rate)
+    return Gait(
+        time=time,
+        com=at[None],
+        mass=[mass],
+        pose=pose[None],
+        limb_walker=[0],
+        part_limb=[0],
+        soles=[gaits.sphere(radius)],
+        point=[[0, 0, -radius]],
+        point_part=[0],
+        point_role=[1],
+        frame_rate=rate,
+    )
 
 
 def drop(mass=50.0, modulus=1e6, nu=0.35, law="sole"):
-    soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2,
-                rest_angle=math.radians(30))
+    soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2, rest_angle=math.radians(30))
     gait = falling_sphere(mass)
     sim = Simulation(Ground.flat(), soil, 0.01, law=law)
     loads = walker.loads(gait, "impulse", ground=sim.rest_height, settle_time=soil.settle_time)

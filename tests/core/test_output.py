@@ -23,8 +23,14 @@ from desire_path.ground.sim import Ground
 from tests.core.test_bake import baked, content, sentence, standing
 
 REPO = Path(__file__).resolve().parents[2]
-FILES = {"frames/trail_0000.exr", "frames/index.json", "maps/second_0001.exr", "maps_start.exr", "maps_final.exr",
-         "report.json"}
+FILES = {
+    "frames/trail_0000.exr",
+    "frames/index.json",
+    "maps/second_0001.exr",
+    "maps_start.exr",
+    "maps_final.exr",
+    "report.json",
+}
 OLD, NEW = FILES | {"plants.pc2"}, FILES | {"plants.npz", "frames/trail_0001.exr"}
 
 
@@ -138,9 +144,14 @@ def test_folders_of_one_bake_are_shown_together(tmp_path):
 
 def test_a_ground_that_cannot_be_ready_holds_back_the_others(tmp_path, monkeypatch):
     """Two grounds of a bake, and no room for the second one's last step: both show what they did."""
-    parcels = lambda soil: [Parcel(Ground.mesh([[x, -1, 0], [x + 1, -1, 0], [x + 1, 1, 0], [x, 1, 0]],
-                                               [[0, 1, 2], [0, 2, 3]]), [soil], tmp_path / name)
-                            for x, name in ((-1.0, "west"), (0.0, "east"))]
+    parcels = lambda soil: [
+        Parcel(
+            Ground.mesh([[x, -1, 0], [x + 1, -1, 0], [x + 1, 1, 0], [x, 1, 0]], [[0, 1, 2], [0, 2, 3]]),
+            [soil],
+            tmp_path / name,
+        )
+        for x, name in ((-1.0, "west"), (0.0, "east"))
+    ]
     ready = Output.ready
 
     def full(out):
@@ -170,13 +181,22 @@ for progress in grown({folder!r}, {soil!r}).run():
 
 
 def grown(folder, soil):
-    return Bake(standing(), Ground.flat(), soil, folder, threads=1, plant_mesh=True,
-                plants=[Planting("carex", 60.0, seed=len(soil))])
+    return Bake(
+        standing(),
+        Ground.flat(),
+        soil,
+        folder,
+        threads=1,
+        plant_mesh=True,
+        plants=[Planting("carex", 60.0, seed=len(soil))],
+    )
 
 
 def in_a_process(folder, soil):
     script = KILLED.format(addon=str(REPO / "addon"), repo=str(REPO), folder=str(folder), soil=soil)
-    return subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
 
 
 def marks(folder):
@@ -224,10 +244,19 @@ def test_a_second_bake_into_a_folder_is_refused(tmp_path):
     assert str(tmp_path) in sentence(error)
     with pytest.raises(DesirePathError, match="running"):
         free(tmp_path)
-    assert "process" in subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.path[:0] = [{str(REPO / 'addon')!r}]\n"
-         f"from desire_path.folder import free\ntry: free({str(tmp_path)!r})\nexcept ValueError as e: print(e)"],
-        capture_output=True, text=True).stdout
+    assert (
+        "process"
+        in subprocess.run(
+            [
+                sys.executable,
+                "-c",
+                f"import sys; sys.path[:0] = [{str(REPO / 'addon')!r}]\n"
+                f"from desire_path.folder import free\ntry: free({str(tmp_path)!r})\nexcept ValueError as e: print(e)",
+            ],
+            capture_output=True,
+            text=True,
+        ).stdout
+    )
     for _ in run:
         pass
     assert read_index(tmp_path).complete and not (tmp_path / "bake.lock").exists()
@@ -399,11 +428,19 @@ def test_no_command_replaces_a_pipe(tmp_path, words):
     walk = str(Path(atomic_file.__file__).parents[1] / "walks" / "walk.npz")
     pipe = tmp_path / ("out.png" if words == ("plot",) else "out")
     os.mkfifo(pipe)
-    more = {"loads": [walk], "plot": [walk], "bake": [walk, "--cell", "0.05"],
-            "lane": ["--passes", "1", "--length", "2", "--cell", "0.05"]}[words[0]]
+    more = {
+        "loads": [walk],
+        "plot": [walk],
+        "bake": [walk, "--cell", "0.05"],
+        "lane": ["--passes", "1", "--length", "2", "--cell", "0.05"],
+    }[words[0]]
     out = ["--out", str(tmp_path / "table"), "--contacts", str(pipe)] if words[1:] else ["--out", str(pipe)]
-    done = subprocess.run([sys.executable, "-m", "desire_path", words[0], *more, *out], capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": str(REPO / "addon")})
+    done = subprocess.run(
+        [sys.executable, "-m", "desire_path", words[0], *more, *out],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(REPO / "addon")},
+    )
     assert done.returncode == 1 and len(done.stderr.strip().splitlines()) == 1, done
     assert str(pipe) in done.stderr and "Traceback" not in done.stderr
     assert pipe.is_fifo() and {path.name for path in tmp_path.iterdir()} <= {pipe.name, "table"}
@@ -443,8 +480,14 @@ def test_maps_never_replace_what_is_no_file(tmp_path):
     assert not (tmp_path / "elsewhere").exists()
 
 
-@pytest.mark.parametrize("make, word", [(os.mkfifo, "pipe"), (lambda path: os.symlink("nowhere", path), "link"),
-                                        (lambda path: open(path, "w").close(), "file")])
+@pytest.mark.parametrize(
+    "make, word",
+    [
+        (os.mkfifo, "pipe"),
+        (lambda path: os.symlink("nowhere", path), "link"),
+        (lambda path: open(path, "w").close(), "file"),
+    ],
+)
 def test_what_stands_where_the_folder_is_to_be_is_named(tmp_path, make, word):
     place = str(tmp_path / "bake")
     make(place)

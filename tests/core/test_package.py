@@ -70,8 +70,7 @@ def test_the_binary_stands_alone():
     assert "libc.so.6" in needed and {n for n in needed if not n.startswith("ld-linux")} <= system
     assert "RPATH" not in told.stdout and "RUNPATH" not in told.stdout
     # nothing of ours is left to be found elsewhere
-    told = subprocess.run(["nm", "-D", "--undefined-only", str(path)], capture_output=True,
-                          text=True)
+    told = subprocess.run(["nm", "-D", "--undefined-only", str(path)], capture_output=True, text=True)
     names = [line.split()[-1].split("@")[0] for line in told.stdout.splitlines()]
     ours = [name for name in names if name.startswith(("dp_", "exr_", "libdeflate", "imath"))]
     assert not ours
@@ -79,8 +78,11 @@ def test_the_binary_stands_alone():
 
 def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
     for folder in ("a", "b"):
-        subprocess.run([sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out",
-                        str(tmp_path / folder)], check=True, capture_output=True)
+        subprocess.run(
+            [sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out", str(tmp_path / folder)],
+            check=True,
+            capture_output=True,
+        )
     name = f"desire_path-{version.VERSION}.zip"
     first = tmp_path / "a" / name
     assert first.read_bytes() == (tmp_path / "b" / name).read_bytes()
@@ -90,18 +92,22 @@ def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
     assert all(entry.startswith("desire_path/") for entry in names)
     modules = {path.relative_to(HOME.parent).as_posix() for path in HOME.rglob("*.py")}
     assert {entry for entry in names if entry.endswith(".py")} == modules
-    for wanted in ("__init__.py", "_native.abi3.so", "blender_manifest.toml", "LICENSE",
-                   "THIRD-PARTY.md", "blender/__init__.py"):
+    for wanted in (
+        "__init__.py",
+        "_native.abi3.so",
+        "blender_manifest.toml",
+        "LICENSE",
+        "THIRD-PARTY.md",
+        "blender/__init__.py",
+    ):
         assert f"desire_path/{wanted}" in names
-    assert not [entry for entry in names
-                if re.search(r"test|__pycache__|\.pyc|\.orig|/\.|CMake|\.[ch]$", entry)]
+    assert not [entry for entry in names if re.search(r"test|__pycache__|\.pyc|\.orig|/\.|CMake|\.[ch]$", entry)]
     assert first.stat().st_size < 5_000_000
 
 
 def test_importing_asks_for_nothing(tmp_path):
     """The package itself needs neither NumPy nor Blender until something is asked for."""
-    code = ("import sys; import desire_path; "
-            "assert not {'numpy', 'bpy'} & set(sys.modules), sys.modules")
+    code = "import sys; import desire_path; assert not {'numpy', 'bpy'} & set(sys.modules), sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=HOME.parent)
 
 

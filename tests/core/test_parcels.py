@@ -112,7 +112,10 @@ def test_only_meshes_lie_side_by_side():
 
 def test_plants_stand_on_their_own_parcel():
     gait, loads = gaits.strides(1.5)
-    two = [Parcel(mesh(-1, -1, 0.5, 1, height=lambda x, y: 0 * x)), Parcel(mesh(0.5, -1, 3, 1, height=lambda x, y: 0 * x))]
+    two = [
+        Parcel(mesh(-1, -1, 0.5, 1, height=lambda x, y: 0 * x)),
+        Parcel(mesh(0.5, -1, 3, 1, height=lambda x, y: 0 * x)),
+    ]
     ground, soils = parcels.sewn(two, CELL)
     sim = Simulation(ground, soils, CELL, plants=["carex"], areas=[two[0].has])
     sim.load(gait, loads)

@@ -61,11 +61,11 @@ def slides(gait):
 def test_the_cycle_closes(walk):
     found = cycle.find(walk)
     assert found.speed == pytest.approx(0.89, abs=0.03) and 3.0 < found.seconds < 4.3
-    wild = abs(np.diff(walk.resample(120.0).com[0], n=2, axis=0)).max() * 120.0 ** 2  # [m/s^2]
+    wild = abs(np.diff(walk.resample(120.0).com[0], n=2, axis=0)).max() * 120.0**2  # [m/s^2]
     for phase in (np.linspace(0.999, 1.001, 41), np.linspace(0, 3, 1501)):
         com, pose, stand = found.at(phase)
         step = found.seconds * np.diff(phase)[0]
-        assert abs(np.diff(com, n=2, axis=0)).max() / step ** 2 < 1.3 * wild  # no kick at the seam
+        assert abs(np.diff(com, n=2, axis=0)).max() / step**2 < 1.3 * wild  # no kick at the seam
         assert np.linalg.norm(np.diff(pose[..., :3], axis=1), axis=-1).max() / step < 6.0
     com, pose, stand = found.at([0.25, 1.25, 7.25])
     assert np.diff(com[:, 0]) == pytest.approx([found.way, 6 * found.way])
@@ -106,8 +106,9 @@ def test_a_loop_is_taken_whole(walk, closing, fps):
     com, pose, _ = found.at(phase)
     way = found.way * phase[:, None] * (1, 0, 0)
     pose[..., :3] -= way
-    clip = replace(walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps,
-                   cut=(), jump=())
+    clip = replace(
+        walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps, cut=(), jump=()
+    )
     again = cycle.find(clip)
     assert again.seconds == pytest.approx(seconds, rel=1e-6)
     assert again.speed == pytest.approx(found.way / seconds, rel=0.08)
@@ -258,8 +259,9 @@ def test_holes_in_the_ground_do_no_harm(walk):
 
 
 def test_walkers_go_in_turn(walk):
-    heavy = replace(walk, mass=[110.0], walker_name=("Heavy",), com=walk.com + (3, 0, 0),
-                    pose=walk.pose + np.eye(7)[0] * 3)
+    heavy = replace(
+        walk, mass=[110.0], walker_name=("Heavy",), com=walk.com + (3, 0, 0), pose=walk.pose + np.eye(7)[0] * 3
+    )
     both = Gait.join([walk, heavy]).along([(0, 0), (4, 0)], 3, seed=2).check()
     alone = walk.along([(0, 0), (4, 0)], 3, seed=2)
     assert len(both.pieces()) == 6 and len(passes.turns_of(both)) == 6
@@ -309,9 +311,14 @@ def test_paths_are_read(tmp_path):
     assert path.read(file).tolist() == [[0, 0, 1], [2, 0, 1.5]]
     file.write_text("\ufeffname, Y ,X\na,1,2\nb,3,4\n", encoding="utf-8")
     assert path.read(file).tolist() == [[2, 1], [4, 3]]
-    for text, words in (("", "no columns"), ("a,b\n1,2\n", "no columns"), ("x,y\n1,2\n", "at least two"),
-                        ("x,y\n1,2\n3\n", "Line 3"), ("x,y\n1,2\n3,four\n", "Line 3"),
-                        ("x,y\n1,2\nnan,4\n", "Row 2")):
+    for text, words in (
+        ("", "no columns"),
+        ("a,b\n1,2\n", "no columns"),
+        ("x,y\n1,2\n", "at least two"),
+        ("x,y\n1,2\n3\n", "Line 3"),
+        ("x,y\n1,2\n3,four\n", "Line 3"),
+        ("x,y\n1,2\nnan,4\n", "Row 2"),
+    ):
         file.write_text(text)
         with pytest.raises(DesirePathError, match=words):
             path.read(file)
@@ -319,15 +326,29 @@ def test_paths_are_read(tmp_path):
         path.read(tmp_path / "nothing.csv")
 
 
-@pytest.mark.parametrize("bad, words", [
-    (dict(path=[(0, 0)]), "two rows"), (dict(path=[(0, 0), (0, 0)]), "no length"), (dict(path="abc"), "list of places"),
-    (dict(path=[(0, 0), (np.nan, 1)]), "Row 2"), (dict(passes=0), "0 passes"), (dict(passes=1.5), "1.5 passes"),
-    (dict(lateral=-1), "lateral of -1"), (dict(stride=2), "stride of 2"), (dict(timing=np.nan), "timing of nan"),
-    (dict(pause=-1), "pause"), (dict(passes=10 ** 7), "too long for one recording"),
-    (dict(passes=np.inf), "inf passes"), (dict(passes=np.nan), "nan passes"), (dict(seed=-1), "seed of -1"),
-    (dict(seed=0.5), "seed of 0.5"), (dict(passes="3"), "3 passes"), (dict(seed=None), "None"),
-    (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
-])
+@pytest.mark.parametrize(
+    "bad, words",
+    [
+        (dict(path=[(0, 0)]), "two rows"),
+        (dict(path=[(0, 0), (0, 0)]), "no length"),
+        (dict(path="abc"), "list of places"),
+        (dict(path=[(0, 0), (np.nan, 1)]), "Row 2"),
+        (dict(passes=0), "0 passes"),
+        (dict(passes=1.5), "1.5 passes"),
+        (dict(lateral=-1), "lateral of -1"),
+        (dict(stride=2), "stride of 2"),
+        (dict(timing=np.nan), "timing of nan"),
+        (dict(pause=-1), "pause"),
+        (dict(passes=10**7), "too long for one recording"),
+        (dict(passes=np.inf), "inf passes"),
+        (dict(passes=np.nan), "nan passes"),
+        (dict(seed=-1), "seed of -1"),
+        (dict(seed=0.5), "seed of 0.5"),
+        (dict(passes="3"), "3 passes"),
+        (dict(seed=None), "None"),
+        (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
+    ],
+)
 def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
     with pytest.raises(DesirePathError, match=words):
         walk.along(**{"path": [(0, 0), (5, 0)], **bad})
@@ -383,16 +404,32 @@ def test_no_print_is_drawn_from_the_end_of_a_pass_to_the_start_of_the_next(walk)
 
 def command(*words, cwd):
     env = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
-    return subprocess.run([sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True,
-                          env=env, cwd=cwd)
+    return subprocess.run(
+        [sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True, env=env, cwd=cwd
+    )
 
 
 def test_the_command_line_walks_passes(walk, tmp_path):
     walk.save(tmp_path / "walk.npz")
     (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n1.5,1.5\n")
     replace(KINDS["carex"], strength=0.1, break_angle=2.0).save(tmp_path / "frail.json")
-    done = command("bake", "walk.npz", "--passes", 3, "--along", "path.csv", "--plants", "frail.json:30", "--cell", 0.02,
-                   "--soil", "soil", "--out", "out", cwd=tmp_path)
+    done = command(
+        "bake",
+        "walk.npz",
+        "--passes",
+        3,
+        "--along",
+        "path.csv",
+        "--plants",
+        "frail.json:30",
+        "--cell",
+        0.02,
+        "--soil",
+        "soil",
+        "--out",
+        "out",
+        cwd=tmp_path,
+    )
     assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["passes"] == 3 and report["contacts"] >= 9
@@ -415,12 +452,17 @@ def test_feet_are_placed_along_a_path_whether_asked_or_not(walk, tmp_path):
     assert np.array_equal(one, two) and one.max() > 0.005
 
 
-@pytest.mark.parametrize("words, told", [
-    (("--passes", 3), "--along"), (("--along", "nothing.csv"), "nothing.csv"),
-    (("--along", "path.csv", "--passes", 0), "0 passes"),
-    (("--plants", "nettle"), "nettle"), (("--plants", "carex:many"), "carex:many"),
-    (("--along", "path.csv", "--seed", -1), "seed of -1"),
-])
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (("--passes", 3), "--along"),
+        (("--along", "nothing.csv"), "nothing.csv"),
+        (("--along", "path.csv", "--passes", 0), "0 passes"),
+        (("--plants", "nettle"), "nettle"),
+        (("--plants", "carex:many"), "carex:many"),
+        (("--along", "path.csv", "--seed", -1), "seed of -1"),
+    ],
+)
 def test_bad_words_are_one_sentence(walk, tmp_path, words, told):
     walk.save(tmp_path / "walk.npz")
     (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n")

@@ -58,19 +58,36 @@ def test_places_as_trail_1_and_2_say(seed, roll):
     pose[1, :, :3] = pose[0, :, :3] + random.uniform(-0.2, 0.2, (count, 3))
     pose[:, :, 3:] = quaternions(random, 2 * count, 0.5).reshape(2, count, 4)
     points = [np.array([(-0.06, 0.01, 0.0), (0.14, 0, 0.0)]), np.array([(0, 0, 0), (0.06, 0, 0.0)])]
-    gait = Gait(time=np.arange(count) / 20.0, com=np.tile((0.0, 0.0, 0.9), (1, count, 1)), mass=[70.0],
-                pose=pose, limb_walker=[0], part_limb=[0, 0], soles=(SOLE, SOLE),
-                point=np.concatenate(points), point_part=[0, 0, 1, 1], point_role=[HEEL, BALL, BALL, TIP],
-                frame_rate=20.0)
+    gait = Gait(
+        time=np.arange(count) / 20.0,
+        com=np.tile((0.0, 0.0, 0.9), (1, count, 1)),
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0],
+        part_limb=[0, 0],
+        soles=(SOLE, SOLE),
+        point=np.concatenate(points),
+        point_part=[0, 0, 1, 1],
+        point_role=[HEEL, BALL, BALL, TIP],
+        frame_rate=20.0,
+    )
     x, y = random.uniform(-0.6, 0.6, 2)
     normal = np.array([-x, -y, 1.0]) / math.sqrt(x * x + y * y + 1)
-    got = place.place_feet(gait, plane(x, y, 5.0), roll=roll, carry=True, floor=0.0, reach=0.3,
-                           toe_slope=0.1)
+    got = place.place_feet(gait, plane(x, y, 5.0), roll=roll, carry=True, floor=0.0, reach=0.3, toe_slope=0.1)
     clearance = walker.contacts(gait)[1]
     tips = walker.point_places(gait)[[0, 3], :, 2] - clearance[[0, 3], None]
     for t in range(count):
-        want = twin.place(pose[:, t], points, tips[:, t], lambda a, b: 5.0 + x * a + y * b, normal, floor=0.0,
-                          d_max=0.3, theta_0=0.1, flat=not roll)
+        want = twin.place(
+            pose[:, t],
+            points,
+            tips[:, t],
+            lambda a, b: 5.0 + x * a + y * b,
+            normal,
+            floor=0.0,
+            d_max=0.3,
+            theta_0=0.1,
+            flat=not roll,
+        )
         for part, (at, turn) in enumerate(want):
             np.testing.assert_allclose(got.pose[part, t, :3], at, atol=2e-6)  # heights are float32
             np.testing.assert_allclose(twin.matrix(got.pose[part, t, 3:]), turn, atol=2e-6)
@@ -104,10 +121,17 @@ def test_a_walk_of_the_hill_is_not_carried_twice():
     turned = place.place_feet(level, hill)
     np.testing.assert_array_equal(turned.com, once.com)
     stands = walker.loads(once, ground=land.rest_height).touching != 0
-    up = [np.stack([2 * (q[..., 1] * q[..., 3] + q[..., 0] * q[..., 2]),
-                    2 * (q[..., 2] * q[..., 3] - q[..., 0] * q[..., 1]),
-                    1 - 2 * (q[..., 1] ** 2 + q[..., 2] ** 2)], axis=-1)
-          for q in (each.pose[..., 3:] for each in (level, turned, once))]
+    up = [
+        np.stack(
+            [
+                2 * (q[..., 1] * q[..., 3] + q[..., 0] * q[..., 2]),
+                2 * (q[..., 2] * q[..., 3] - q[..., 0] * q[..., 1]),
+                1 - 2 * (q[..., 1] ** 2 + q[..., 2] ** 2),
+            ],
+            axis=-1,
+        )
+        for q in (each.pose[..., 3:] for each in (level, turned, once))
+    ]
     aligned = [np.mean(np.sum(each * up[2], axis=-1)[stands]) for each in up]
     assert aligned[0] < 0.96 < 0.99 < aligned[1]
 
@@ -179,12 +203,18 @@ def test_one_of_two_walkers():
     np.testing.assert_allclose(placed.pose[parts:], alone.pose, atol=1e-12)
 
 
-@pytest.mark.parametrize("words, arguments", [
-    ("walks beside the ground", {"ground": Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0), "carry": True}),
-    ("A reach of 0 m", {"reach": 0.0}), ("toe slope of -1", {"toe_slope": -1.0}),
-    ("radius of a foot of -1 m", {"foot_radius": -1.0}), ("no walker 3", {"walkers": [3]}),
-    ("floor's height", {"floor": math.nan}), ("Ground or a Simulation", {"ground": 0.0}),
-])
+@pytest.mark.parametrize(
+    "words, arguments",
+    [
+        ("walks beside the ground", {"ground": Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0), "carry": True}),
+        ("A reach of 0 m", {"reach": 0.0}),
+        ("toe slope of -1", {"toe_slope": -1.0}),
+        ("radius of a foot of -1 m", {"foot_radius": -1.0}),
+        ("no walker 3", {"walkers": [3]}),
+        ("floor's height", {"floor": math.nan}),
+        ("Ground or a Simulation", {"ground": 0.0}),
+    ],
+)
 def test_what_cannot_be_is_a_sentence(words, arguments):
     arguments = {"ground": plane(0.1, 0.1), **arguments}
     with pytest.raises(DesirePathError, match=words):
@@ -220,8 +250,11 @@ def tracks(steep, turned):
     assert 6 <= len(cuts) + 1 <= 8
     lengths = [np.ptp(each) for each in np.split(prints, cuts)][1:-1]
     stretch = math.hypot(1.0, rise * math.cos(turned))
-    return (float(np.median(lengths)) * stretch, centre(along, heap) - centre(along, pressed),
-            centre(aside, heap) - centre(aside, pressed))
+    return (
+        float(np.median(lengths)) * stretch,
+        centre(along, heap) - centre(along, pressed),
+        centre(aside, heap) - centre(aside, pressed),
+    )
 
 
 def test_prints_of_a_hill():

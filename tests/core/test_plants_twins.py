@@ -31,12 +31,27 @@ class Stand:
 
     def twin(self):
         grid = (self.n, self.stems, self.rows, 3)
-        return (self.at.astype(float).reshape(grid), self.speed.astype(float).reshape(grid),
-                self.strength.reshape(self.n, self.stems, self.rows - 2).copy())
+        return (
+            self.at.astype(float).reshape(grid),
+            self.speed.astype(float).reshape(grid),
+            self.strength.reshape(self.n, self.stems, self.rows - 2).copy(),
+        )
 
     def step(self, dt, steps=1, colliders=(), ground=None, workers=1):
-        return _native.plants_step(self.kind.numbers(), self.seed, self.root, self.heading, self.at, self.speed,
-                                   self.strength, ground, colliders, dt, steps, workers)
+        return _native.plants_step(
+            self.kind.numbers(),
+            self.seed,
+            self.root,
+            self.heading,
+            self.at,
+            self.speed,
+            self.strength,
+            ground,
+            colliders,
+            dt,
+            steps,
+            workers,
+        )
 
     def free(self):
         return np.tile(np.arange(self.rows) >= 2, self.stems)
@@ -65,8 +80,16 @@ def test_solve_trail_5_6(name, dt):
     for _ in range(4):
         stand.step(dt)
         for k in range(stand.n):
-            twin.step(asdict(stand.kind), stand.root[k].astype(float), stand.heading[k], stand.kind.strength, at[k],
-                      speed[k], strength[k], dt)
+            twin.step(
+                asdict(stand.kind),
+                stand.root[k].astype(float),
+                stand.heading[k],
+                stand.kind.strength,
+                at[k],
+                speed[k],
+                strength[k],
+                dt,
+            )
         np.testing.assert_allclose(stand.at, at.reshape(stand.at.shape), atol=3e-5)
         np.testing.assert_allclose(stand.strength, strength.reshape(stand.strength.shape), atol=1e-7)
     assert np.abs(stand.at - Stand(KINDS[name], 5, n=3).at).max() > 1e-3
@@ -242,14 +265,22 @@ def test_a_kind_is_saved_and_shared(tmp_path):
     assert Kind.load(path) == Kind(height=0.3)
 
 
-@pytest.mark.parametrize("text, words", [
-    ("", "not a plant kind"), ("[]", "not a plant kind"), ('{"height": 1}', "of this version"),
-    ('{"desire_path_plant": 1, "wings": 2}', "says wings"), ('{"desire_path_plant": 1, "height": "x"}', "height of 'x'"),
-    ('{"desire_path_plant": 1, "height": -1}', "height of -1"), ('{"desire_path_plant": 1, "form": "tree"}', "form"),
-    ('{"desire_path_plant": 1, "spacing": 0.001}', "too many particles"),
-    ('{"desire_path_plant": 1, "break_angle": 0.01}', "below its degrade_angle"),
-    ('{"desire_path_plant": 1, "sheets": 7}', "sheets"), ('{"desire_path_plant": 1, "sway": NaN}', "sway of nan"),
-])
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("", "not a plant kind"),
+        ("[]", "not a plant kind"),
+        ('{"height": 1}', "of this version"),
+        ('{"desire_path_plant": 1, "wings": 2}', "says wings"),
+        ('{"desire_path_plant": 1, "height": "x"}', "height of 'x'"),
+        ('{"desire_path_plant": 1, "height": -1}', "height of -1"),
+        ('{"desire_path_plant": 1, "form": "tree"}', "form"),
+        ('{"desire_path_plant": 1, "spacing": 0.001}', "too many particles"),
+        ('{"desire_path_plant": 1, "break_angle": 0.01}', "below its degrade_angle"),
+        ('{"desire_path_plant": 1, "sheets": 7}', "sheets"),
+        ('{"desire_path_plant": 1, "sway": NaN}', "sway of nan"),
+    ],
+)
 def test_bad_kinds_get_a_sentence(tmp_path, text, words):
     path = tmp_path / "kind.json"
     path.write_text(text)

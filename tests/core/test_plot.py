@@ -45,7 +45,7 @@ def test_the_figure_shows_feet_contacts_and_the_weight(person_walks):
         assert set(lines) == {"foot.L", "foot.R", "all feet", "body weight"}
         np.testing.assert_array_equal(lines["foot.R"].get_ydata(), force[2 * w + 1])
         assert set(lines["body weight"].get_ydata()) == {1.0}
-        stances = sum(len(plot.spans(row, both.time)) for row in touching[2 * w:2 * w + 2])
+        stances = sum(len(plot.spans(row, both.time)) for row in touching[2 * w : 2 * w + 2])
         assert len(graph.patches) == stances > 3
 
 
@@ -61,11 +61,24 @@ def test_plot_writes_a_picture(tmp_path, kind, begin):
 
 def test_without_matplotlib_a_sentence_says_how_to_get_it(tmp_path):
     standing().save(tmp_path / "walk.npz")
-    code = ("import sys; sys.modules['matplotlib'] = None; sys.path.insert(0, sys.argv[1]); "
-            "from desire_path.__main__ import main; sys.exit(main(sys.argv[2:]))")
-    done = subprocess.run([sys.executable, "-c", code, str(REPO / "addon"), "plot",
-                           str(tmp_path / "walk.npz"), "--out", str(tmp_path / "forces.png")],
-                          capture_output=True, text=True)
+    code = (
+        "import sys; sys.modules['matplotlib'] = None; sys.path.insert(0, sys.argv[1]); "
+        "from desire_path.__main__ import main; sys.exit(main(sys.argv[2:]))"
+    )
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            code,
+            str(REPO / "addon"),
+            "plot",
+            str(tmp_path / "walk.npz"),
+            "--out",
+            str(tmp_path / "forces.png"),
+        ],
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 1 and done.stderr.count("\n") == 1, done.stderr
     assert "desire-path[plot]" in done.stderr and not (tmp_path / "forces.png").exists()
     assert run("loads", tmp_path / "walk.npz", "--out", tmp_path / "loads.csv").returncode == 0

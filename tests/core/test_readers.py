@@ -79,7 +79,7 @@ def wrong_recordings(tmp_path):
     yield make("counts", sole_vertex_count=head("(1,)", "'<i4'") + struct.pack("<i", -7))
     for number in range(3):
         yield "cut", tmp_path / f"cut{number}.npz"
-        (tmp_path / f"cut{number}.npz").write_bytes(good.read_bytes()[:1000 * number])
+        (tmp_path / f"cut{number}.npz").write_bytes(good.read_bytes()[: 1000 * number])
     bare = io.BytesIO()
     np.save(bare, np.zeros(8))
     (tmp_path / "bare.npz").write_bytes(bare.getvalue())
@@ -128,19 +128,28 @@ def test_a_recording_that_would_fill_the_memory_is_refused_before_it_is_unpacked
         file = packed(tmp_path / f"{count}.npz", {"time": head(f"({count},)") + bytes(1 << 26)}, zipfile.ZIP_DEFLATED)
         data = bytearray(file.read_bytes())
         at = data.index(b"PK\x01\x02")
-        data[at + 24:at + 28] = data[22:26] = struct.pack("<I", len(head(f"({count},)")) + 8 * count)
+        data[at + 24 : at + 28] = data[22:26] = struct.pack("<I", len(head(f"({count},)")) + 8 * count)
         file.write_bytes(data)
-        done = subprocess.run([sys.executable, "-c", BOMB.format(addon=str(REPO / "addon"), file=str(file))],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-c", BOMB.format(addon=str(REPO / "addon"), file=str(file))],
+            capture_output=True,
+            text=True,
+        )
         grown[count], _, text = done.stdout.partition(" ")
         assert "damaged or no recording" in text, done
     assert all(int(more) < 60_000 for more in grown.values()), grown  # kB, NumPy's own code among them
 
 
 def test_arrays_come_as_numpy_writes_them(tmp_path):
-    wanted = {"a": np.arange(24.0).reshape(2, 3, 4), "b": np.asfortranarray(np.arange(12, dtype=">i4").reshape(3, 4)),
-              "c": np.array(["one", "", "drei"]), "d": np.array(True), "e": np.zeros((0, 3), "f4"),
-              "f": np.array([""]), "g": np.arange(3, dtype="u1")}
+    wanted = {
+        "a": np.arange(24.0).reshape(2, 3, 4),
+        "b": np.asfortranarray(np.arange(12, dtype=">i4").reshape(3, 4)),
+        "c": np.array(["one", "", "drei"]),
+        "d": np.array(True),
+        "e": np.zeros((0, 3), "f4"),
+        "f": np.array([""]),
+        "g": np.arange(3, dtype="u1"),
+    }
     for save in (np.savez, np.savez_compressed):
         save(tmp_path / "x.npz", **wanted)
         found = npz.read(tmp_path / "x.npz")
@@ -158,17 +167,34 @@ def test_arrays_come_as_numpy_writes_them(tmp_path):
 # ---- kinds of plants, tables -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", [
-    "", "[]", "null", "[" * 60_000, '{"desire_path_plant": 1, "height": %s}' % ("1" * 4500),
-    '{"desire_path_plant": 1, "height": %s}' % ("1" * 4000), '{"desire_path_plant": 1, "height": 1e999}',
-    '{"desire_path_plant": 1, "height": NaN}', '{"desire_path_plant": 1, "height": [[1]]}',
-    '{"desire_path_plant": 1, "height": {"a": 1}}', '{"desire_path_plant": 1, "height": true}',
-    '{"desire_path_plant": true}', '{"desire_path_plant": 1.0}', '{"desire_path_plant": 1, "sheets": 2.0}',
-    '{"desire_path_plant": 1, "sheets": true}', '{"desire_path_plant": 1, "form": ["tuft"]}',
-    '{"desire_path_plant": 1, "form": "%s"}' % ("x" * 5000), '{"desire_path_plant": 1, "%s": 1}' % ("x" * 5000),
-    '{"desire_path_plant": 1, "\\udcff": 1}', '{"desire_path_plant": 1, "spacing": 1e-300}', "\x00", "\xff\xfe",
-    '{"desire_path_plant": 1}' + " " * 100_000,
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "null",
+        "[" * 60_000,
+        '{"desire_path_plant": 1, "height": %s}' % ("1" * 4500),
+        '{"desire_path_plant": 1, "height": %s}' % ("1" * 4000),
+        '{"desire_path_plant": 1, "height": 1e999}',
+        '{"desire_path_plant": 1, "height": NaN}',
+        '{"desire_path_plant": 1, "height": [[1]]}',
+        '{"desire_path_plant": 1, "height": {"a": 1}}',
+        '{"desire_path_plant": 1, "height": true}',
+        '{"desire_path_plant": true}',
+        '{"desire_path_plant": 1.0}',
+        '{"desire_path_plant": 1, "sheets": 2.0}',
+        '{"desire_path_plant": 1, "sheets": true}',
+        '{"desire_path_plant": 1, "form": ["tuft"]}',
+        '{"desire_path_plant": 1, "form": "%s"}' % ("x" * 5000),
+        '{"desire_path_plant": 1, "%s": 1}' % ("x" * 5000),
+        '{"desire_path_plant": 1, "\\udcff": 1}',
+        '{"desire_path_plant": 1, "spacing": 1e-300}',
+        "\x00",
+        "\xff\xfe",
+        '{"desire_path_plant": 1}' + " " * 100_000,
+    ],
+)
 def test_kinds_of_nonsense_are_a_sentence(tmp_path, text):
     file = tmp_path / "kind.json"
     file.write_bytes(text.encode("latin-1"))
@@ -179,9 +205,22 @@ def test_kinds_of_nonsense_are_a_sentence(tmp_path, text):
 def test_tables_of_nonsense_are_a_sentence(tmp_path, read):
     first = "x,y\n" if read is path.read else "passes,cover\n"
     file = tmp_path / "table.csv"
-    for text in ("", "\x00", "\xff\xfe", first, first + "1\n", first + "inf,1\n-inf,2\n", first + "nan,1\n2,2\n",
-                 first + "1e400,1\n2,2\n", first + "1e300,1\n2,2\n", first + "a,b\n", first + '"' + "1" * 200_000,
-                 first * 2, "x" * 200_000, first + "9" * 5000 + ",1\n"):
+    for text in (
+        "",
+        "\x00",
+        "\xff\xfe",
+        first,
+        first + "1\n",
+        first + "inf,1\n-inf,2\n",
+        first + "nan,1\n2,2\n",
+        first + "1e400,1\n2,2\n",
+        first + "1e300,1\n2,2\n",
+        first + "a,b\n",
+        first + '"' + "1" * 200_000,
+        first * 2,
+        "x" * 200_000,
+        first + "9" * 5000 + ",1\n",
+    ):
         file.write_bytes(text.encode("latin-1"))
         if text == first and read is trampling.read:
             assert read(file) == []
@@ -209,13 +248,21 @@ def test_whatever_an_index_says_is_a_sentence_or_an_index(tmp_path):
         for value in ("1e999", "NaN", '"7"', "true", "null", "[1]", "{}", "9" * 400, "-" + "9" * 400):
             file.write_text(json.dumps({**good, name: "HERE"}).replace('"HERE"', value))
             assert "damaged: bake again" in told(read_index, tmp_path), (name, value)
-    for name, value in (("cell", 0), ("cell", -1), ("nx", 0), ("ny", -4), ("nx", 2.5), ("ny", 1e30), ("frame_rate", 0),
-                        ("frame_end", good["frame_start"] - 1)):
+    for name, value in (
+        ("cell", 0),
+        ("cell", -1),
+        ("nx", 0),
+        ("ny", -4),
+        ("nx", 2.5),
+        ("ny", 1e30),
+        ("frame_rate", 0),
+        ("frame_end", good["frame_start"] - 1),
+    ):
         file.write_text(json.dumps({**good, name: value}))
         assert "damaged" in told(read_index, tmp_path), name
     file.write_text(json.dumps({**good, "format": ["x" * 5000], "version": "y" * 5000}))
     told(read_index, tmp_path)
-    file.write_text(json.dumps({**good, "frame_end": 10 ** 9}))  # counted as far as files are there
+    file.write_text(json.dumps({**good, "frame_end": 10**9}))  # counted as far as files are there
     assert read_index(tmp_path).frames == good["frame_end"] - good["frame_start"] + 1
     file.write_text(json.dumps(good) + " " * (1 << 23))
     told(read_index, tmp_path)
@@ -231,16 +278,16 @@ def test_frames_with_damaged_heads_end(tmp_path):
     good, last = frame.read_bytes(), read_index(tmp_path).frames
     end = good.index(b"tiles\0") + 40
     for at in range(8, end):
-        for value in (0, 0xff, good[at] ^ 0x80):
-            frame.write_bytes(good[:at] + bytes([value]) + good[at + 1:])
+        for value in (0, 0xFF, good[at] ^ 0x80):
+            frame.write_bytes(good[:at] + bytes([value]) + good[at + 1 :])
             assert read_index(tmp_path).frames in (2, last)
     value = good.index(b"\0", good.index(b"\0", 8) + 1) + 5
-    frame.write_bytes(good[:value - 4] + struct.pack("<i", 8 - value) + good[value:])
+    frame.write_bytes(good[: value - 4] + struct.pack("<i", 8 - value) + good[value:])
     assert read_index(tmp_path).frames == 2
     tiles = good.index(b"tiledesc\0") + 13
     window = good.index(b"box2i\0", good.index(b"dataWindow\0")) + 10
-    many = good[:tiles] + struct.pack("<2I", 1, 1) + good[tiles + 8:]
-    frame.write_bytes(many[:window] + struct.pack("<4i", 0, 0, 29_999, 29_999) + many[window + 16:])
+    many = good[:tiles] + struct.pack("<2I", 1, 1) + good[tiles + 8 :]
+    frame.write_bytes(many[:window] + struct.pack("<4i", 0, 0, 29_999, 29_999) + many[window + 16 :])
     tracemalloc.start()
     assert read_index(tmp_path).frames == 2  # 900 million tiles, more than the file has bytes
     assert tracemalloc.get_traced_memory()[1] < 10_000_000

@@ -90,9 +90,13 @@ def test_the_table_of_contacts(tmp_path, walk):
 
 def test_the_command_writes_both_tables(tmp_path, walk):
     walk[0].save(tmp_path / "walk.npz")
-    done = subprocess.run([sys.executable, "-m", "desire_path", "loads", "walk.npz", "--out", "loads.csv",
-                           "--contacts", "contacts.csv"], cwd=tmp_path, capture_output=True, text=True,
-                          env={"PYTHONPATH": str(REPO / "addon")})
+    done = subprocess.run(
+        [sys.executable, "-m", "desire_path", "loads", "walk.npz", "--out", "loads.csv", "--contacts", "contacts.csv"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        env={"PYTHONPATH": str(REPO / "addon")},
+    )
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "loads.csv").exists() and (tmp_path / "contacts.csv").exists()
     assert "contacts, 1" in done.stdout and "Mean force" in done.stdout

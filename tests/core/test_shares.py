@@ -58,8 +58,13 @@ def report(folder):
 def test_two_tiles_are_pressed_as_the_ground_they_are_cut_from(tmp_path, height):
     gait = walk()
     one = run(gait, mesh(-1, -1, 5, 1, height=height), folder=tmp_path / "one")
-    two = run(gait, [Parcel(mesh(-1, -1, 2, 1, height=height), folder=tmp_path / "west", name="west"),
-                     Parcel(mesh(2, -1, 5, 1, height=height), folder=tmp_path / "east", name="east")])
+    two = run(
+        gait,
+        [
+            Parcel(mesh(-1, -1, 2, 1, height=height), folder=tmp_path / "west", name="west"),
+            Parcel(mesh(2, -1, 5, 1, height=height), folder=tmp_path / "east", name="east"),
+        ],
+    )
     whole = in_world(tmp_path / "one")
     west, east = (in_world(tmp_path / name) for name in ("west", "east"))
     for at, depth in whole.items():
@@ -78,10 +83,16 @@ def test_two_tiles_are_pressed_as_the_ground_they_are_cut_from(tmp_path, height)
 
 @pytest.mark.parametrize("edge", [2.0, TILE * CELL])
 def test_every_frame_of_both_sides_shows_the_same_seam(tmp_path, edge):
-    gait, _ = gaits.pressed([gaits.box(0.3, 0.12)], [[edge, 0.0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5,
-                            rate=24.0, lift=0.5)
-    run(gait, [Parcel(mesh(-1, -1, edge, 1), folder=tmp_path / "west"),
-               Parcel(mesh(edge, -1, 5, 1), folder=tmp_path / "east")])
+    gait, _ = gaits.pressed(
+        [gaits.box(0.3, 0.12)], [[edge, 0.0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5, rate=24.0, lift=0.5
+    )
+    run(
+        gait,
+        [
+            Parcel(mesh(-1, -1, edge, 1), folder=tmp_path / "west"),
+            Parcel(mesh(edge, -1, 5, 1), folder=tmp_path / "east"),
+        ],
+    )
     sides = [read_index(tmp_path / name) for name in ("west", "east")]
     assert [side.frames for side in sides] == [sides[0].frames] * 2 and all(side.complete for side in sides)
     last = sides[0].frames
@@ -92,14 +103,17 @@ def test_every_frame_of_both_sides_shows_the_same_seam(tmp_path, edge):
             i = round((edge - side.x0) / CELL)
             j = round((-0.5 - side.y0) / CELL)
             assert 0 < i < side.nx
-            columns.append(plane[j:j + 50, i - 1:i + 1])  # the cells on either side of the seam
+            columns.append(plane[j : j + 50, i - 1 : i + 1])  # the cells on either side of the seam
         assert columns[0].tobytes() == columns[1].tobytes()
     assert columns[0].min() < -0.002
 
 
 def test_of_nine_tiles_those_are_made_that_are_trodden(tmp_path):
-    parcels = [Parcel(mesh(2 * i - 1, 2 * j - 3, 2 * i + 1, 2 * j - 1), folder=tmp_path / f"{i}{j}", name=f"{i}{j}")
-               for i in range(3) for j in range(3)]
+    parcels = [
+        Parcel(mesh(2 * i - 1, 2 * j - 3, 2 * i + 1, 2 * j - 1), folder=tmp_path / f"{i}{j}", name=f"{i}{j}")
+        for i in range(3)
+        for j in range(3)
+    ]
     (tmp_path / "00").mkdir()
     (tmp_path / "00" / "mine.txt").write_text("stays")
     bake = run(walk(4.0), parcels)
@@ -121,8 +135,13 @@ def test_a_tile_nobody_trod_keeps_the_bake_it_has(tmp_path):
 def test_only_the_storey_that_is_trodden_is_pressed(tmp_path):
     ground, bridge = mesh(-1, -1, 5, 1), Ground.mesh(*tile(0.5, -0.5, 3, 0.5, height=level, shift=2.5))
     run(walk(), ground, folder=tmp_path / "alone")
-    bake = run(walk(), [Parcel(bridge, folder=tmp_path / "bridge", name="bridge"),
-                        Parcel(ground, folder=tmp_path / "ground", name="ground")])
+    bake = run(
+        walk(),
+        [
+            Parcel(bridge, folder=tmp_path / "bridge", name="bridge"),
+            Parcel(ground, folder=tmp_path / "ground", name="ground"),
+        ],
+    )
     assert [share.parcel.name for share in bake.shares] == ["ground"]
     assert not (tmp_path / "bridge").exists()
     assert in_world(tmp_path / "ground") == in_world(tmp_path / "alone")
@@ -134,28 +153,36 @@ def test_a_walk_over_a_bridge_leaves_the_bed_below_alone(tmp_path):
     bridge = mesh(1, -0.5, 3, 0.5)
     bed = Ground.mesh(*tile(0.9, -1, 3.1, 1, height=level, shift=-0.8))
     names = ("bed", "bank a", "bank b", "bridge")
-    bake = run(walk(), [Parcel(each, folder=tmp_path / name, name=name)
-                        for name, each in zip(names, (bed, *banks, bridge))])
+    bake = run(
+        walk(), [Parcel(each, folder=tmp_path / name, name=name) for name, each in zip(names, (bed, *banks, bridge))]
+    )
     assert sorted(share.parcel.name for share in bake.shares) == ["bank a", "bank b", "bridge"]
     whole = run(walk(), mesh(-1, -1, 5, 1), folder=tmp_path / "whole")
     assert bake.report["contacts"] == whole.report["contacts"]
     middle = {at: depth for at, depth in in_world(tmp_path / "whole").items() if 55 < at[0] < 145}
-    assert middle and all(in_world(tmp_path / "bridge")[at] == pytest.approx(depth, abs=1e-6)
-                          for at, depth in middle.items())
+    assert middle and all(
+        in_world(tmp_path / "bridge")[at] == pytest.approx(depth, abs=1e-6) for at, depth in middle.items()
+    )
 
 
 def test_each_tile_has_its_own_soil_and_plants(tmp_path):
     lawn = Planting("carex", seed=3)
-    run(walk(), [Parcel(mesh(-1, -1, 2, 1), "mud", tmp_path / "west", plants=[lawn], plant_mesh=True),
-                 Parcel(mesh(2, -1, 5, 1), "snow", tmp_path / "east")])
+    run(
+        walk(),
+        [
+            Parcel(mesh(-1, -1, 2, 1), "mud", tmp_path / "west", plants=[lawn], plant_mesh=True),
+            Parcel(mesh(2, -1, 5, 1), "snow", tmp_path / "east"),
+        ],
+    )
     deep = [report(tmp_path / name) for name in ("west", "east")]
     assert deep[1]["deepest_m"] > 2 * deep[0]["deepest_m"]
     assert [each["parameters"]["soils"][0]["young_modulus"] for each in deep] == sorted(
-        (each["parameters"]["soils"][0]["young_modulus"] for each in deep), reverse=True)
+        (each["parameters"]["soils"][0]["young_modulus"] for each in deep), reverse=True
+    )
     assert read_index(tmp_path / "west").lean and not read_index(tmp_path / "east").lean
     start = maps.read(tmp_path / "east" / "maps_start.exr")
     index = read_index(tmp_path / "east")
-    beyond = start.planes["plant_strength"][:, round((2.5 - index.x0) / CELL):]
+    beyond = start.planes["plant_strength"][:, round((2.5 - index.x0) / CELL) :]
     assert not beyond.any()
     stems = np.load(tmp_path / "west" / "plants.npz")
     assert stems["vertices"][:, 0].min() < 1 and not (tmp_path / "east" / "plants.npz").exists()
@@ -184,8 +211,10 @@ def test_a_stopped_bake_of_two_goes_on_in_both(tmp_path):
 
 def test_what_cannot_be_is_told(tmp_path):
     with pytest.raises(DesirePathError, match="'a' and 'b' bake into the same folder"):
-        Bake(walk(), [Parcel(mesh(0, 0, 1, 1), folder=tmp_path, name="a"),
-                      Parcel(mesh(1, 0, 2, 1), folder=tmp_path, name="b")])
+        Bake(
+            walk(),
+            [Parcel(mesh(0, 0, 1, 1), folder=tmp_path, name="a"), Parcel(mesh(1, 0, 2, 1), folder=tmp_path, name="b")],
+        )
     with pytest.raises(DesirePathError, match="list of Parcels"):
         Bake(walk(), [])
     far = [Parcel(mesh(50, 50, 51, 51), folder=tmp_path / "a"), Parcel(mesh(51, 50, 52, 51), folder=tmp_path / "b")]

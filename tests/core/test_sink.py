@@ -28,12 +28,17 @@ def baked(request, tmp_path_factory):
 def gaps(gait, touching, film, rest_height):
     """Of points of soles that touch, over the ground as it is pressed, by limb and sample."""
     from desire_path.motion import rotation
+
     for t in range(0, len(gait.time), 7):
         for limb in range(2):
             parts = np.flatnonzero((gait.part_limb == limb) & (touching[:, t] != 0))
             if len(parts):
-                at = np.concatenate([gait.soles[p].vertices @ rotation.matrix(gait.pose[p, t, 3:]).T
-                                     + gait.pose[p, t, :3] for p in parts])
+                at = np.concatenate(
+                    [
+                        gait.soles[p].vertices @ rotation.matrix(gait.pose[p, t, 3:]).T + gait.pose[p, t, :3]
+                        for p in parts
+                    ]
+                )
                 change, pressed = film.at(gait.frame(t), at[:, :2])
                 if (pressed > 0.005).sum() > 5:
                     yield (at[:, 2] - rest_height(at[:, :2]) - change)[pressed > 0.5 * np.median(pressed)]
@@ -42,8 +47,9 @@ def gaps(gait, touching, film, rest_height):
 def test_soles_lie_on_the_ground_they_pressed(baked):
     gait, loads, film, rest_height = baked
     sunk = settle_feet.into_prints(gait, loads, film, rest_height)
-    before, after = ([float(np.quantile(each, 0.1)) for each in gaps(g, loads.touching, film, rest_height)]
-                     for g in (gait, sunk))
+    before, after = (
+        [float(np.quantile(each, 0.1)) for each in gaps(g, loads.touching, film, rest_height)] for g in (gait, sunk)
+    )
     assert np.median(before) > 0.015  # it stood over its prints
     low, high = np.quantile(after, (0.1, 0.9))
     assert abs(np.median(after)) < 0.0015 and high < 0.008, (np.median(after), high)
@@ -53,7 +59,7 @@ def test_soles_lie_on_the_ground_they_pressed(baked):
     np.testing.assert_array_equal(sunk.pose[..., :2], gait.pose[..., :2])
     np.testing.assert_array_equal(sunk.pose[..., 3:], gait.pose[..., 3:])
     body = gait.com[0, :, 2] - sunk.com[0, :, 2]
-    body = body[gait.cut.max(initial=0):]  # not the pose the clip begins with
+    body = body[gait.cut.max(initial=0) :]  # not the pose the clip begins with
     assert 0.2 * down.max() < body.mean() < down.max() and np.abs(np.diff(body)).max() < 0.001
 
 

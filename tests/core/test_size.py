@@ -18,8 +18,10 @@ def scaled(skeleton, motion, by):
     rest, matrix = np.array(skeleton.rest, float), np.array(motion.matrix, float)
     rest[:, :3, 3] *= by
     matrix[..., :3, 3] *= by
-    return (Skeleton(skeleton.names, skeleton.parents, rest, skeleton.length * by),
-            Motion(motion.time * np.sqrt(by), motion.bones, matrix))
+    return (
+        Skeleton(skeleton.names, skeleton.parents, rest, skeleton.length * by),
+        Motion(motion.time * np.sqrt(by), motion.bones, matrix),
+    )
 
 
 def clip(name):
@@ -33,7 +35,9 @@ def clip(name):
     return skeleton, motion, rate
 
 
-@pytest.mark.parametrize("name", ["walk 1.25 m/s", "run 3.8 m/s", "landing, uneven", "cmu_12_01_walk", "cmu_02_04_jump", "beast"])
+@pytest.mark.parametrize(
+    "name", ["walk 1.25 m/s", "run 3.8 m/s", "landing, uneven", "cmu_12_01_walk", "cmu_02_04_jump", "beast"]
+)
 def test_contacts_and_forces_scale(name):
     """From a creature of 1.7 cm to one of 30 m."""
     skeleton, motion, rate = clip(name)
@@ -63,8 +67,10 @@ def test_walkers_of_two_sizes_share_a_recording(tmp_path):
     skeleton, motion, rate = clip("walk 1.25 m/s")
     small, _ = scaled(skeleton, motion, 0.25)
     short = Motion(motion.time, motion.bones, scaled(skeleton, motion, 0.25)[1].matrix)  # hurries not
-    gaits = [body.gait_from_bones(s, m, mass=kg, frame_rate=rate, name=name) for s, m, kg, name in (
-        (skeleton, motion, 75.0, "tall"), (small, short, 1.2, "small"))]
+    gaits = [
+        body.gait_from_bones(s, m, mass=kg, frame_rate=rate, name=name)
+        for s, m, kg, name in ((skeleton, motion, 75.0, "tall"), (small, short, 1.2, "small"))
+    ]
     both = Gait.join(gaits)
     path = tmp_path / "both.npz"
     both.save(path)

@@ -50,6 +50,7 @@ def test_it_does_not_go_back_and_is_sheared_anew_the_other_way():
     def braked(t):  # pushed forward, then not, and at the end backward half as hard
         push = np.interp(t, (0.0, 0.2, 0.5, 0.7, 1.0), (150.0, 150.0, 0.0, -75.0, -75.0))
         return np.stack([push, 0 * t, -600.0 + 0 * t], axis=1)
+
     far = slipped(0.02, braked)
     assert far[1] == pytest.approx(0.010, abs=CELL)
     whole = slipped(0.02, lambda t: np.stack([0 * t + 150.0, 0 * t, -600.0 + 0 * t], axis=1))
@@ -62,8 +63,13 @@ def test_no_sole_slips_farther_than_it_may():
 
 def test_a_foot_that_stands_on_a_slope_slides_down_it():
     """With its force straight down, and farther the steeper."""
-    far = [(pressed((0.0, 0.0, -600.0), replace(SAND, shear_modulus=0.02), hill)
-            - pressed((0.0, 0.0, -600.0), SAND, hill))[0] for hill in (0.1, 0.2, 0.4)]
+    far = [
+        (
+            pressed((0.0, 0.0, -600.0), replace(SAND, shear_modulus=0.02), hill)
+            - pressed((0.0, 0.0, -600.0), SAND, hill)
+        )[0]
+        for hill in (0.1, 0.2, 0.4)
+    ]
     assert 0.0 > far[0] > far[1] > far[2]
     for hill, down in zip((0.1, 0.2, 0.4), far):
         assert -down == pytest.approx(-0.02 * math.log(1 - hill / math.tan(math.radians(32.0))), rel=0.35, abs=CELL)

@@ -40,8 +40,9 @@ def test_a_tilted_walk_is_the_walk_tilted(toes, axis):
     flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
     tilted = body.gait_from_bones(skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0, land=land)
     np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=2e-3)
-    np.testing.assert_allclose(rotation.matrix(tilted.pose[..., 3:]), turn @ rotation.matrix(flat.pose[..., 3:]),
-                               atol=0.02)
+    np.testing.assert_allclose(
+        rotation.matrix(tilted.pose[..., 3:]), turn @ rotation.matrix(flat.pose[..., 3:]), atol=0.02
+    )
     for one, other in zip(flat.soles, tilted.soles):
         np.testing.assert_allclose(one.vertices, other.vertices, atol=1e-3)
     # who takes it for level has other soles
@@ -54,8 +55,11 @@ def test_level_feet_over_a_slope_stay_level():
     skeleton = person()
     motion = walk(skeleton)
     flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
-    for land in (Simulation(Ground.flat(1.0)), Simulation(plane(0.1, 0.25)),
-                 Simulation(Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0))):
+    for land in (
+        Simulation(Ground.flat(1.0)),
+        Simulation(plane(0.1, 0.25)),
+        Simulation(Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0)),
+    ):
         same = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, land=land)
         np.testing.assert_array_equal(same.pose, flat.pose)
 
@@ -63,8 +67,16 @@ def test_level_feet_over_a_slope_stay_level():
 def test_known_shapes_are_kept():
     skeleton = person()
     motion = walk(skeleton)
-    shape = FootShape(ball=0.15, tip=0.25, heel=-0.04, ankle_height=0.1, ball_height=0.04, foot_turn=np.eye(3),
-                      toe_turn=np.eye(3), ball_side=0.0)
+    shape = FootShape(
+        ball=0.15,
+        tip=0.25,
+        heel=-0.04,
+        ankle_height=0.1,
+        ball_height=0.04,
+        foot_turn=np.eye(3),
+        toe_turn=np.eye(3),
+        ball_side=0.0,
+    )
     gait = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, shapes={"foot.L": shape})
     left = gait.soles[2 * gait.limb_name.index("foot.L")].vertices
     assert left[:, 0].min() == pytest.approx(-0.04, abs=1e-6)
@@ -122,8 +134,9 @@ def test_a_beast_of_a_level_floor_stays_level(toes, roll, along, across):
     if not toes:
         rig = rigs.build(bones, [replace(foot, toe=None) for foot in rig.feet])
     flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0, rig=rig)
-    same = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0, rig=rig,
-                                land=Simulation(plane(across, along)))
+    same = body.gait_from_bones(
+        bones, motion, mass=30.0, frame_rate=120.0, rig=rig, land=Simulation(plane(across, along))
+    )
     np.testing.assert_array_equal(same.pose, flat.pose)
 
 

@@ -33,11 +33,23 @@ def test_every_preset_is_in_the_tables():
     assert set(SOILS) == set(TABLES)
 
 
-@pytest.mark.parametrize("name, value", [
-    ("layer_depth", 0.0), ("layer_depth", -1.0), ("young_modulus", 0.0), ("young_modulus", math.nan),
-    ("young_modulus", math.inf), ("poisson_ratio", 0.51), ("poisson_ratio", -0.01), ("settle_time", 0.0),
-    ("rest_angle", 0.0), ("rest_angle", math.radians(89.5)), ("push_threshold", -1.0), ("push_threshold", math.nan),
-])
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("layer_depth", 0.0),
+        ("layer_depth", -1.0),
+        ("young_modulus", 0.0),
+        ("young_modulus", math.nan),
+        ("young_modulus", math.inf),
+        ("poisson_ratio", 0.51),
+        ("poisson_ratio", -0.01),
+        ("settle_time", 0.0),
+        ("rest_angle", 0.0),
+        ("rest_angle", math.radians(89.5)),
+        ("push_threshold", -1.0),
+        ("push_threshold", math.nan),
+    ],
+)
 def test_impossible_soils_are_refused(name, value):
     with pytest.raises(DesirePathError, match=name):
         Soil(**{name: value})
@@ -47,12 +59,41 @@ def test_the_core_takes_what_python_takes():
     import numpy as np
 
     grid = np.zeros((3, 3), np.float32)
-    for soil in [*SOILS.values(), Soil(), Soil(rest_angle=math.radians(88.9)), Soil(layer_depth=1e-4),
-                 Soil(settle_time=1e-5), Soil(*_native.soil_default())]:
-        row = np.array([[soil.layer_depth, soil.young_modulus, soil.poisson_ratio, soil.settle_time,
-                         soil.rest_angle, soil.push_threshold, soil.shear_modulus]], np.float32)
-        patch = (0.01, 0.0, 0.0, grid, grid.copy(), grid.copy(), grid.copy(), grid + row[0, 1], grid + 1,
-                 grid.astype(np.uint8), row)
+    for soil in [
+        *SOILS.values(),
+        Soil(),
+        Soil(rest_angle=math.radians(88.9)),
+        Soil(layer_depth=1e-4),
+        Soil(settle_time=1e-5),
+        Soil(*_native.soil_default()),
+    ]:
+        row = np.array(
+            [
+                [
+                    soil.layer_depth,
+                    soil.young_modulus,
+                    soil.poisson_ratio,
+                    soil.settle_time,
+                    soil.rest_angle,
+                    soil.push_threshold,
+                    soil.shear_modulus,
+                ]
+            ],
+            np.float32,
+        )
+        patch = (
+            0.01,
+            0.0,
+            0.0,
+            grid,
+            grid.copy(),
+            grid.copy(),
+            grid.copy(),
+            grid + row[0, 1],
+            grid + 1,
+            grid.astype(np.uint8),
+            row,
+        )
         assert _native.soil_stabilize(patch, None, None, 0.001, 1)["at_rest"]
 
 

@@ -11,8 +11,14 @@ from tests.reference import soil as twin
 SOLE, UNIFORM = 0, 1
 REST, PAPER = 0, 1
 GRIDS = ("rest", "compression", "heap", "pressure_time", "modulus", "rest_slope", "kind", "soils")
-SOILS = np.array([[0.30, 0.4e6, 0.35, 0.10, 0.35, 0.0, 0.0], [0.20, 1.1e6, 0.20, 0.05, 0.5, 0.0, 0.0],
-                  [0.25, 0.2e6, 0.45, 0.20, 0.2, 0.0, 0.0]], np.float32)
+SOILS = np.array(
+    [
+        [0.30, 0.4e6, 0.35, 0.10, 0.35, 0.0, 0.0],
+        [0.20, 1.1e6, 0.20, 0.05, 0.5, 0.0, 0.0],
+        [0.25, 0.2e6, 0.45, 0.20, 0.2, 0.0, 0.0],
+    ],
+    np.float32,
+)
 
 
 class Both:
@@ -35,8 +41,14 @@ class Both:
             self.native["rest"][random.random((ny, nx)) < 0.03] = np.nan
         self.cell, self.x0, self.y0 = cell, -0.5 * nx * cell, -0.45 * ny * cell
         self.twin = {k: self.native[k].astype(float) for k in GRIDS[:6]}
-        self.twin |= {"depth": SOILS[kind, 0].astype(float), "tau": SOILS[kind, 3].astype(float),
-                      "nu": SOILS[kind, 2].astype(float), "cell": cell, "x0": self.x0, "y0": self.y0}
+        self.twin |= {
+            "depth": SOILS[kind, 0].astype(float),
+            "tau": SOILS[kind, 3].astype(float),
+            "nu": SOILS[kind, 2].astype(float),
+            "cell": cell,
+            "x0": self.x0,
+            "y0": self.y0,
+        }
         self.random = random
         self.shape = (ny, nx)
 
@@ -141,7 +153,8 @@ def test_compress_trail_10_soft22_11(seed, law):
         dt = 0.02 if step % 2 else 0.3
         pressed = _native.soil_compress(both.patch(), (bottom, cover, ring), foot_of(load), law, dt)
         touched, firm, loose, displaced, sink = twin.compress(
-            both.twin, bottom.astype(float), cover.astype(float), load, dt, ("sole", "uniform")[law])
+            both.twin, bottom.astype(float), cover.astype(float), load, dt, ("sole", "uniform")[law]
+        )
         assert np.array_equal(ring == 0, touched)
         assert pressed["sink"] == pytest.approx(sink, abs=1e-7)
         assert pressed["firm"] == pytest.approx(firm, rel=1e-5, abs=1e-11)

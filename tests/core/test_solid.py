@@ -7,8 +7,22 @@ from desire_path import DesirePathError, Ground, Simulation, Soil
 from desire_path.loads import walker
 from desire_path.rig import solid
 
-BOX_FACES = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2],
-                      [2, 4, 6], [1, 3, 5], [3, 7, 5]])
+BOX_FACES = np.array(
+    [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ]
+)
 
 
 def box(size, at=(0.0, 0.0, 0.0)):
@@ -22,9 +36,14 @@ def barrel(radius, wide, sides=360):
     ring = np.stack([np.zeros(sides), np.cos(angle), np.sin(angle)], axis=1) * radius
     vertices = np.concatenate([ring - (wide / 2, 0, 0), ring + (wide / 2, 0, 0), [[-wide / 2, 0, 0], [wide / 2, 0, 0]]])
     k, n = np.arange(sides), np.roll(np.arange(sides), -1)
-    faces = np.concatenate([np.stack([k, n, k + sides], 1), np.stack([n, n + sides, k + sides], 1),
-                            np.stack([n, k, np.full(sides, 2 * sides)], 1),
-                            np.stack([k + sides, n + sides, np.full(sides, 2 * sides + 1)], 1)])
+    faces = np.concatenate(
+        [
+            np.stack([k, n, k + sides], 1),
+            np.stack([n, n + sides, k + sides], 1),
+            np.stack([n, k, np.full(sides, 2 * sides)], 1),
+            np.stack([k + sides, n + sides, np.full(sides, 2 * sides + 1)], 1),
+        ]
+    )
     return vertices, faces
 
 
@@ -40,8 +59,12 @@ def rolled(radius, speed, seconds=2.0, rate=60.0):
     time = np.arange(int(seconds * rate) + 1) / rate
     matrix = np.tile(np.eye(4), (len(time), 1, 1))
     angle = -speed * time / radius
-    matrix[:, 1, 1], matrix[:, 1, 2], matrix[:, 2, 1], matrix[:, 2, 2] = (np.cos(angle), -np.sin(angle), np.sin(angle),
-                                                                           np.cos(angle))
+    matrix[:, 1, 1], matrix[:, 1, 2], matrix[:, 2, 1], matrix[:, 2, 2] = (
+        np.cos(angle),
+        -np.sin(angle),
+        np.sin(angle),
+        np.cos(angle),
+    )
     matrix[:, 1, 3], matrix[:, 2, 3] = speed * time, radius
     return time, matrix
 
@@ -96,7 +119,7 @@ def test_what_rolls_never_leaves_the_ground(radius, speed):
     sim.run(len(time) - 1)
     i0, i1, j0, j1 = sim.reach()
     rut = sim.read("compression", i0, j0, i1 - i0, j1 - j0).max(axis=1)  # along the way
-    there = rut[int((0.2 * speed) / 0.01) - j0:int((1.8 * speed) / 0.01) - j0]
+    there = rut[int((0.2 * speed) / 0.01) - j0 : int((1.8 * speed) / 0.01) - j0]
     assert there.min() > 0.1 * there.max() > 0.0  # no place is passed over
 
 
@@ -124,11 +147,14 @@ def test_a_crate_on_a_rope_presses_nothing():
     assert on[time < 0.45].all() and not on[(time > 0.6) & (time < 1.4)].any() and on[time > 1.55].all()
 
 
-@pytest.mark.parametrize("change, words", [
-    (dict(triangles=np.zeros((0, 3), int)), "no faces"),
-    (dict(vertices=np.full((8, 3), np.nan)), "NaN or infinite"),
-    (dict(mass=0.0), "mass"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (dict(triangles=np.zeros((0, 3), int)), "no faces"),
+        (dict(vertices=np.full((8, 3), np.nan)), "NaN or infinite"),
+        (dict(mass=0.0), "mass"),
+    ],
+)
 def test_bad_bodies_are_refused(change, words):
     vertices, faces = box((0.2, 0.2, 0.2))
     time, matrix = still(0.1)

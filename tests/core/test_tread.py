@@ -9,16 +9,29 @@ from desire_path.rig.sole_mesh import Tread
 
 from tests.core.test_body import boots, flat_sample, gait, person, places, walk
 
-FACES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
-                  (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)])
+FACES = np.array(
+    [
+        (0, 2, 1),
+        (1, 2, 3),
+        (4, 5, 6),
+        (5, 7, 6),
+        (0, 1, 4),
+        (1, 5, 4),
+        (2, 6, 3),
+        (3, 6, 7),
+        (0, 4, 2),
+        (2, 4, 6),
+        (1, 3, 5),
+        (3, 7, 5),
+    ]
+)
 
 
 def boxes(*limits):
     """A Tread of boxes (low, high)."""
     corner = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
     vertices = [np.array(low) + corner * (np.array(high, float) - low) for low, high in limits]
-    return Tread(np.concatenate(vertices), np.concatenate([FACES + 8 * k for k in range(len(limits))]),
-                 "'Boot'")
+    return Tread(np.concatenate(vertices), np.concatenate([FACES + 8 * k for k in range(len(limits))]), "'Boot'")
 
 
 def boot(side=1):
@@ -38,8 +51,11 @@ def test_split_keeps_every_face():
     random = np.random.default_rng(5)
     vertices = random.normal(size=(60, 3))
     triangles = random.integers(0, 60, (90, 3))
-    triangles = triangles[(triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2])
-                          & (triangles[:, 0] != triangles[:, 2])]
+    triangles = triangles[
+        (triangles[:, 0] != triangles[:, 1])
+        & (triangles[:, 1] != triangles[:, 2])
+        & (triangles[:, 0] != triangles[:, 2])
+    ]
     whole, facing = area(vertices, triangles)
     for x in (0.2, float(vertices[7, 0]), -9.0):
         behind, ahead = sole_mesh.split(vertices, triangles, x)
@@ -110,8 +126,11 @@ def test_a_shaft_presses_nothing():
     plain = gait(bones, walk(bones), tread=boot())
     tall = boot()
     shaft = boxes(((0.05, -0.02, 0.12), (0.15, 0.07, 0.5)))
-    tall = Tread(np.concatenate([tall.vertices, shaft.vertices]),
-                 np.concatenate([tall.triangles, shaft.triangles + 16]), tall.name)
+    tall = Tread(
+        np.concatenate([tall.vertices, shaft.vertices]),
+        np.concatenate([tall.triangles, shaft.triangles + 16]),
+        tall.name,
+    )
     g = gait(bones, walk(bones), tread=tall)
     assert [s.vertices.tolist() for s in g.soles] == [s.vertices.tolist() for s in plain.soles]
 

@@ -20,10 +20,18 @@ def loads_of(trial):
 
 # RMSE of a foot at 120 frames a second, and at 24 [body weights]; a knock of the ground shorter than the
 # filters is lost
-WITHIN = {"walk 1.25 m/s": (0.04, 0.05), "walk 0.8 m/s": (0.04, 0.04), "walk 1.9 m/s": (0.05, 0.05),
-          "run 3.8 m/s": (0.09, 0.11), "run 2.6 m/s": (0.08, 0.10), "sprint 9 m/s": (0.13, 0.10),
-          "landing": (0.06, 0.06), "landing, uneven": (0.13, 0.13), "squats": (0.01, 0.01),
-          "squats, uneven": (0.01, 0.01)}
+WITHIN = {
+    "walk 1.25 m/s": (0.04, 0.05),
+    "walk 0.8 m/s": (0.04, 0.04),
+    "walk 1.9 m/s": (0.05, 0.05),
+    "run 3.8 m/s": (0.09, 0.11),
+    "run 2.6 m/s": (0.08, 0.10),
+    "sprint 9 m/s": (0.13, 0.10),
+    "landing": (0.06, 0.06),
+    "landing, uneven": (0.13, 0.13),
+    "squats": (0.01, 0.01),
+    "squats, uneven": (0.01, 0.01),
+}
 
 
 @pytest.mark.parametrize("name", trials.TRIALS)
@@ -43,17 +51,27 @@ def test_few_frames_tell_as_much(name):
         rmse = []
         for begin in np.arange(4) / 4 * 480.0 / rate:
             pick = np.round(np.arange(begin, len(fine.time) - 1, 480.0 / rate)).astype(int)
-            trial = replace(fine, rate=rate, time=fine.time[pick], force=fine.force[:, pick],
-                            motion=replace(fine.motion, time=fine.time[pick], matrix=fine.motion.matrix[pick]))
+            trial = replace(
+                fine,
+                rate=rate,
+                time=fine.time[pick],
+                force=fine.force[:, pick],
+                motion=replace(fine.motion, time=fine.time[pick], matrix=fine.motion.matrix[pick]),
+            )
             found = trials.compare(trial, *loads_of(trial))
             assert found.mean == pytest.approx(1.0, abs=0.03), (rate, begin)
             rmse.append(found.rmse)
         assert np.mean(rmse) <= 0.8 * trials.TRIALS[name][1], rate
 
 
-PUSHES = {"half a sine": lambda u: np.sin(np.pi * u), "blunt": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 0.6,
-          "sharp": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 1.5, "late": lambda u: np.sin(np.pi * u ** 1.25),
-          "early": lambda u: np.sin(np.pi * u ** 0.7), "with a knock": trials.heel_run}
+PUSHES = {
+    "half a sine": lambda u: np.sin(np.pi * u),
+    "blunt": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 0.6,
+    "sharp": lambda u: np.clip(np.sin(np.pi * u), 0, 1) ** 1.5,
+    "late": lambda u: np.sin(np.pi * u**1.25),
+    "early": lambda u: np.sin(np.pi * u**0.7),
+    "with a knock": trials.heel_run,
+}
 
 
 @pytest.mark.parametrize("push", PUSHES)
@@ -61,8 +79,11 @@ def test_bounces_of_any_shape_are_found_in_few_frames(push):
     """A jog over the heel, a run and a sprint, at 24 frames a second."""
     over = dict(wide=0.05, strike=-0.25, flat=(0.18, 0.45), leave=1.0, arrive=(1.2, -0.9), part=(1.5, 1.6))
     ball = dict(wide=0.03, strike=0.35, flat=(1.0, 0.0), leave=1.1, arrive=(1.5, -1.8), part=(3.0, 2.5))
-    for speed, step, contact, feet, within in ((2.4, 0.37, 0.30, over, 0.06), (3.8, 0.355, 0.22, over, 0.11),
-                                               (9.0, 0.225, 0.105, ball, 0.15)):
+    for speed, step, contact, feet, within in (
+        (2.4, 0.37, 0.30, over, 0.06),
+        (3.8, 0.355, 0.22, over, 0.11),
+        (9.0, 0.225, 0.105, ball, 0.15),
+    ):
         trial = trials.build(trials.steps(speed, step, contact, PUSHES[push], **feet), 3.0, rate=24.0, height=0.94)
         found = trials.compare(trial, *loads_of(trial))
         assert np.mean(found.rmse) <= within, speed
@@ -112,8 +133,15 @@ def test_truth_is_newton():
 # ---- the same prints at any frame rate ---------------------------------------------------------------------
 
 CELL = 0.01
-MOVES = ("cmu_12_01_walk", "cmu_02_03_run", "cmu_02_04_jump", "gait_bmc_walk1", "gait_opensim_walk",
-         "run 3.8 m/s", "landing")
+MOVES = (
+    "cmu_12_01_walk",
+    "cmu_02_03_run",
+    "cmu_02_04_jump",
+    "gait_bmc_walk1",
+    "gait_opensim_walk",
+    "run 3.8 m/s",
+    "landing",
+)
 
 
 def moves(name):
@@ -138,7 +166,7 @@ def print_of(gait, rate):
     i0, i1, j0, j1 = land.reach()
     pressed = np.sort(land.read("compression", i0, j0, i1 - i0, j1 - j0).ravel())
     count = (pressed > 0).sum()
-    return pressed.sum() * CELL ** 2, pressed[-max(1, count // 50):].mean()
+    return pressed.sum() * CELL**2, pressed[-max(1, count // 50) :].mean()
 
 
 @pytest.mark.parametrize("name", MOVES)
@@ -150,5 +178,7 @@ def test_prints_do_not_depend_on_the_frame_rate(name):
     volume, depth = print_of(gait, 240.0)
     for rate in (24.0, 30.0, 60.0, 120.0):
         found = print_of(gait, rate)
-        assert found[0] == pytest.approx(volume, rel=0.07), rate  # the knock of a landing, and how far it slips, show in few frames only
+        assert found[0] == pytest.approx(volume, rel=0.07), (
+            rate
+        )  # the knock of a landing, and how far it slips, show in few frames only
         assert found[1] == pytest.approx(depth, rel=0.06), rate

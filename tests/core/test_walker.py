@@ -25,8 +25,10 @@ def two_feet(seed=1, rate=120.0, count=300, hover=0.0):
     """A random walk of a body over two one-point feet that take turns."""
     random = np.random.default_rng(seed)
     time = np.arange(count) / rate
-    wobble = [sum(random.normal(0, 0.02 / n) * np.sin(2 * np.pi * n * time + random.uniform(0, 6))
-                  for n in (1, 2, 3)) for _ in range(3)]
+    wobble = [
+        sum(random.normal(0, 0.02 / n) * np.sin(2 * np.pi * n * time + random.uniform(0, 6)) for n in (1, 2, 3))
+        for _ in range(3)
+    ]
     com = np.stack([1.1 * time + wobble[0], wobble[1], 1.0 + 0.5 * wobble[2]], axis=1)
     pose = np.zeros((2, count, 7))
     pose[..., 3] = 1.0
@@ -34,12 +36,23 @@ def two_feet(seed=1, rate=120.0, count=300, hover=0.0):
         phase = time * 0.95 + 0.5 * p + random.uniform(0, 0.05)
         step, u = np.floor(phase), phase % 1.0
         swing = np.clip((u - 0.6) / 0.4, 0, 1)
-        pose[p, :, 0] = 1.15 * (step + swing ** 2 * (3 - 2 * swing)) - 0.57 * p
+        pose[p, :, 0] = 1.15 * (step + swing**2 * (3 - 2 * swing)) - 0.57 * p
         pose[p, :, 1] = 0.1 - 0.2 * p
         pose[p, :, 2] = hover + 0.12 * np.sin(np.pi * swing) ** 2
-    return Gait(time=time, com=com[None], mass=[70.0], pose=pose, limb_walker=[0, 0], part_limb=[0, 1],
-                soles=(SOLE, SOLE), point=np.zeros((2, 3)), point_part=[0, 1], point_role=[0, 1],
-                frame_rate=rate, leg=[size.LEG])
+    return Gait(
+        time=time,
+        com=com[None],
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0, 0],
+        part_limb=[0, 1],
+        soles=(SOLE, SOLE),
+        point=np.zeros((2, 3)),
+        point_part=[0, 1],
+        point_role=[0, 1],
+        frame_rate=rate,
+        leg=[size.LEG],
+    )
 
 
 # ---- twins -------------------------------------------------------------------------------------------
@@ -50,7 +63,8 @@ def test_share_is_soft22_5():
     for _ in range(50):
         com, left, right = random.normal(size=(3, 3))
         assert _native.foot_share(tuple(com), tuple(left), tuple(right)) == pytest.approx(
-            twin.share_right(com, left, right), abs=1e-12)
+            twin.share_right(com, left, right), abs=1e-12
+        )
 
 
 FINE = 240.0  # samples a second at which loads are found: the twins know no other
@@ -64,8 +78,7 @@ def test_contact_is_trail_4(seed):
     for p in (0, 1):
         height, speeds = gait.pose[p, :, 2], twin.speed(gait.pose[p, :, :3], FINE, 20.0)
         assert clearance[p] == pytest.approx(twin.resting_height(height, speeds), abs=1e-12)
-        want = twin.touches(height, speeds, v_com, clearance[p], p == 0,
-                            twin.drops(gait.pose[p, :, :3], FINE, 20.0))
+        want = twin.touches(height, speeds, v_com, clearance[p], p == 0, twin.drops(gait.pose[p, :, :3], FINE, 20.0))
         for value in (False, True):
             want = twin.without_runs(want, value, 0.03 * FINE)
         rise = np.gradient(twin.low_pass(gait.pose[p, :, 2], FINE, 20.0), 1 / FINE)
@@ -98,16 +111,26 @@ def hop(seed, rate=FINE, count=480):
     time = np.arange(count) / rate
     phase = time % 0.5
     press = np.where(phase < 0.2, 2.5 * np.pi / 2 * np.sin(np.pi * np.clip(phase / 0.2, 0, 1)), 0.0)
-    v = np.cumsum((press - press[:int(rate)].mean()) * 9.81) / rate
-    z = np.cumsum(v - v[:int(rate)].mean()) / rate + 1.0 + random.normal(0, 5e-4, count)
+    v = np.cumsum((press - press[: int(rate)].mean()) * 9.81) / rate
+    z = np.cumsum(v - v[: int(rate)].mean()) / rate + 1.0 + random.normal(0, 5e-4, count)
     pose = np.zeros((1, count, 7))
     pose[0, :, 3] = 1.0
     swing = np.clip((phase - 0.2) / 0.3, 0, 1)
     pose[0, :, 2] = 0.15 * np.sin(np.pi * swing)
-    pose[0, :, 0] = np.floor(time / 0.5) + swing ** 2 * (3 - 2 * swing)
-    return Gait(time=time, com=np.stack([2.0 * time, 0 * z, z], axis=1)[None], mass=[70.0], pose=pose,
-                limb_walker=[0], part_limb=[0], soles=(SOLE,), point=np.zeros((1, 3)), point_part=[0],
-                point_role=[1], frame_rate=rate), press
+    pose[0, :, 0] = np.floor(time / 0.5) + swing**2 * (3 - 2 * swing)
+    return Gait(
+        time=time,
+        com=np.stack([2.0 * time, 0 * z, z], axis=1)[None],
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0],
+        part_limb=[0],
+        soles=(SOLE,),
+        point=np.zeros((1, 3)),
+        point_part=[0],
+        point_role=[1],
+        frame_rate=rate,
+    ), press
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -122,7 +145,7 @@ def test_who_flies_falls_freely(seed):
     assert abs(loads.force[0, :, 2] - want).max() < 1e-3 * 70 * 9.81
     inside = slice(120, -120)
     error = -loads.force[0, inside, 2] / (70 * 9.81) - press[inside]
-    assert np.sqrt((error ** 2).mean()) < 0.3
+    assert np.sqrt((error**2).mean()) < 0.3
     assert loads.mean[0] == pytest.approx(1.0, abs=0.03)
 
 
@@ -140,12 +163,22 @@ def test_sphere_from_two_and_a_half_metres():
     peaks = []
     for rate in (60.0, 120.0, 240.0, 24.0):
         time = np.arange(int(2 * rate)) / rate
-        z = np.maximum(2.5 - 0.5 * 9.81 * time ** 2, 0.0)
+        z = np.maximum(2.5 - 0.5 * 9.81 * time**2, 0.0)
         pose = np.zeros((1, len(time), 7))
         pose[0, :, 2], pose[0, :, 3] = z, 1.0
-        gait = Gait(time=time, com=pose[:, :, :3] + (0, 0, 0.1), mass=[50.0], pose=pose, limb_walker=[0],
-                    part_limb=[0], soles=(SOLE,), point=[[0, 0, 0]], point_part=[0], point_role=[1],
-                    frame_rate=rate)
+        gait = Gait(
+            time=time,
+            com=pose[:, :, :3] + (0, 0, 0.1),
+            mass=[50.0],
+            pose=pose,
+            limb_walker=[0],
+            part_limb=[0],
+            soles=(SOLE,),
+            point=[[0, 0, 0]],
+            point_part=[0],
+            point_role=[1],
+            frame_rate=rate,
+        )
         loads = walker.loads(gait, "impulse")
         peaks.append(-loads.force[0, :, 2].min())
     assert peaks[:3] == pytest.approx([2241] * 3, rel=0.05)
@@ -153,6 +186,7 @@ def test_sphere_from_two_and_a_half_metres():
 
 
 # ---- plates ----------------------------------------------------------------------------------------------
+
 
 def errors(name, model="inertia", gait=None, window=None, **more):
     gait = gait or plates.trial(name)
@@ -163,8 +197,10 @@ def errors(name, model="inertia", gait=None, window=None, **more):
 def test_forces_hold_up_against_plates(name):
     """Oracle 12."""
     found = errors(name)
-    print(f"{name}: RMSE {found.rmse[0]:.3f} {found.rmse[1]:.3f} body weights, r {found.r[0]:.3f} {found.r[1]:.3f}, "
-          f"mean {found.mean:.3f}, edges off by {1000 * abs(found.late).max():.0f} ms")
+    print(
+        f"{name}: RMSE {found.rmse[0]:.3f} {found.rmse[1]:.3f} body weights, r {found.r[0]:.3f} {found.r[1]:.3f}, "
+        f"mean {found.mean:.3f}, edges off by {1000 * abs(found.late).max():.0f} ms"
+    )
     assert max(found.rmse) <= plates.TRIALS[name].within
     assert 0.96 <= found.mean <= 1.03
     assert max(abs(found.late)) <= 0.03
@@ -237,12 +273,18 @@ def test_a_trial_seen_otherwise_weighs_the_same(name):
     gait = plates.trial(name)
     base = errors(name, gait=gait)
     seen = {rate: gait.resample(rate) for rate in (24.0, 30.0, 60.0, 120.0, 240.0)}
-    seen |= {"noise": plates.noisy(gait, 0.001), "up": plates.raised(gait, 0.05),
-             "down": plates.raised(gait, -0.05), "tilt": plates.tilted(gait, np.radians(0.5)),
-             "steep": plates.tilted(gait, np.radians(4.0)), "far up": plates.raised(gait, 0.3),
-             "mirror": plates.mirrored(gait), "no toes": plates.trial(name, without=("Toe",)),
-             "no knees": plates.trial(name, without=("LeftLeg", "RightLeg", "UpLeg")),
-             "no spine": plates.trial(name, without=("Spine", "Neck"))}
+    seen |= {
+        "noise": plates.noisy(gait, 0.001),
+        "up": plates.raised(gait, 0.05),
+        "down": plates.raised(gait, -0.05),
+        "tilt": plates.tilted(gait, np.radians(0.5)),
+        "steep": plates.tilted(gait, np.radians(4.0)),
+        "far up": plates.raised(gait, 0.3),
+        "mirror": plates.mirrored(gait),
+        "no toes": plates.trial(name, without=("Toe",)),
+        "no knees": plates.trial(name, without=("LeftLeg", "RightLeg", "UpLeg")),
+        "no spine": plates.trial(name, without=("Spine", "Neck")),
+    }
     for what, other in seen.items():
         found = errors(name, gait=other)
         assert max(found.rmse - base.rmse) <= 0.02, what
@@ -263,8 +305,12 @@ def test_frame_rate_does_not_matter():
         assert impulse == pytest.approx(whole, rel=0.02)
 
 
-CLIPS = (("cmu_12_01_walk", (3, 5), 0.1), ("cmu_02_03_run", (1, 3), 0.8), ("cmu_02_04_jump", (2, 3), 0.7),
-         ("cmu_03_02_uneven", (2, 5), 0.5))
+CLIPS = (
+    ("cmu_12_01_walk", (3, 5), 0.1),
+    ("cmu_02_03_run", (1, 3), 0.8),
+    ("cmu_02_04_jump", (2, 3), 0.7),
+    ("cmu_03_02_uneven", (2, 5), 0.5),
+)
 
 
 @pytest.mark.parametrize("name,stances,air", CLIPS)
@@ -290,8 +336,9 @@ def test_clips_without_plates(name, stances, air):
 def test_mirrored_walk_has_mirrored_loads():
     gait = two_feet(2)
     flip = np.array([1, -1, 1])
-    mirrored = replace(gait, com=gait.com * flip, pose=np.concatenate([gait.pose[..., :3] * flip,
-                                                                       gait.pose[..., 3:]], axis=-1))
+    mirrored = replace(
+        gait, com=gait.com * flip, pose=np.concatenate([gait.pose[..., :3] * flip, gait.pose[..., 3:]], axis=-1)
+    )
     a, b = walker.loads(gait), walker.loads(mirrored)
     assert (a.touching == b.touching).all()
     assert (a.force * flip == b.force).all()
@@ -300,15 +347,19 @@ def test_mirrored_walk_has_mirrored_loads():
 def test_nothing_carries_over_a_cut():
     a, b = two_feet(2), two_feet(3)
     n = len(a.time)
-    both = replace(a, time=np.r_[a.time, a.time + a.time[-1] + a.time[1] - a.time[0]],
-                   com=np.concatenate([a.com, b.com + (9, 0, 0)], axis=1),
-                   pose=np.concatenate([a.pose, b.pose + np.eye(7)[0] * 9], axis=1), cut=[n])
+    both = replace(
+        a,
+        time=np.r_[a.time, a.time + a.time[-1] + a.time[1] - a.time[0]],
+        com=np.concatenate([a.com, b.com + (9, 0, 0)], axis=1),
+        pose=np.concatenate([a.pose, b.pose + np.eye(7)[0] * 9], axis=1),
+        cut=[n],
+    )
     loads, apart = walker.loads(both), (walker.loads(a), walker.loads(b))
-    assert not loads.touching[:, n - 1:n + 1].any() and not loads.force[:, n - 1:n + 1].any()
-    assert np.isnan(loads.point[:, n - 1:n + 1]).all()
-    assert np.array_equal(loads.touching[:, :n - 1], apart[0].touching[:, :-1])
-    assert np.array_equal(loads.force[:, :n - 1], apart[0].force[:, :-1])
-    assert abs(loads.force[:, n + 1:] - apart[1].force[:, 1:]).max() < 1e-6
+    assert not loads.touching[:, n - 1 : n + 1].any() and not loads.force[:, n - 1 : n + 1].any()
+    assert np.isnan(loads.point[:, n - 1 : n + 1]).all()
+    assert np.array_equal(loads.touching[:, : n - 1], apart[0].touching[:, :-1])
+    assert np.array_equal(loads.force[:, : n - 1], apart[0].force[:, :-1])
+    assert abs(loads.force[:, n + 1 :] - apart[1].force[:, 1:]).max() < 1e-6
     assert loads.mean == pytest.approx((apart[0].mean + apart[1].mean) / 2)
     on, _ = walker.contacts(both)
     assert np.array_equal(on, loads.touching)
@@ -331,8 +382,7 @@ def test_parts_of_a_limb_carry_what_the_limb_carries():
 
 def test_ground_can_be_a_function_a_number_or_an_array():
     gait = two_feet(1)
-    flat, up = walker.loads(gait), replace(gait, pose=gait.pose + [0, 0, 2, 0, 0, 0, 0],
-                                           com=gait.com + [0, 0, 2])
+    flat, up = walker.loads(gait), replace(gait, pose=gait.pose + [0, 0, 2, 0, 0, 0, 0], com=gait.com + [0, 0, 2])
     for ground in (2.0, lambda xy: np.full(len(xy), 2.0), np.full((2, 300), 2.0)):
         moved = walker.loads(up, ground=ground)
         assert (moved.touching == flat.touching).all()
@@ -347,7 +397,9 @@ def test_floating_and_sunken_walkers_are_told():
     gait = two_feet(1)
     light = replace(gait, com=np.concatenate([gait.com[..., :2], gait.com[..., 2:] * 0 + 1], axis=-1))
     assert walker.loads(light).mean[0] == pytest.approx(1.0, abs=0.01)
-    light.pose[:, 120:180, 2] += 0.4 * np.sin(np.pi * (np.arange(60) + 0.5) / 60)  # both feet in the air, and the body does not fall
+    light.pose[:, 120:180, 2] += 0.4 * np.sin(
+        np.pi * (np.arange(60) + 0.5) / 60
+    )  # both feet in the air, and the body does not fall
     odd = walker.loads(light, limits={"support_fall": 0.0})
     assert odd.mean[0] < 0.9 and any("of its weight on average" in w for w in odd.warnings)
     for ground, word in ((-3.0, "3.00 m above"), (0.4, "0.40 m deep"), (-0.04, "")):
@@ -362,8 +414,7 @@ def test_feet_beside_the_ground_carry_their_own_share():
     gait = two_feet(2)
     whole = walker.loads(gait)
     both = whole.touching.all(axis=0)
-    for gap in (lambda xy: xy[:, 1] < 0.0, lambda xy: xy[:, 0] < 1.2,
-                lambda xy: abs(xy[:, 0] - 1.5) < 0.4):
+    for gap in (lambda xy: xy[:, 1] < 0.0, lambda xy: xy[:, 0] < 1.2, lambda xy: abs(xy[:, 0] - 1.5) < 0.4):
         loads = walker.loads(gait, ground=lambda xy: np.where(gap(xy), np.nan, 0.0))
         out = np.stack([gap(gait.pose[p, :, :2]) for p in (0, 1)])
         assert (out & (whole.touching != 0))[:, both].any()
@@ -410,8 +461,12 @@ def test_native_door_checks():
     good = walker.native_gait(gait)
     on, clear, ground = np.zeros((2, 300), "u1"), np.zeros(2), np.zeros((2, 300))
     _native.foot_contact(good, ground, on, clear)
-    for bad in (good[:8], good[:3] + (gait.pose[:, :-1].copy(),) + good[4:],
-                (gait.time.astype("f4"),) + good[1:], "gait"):
+    for bad in (
+        good[:8],
+        good[:3] + (gait.pose[:, :-1].copy(),) + good[4:],
+        (gait.time.astype("f4"),) + good[1:],
+        "gait",
+    ):
         with pytest.raises((TypeError, ValueError)):
             _native.foot_contact(bad, ground, on, clear)
     with pytest.raises((TypeError, ValueError)):
@@ -466,9 +521,20 @@ def stepping(heights, speed=0.0, rate=120.0):
             pose[foot, t, 2] = z0 + (z1 - z0) * share + 0.15 * np.sin(np.pi * share)
     high = np.interp(time / stance, np.arange(count) + 0.5, heights)
     com = np.stack([0.6 * time / stance, 0 * time, 0.95 + high], axis=1)
-    return Gait(time=time, com=com[None], mass=[70.0], pose=pose, limb_walker=[0, 0], part_limb=[0, 1],
-                soles=(SOLE, SOLE), point=np.zeros((2, 3)), point_part=[0, 1], point_role=[0, 1], frame_rate=rate,
-                leg=[size.LEG])
+    return Gait(
+        time=time,
+        com=com[None],
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0, 0],
+        part_limb=[0, 1],
+        soles=(SOLE, SOLE),
+        point=np.zeros((2, 3)),
+        point_part=[0, 1],
+        point_role=[0, 1],
+        frame_rate=rate,
+        leg=[size.LEG],
+    )
 
 
 def test_what_stands_on_a_box_is_carried_there_and_leaves_no_print():
@@ -481,12 +547,14 @@ def test_what_stands_on_a_box_is_carried_there_and_leaves_no_print():
         assert -loads.force[foot, sample, 2] > 0.5 * 70 * 9.81, turn  # carried all the same
     assert any("something else than the ground" in each and "0.25 m" in each for each in loads.warnings)
     level = stepping([0.0] * 9)
-    assert not any("something else" in each for each in walker.loads(level, ground=lambda xy: np.zeros(len(xy))).warnings)
+    assert not any(
+        "something else" in each for each in walker.loads(level, ground=lambda xy: np.zeros(len(xy))).warnings
+    )
     sim = Simulation(Ground.flat(), "mud", 0.01)
     sim.load(gait, walker.loads(gait, ground=sim.rest_height))
     sim.run(len(gait.time) - 1)
     row = sim.read("compression", -50, -30, 600, 60).max(axis=0)
-    under = lambda turn: row[50 + int(60 * turn) - 5:50 + int(60 * turn) + 5].max()
+    under = lambda turn: row[50 + int(60 * turn) - 5 : 50 + int(60 * turn) + 5].max()
     assert [under(turn) > 0.002 for turn in range(1, 8)] == [high == 0.0 for high in heights[1:8]]
 
 
@@ -507,8 +575,20 @@ def test_a_foot_hits_as_fast_as_it_lands(speed, weights):
     pose[..., 3] = 1.0
     pose[0, :, 2] = np.maximum(speed * (1.0 - time), 0.0)
     com = np.tile((0.0, 0.0, 1.0), (1, len(time), 1))
-    gait = Gait(time=time, com=com, mass=[70.0], pose=pose, limb_walker=[0], part_limb=[0], soles=(SOLE,),
-                point=np.zeros((1, 3)), point_part=[0], point_role=[1], frame_rate=rate, leg=[size.LEG])
+    gait = Gait(
+        time=time,
+        com=com,
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0],
+        part_limb=[0],
+        soles=(SOLE,),
+        point=np.zeros((1, 3)),
+        point_part=[0],
+        point_role=[1],
+        frame_rate=rate,
+        leg=[size.LEG],
+    )
     touching = (time >= 1.0).astype("u1")[None]
     force, point = np.zeros((1, len(time), 3)), np.zeros((1, len(time), 3))
     _native.foot_force(walker.native_gait(gait), touching, np.zeros((1, len(time))), 1, tau, False, force, point)
@@ -527,16 +607,29 @@ def test_a_heel_lands_with_the_speed_of_the_heel():
     pose[0, :, 2] = -1.0 * spin
     pose[0, :, 3], pose[0, :, 5] = np.cos(2.0 * spin), np.sin(2.0 * spin)  # 4 rad/s: toes come down 0.8 m/s slower
     points = np.array([(-0.1, 0.0, 0.0), (0.1, 0.0, 0.0)])
-    gait = Gait(time=time, com=np.tile((0.0, 0.0, 1.0), (1, len(time), 1)), mass=[70.0], pose=pose, limb_walker=[0],
-                part_limb=[0], soles=(SOLE,), point=points, point_part=[0, 0], point_role=[0, 1], frame_rate=rate,
-                leg=[size.LEG])
+    gait = Gait(
+        time=time,
+        com=np.tile((0.0, 0.0, 1.0), (1, len(time), 1)),
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0],
+        part_limb=[0],
+        soles=(SOLE,),
+        point=points,
+        point_part=[0, 0],
+        point_role=[0, 1],
+        frame_rate=rate,
+        leg=[size.LEG],
+    )
     lands = -np.gradient(walker.point_places(gait)[..., 2], time, axis=1)[:, int(rate) - 8]
     assert abs(lands[0] - lands[1]) > 0.7
     high = np.zeros((2, len(time)))
     for on, speed in (((1, 0), lands[0]), ((0, 1), lands[1]), ((1, 1), lands.mean())):
         ground = np.where(np.array(on, bool)[:, None], high, high - 1.0)  # who does not land is far up
         force, point = np.zeros((1, len(time), 3)), np.zeros((1, len(time), 3))
-        _native.foot_force(walker.native_gait(gait), (time >= 1.0).astype("u1")[None], ground, 1, tau, False, force, point)
+        _native.foot_force(
+            walker.native_gait(gait), (time >= 1.0).astype("u1")[None], ground, 1, tau, False, force, point
+        )
         inside = (time > 1.0 + 2 / rate) & (time < 1.0 + tau - 2 / rate)
         assert -force[0, inside, 2] / (70 * 9.81) == pytest.approx(1.0 + speed / tau / 9.81, rel=0.03)
 

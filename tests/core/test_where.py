@@ -13,20 +13,26 @@ SCRIPTS = ROOT / "scripts"
 
 
 def run(name, *words):
-    return subprocess.run([sys.executable, str(SCRIPTS / name), *map(str, words)],
-                          capture_output=True, text=True, cwd="/")
+    return subprocess.run(
+        [sys.executable, str(SCRIPTS / name), *map(str, words)], capture_output=True, text=True, cwd="/"
+    )
 
 
 @pytest.fixture
 def tree(tmp_path):
     """A small tree with known tags."""
+
     def put(path, text):
         file = tmp_path / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
+
     put("native/soil/soil.h", "// heaps. TRAIL (9)(10), (12)-(14)\nint f(void);\n")
-    put("native/soil/soil_press.c", '#include "soil/soil.h"\n// TRAIL (10) is below\n'
-        "int f(void) { return 1; }  // TRAIL (10)\nint g = 2;  // SOFT22 (10), TRAIL 4.2.1\n")
+    put(
+        "native/soil/soil_press.c",
+        '#include "soil/soil.h"\n// TRAIL (10) is below\n'
+        "int f(void) { return 1; }  // TRAIL (10)\nint g = 2;  // SOFT22 (10), TRAIL 4.2.1\n",
+    )
     put("native/python/py_soil.c", '{"f", f, "TRAIL (10)"},  // TRAIL (10)\n')
     put("tests/native/soil/test_soil_press.c", "// TRAIL (10)\n")
     put("tests/reference/soil.py", "depth = 1  # TRAIL (10)\n")
@@ -46,11 +52,19 @@ def test_where_finds_what_is_there(tree):
     assert "tests/reference/soil.py:1" in found["twin"]
 
 
-@pytest.mark.parametrize("words, line", [
-    ((13,), "soil.h:1"), ((12,), "soil.h:1"), (("(14)",), "soil.h:1"), ((9,), "soil.h:1"),
-    (("SOFT22", 10), "soil_press.c:4"), (("soft22", "10"), "soil_press.c:4"),
-    (("4.2.1",), "soil_press.c:4"), (("TRAIL", "4.2.1"), "soil_press.c:4"),
-])
+@pytest.mark.parametrize(
+    "words, line",
+    [
+        ((13,), "soil.h:1"),
+        ((12,), "soil.h:1"),
+        (("(14)",), "soil.h:1"),
+        ((9,), "soil.h:1"),
+        (("SOFT22", 10), "soil_press.c:4"),
+        (("soft22", "10"), "soil_press.c:4"),
+        (("4.2.1",), "soil_press.c:4"),
+        (("TRAIL", "4.2.1"), "soil_press.c:4"),
+    ],
+)
 def test_where_understands_ranges_papers_and_sections(tree, words, line):
     told = run("where", "--root", tree, *words)
     assert told.returncode == 0 and line in told.stdout
@@ -68,8 +82,14 @@ def test_where_says_what_is_not_there(tree):
 def test_where_without_words_is_a_table(tree):
     lines = run("where", "--root", tree).stdout.splitlines()
     assert [line[:16].strip() for line in lines[1:]] == [
-        "TRAIL (9)", "TRAIL (10)", "TRAIL (12)", "TRAIL (13)", "TRAIL (14)", "TRAIL 4.2.1",
-        "SOFT22 (10)"]
+        "TRAIL (9)",
+        "TRAIL (10)",
+        "TRAIL (12)",
+        "TRAIL (13)",
+        "TRAIL (14)",
+        "TRAIL 4.2.1",
+        "SOFT22 (10)",
+    ]
     assert "soil/soil_press.c:3" in lines[2]
 
 
@@ -85,19 +105,22 @@ def test_rooms_hold(tmp_path):
     assert "maps       knows base" in told.stdout
 
 
-@pytest.mark.parametrize("path, text, words", [
-    ("native/soil/a.c", '#include "walker/walker.h"\n', "soil may not know walker"),
-    ("native/base/a.c", '#include "soil/soil.h"\n', "base may not know soil"),
-    ("native/sim/a.c", '#include "soil/soil_heaps.h"\n', "by its door, soil/soil.h"),
-    ("native/sim/a.c", '#include "python/door.h"\n', "sim may not know python"),
-    ("native/soil/a.c", '#include "soil.h"\n', "by its room"),
-    ("native/attic/a.c", '#include "base/vec.h"\n', "does not know"),
-    ("addon/desire_path/ground/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
-    ("addon/desire_path/ground/sim.py", "from ..blender import axes\n", "does not know blender/"),
-    ("addon/desire_path/ground/sim.py", "from desire_path import maps\n", "import relatively"),
-    ("addon/desire_path/blender/a.py", "from .. import _native\n", "leave _native"),
-    ("addon/desire_path/blender/a.py", "import threading\n", "threading stays out"),
-])
+@pytest.mark.parametrize(
+    "path, text, words",
+    [
+        ("native/soil/a.c", '#include "walker/walker.h"\n', "soil may not know walker"),
+        ("native/base/a.c", '#include "soil/soil.h"\n', "base may not know soil"),
+        ("native/sim/a.c", '#include "soil/soil_heaps.h"\n', "by its door, soil/soil.h"),
+        ("native/sim/a.c", '#include "python/door.h"\n', "sim may not know python"),
+        ("native/soil/a.c", '#include "soil.h"\n', "by its room"),
+        ("native/attic/a.c", '#include "base/vec.h"\n', "does not know"),
+        ("addon/desire_path/ground/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
+        ("addon/desire_path/ground/sim.py", "from ..blender import axes\n", "does not know blender/"),
+        ("addon/desire_path/ground/sim.py", "from desire_path import maps\n", "import relatively"),
+        ("addon/desire_path/blender/a.py", "from .. import _native\n", "leave _native"),
+        ("addon/desire_path/blender/a.py", "import threading\n", "threading stays out"),
+    ],
+)
 def test_rooms_fall(tmp_path, path, text, words):
     file = tmp_path / path
     file.parent.mkdir(parents=True)
@@ -108,8 +131,7 @@ def test_rooms_fall(tmp_path, path, text, words):
 
 def test_every_script_helps():
     scripts = sorted(path for path in SCRIPTS.iterdir() if path.is_file())
-    assert {"build", "test", "format", "package", "where", "rooms", "bench"} <= {
-        path.name for path in scripts}
+    assert {"build", "test", "format", "package", "where", "rooms", "bench"} <= {path.name for path in scripts}
     for path in scripts:
         assert os.access(path, os.X_OK), path
         told = subprocess.run([str(path), "--help"], capture_output=True, text=True, cwd="/")

@@ -7,12 +7,76 @@ import io
 import json
 import zipfile
 
-NUMBERS = (b"0", b"-1", b"1e999", b"-1e999", b"nan", b"NaN", b"Infinity", b"1e-320", b"2147483648", b"4294967295",
-           b"-9223372036854775809", b"1" * 40, b"9" * 5000, b"0x10", b"1_000", b"1.", b".", b"-", b"")
-SPEECH = (b"null", b"true", b'""', b"[]", b"{}", b'"\\ud800"', b"\xef\xbb\xbf", b"\xff\xfe", b"\0", b"\r", b'"', b",",
-          b"[" * 3000, b'{"a":' * 3000, b"\n", b"\xc3\xa4", b"//", b"/../x")
-VALUES = (0, -1, 1, 2, 1e999, -1e999, float("nan"), 1e-320, 1e308, 10**400, -2**63 - 1, 2**31, 2**32 - 1, None, True,
-          False, "", "1", "nan", "\ud800", "x" * 5000, [], {}, [0], {"a": 0}, [[[[[]]]]], [1e999] * 9)
+NUMBERS = (
+    b"0",
+    b"-1",
+    b"1e999",
+    b"-1e999",
+    b"nan",
+    b"NaN",
+    b"Infinity",
+    b"1e-320",
+    b"2147483648",
+    b"4294967295",
+    b"-9223372036854775809",
+    b"1" * 40,
+    b"9" * 5000,
+    b"0x10",
+    b"1_000",
+    b"1.",
+    b".",
+    b"-",
+    b"",
+)
+SPEECH = (
+    b"null",
+    b"true",
+    b'""',
+    b"[]",
+    b"{}",
+    b'"\\ud800"',
+    b"\xef\xbb\xbf",
+    b"\xff\xfe",
+    b"\0",
+    b"\r",
+    b'"',
+    b",",
+    b"[" * 3000,
+    b'{"a":' * 3000,
+    b"\n",
+    b"\xc3\xa4",
+    b"//",
+    b"/../x",
+)
+VALUES = (
+    0,
+    -1,
+    1,
+    2,
+    1e999,
+    -1e999,
+    float("nan"),
+    1e-320,
+    1e308,
+    10**400,
+    -(2**63) - 1,
+    2**31,
+    2**32 - 1,
+    None,
+    True,
+    False,
+    "",
+    "1",
+    "nan",
+    "\ud800",
+    "x" * 5000,
+    [],
+    {},
+    [0],
+    {"a": 0},
+    [[[[[]]]]],
+    [1e999] * 9,
+)
 INTEGERS = (0, 1, 2, 0x7F, 0xFF, 0x7FFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0xFFFFFFFFFFFFFFFF, 1 << 40)
 
 
@@ -29,7 +93,7 @@ def any_bytes(chance, data, other):
     elif how == 2:
         width = chance.choice((2, 4, 8))
         value = chance.choice(INTEGERS) & ((1 << 8 * width) - 1)
-        data[at:at + width] = value.to_bytes(width, chance.choice(("little", "big")))
+        data[at : at + width] = value.to_bytes(width, chance.choice(("little", "big")))
     elif how == 3:
         del data[at:end]
     elif how == 4:
@@ -40,7 +104,7 @@ def any_bytes(chance, data, other):
         data[at:end] = chance.choice(SPEECH + NUMBERS)
     elif how == 7 and other:
         start = chance.randrange(len(other))
-        data[at:end] = other[start:start + chance.choice((4, 64, 1024))]
+        data[at:end] = other[start : start + chance.choice((4, 64, 1024))]
     else:
         data[at:at] = chance.randbytes(chance.choice((1, 8, 100)))
     return bytes(data)
@@ -55,8 +119,9 @@ def text(chance, data, other):
     parts = data.split(separator)
     at = chance.randrange(len(parts))
     if how == 1:
-        parts[at:at + 1] = chance.choice(([], parts[at:at + 1] * 2, [b""], [chance.choice(NUMBERS)], [b"," * 40],
-                                          list(reversed(parts))))
+        parts[at : at + 1] = chance.choice(
+            ([], parts[at : at + 1] * 2, [b""], [chance.choice(NUMBERS)], [b"," * 40], list(reversed(parts)))
+        )
     else:
         parts[at] = chance.choice(NUMBERS + SPEECH)
     return separator.join(parts)
@@ -114,8 +179,22 @@ def archive(chance, data, other):
     elif how < 6:  # the header's text: shape, order, type
         member = members[name]
         said = chance.choice((b"(", b")", b"'", b"<f8", b"True", b"False", b"0", b"1", b",", b"shape"))
-        instead = chance.choice((b"(2147483648, 1000,", b"(-1,", b"|O", b"<U900000000", b">f2", b"True", b"0", b"9" * 12,
-                                 b"(" * 200, b"", b"<M8[s]", b"<c16"))
+        instead = chance.choice(
+            (
+                b"(2147483648, 1000,",
+                b"(-1,",
+                b"|O",
+                b"<U900000000",
+                b">f2",
+                b"True",
+                b"0",
+                b"9" * 12,
+                b"(" * 200,
+                b"",
+                b"<M8[s]",
+                b"<c16",
+            )
+        )
         members[name] = member[:128].replace(said, instead, 1)[:128].ljust(128) + member[128:]
     else:
         members[name] = any_bytes(chance, members[name], other)

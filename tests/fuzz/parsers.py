@@ -84,9 +84,12 @@ def sums(place):
 
 def recording(place):
     made = []
-    for number, gait in enumerate((
+    for number, gait in enumerate(
+        (
             gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.1, rate=30.0)[0],
-            gaits.strides(0.3, rate=24.0)[0])):
+            gaits.strides(0.3, rate=24.0)[0],
+        )
+    ):
         gait.save(place / f"{number}.npz")
         made.append((place / f"{number}.npz").read_bytes())
     return made, place / "walk.npz", lambda: Gait.load(place / "walk.npz"), mutate.archive
@@ -112,6 +115,7 @@ def cover(place):
 
 def picture(place):
     import numpy as np
+
     made = []
     grid = np.linspace(0, 1, 35, dtype=np.float32).reshape(5, 7)
     notes = {"cell": 0.1, "originX": 1.0, "originY": -2.0, "parameters": '{"ground": "flat"}'}
@@ -123,6 +127,7 @@ def picture(place):
         ground = Ground.read(place / "map.exr")
         for cell in (0.1, 0.25):  # the good trail's own, and others
             Simulation(ground, cell_size=cell, threads=1)
+
     return made, place / "map.exr", read, mutate.any_bytes
 
 
@@ -197,7 +202,9 @@ def main():
     parser.add_argument("parsers", nargs="*", choices=[[], *PARSERS], help="all, if none is named")
     parser.add_argument("--runs", type=int, default=20000, help="damaged files for each (20000)")
     parser.add_argument("--seed", type=int, default=1, help="of the damage (1)")
-    parser.add_argument("--finds", type=pathlib.Path, default=pathlib.Path(), help="folder for what was found (this one)")
+    parser.add_argument(
+        "--finds", type=pathlib.Path, default=pathlib.Path(), help="folder for what was found (this one)"
+    )
     parser.add_argument("--place", type=pathlib.Path, help="fuzz the one parser in this process, in this folder")
     args = parser.parse_args()
     names = args.parsers or list(PARSERS)
@@ -210,8 +217,23 @@ def main():
 
     def one(name):
         with tempfile.TemporaryDirectory(prefix="desire_path_fuzz_", dir=SHARED) as place:
-            done = subprocess.run([sys.executable, __file__, name, "--place", place, "--finds", args.finds, "--runs",
-                                   str(args.runs), "--seed", str(args.seed)], capture_output=True, text=True)
+            done = subprocess.run(
+                [
+                    sys.executable,
+                    __file__,
+                    name,
+                    "--place",
+                    place,
+                    "--finds",
+                    args.finds,
+                    "--runs",
+                    str(args.runs),
+                    "--seed",
+                    str(args.seed),
+                ],
+                capture_output=True,
+                text=True,
+            )
             if done.returncode not in (0, 1):
                 crashed(name, place, args.finds)
         return done

@@ -49,8 +49,11 @@ def digest(*arrays):
 
 def read_file(path):
     picture = maps.read(path)
-    return digest(*(picture.planes[name] for name in sorted(picture.planes)),
-                  np.array([sorted(picture.planes)]), np.array([repr(sorted(picture.notes.items()))]))
+    return digest(
+        *(picture.planes[name] for name in sorted(picture.planes)),
+        np.array([sorted(picture.planes)]),
+        np.array([repr(sorted(picture.notes.items()))]),
+    )
 
 
 def plants_of(sim, shown):
@@ -66,7 +69,9 @@ def compute(world, law, heap, threads):
         sim.lay_plants()
     with tempfile.TemporaryDirectory() as folder:
         film, planted = sim.open_frames(*world.film), bool(sim.plantings)
-        film.open_maps([*FIELDS[:3], "pressure"] + (["plant_strength", *LEAN] if planted else []), [("world", "golden")])
+        film.open_maps(
+            [*FIELDS[:3], "pressure"] + (["plant_strength", *LEAN] if planted else []), [("world", "golden")]
+        )
         frames = []
         for gait, loads in world.walks:
             sim.load(gait, loads)
@@ -119,9 +124,12 @@ def recorded_walk():
         for model, options in (("inertia", {}), ("impulse", {}), ("impulse half-sine", {"half_sine": True})):
             loads = walker.loads(gait, model.split()[0], ground, **options)
             found[f"loads {name} {model}"] = {
-                "touching": digest(loads.touching), "force": digest(rounded(loads.force)),
-                "point": digest(rounded(loads.point)), "clearance": digest(rounded(loads.clearance)),
-                "warnings": repr(loads.warnings)}
+                "touching": digest(loads.touching),
+                "force": digest(rounded(loads.force)),
+                "point": digest(rounded(loads.point)),
+                "clearance": digest(rounded(loads.clearance)),
+                "warnings": repr(loads.warnings),
+            }
     return found
 
 
@@ -138,8 +146,12 @@ def all_worlds(names=()):
                 by = [compute(world, law, heap, threads) for threads in WORKERS]
                 found[name][case] = {"all": digest(np.array([sorted(by[0].items())])), **by[0]}
                 for threads, other in zip(WORKERS[1:], by[1:]):
-                    complaints += [f"{name}, {case}, {field}: {threads} workers compute {other.get(field)}, one "
-                                   f"computes {by[0][field]}" for field in by[0] if other.get(field) != by[0][field]]
+                    complaints += [
+                        f"{name}, {case}, {field}: {threads} workers compute {other.get(field)}, one "
+                        f"computes {by[0][field]}"
+                        for field in by[0]
+                        if other.get(field) != by[0][field]
+                    ]
     if not names or "walk" in names:
         found["walk"] = recorded_walk()
     if not names or "bytes" in names:
@@ -154,8 +166,11 @@ def compare(expected, found):
         known = expected.get(name, {})
         for case in sorted(set(cases) | set(known)):
             now, then = cases.get(case, {}), known.get(case, {})
-            told += [f"{name}, {case}, {field}: expected {then.get(field)}, computed {now.get(field)}"
-                     for field in sorted(set(now) | set(then)) if field != "all" and now.get(field) != then.get(field)]
+            told += [
+                f"{name}, {case}, {field}: expected {then.get(field)}, computed {now.get(field)}"
+                for field in sorted(set(now) | set(then))
+                if field != "all" and now.get(field) != then.get(field)
+            ]
     return told
 
 

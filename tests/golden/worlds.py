@@ -34,9 +34,21 @@ class World:
 
 def box(length, width, height):
     """A closed box, its underside at z = 0, with a row of corners in the middle: its ball."""
-    at = [(x, y, z) for z in (0.0, height) for y in (-width / 2, width / 2) for x in (-length / 2, length / 4, length / 2)]
-    quads = [(0, 3, 4, 1), (1, 4, 5, 2), (6, 7, 10, 9), (7, 8, 11, 10), (0, 1, 7, 6), (1, 2, 8, 7),
-             (3, 9, 10, 4), (4, 10, 11, 5), (0, 6, 9, 3), (2, 5, 11, 8)]
+    at = [
+        (x, y, z) for z in (0.0, height) for y in (-width / 2, width / 2) for x in (-length / 2, length / 4, length / 2)
+    ]
+    quads = [
+        (0, 3, 4, 1),
+        (1, 4, 5, 2),
+        (6, 7, 10, 9),
+        (7, 8, 11, 10),
+        (0, 1, 7, 6),
+        (1, 2, 8, 7),
+        (3, 9, 10, 4),
+        (4, 10, 11, 5),
+        (0, 6, 9, 3),
+        (2, 5, 11, 8),
+    ]
     return Sole(np.array(at), np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
 
 
@@ -46,8 +58,19 @@ def turned(half):
     return np.array([(1.0 - half * half) / size, 0.0, 0.0, 2.0 * half / size])
 
 
-def walk(length, *, height=None, start=(0.0, 0.0), way=(1.0, 0.0), speed=1.2, mass=70.0, push=(0.15, 0.0), sink=0.0,
-         shift=0.0, turn=0.0):
+def walk(
+    length,
+    *,
+    height=None,
+    start=(0.0, 0.0),
+    way=(1.0, 0.0),
+    speed=1.2,
+    mass=70.0,
+    push=(0.15, 0.0),
+    sink=0.0,
+    shift=0.0,
+    turn=0.0,
+):
     """Two feet, each one limb of two parts (heel and toe), that walk `length` [m] from `start` along `way`, of length 1.
 
     height: (x, y) -> z of the ground [m]. push: ahead and aside, shares of the weight.
@@ -79,9 +102,19 @@ def walk(length, *, height=None, start=(0.0, 0.0), way=(1.0, 0.0), speed=1.2, ma
         force[part, :, 1] = -weight * (tilt * way[1] + push[1] * way[0])
         force[part, :, 2] = -weight
     com = pose.mean(axis=0)[None, :, :3] + np.array([0.0, 0.0, 0.9])
-    gait = Gait(time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(2), part_limb=np.array([0, 0, 1, 1]),
-                soles=[box(0.14, 0.09, 0.06), box(0.12, 0.10, 0.04)] * 2, point=np.zeros((4, 3)),
-                point_part=np.arange(4), point_role=np.array([0, 2, 0, 2]), frame_rate=RATE)
+    gait = Gait(
+        time=time,
+        com=com,
+        mass=[mass],
+        pose=pose,
+        limb_walker=np.zeros(2),
+        part_limb=np.array([0, 0, 1, 1]),
+        soles=[box(0.14, 0.09, 0.06), box(0.12, 0.10, 0.04)] * 2,
+        point=np.zeros((4, 3)),
+        point_part=np.arange(4),
+        point_role=np.array([0, 2, 0, 2]),
+        frame_rate=RATE,
+    )
     point = np.where(touching[..., None] == 1, pose[..., :3], np.nan)
     return gait, SimpleNamespace(touching=touching, force=force, point=point, warnings=(), held=None)
 
@@ -92,7 +125,8 @@ def together(*walks):
     cut = [(replace(g, time=g.time[:count], com=g.com[:, :count], pose=g.pose[:, :count]), loads) for g, loads in walks]
     join = lambda name: np.concatenate([getattr(loads, name)[:, :count] for _, loads in cut])
     return Gait.join([g for g, _ in cut]), SimpleNamespace(
-        touching=join("touching"), force=join("force"), point=join("point"), warnings=(), held=None)
+        touching=join("touching"), force=join("force"), point=join("point"), warnings=(), held=None
+    )
 
 
 def slope(x, y):
@@ -107,7 +141,7 @@ def _flat():
     hold = np.zeros(held[1].touching.shape, bool)
     hold[:, 20:26] = True
     both = together(slipping, held)
-    both[1].held = np.concatenate([np.zeros(both[1].touching[:4].shape, bool), hold[:, :both[1].touching.shape[1]]])
+    both[1].held = np.concatenate([np.zeros(both[1].touching[:4].shape, bool), hold[:, : both[1].touching.shape[1]]])
     soils = {"rest": "dry-sand", "paper": "snow"}
     make = lambda law, heap, threads: Simulation(Ground.flat(), soils[heap], 0.015, law=law, heap=heap, threads=threads)
     return World(make, [both], (-64, -64, 192, 128), (-1, -1, 3, 2))
@@ -121,8 +155,9 @@ def _hill():
     weight = np.stack([1.0 - second, second, 1.5 * (x[None, :] > 40.6) + 0.0 * y[:, None]])
     ground = Ground.heights(heights, 0.05, 38.9, -8.0, kind_weight=weight)
     soils = [SOILS["dry-sand"], SOILS["mud"], SOILS["snow"]]
-    make = lambda law, heap, threads: Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads,
-                                                 origin=(0.005, 0.003))
+    make = lambda law, heap, threads: Simulation(
+        ground, soils, 0.02, law=law, heap=heap, threads=threads, origin=(0.005, 0.003)
+    )
     up = walk(1.6, height=slope, start=(39.3, -7.0), push=(0.3, 0.2), sink=0.005)
     return World(make, [up], (1940, -400, 152, 104), (30, -7, 3, 2))
 
@@ -131,12 +166,20 @@ def _meadow():
     roots = np.array([[0.02 + 0.033 * i, -0.12 + 0.05 * j + 0.007 * (i % 3)] for i in range(16) for j in range(4)])
     vigour = np.array([(k * 7 % 17) / 8.0 - 1.0 for k in range(len(roots))])
     brittle = replace(KINDS["carex"], break_angle=0.6, degrade_angle=0.1, degrade_rate=1.0, strength=0.05, curl=0.1)
-    plants = [Planting(brittle, roots=roots, vigour=vigour),
-              Planting("lawn", density=70.0, seed=5, rectangle=(-0.3, -0.2, 0.8, 0.3),
-                       weight=np.array([[1.0, 0.5, 0.75], [0.25, 1.0, 0.5]])),
-              Planting("meadow", density=20.0, seed=9, rectangle=(0.2, -0.3, 1.0, 0.4))]
-    make = lambda law, heap, threads: Simulation(Ground.flat(3.2), "soft-soil", 0.02, law=law, heap=heap,
-                                                 threads=threads, plants=plants)
+    plants = [
+        Planting(brittle, roots=roots, vigour=vigour),
+        Planting(
+            "lawn",
+            density=70.0,
+            seed=5,
+            rectangle=(-0.3, -0.2, 0.8, 0.3),
+            weight=np.array([[1.0, 0.5, 0.75], [0.25, 1.0, 0.5]]),
+        ),
+        Planting("meadow", density=20.0, seed=9, rectangle=(0.2, -0.3, 1.0, 0.4)),
+    ]
+    make = lambda law, heap, threads: Simulation(
+        Ground.flat(3.2), "soft-soil", 0.02, law=law, heap=heap, threads=threads, plants=plants
+    )
     lifted = lambda x, y: np.full(np.shape(x), 3.2)
     one, other = walk(0.8, height=lifted), walk(0.6, height=lifted, start=(0.8, 0.05), way=(-1.0, 0.0), shift=0.2)
     return World(make, [one, other], (-64, -64, 192, 128), (-1, -1, 3, 2), rest=3.0e6, shown=True)
@@ -144,8 +187,11 @@ def _meadow():
 
 def _passes():
     nx, ny = 24, 12
-    at = [(-0.4 + 0.1 * i + 0.02 * (j % 2), -0.5 + 0.1 * j, 0.02 * ((i * 5 + j * 3) % 7) / 7.0 + 0.05 * i / nx)
-          for j in range(ny) for i in range(nx)]
+    at = [
+        (-0.4 + 0.1 * i + 0.02 * (j % 2), -0.5 + 0.1 * j, 0.02 * ((i * 5 + j * 3) % 7) / 7.0 + 0.05 * i / nx)
+        for j in range(ny)
+        for i in range(nx)
+    ]
     faces = []
     for j in range(ny - 1):
         for i in range(nx - 1):
@@ -155,8 +201,9 @@ def _passes():
     weight = np.stack([0.5 + 0.0 * at[:, 0], (at[:, 1] > 0.02) * 0.75])
     ground = Ground.mesh(at, faces, kind_weight=weight)
     plants = [Planting("moss", density=90.0, seed=2, rectangle=(-0.2, -0.3, 1.2, 0.3))]
-    make = lambda law, heap, threads: Simulation(ground, ["wet-soil", "dry-soil"], 0.02, law=law, heap=heap,
-                                                 threads=threads, plants=plants)
+    make = lambda law, heap, threads: Simulation(
+        ground, ["wet-soil", "dry-soil"], 0.02, law=law, heap=heap, threads=threads, plants=plants
+    )
     over = lambda x, y: 0.03 + 0.05 * (np.asarray(x) + 0.4) / 2.4
     there = walk(0.9, height=over, start=(0.0, 0.0))
     back = walk(0.9, height=over, start=(1.1, 0.03), way=(-1.0, 0.0), shift=0.1, mass=55.0)

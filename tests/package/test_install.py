@@ -54,23 +54,26 @@ print("INSTALLED")
 @pytest.fixture(scope="module")
 def zipped(tmp_path_factory):
     out = tmp_path_factory.mktemp("dist")
-    subprocess.run([sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out",
-                    str(out)], check=True)
+    subprocess.run([sys.executable, str(ROOT / "scripts" / "package"), "--no-build", "--out", str(out)], check=True)
     return next(out.glob("*.zip"))
 
 
 def blender_command(version, script, *words):
     if version == "3.4":
-        return ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", str(script),
-                "--", *words]
+        return ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", str(script), "--", *words]
     assert BLENDERS[version], "DESIRE_PATH_PY313 names no Python with bpy 5.2"
     return [BLENDERS[version], str(script), *words]
 
 
 def clean(home):
     """The environment of somebody who never started Blender."""
-    return {"PATH": "/usr/bin:/bin", "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"),
-            "XDG_CACHE_HOME": str(home / "cache"), "LANG": "C.UTF-8"}
+    return {
+        "PATH": "/usr/bin:/bin",
+        "HOME": str(home),
+        "XDG_CONFIG_HOME": str(home / "config"),
+        "XDG_CACHE_HOME": str(home / "cache"),
+        "LANG": "C.UTF-8",
+    }
 
 
 def folder_of(python, package):
@@ -84,9 +87,14 @@ def folder_of(python, package):
 def test_the_zip_installs(zipped, tmp_path, version):
     script = tmp_path / "install.py"
     script.write_text(INSTALL)
-    told = subprocess.run(blender_command(version, script, str(zipped), version),
-                          env=clean(tmp_path), cwd=tmp_path, capture_output=True, text=True,
-                          timeout=300)
+    told = subprocess.run(
+        blender_command(version, script, str(zipped), version),
+        env=clean(tmp_path),
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
     assert "INSTALLED" in told.stdout, told.stdout + told.stderr
     assert "Traceback" not in told.stdout + told.stderr
 
@@ -96,8 +104,7 @@ def test_blender_calls_the_zip_valid(zipped, version):
     python = BLENDERS[version]
     assert python, "DESIRE_PATH_PY313 names no Python with bpy 5.2"
     tool = next(folder_of(python, "bpy").glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
-    told = subprocess.run([python, str(tool), "validate", str(zipped)], capture_output=True,
-                          text=True)
+    told = subprocess.run([python, str(tool), "validate", str(zipped)], capture_output=True, text=True)
     assert told.returncode == 0 and "Success" in told.stdout, told.stdout + told.stderr
 
 
@@ -105,11 +112,23 @@ def test_blender_calls_the_zip_valid(zipped, version):
 def wheel(tmp_path_factory):
     out = tmp_path_factory.mktemp("wheel")
     tree = tmp_path_factory.mktemp("tree")
-    subprocess.run(["git", "clone", "-q", "--no-hardlinks", str(ROOT), str(tree / "clone")],
-                   check=True)
-    told = subprocess.run([sys.executable, "-m", "pip", "wheel", "-q",
-                           "--disable-pip-version-check", "--no-deps", "-w", str(out), str(tree / "clone")],
-                          capture_output=True, text=True)
+    subprocess.run(["git", "clone", "-q", "--no-hardlinks", str(ROOT), str(tree / "clone")], check=True)
+    told = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "pip",
+            "wheel",
+            "-q",
+            "--disable-pip-version-check",
+            "--no-deps",
+            "-w",
+            str(out),
+            str(tree / "clone"),
+        ],
+        capture_output=True,
+        text=True,
+    )
     assert told.returncode == 0, told.stdout + told.stderr
     return next(out.glob("*.whl"))
 
@@ -124,7 +143,9 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
     needs = [line for line in meta.splitlines() if line.startswith("Requires-Dist")]
     assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy>=1.23"]
     assert sorted(line for line in needs if "extra ==" in line) == [
-        'Requires-Dist: matplotlib>=3.6; extra == "plot"', 'Requires-Dist: scipy>=1.9; extra == "fit"']
+        'Requires-Dist: matplotlib>=3.6; extra == "plot"',
+        'Requires-Dist: scipy>=1.9; extra == "fit"',
+    ]
     assert {"desire_path/walks/walk.npz", "desire_path/walks/README.md"} <= set(names)
 
 
@@ -133,8 +154,9 @@ def test_the_wheel_runs_without_blender(wheel, tmp_path, python):
     assert python, "DESIRE_PATH_PY313 names no Python 3.13"
     subprocess.run([python, "-m", "venv", str(tmp_path / "env")], check=True)
     inside = str(tmp_path / "env" / "bin" / "python")
-    subprocess.run([inside, "-m", "pip", "install", "-q", "--disable-pip-version-check",
-                    "--no-deps", str(wheel)], check=True)
+    subprocess.run(
+        [inside, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps", str(wheel)], check=True
+    )
     code = """
 import sys
 sys.modules["bpy"] = None   # importing it would fail
@@ -147,9 +169,9 @@ print(desire_path.__file__)
 """
     # NumPy is that of the environment around; bpy, which is there too, must not be asked for
     env = {**clean(tmp_path), "PYTHONPATH": str(folder_of(python, "numpy").parent)}
-    told = subprocess.run([inside, "-c", code], capture_output=True, text=True, cwd=tmp_path,
-                          env=env)
+    told = subprocess.run([inside, "-c", code], capture_output=True, text=True, cwd=tmp_path, env=env)
     assert told.returncode == 0 and str(tmp_path) in told.stdout, told.stdout + told.stderr
-    told = subprocess.run([inside, "-m", "desire_path", "--version"], capture_output=True,
-                          text=True, cwd=tmp_path, env=env)
+    told = subprocess.run(
+        [inside, "-m", "desire_path", "--version"], capture_output=True, text=True, cwd=tmp_path, env=env
+    )
     assert told.returncode == 0 and told.stdout.strip()[:1].isdigit(), told.stdout + told.stderr

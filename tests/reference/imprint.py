@@ -8,10 +8,13 @@ FAR = 32767
 def turn(q, points):
     """Points turned by the unit quaternion (w, x, y, z)."""
     w, x, y, z = q
-    matrix = np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    matrix = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
     return points @ matrix.T
 
 
@@ -62,6 +65,6 @@ def rings(touched, count):
         near = np.zeros_like(touched)
         for dj in (0, 1, 2):
             for di in (0, 1, 2):
-                near |= here[dj:dj + ring.shape[0], di:di + ring.shape[1]]
+                near |= here[dj : dj + ring.shape[0], di : di + ring.shape[1]]
         ring[near & (ring == FAR)] = number
     return ring

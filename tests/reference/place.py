@@ -7,9 +7,13 @@ import numpy as np
 
 def matrix(q):
     w, x, y, z = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def about(axis, angle):
@@ -25,8 +29,7 @@ def slerp(a, b, w):
     angle = math.acos(min(max((np.trace(between) - 1) / 2, -1.0), 1.0))
     if angle < 1e-9:
         return a.copy()
-    axis = np.array([between[2, 1] - between[1, 2], between[0, 2] - between[2, 0],
-                     between[1, 0] - between[0, 1]])
+    axis = np.array([between[2, 1] - between[1, 2], between[0, 2] - between[2, 0], between[1, 0] - between[0, 1]])
     return about(axis / np.linalg.norm(axis), w * angle) @ a
 
 
@@ -67,8 +70,7 @@ def place(pose, points, d, height, normal, *, floor, d_max, theta_0, flat):
     turns = [turn(part[3:], d[k], normal, d_max, theta_0, k == 0, flat) for k, part in enumerate(pose)]
     at = [ball + turns[0] @ matrix(heel[3:]).T @ (heel[:3] - ball), ball.copy()]
     rise = height(*ball[:2]) - floor
-    before = min((part[:3] + matrix(part[3:]) @ p)[2] - floor
-                 for part, own in zip(pose, points) for p in own)
+    before = min((part[:3] + matrix(part[3:]) @ p)[2] - floor for part, own in zip(pose, points) for p in own)
     for place_ in at:
         place_[2] += rise
     placed = [a + t @ p for a, t, own in zip(at, turns, points) for p in own]

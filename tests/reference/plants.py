@@ -13,6 +13,7 @@ import numpy as np
 def constraints(stems, rest):
     """TRAIL (5) of one plant, (stems, rows, 3) each: C_s = l - l_0 of vertical, horizontal and diagonal edges in
     one sheet, over l_0, and C_b = phi - phi_0 between consecutive edges of a stem."""
+
     def lengths(at):
         pairs = [at[:, 1:] - at[:, :-1], at[1:] - at[:-1], at[1:, 1:] - at[:-1, :-1], at[1:, :-1] - at[:-1, 1:]]
         return np.concatenate([np.linalg.norm(pair, axis=-1).ravel() for pair in pairs])

@@ -56,11 +56,18 @@ def slide(h, cell, rest_angle, step, passes):
         moved = False
         for j in range(ny):
             for i in range(nx):
-                near = [(j + dj, i + di) for dj in (-1, 0, 1) for di in (-1, 0, 1)
-                        if (dj or di) and 0 <= j + dj < ny and 0 <= i + di < nx]
+                near = [
+                    (j + dj, i + di)
+                    for dj in (-1, 0, 1)
+                    for di in (-1, 0, 1)
+                    if (dj or di) and 0 <= j + dj < ny and 0 <= i + di < nx
+                ]
                 lower = {q: h[j, i] - h[q] for q in near if h[q] < h[j, i]}
-                steep = [q for q, fall in lower.items()
-                         if math.atan(fall / (cell * math.hypot(q[0] - j, q[1] - i))) >= rest_angle]  # TRAIL (14)
+                steep = [
+                    q
+                    for q, fall in lower.items()
+                    if math.atan(fall / (cell * math.hypot(q[0] - j, q[1] - i))) >= rest_angle
+                ]  # TRAIL (14)
                 if not steep:
                     continue
                 moved = True
@@ -208,8 +215,9 @@ def accumulate_paper(patch, ring, cover, foot, volume, width, threshold):
         far = np.minimum(far, _distances(c, np.zeros(ring.shape, bool), 1.0) - 0.5 * cover[c])
     cells = [tuple(c) for c in np.argwhere((ring > 0) & ~np.isnan(patch["rest"]))]
     steps = (np.arange(2000) + 0.5) / 2000 - 0.5  # across a cell
-    full = np.array([np.mean(np.where((x := (far[c] + steps) / wide) > 0, np.clip((1 - x) / 0.2, 0, 1), 0))
-                     for c in cells])
+    full = np.array(
+        [np.mean(np.where((x := (far[c] + steps) / wide) > 0, np.clip((1 - x) / 0.2, 0, 1), 0)) for c in cells]
+    )
     omega = shares(cells, patch, *foot, threshold)
     if not any(w > 0 for c, w in zip(cells, omega) if ring[c] == 1):
         omega[:] = 1.0
@@ -240,8 +248,11 @@ def _distances(start, wall, cell):
 
 def _edge(c, ring, cover, cell):
     """How much farther than half a cell the edge of the sole is from the middle of a border cell."""
-    near = [math.hypot(j - c[0], i - c[1]) - cover[j, i] for j, i in np.argwhere(ring == 0)
-            if max(abs(j - c[0]), abs(i - c[1])) == 1]
+    near = [
+        math.hypot(j - c[0], i - c[1]) - cover[j, i]
+        for j, i in np.argwhere(ring == 0)
+        if max(abs(j - c[0]), abs(i - c[1])) == 1
+    ]
     return cell * min(near)
 
 

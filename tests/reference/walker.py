@@ -39,12 +39,11 @@ def low_pass(values, rate, cutoff):
         y = np.empty_like(x)
         x1 = x2 = y1 = y2 = x[0]
         for n in range(len(x)):
-            y[n] = (k * k * (x[n] + 2 * x1 + x2) - 2 * (k * k - 1) * y1
-                    - (1 - math.sqrt(2) * k + k * k) * y2) / norm
+            y[n] = (k * k * (x[n] + 2 * x1 + x2) - 2 * (k * k - 1) * y1 - (1 - math.sqrt(2) * k + k * k) * y2) / norm
             x1, x2, y1, y2 = x[n], x1, y[n], y1
         return y
 
-    return once(once(signal)[::-1])[::-1][pad:pad + len(values)]
+    return once(once(signal)[::-1])[::-1][pad : pad + len(values)]
 
 
 def acceleration(values, rate, cutoff):
@@ -60,7 +59,7 @@ def fly(values, air, rate, cutoff, fall):
     second = second[np.asarray(air, bool)[1:-1]]
     a, b = (rate / (2 * math.pi * cutoff)) ** 6, (rate / (2 * math.pi * 0.3)) ** 4
     matrix = np.eye(count) + a * third.T @ third + b * second.T @ second
-    return np.linalg.solve(matrix, values + b * second.T @ np.full(len(second), fall / rate ** 2))
+    return np.linalg.solve(matrix, values + b * second.T @ np.full(len(second), fall / rate**2))
 
 
 def flown_acceleration(values, air, rate, cutoff, fall):
@@ -76,8 +75,7 @@ def speed(places, rate, cutoff):
 
 def drops(places, rate, cutoff):
     """Does a point come down steeper than 45 degrees?"""
-    v = np.gradient(np.stack([low_pass(places[:, c], rate, cutoff) for c in range(3)], axis=1), 1 / rate,
-                    axis=0)
+    v = np.gradient(np.stack([low_pass(places[:, c], rate, cutoff) for c in range(3)], axis=1), 1 / rate, axis=0)
     return -v[:, 2] > np.hypot(v[:, 0], v[:, 1])
 
 
@@ -88,7 +86,7 @@ def resting_height(height, speeds):
     """Median of the lowest 3 cm of the heights at which a point is slower than 0.25 m/s."""
     slow = sorted(h for h, v in zip(height, speeds) if v < 0.25)
     lowest = slow[len(slow) // 20]
-    band = [h for h in slow[len(slow) // 20:] if h <= lowest + 0.03]
+    band = [h for h in slow[len(slow) // 20 :] if h <= lowest + 0.03]
     upto = len(slow) // 20 + len(band)
     return slow[upto // 2]
 
@@ -116,8 +114,7 @@ def arrives(on, height, clearance, rise, rate):
             while run[-1] < len(on) and on[run[-1]] and rise[run[-1]] < 0 and run[-1] - t < 0.1 * rate:
                 run.append(run[-1] + 1)
             moment = min(run[:-1] or [t], key=lambda k: rise[k])
-            while (moment + 1 < len(on) and on[moment + 1] and rise[moment] < -1.2
-                   and height[moment] > clearance + 0.01):
+            while moment + 1 < len(on) and on[moment + 1] and rise[moment] < -1.2 and height[moment] > clearance + 0.01:
                 moment += 1
             on[t:moment] = [False] * (moment - t)
             t = moment
@@ -196,7 +193,7 @@ def ramps_of_two(on, rate):
 
 def share_of_two(s, a_star, length, mu, reach=0.3):
     """The first limb's share. Design 4.3, step 2, closed form"""
-    q, lam = s * (1 - s), length ** 2 / (length ** 2 + reach ** 2)
+    q, lam = s * (1 - s), length**2 / (length**2 + reach**2)
     return min(max((mu * s + 2 * lam * q * a_star) / (mu + 2 * lam * q), 0.0), 1.0)
 
 
@@ -241,8 +238,7 @@ def impulse_of_two(com, mass, feet, on, rate, tau):
     for t in range(len(com)):
         if not (on[0, t] or on[1, t]):
             continue
-        right = (share_right(com[t, :2], feet[0, t, :2], feet[1, t, :2]) if on[0, t] and on[1, t]
-                 else float(on[1, t]))
+        right = share_right(com[t, :2], feet[0, t, :2], feet[1, t, :2]) if on[0, t] and on[1, t] else float(on[1, t])
         for i, alpha in ((0, 1 - right), (1, right)):  # SOFT22 (4)
             if not on[i, t]:
                 continue

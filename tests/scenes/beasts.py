@@ -12,8 +12,12 @@ HEIGHT = 0.75
 
 def skeleton():
     """(Skeleton, heads, tails, owner leg or None of each bone)."""
-    bones = [("hips", None, (0, 0.5, 0.8), (0, 0.2, 0.82)), ("spine", "hips", (0, 0.2, 0.82), (0, -0.45, 0.82)),
-             ("neck", "spine", (0, -0.45, 0.85), (0, -0.75, 1.1)), ("head", "neck", (0, -0.75, 1.1), (0, -0.95, 1.05))]
+    bones = [
+        ("hips", None, (0, 0.5, 0.8), (0, 0.2, 0.82)),
+        ("spine", "hips", (0, 0.2, 0.82), (0, -0.45, 0.82)),
+        ("neck", "spine", (0, -0.45, 0.85), (0, -0.75, 1.1)),
+        ("head", "neck", (0, -0.75, 1.1), (0, -0.95, 1.05)),
+    ]
     for word, y in LEGS:
         for x, mark in SIDES:
             spots = [(x, y, HEIGHT), (x, y, 0.4), (x, y, 0.08), (x, y - 0.07, 0.02), (x, y - 0.12, 0.02)]
@@ -51,7 +55,7 @@ def skin(bones):
     at = 0
     for k, name in enumerate(bones.names):
         weights[name] = np.zeros(count, "f4")
-        weights[name][at:at + len(vertices[k])] = 1.0
+        weights[name][at : at + len(vertices[k])] = 1.0
         at += len(vertices[k])
     return Skin(np.concatenate(vertices), np.concatenate(triangles), weights), volume
 
@@ -70,7 +74,7 @@ def motion(bones, *, speed=0.0, stride=0.5, duty=0.45, bob=0.0, phases=(0.0, 0.5
             step, u = np.floor(phase), phase % 1.0
             swing = np.clip((u - duty) / (1 - duty), 0, 1)
             # where the foot stands, it does so under the hip in the middle of its stance
-            ahead = speed * stride * (step + swing ** 2 * (3 - 2 * swing) - phases[leg] + duty / 2)
+            ahead = speed * stride * (step + swing**2 * (3 - 2 * swing) - phases[leg] + duty / 2)
             lift = 0.10 * np.sin(np.pi * swing) ** 2 * (speed > 0)
             shift[f"{word}{mark}"] = (ahead if speed else 0 * time, lift)
             leg += 1

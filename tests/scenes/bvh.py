@@ -1,6 +1,6 @@
 """Reads a BVH clip the way Blender's importer lays it out: Z up, bones along +Y, world matrices.
 
-    skeleton, motion, rate = bvh.load("walk.bvh", scale=0.056444)
+skeleton, motion, rate = bvh.load("walk.bvh", scale=0.056444)
 """
 
 from pathlib import Path
@@ -57,8 +57,11 @@ def _parse(text):
 def _about(axis, degrees):
     angle = np.radians(degrees)
     c, s, o, l = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
-    rows = {"X": [[l, o, o], [o, c, -s], [o, s, c]], "Y": [[c, o, s], [o, l, o], [-s, o, c]],
-            "Z": [[c, -s, o], [s, c, o], [o, o, l]]}[axis]
+    rows = {
+        "X": [[l, o, o], [o, c, -s], [o, s, c]],
+        "Y": [[c, o, s], [o, l, o], [-s, o, c]],
+        "Z": [[c, -s, o], [s, c, o], [o, o, l]],
+    }[axis]
     return np.moveaxis(np.array(rows), -1, 0)
 
 

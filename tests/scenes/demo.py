@@ -5,6 +5,7 @@
 Everything about the trail goes through the public operators; the rest is an ordinary scene: an
 imported BVH clip, a skinned walker, a graded ground mesh with painted soils, a low sun, cameras.
 """
+
 import argparse
 import builtins
 import math
@@ -31,8 +32,11 @@ BORDERS = (0.03, -1.18)  # y where sand becomes snow, and snow mud; the walk goe
 SINK = (0.007, 0.033, 0.021)  # about how far a foot goes in, by soil [m]
 CELL = 0.005  # [m]
 # a print in each soil to look at closely: place [m], and how far off the camera is [m]
-PRINTS = {"sand": ((0.03, 0.33, -0.005), 0.84), "snow": ((0.055, -0.86, -0.02), 0.84),
-          "mud": ((-0.045, -1.445, -0.015), 0.84)}
+PRINTS = {
+    "sand": ((0.03, 0.33, -0.005), 0.84),
+    "snow": ((0.055, -0.86, -0.02), 0.84),
+    "mud": ((-0.045, -1.445, -0.015), 0.84),
+}
 
 
 # ---- the ground ----------------------------------------------------------------------------------
@@ -40,7 +44,7 @@ PRINTS = {"sand": ((0.03, 0.33, -0.005), 0.84), "snow": ((0.055, -0.86, -0.02), 
 
 def shares(x, y):
     """How much sand, snow and mud there is at places, (3, ..), sum 1; the borders wander."""
-    wander = (0.26 - 0.18 * np.exp(-(x / 0.9) ** 2)) * noise.rough(x, y, 1.1, 5) + 0.05 * x
+    wander = (0.26 - 0.18 * np.exp(-((x / 0.9) ** 2))) * noise.rough(x, y, 1.1, 5) + 0.05 * x
     soft = 0.10  # half the width of a border [m]
     below = [np.clip(0.5 + (y + wander - at) / (2 * soft), 0.0, 1.0) for at in BORDERS]
     below = [s * s * (3 - 2 * s) for s in below]
@@ -51,9 +55,13 @@ def shares(x, y):
 def waves(x, y):
     """The ground without its fine grain [m]: gentle where the walk goes, dunes farther off."""
     aside = np.hypot(np.maximum(abs(x) - 0.7, 0.0), np.maximum(abs(y + 0.5) - 2.4, 0.0))
-    far = 1.0 - np.exp(-(aside / 5.0) ** 2)
-    return (0.045 * noise.smooth(x, y, 3.2, 3) + 0.012 * noise.smooth(x, y, 1.3, 8)
-            + 0.9 * far * noise.rough(x, y, 8.0, 12, octaves=2) + 0.35 * far)
+    far = 1.0 - np.exp(-((aside / 5.0) ** 2))
+    return (
+        0.045 * noise.smooth(x, y, 3.2, 3)
+        + 0.012 * noise.smooth(x, y, 1.3, 8)
+        + 0.9 * far * noise.rough(x, y, 8.0, 12, octaves=2)
+        + 0.35 * far
+    )
 
 
 def height(x, y):
@@ -61,9 +69,9 @@ def height(x, y):
     sand, snow, mud = shares(x, y)
     phase = (y + 0.22 * x + 0.05 * noise.smooth(x, y, 0.55, 21)) / 0.085
     crest = 0.5 + 0.5 * np.cos(2 * np.pi * phase)
-    ripples = 0.0042 * crest ** 1.5 * (0.65 + 0.35 * noise.smooth(x, y, 0.7, 22))
+    ripples = 0.0042 * crest**1.5 * (0.65 + 0.35 * noise.smooth(x, y, 0.7, 22))
     # what the mesh is too coarse for, off the walk, is left to the shader
-    near = np.exp(-(np.maximum(np.maximum(abs(x), abs(y + 0.55) - 2.2) - 0.3, 0.0) / 0.35) ** 2)
+    near = np.exp(-((np.maximum(np.maximum(abs(x), abs(y + 0.55) - 2.2) - 0.3, 0.0) / 0.35) ** 2))
     humps = 0.007 * noise.rough(x, y, 0.34, 31)
     humps += 0.0016 * near * noise.rough(x, y, 0.06, 33, octaves=2)
     clods = 0.005 * noise.rough(x, y, 0.16, 41)
@@ -123,8 +131,7 @@ def add_ground(step):
     weight = shares(points[:, 0].astype(float), points[:, 1].astype(float))
     colour = np.ones((len(points), 4), np.float32)
     colour[:, :3] = weight.T
-    mesh.attributes.new(materials.SOIL, "FLOAT_COLOR", "POINT").data.foreach_set(
-        "color", colour.ravel())
+    mesh.attributes.new(materials.SOIL, "FLOAT_COLOR", "POINT").data.foreach_set("color", colour.ravel())
     mesh.materials.append(materials.ground())
     for name, each in zip(SOILS, weight):
         paint(obj, name, each)
@@ -138,11 +145,12 @@ def import_walk():
     """The clip as Blender imports it, in metres, at the scene's rate."""
     bpy.ops.preferences.addon_enable(module="io_anim_bvh")
     from io_anim_bvh import import_bvh
+
     # Blender 3.4 with Python 3.11: the importer opens files in a mode that is gone
-    import_bvh.open = lambda path, mode="r", *a, **k: builtins.open(
-        path, mode.replace("U", "") or "r", *a, **k)
-    bpy.ops.import_anim.bvh(filepath=WALK, global_scale=UNIT, use_fps_scale=True,
-                            update_scene_fps=False, update_scene_duration=False)
+    import_bvh.open = lambda path, mode="r", *a, **k: builtins.open(path, mode.replace("U", "") or "r", *a, **k)
+    bpy.ops.import_anim.bvh(
+        filepath=WALK, global_scale=UNIT, use_fps_scale=True, update_scene_fps=False, update_scene_duration=False
+    )
     walker = bpy.context.object
     walker.name = "Walker"
     return walker
@@ -171,8 +179,7 @@ def follow_ground(walker, height=height, sink=sink):
     keys = []
     for side in ankles:
         ankle, toe = np.array(ankles[side]), np.array(toes[side])
-        speed = np.maximum(*(np.linalg.norm(np.gradient(p, axis=0), axis=1) * RATE
-                             for p in (ankle, toe)))
+        speed = np.maximum(*(np.linalg.norm(np.gradient(p, axis=0), axis=1) * RATE for p in (ankle, toe)))
         slow = speed < 0.12
         edges = np.flatnonzero(np.diff(np.concatenate([[0], slow, [0]])))
         for start, stop in zip(edges[::2], edges[1::2]):
@@ -297,6 +304,7 @@ def build(step=CELL):
 def bake(ground, walker, cell=CELL):
     """The trail, by the operators an animator presses."""
     import desire_path
+
     desire_path.register()
     activate(ground)
     bpy.ops.object.desire_path_ground_add()
@@ -321,7 +329,7 @@ def activate(obj):
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="demo.py", description=__doc__.splitlines()[0])
     parser.add_argument("--out", default="out", help="folder for the .blend file and the bake")
     parser.add_argument("--cell", type=float, default=CELL, help="cell size and mesh spacing [m]")

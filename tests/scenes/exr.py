@@ -1,4 +1,5 @@
 """exr.py - a plain OpenEXR writer for tests: flat, scan lines, 32-bit float, uncompressed."""
+
 import struct
 
 import numpy as np
@@ -11,8 +12,7 @@ def write(path, rgba):
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
 
-    channels = b"".join(c.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, 1, 1)
-                        for c in "ABGR") + b"\0"
+    channels = b"".join(c.encode() + b"\0" + struct.pack("<iBBBBii", 2, 0, 0, 0, 0, 1, 1) for c in "ABGR") + b"\0"
     window = struct.pack("<iiii", 0, 0, nx - 1, ny - 1)
     head = struct.pack("<ii", 20000630, 2)
     head += attribute("channels", "chlist", channels)

@@ -14,8 +14,20 @@ def box(length, width, height=0.02):
     """A closed box, its underside at z = 0, centred; 12 triangles."""
     x, y = length / 2, width / 2
     corner = np.array([[sx * x, sy * y, z] for z in (0, height) for sy in (-1, 1) for sx in (-1, 1)])
-    faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
-             [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]
+    faces = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ]
     return Sole(corner, faces)
 
 
@@ -23,8 +35,7 @@ def sphere(radius, rings=24):
     """A sphere about its centre."""
     up = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
     round_ = np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)
-    corner = radius * np.array([[np.cos(u) * np.cos(r), np.cos(u) * np.sin(r), np.sin(u)]
-                                for u in up for r in round_])
+    corner = radius * np.array([[np.cos(u) * np.cos(r), np.cos(u) * np.sin(r), np.sin(u)] for u in up for r in round_])
     n = 2 * rings
     faces = []
     for j in range(rings):
@@ -54,14 +65,24 @@ def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.
     pose[:, :, 2] += 0.3 * risen * risen * (3.0 - 2.0 * risen)
     com = np.repeat(np.mean(poses, axis=0)[None, None, :3] + [0, 0, 0.9], samples, axis=1)
     gait = Gait(
-        time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(count),
-        part_limb=np.arange(count), soles=soles, point=np.zeros((count, 3)),
-        point_part=np.arange(count), point_role=np.ones(count), frame_rate=rate,
+        time=time,
+        com=com,
+        mass=[mass],
+        pose=pose,
+        limb_walker=np.zeros(count),
+        part_limb=np.arange(count),
+        soles=soles,
+        point=np.zeros((count, 3)),
+        point_part=np.arange(count),
+        point_role=np.ones(count),
+        frame_rate=rate,
     )
     force = np.asarray(forces, float)[:, None, :] * stands[None, :, None]
     loads = SimpleNamespace(
-        touching=np.repeat(stands[None], count, axis=0).astype(np.uint8), force=force,
-        point=pose[:, :, :3].copy(), warnings=(),
+        touching=np.repeat(stands[None], count, axis=0).astype(np.uint8),
+        force=force,
+        point=pose[:, :, :3].copy(),
+        warnings=(),
     )
     return gait, loads
 
@@ -89,7 +110,17 @@ def strides(length, *, speed=1.3, rate=60.0, y=0.0, shift=0.0, mass=75.0):
         load = np.clip(np.minimum(phase / 0.1, (0.6 - phase) / 0.1), 0.0, 1.0)
         force[foot, :, 2] = -mass * 9.81 * load
     com = np.stack([time * speed, 0.0 * time + y, 0.0 * time + 0.95], -1)[None]
-    gait = Gait(time=time, com=com, mass=[mass], pose=pose, limb_walker=np.zeros(2), part_limb=np.arange(2),
-                soles=[box(0.28, 0.10, 0.10)] * 2, point=np.zeros((2, 3)), point_part=np.arange(2),
-                point_role=np.ones(2), frame_rate=rate)
+    gait = Gait(
+        time=time,
+        com=com,
+        mass=[mass],
+        pose=pose,
+        limb_walker=np.zeros(2),
+        part_limb=np.arange(2),
+        soles=[box(0.28, 0.10, 0.10)] * 2,
+        point=np.zeros((2, 3)),
+        point_part=np.arange(2),
+        point_role=np.ones(2),
+        frame_rate=rate,
+    )
     return gait, SimpleNamespace(touching=touching, force=force, point=pose[:, :, :3].copy(), warnings=())

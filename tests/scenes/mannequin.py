@@ -5,6 +5,7 @@ vertex follows the bones whose shapes it is nearest to. Shoes are modelled flat 
 the recording shows the feet in mid-stance, and then carried back to the rest pose, so that a sole
 is level when its foot stands.
 """
+
 import bmesh
 import bpy
 import numpy as np
@@ -48,13 +49,26 @@ SOLE = 0.024  # thickness of the outsole [m]
 EDGE = 0.007  # its lower edge is this round [m]
 # share of the length from heel to tip, half width on the inner and the outer side (in lengths),
 # height of the upper over the outsole [m]
-LAST = np.array((
-    (0.000, 0.000, 0.000, 0.070), (0.012, 0.048, 0.048, 0.072), (0.045, 0.088, 0.088, 0.074),
-    (0.100, 0.112, 0.114, 0.076), (0.180, 0.118, 0.124, 0.078), (0.280, 0.106, 0.126, 0.079),
-    (0.400, 0.096, 0.132, 0.073), (0.520, 0.112, 0.148, 0.061), (0.620, 0.142, 0.164, 0.052),
-    (0.700, 0.160, 0.170, 0.046), (0.780, 0.164, 0.158, 0.042), (0.860, 0.152, 0.132, 0.039),
-    (0.920, 0.128, 0.100, 0.036), (0.965, 0.092, 0.066, 0.031), (0.990, 0.050, 0.034, 0.025),
-    (1.000, 0.008, -0.006, 0.020)))
+LAST = np.array(
+    (
+        (0.000, 0.000, 0.000, 0.070),
+        (0.012, 0.048, 0.048, 0.072),
+        (0.045, 0.088, 0.088, 0.074),
+        (0.100, 0.112, 0.114, 0.076),
+        (0.180, 0.118, 0.124, 0.078),
+        (0.280, 0.106, 0.126, 0.079),
+        (0.400, 0.096, 0.132, 0.073),
+        (0.520, 0.112, 0.148, 0.061),
+        (0.620, 0.142, 0.164, 0.052),
+        (0.700, 0.160, 0.170, 0.046),
+        (0.780, 0.164, 0.158, 0.042),
+        (0.860, 0.152, 0.132, 0.039),
+        (0.920, 0.128, 0.100, 0.036),
+        (0.965, 0.092, 0.066, 0.031),
+        (0.990, 0.050, 0.034, 0.025),
+        (1.000, 0.008, -0.006, 0.020),
+    )
+)
 
 
 def add(armature):
@@ -115,8 +129,7 @@ def _place(armature, at, side=""):
 def _shapes(armature):
     out = [(bone, _place(armature, a), _place(armature, b), r, s) for bone, a, b, r, s in BODY]
     for side in ("Left", "Right"):
-        out += [(side + bone, _place(armature, a, side), _place(armature, b, side), r, s)
-                for bone, a, b, r, s in SIDE]
+        out += [(side + bone, _place(armature, a, side), _place(armature, b, side), r, s) for bone, a, b, r, s in SIDE]
     return out
 
 
@@ -172,14 +185,20 @@ def _body(armature):
 def _capsule(hull, a, b, r, s):
     """Two balls and the cone between, as closed meshes that overlap."""
     for at, radius in ((a, r), (b, s)):
-        bmesh.ops.create_uvsphere(hull, u_segments=24, v_segments=14, radius=radius,
-                                  matrix=Matrix.Translation(at))
+        bmesh.ops.create_uvsphere(hull, u_segments=24, v_segments=14, radius=radius, matrix=Matrix.Translation(at))
     axis = b - a
     length = float(np.linalg.norm(axis))
     if length > 1e-4:
         turn = Vector(axis).to_track_quat("Z", "Y").to_matrix().to_4x4()
-        bmesh.ops.create_cone(hull, cap_ends=True, segments=24, radius1=r, radius2=s, depth=length,
-                              matrix=Matrix.Translation((a + b) / 2) @ turn)
+        bmesh.ops.create_cone(
+            hull,
+            cap_ends=True,
+            segments=24,
+            radius1=r,
+            radius2=s,
+            depth=length,
+            matrix=Matrix.Translation((a + b) / 2) @ turn,
+        )
 
 
 # ---- shoes ---------------------------------------------------------------------------------------
@@ -202,8 +221,7 @@ def _stance(armature, side):
     scene.frame_set(now)
     foot, toe = np.array(foot), np.array(toe)
     rate = scene.render.fps / scene.render.fps_base
-    speed = np.maximum(*(np.linalg.norm(np.gradient(m[:, :3, 3], axis=0), axis=1) * rate
-                         for m in (foot, toe)))
+    speed = np.maximum(*(np.linalg.norm(np.gradient(m[:, :3, 3], axis=0), axis=1) * rate for m in (foot, toe)))
     stands = speed < 0.09
     assert stands.sum() >= 5, f"the {side} foot never stands"
     mean_foot, mean_toe = [], []
@@ -251,14 +269,14 @@ def _shoe(armature, side):
     mixed = (1 - bend)[:, None, None] * rest["Foot"] + bend[:, None, None] * rest["ToeBase"]
     flat = np.concatenate([vertices, np.ones((len(vertices), 1))], axis=1)
     back = np.linalg.solve(mixed, flat[..., None])[:, :3, 0]
-    return (back.astype(np.float32), faces,
-            {side + "Foot": 1 - bend, side + "ToeBase": bend}, material)
+    return (back.astype(np.float32), faces, {side + "Foot": 1 - bend, side + "ToeBase": bend}, material)
 
 
 def _loft(vertices, faces, material, section, length, inner, slot):
     """Rings of equal size along the foot, closed at both ends."""
-    u = np.unique(np.concatenate([LAST[:, 0], np.linspace(0, 1, 45), 1 - np.linspace(0, .05, 8),
-                                  np.linspace(0, .05, 8)]))
+    u = np.unique(
+        np.concatenate([LAST[:, 0], np.linspace(0, 1, 45), 1 - np.linspace(0, 0.05, 8), np.linspace(0, 0.05, 8)])
+    )
     rings = []
     for each in u:
         ring = section(each, length)

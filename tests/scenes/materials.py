@@ -4,6 +4,7 @@ The soils follow the painted groups through the colour attribute `soil` (red san
 mud) and what was baked through the colour attribute `desire_path` (red height change, blue
 compression), which the playback modifier stores at every frame.
 """
+
 import bpy
 
 SOIL = "soil"  # colour attribute of the ground: shares of sand, snow, mud
@@ -44,19 +45,19 @@ class _Nodes:
         return self.new("ShaderNodeSeparateColor", {"Color": colour}).outputs
 
     def math(self, operation, a, b=0.0, clamp=False):
-        return self.new("ShaderNodeMath", {0: a, 1: b}, operation=operation,
-                        use_clamp=clamp).outputs[0]
+        return self.new("ShaderNodeMath", {0: a, 1: b}, operation=operation, use_clamp=clamp).outputs[0]
 
     def between(self, value, low, high, a=0.0, b=1.0):
         """a below `low`, b above `high`, a smooth step between."""
-        node = self.new("ShaderNodeMapRange", {"Value": value, "From Min": low, "From Max": high,
-                                               "To Min": a, "To Max": b},
-                        interpolation_type="SMOOTHSTEP")
+        node = self.new(
+            "ShaderNodeMapRange",
+            {"Value": value, "From Min": low, "From Max": high, "To Min": a, "To Max": b},
+            interpolation_type="SMOOTHSTEP",
+        )
         return node.outputs["Result"]
 
     def noise(self, at, scale, detail=2.0, rough=0.5):
-        node = self.new("ShaderNodeTexNoise", {"Vector": at, "Scale": scale, "Detail": detail,
-                                               "Roughness": rough})
+        node = self.new("ShaderNodeTexNoise", {"Vector": at, "Scale": scale, "Detail": detail, "Roughness": rough})
         return node.outputs["Fac"]
 
     def mix(self, share, a, b):
@@ -83,8 +84,11 @@ def ground():
     clods = n.noise(at, 95.0, 1.0, 0.55)  # a centimetre
     wide = n.noise(at, 2.3, 2.0)
     # the border between soils is frayed, the thin snow there lets the ground through
-    fray = n.math("ADD", n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 1.5),
-                  n.math("MULTIPLY", n.math("SUBTRACT", grain, 0.5), 0.8))
+    fray = n.math(
+        "ADD",
+        n.math("MULTIPLY", n.math("SUBTRACT", lumps, 0.5), 1.5),
+        n.math("MULTIPLY", n.math("SUBTRACT", grain, 0.5), 0.8),
+    )
     snow = n.between(n.math("ADD", shares["Green"], fray), 0.38, 0.62)
     below = n.math("ADD", n.math("SUBTRACT", shares["Blue"], shares["Red"]), fray)
     mud = n.math("MULTIPLY", n.between(below, -0.12, 0.12), n.math("SUBTRACT", 1.0, snow))
@@ -94,8 +98,7 @@ def ground():
     sand_dry = n.mix(spot, (0.42, 0.27, 0.135, 1), (0.62, 0.44, 0.25, 1))
     sand_dry = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), sand_dry, (0.38, 0.235, 0.115, 1))
     sand = n.mix(n.math("MULTIPLY", pressed, 0.5), sand_dry, (0.25, 0.145, 0.068, 1))
-    snow_dry = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.5), (0.80, 0.82, 0.86, 1),
-                     (0.72, 0.76, 0.82, 1))
+    snow_dry = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.5), (0.80, 0.82, 0.86, 1), (0.72, 0.76, 0.82, 1))
     snow_at = n.mix(n.math("MULTIPLY", pressed, 0.5), snow_dry, (0.62, 0.68, 0.75, 1))
     mud_dry = n.mix(n.between(clods, 0.35, 0.7), (0.085, 0.051, 0.030, 1), (0.150, 0.095, 0.057, 1))
     mud_dry = n.mix(n.between(wide, 0.42, 0.66, 0.0, 0.45), mud_dry, (0.066, 0.040, 0.023, 1))
@@ -112,14 +115,13 @@ def ground():
     crumbs = n.math("MULTIPLY", heap, 0.0035)
     flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.78))
     grain_high = n.math("MULTIPLY", n.mix(shares["Green"], 0.0011, 0.0004), flat)
-    clod_high = n.math("ADD", n.mix(shares["Blue"], n.mix(shares["Green"], 0.0010, 0.0018), 0.0060),
-                       crumbs)
-    height = n.math("ADD", n.math("MULTIPLY", grain, grain_high),
-                    n.math("MULTIPLY", clods, n.math("MULTIPLY", clod_high, flat)))
+    clod_high = n.math("ADD", n.mix(shares["Blue"], n.mix(shares["Green"], 0.0010, 0.0018), 0.0060), crumbs)
+    height = n.math(
+        "ADD", n.math("MULTIPLY", grain, grain_high), n.math("MULTIPLY", clods, n.math("MULTIPLY", clod_high, flat))
+    )
     bump = n.new("ShaderNodeBump", {"Height": height, "Distance": 1.0, "Strength": 0.9}).outputs[0]
 
-    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": roughness,
-                                                "Normal": bump})
+    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": colour, "Roughness": roughness, "Normal": bump})
     _set(shader, ("Specular", "Specular IOR Level"), specular)
     n.tree.links.new(shader.outputs[0], n.new("ShaderNodeOutputMaterial").inputs["Surface"])
     return material
@@ -137,8 +139,11 @@ def earth():
     dry = n.mix(n.between(grain, 0.56, 0.66, 0.0, 0.6), dry, (0.17, 0.125, 0.070, 1))
     dry = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.5), dry, (0.045, 0.040, 0.018, 1))
     # a trodden path is pale: fine dust on hard ground
-    colour = n.mix(n.math("MULTIPLY", pressed, 0.75), dry, n.mix(
-        n.between(grain, 0.35, 0.7), (0.150, 0.108, 0.070, 1), (0.235, 0.175, 0.115, 1)))
+    colour = n.mix(
+        n.math("MULTIPLY", pressed, 0.75),
+        dry,
+        n.mix(n.between(grain, 0.35, 0.7), (0.150, 0.108, 0.070, 1), (0.235, 0.175, 0.115, 1)),
+    )
     flat = n.math("SUBTRACT", 1.0, n.math("MULTIPLY", pressed, 0.7))
     high = n.math("MULTIPLY", n.math("ADD", n.math("MULTIPLY", clods, 0.006), n.math("MULTIPLY", grain, 0.0012)), flat)
     bump = n.new("ShaderNodeBump", {"Height": high, "Distance": 1.0, "Strength": 0.9}).outputs[0]
@@ -168,19 +173,20 @@ def plain(name, colour, roughness, weave=0.0):
     if weave:
         at = n.new("ShaderNodeTexCoord").outputs["Generated"]
         normal = n.new("ShaderNodeBump", {"Height": n.noise(at, 320.0), "Distance": weave}).outputs[0]
-    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": (*colour, 1), "Roughness": roughness,
-                                                "Normal": normal})
+    shader = n.new("ShaderNodeBsdfPrincipled", {"Base Color": (*colour, 1), "Roughness": roughness, "Normal": normal})
     n.tree.links.new(shader.outputs[0], n.new("ShaderNodeOutputMaterial").inputs["Surface"])
     return material
 
 
 def clothes():
     """Materials of the mannequin's slots: jacket, trousers, skin, uppers, outsoles."""
-    return (plain("Jacket", (0.42, 0.055, 0.032), 0.80, 0.002),
-            plain("Trousers", (0.040, 0.055, 0.090), 0.85, 0.002),
-            plain("Skin", (0.46, 0.27, 0.18), 0.55),
-            plain("Uppers", (0.085, 0.042, 0.020), 0.50),
-            plain("Outsoles", (0.022, 0.020, 0.019), 0.70))
+    return (
+        plain("Jacket", (0.42, 0.055, 0.032), 0.80, 0.002),
+        plain("Trousers", (0.040, 0.055, 0.090), 0.85, 0.002),
+        plain("Skin", (0.46, 0.27, 0.18), 0.55),
+        plain("Uppers", (0.085, 0.042, 0.020), 0.50),
+        plain("Outsoles", (0.022, 0.020, 0.019), 0.70),
+    )
 
 
 def sky(scene, strength=0.55):

@@ -5,6 +5,7 @@
 Makes meadow.blend (one walk, frame by frame) and path.blend (the same ground walked many times); both
 play without the add-on. Plants and trail go through the public operators.
 """
+
 import argparse
 import os
 import sys
@@ -28,7 +29,7 @@ WAY = ((-0.30, 4.5), (-0.10, 3.4), (0.05, 2.2), (0.0, 0.6), (-0.35, -1.2), (-1.0
 def height(x, y):
     """Gentle ground, hills farther off [m]."""
     aside = np.hypot(np.maximum(abs(x) - 1.0, 0.0), np.maximum(abs(y) - 6.0, 0.0))
-    far = 1.0 - np.exp(-(aside / 9.0) ** 2)
+    far = 1.0 - np.exp(-((aside / 9.0) ** 2))
     bumps = 0.030 * noise.smooth(x, y, 2.6, 3) + 0.006 * noise.smooth(x, y, 0.5, 8)
     return bumps + 1.1 * far * noise.rough(x, y, 9.0, 12, octaves=2) + 0.45 * far
 
@@ -127,7 +128,7 @@ def add_way():
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="meadow.py", description=__doc__.splitlines()[0])
     parser.add_argument("--out", default="out", help="folder for the .blend files and the bakes")
     parser.add_argument("--coarse", type=float, default=1.0, help="cells so many times as large")
@@ -137,6 +138,7 @@ def main():
     out = os.path.abspath(chosen.out)
     os.makedirs(out, exist_ok=True)
     import desire_path
+
     desire_path.register()
     for name, passes, cell in (("meadow", 1, CELL), ("path", chosen.passes, FAR_CELL)):
         if chosen.only not in (None, name):

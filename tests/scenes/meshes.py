@@ -1,4 +1,5 @@
 """meshes.py - grounds and other meshes built by arrays."""
+
 import bpy
 import numpy as np
 

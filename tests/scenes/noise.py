@@ -1,10 +1,11 @@
 """noise.py - smooth random heights from a seed, the same on every machine."""
+
 import numpy as np
 
 
 def _lattice(i, j, seed):
     """A number in -1..1 for every lattice point, by mixing bits."""
-    h = (i.astype(np.int64) * 374761393 + j.astype(np.int64) * 668265263 + seed * 974634777)
+    h = i.astype(np.int64) * 374761393 + j.astype(np.int64) * 668265263 + seed * 974634777
     h = (h & 0xFFFFFFFF).astype(np.uint64)
     for shift, factor in ((15, 0x2C1B3C6D), (12, 0x297A2D39)):
         h = ((h ^ (h >> np.uint64(shift))) * np.uint64(factor)) & np.uint64(0xFFFFFFFF)
@@ -29,6 +30,6 @@ def rough(x, y, wavelength, seed, octaves=3, fall=0.5):
     """Several wavelengths, each half as long and `fall` times as high as the one before."""
     total, height = 0.0, 1.0
     for k in range(octaves):
-        total = total + height * smooth(x, y, wavelength / 2 ** k, seed + 31 * k)
+        total = total + height * smooth(x, y, wavelength / 2**k, seed + 31 * k)
         height *= fall
     return total

@@ -1,4 +1,5 @@
 """people.py - walkers for Blender tests: a small biped built here, and the recordings in the data."""
+
 import builtins
 import math
 import pathlib
@@ -30,8 +31,10 @@ def biped(name="Walker", size=1.0):
     bpy.ops.object.mode_set(mode="EDIT")
     for bone, parent, head, tail in BONES:
         for side in ((1.0, ".L"), (-1.0, ".R")) if bone.endswith(".L") else ((1.0, ""),):
+
             def swap(text):
                 return text[:-2] + side[1] if text and text.endswith(".L") else text
+
             made = armature.edit_bones.new(swap(bone))
             made.head = (side[0] * head[0] * size, head[1] * size, head[2] * size)
             made.tail = (side[0] * tail[0] * size, tail[1] * size, tail[2] * size)
@@ -56,8 +59,11 @@ def walk(obj, frames=48, period=24, speed=1.3, rate=24, size=1.0):
         for side, shift in ((".L", 0.0), (".R", 0.5)):
             swing = math.sin(2 * math.pi * (t + shift))
             lift = max(0.0, math.cos(2 * math.pi * (t + shift)))
-            for bone, angle in (("thigh", 0.45 * swing + 0.35 * lift), ("shin", -0.8 * lift),
-                                ("foot", -0.45 * swing + 0.3 * lift)):
+            for bone, angle in (
+                ("thigh", 0.45 * swing + 0.35 * lift),
+                ("shin", -0.8 * lift),
+                ("foot", -0.45 * swing + 0.3 * lift),
+            ):
                 pose = obj.pose.bones[bone + side]
                 pose.rotation_euler = (angle, 0, 0)
                 pose.keyframe_insert("rotation_euler", index=0, frame=frame)
@@ -67,18 +73,19 @@ def walk(obj, frames=48, period=24, speed=1.3, rate=24, size=1.0):
 def bvh(path, **options):
     """Import a BVH as an armature that stands upright in metres; returns the object."""
     import importlib
+
     for place in ("io_anim_bvh.import_bvh", "bl_ext.core.io_anim_bvh.import_bvh"):
         try:
             module = importlib.import_module(place)
         except ImportError:
             continue
         # Debian's 3.4 opens files with a mode its Python no longer knows
-        module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r",
-                                                                 *a, **k)
+        module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r", *a, **k)
     addon("io_anim_bvh", "import_anim", "bvh")
     before = set(bpy.data.objects)
-    bpy.ops.import_anim.bvh(filepath=str(path), use_fps_scale=False, update_scene_fps=True,
-                            update_scene_duration=True, **options)
+    bpy.ops.import_anim.bvh(
+        filepath=str(path), use_fps_scale=False, update_scene_fps=True, update_scene_duration=True, **options
+    )
     obj = next(iter(set(bpy.data.objects) - before))
     meshes.activate(obj)
     return obj
@@ -100,6 +107,7 @@ def addon(name, group, operator):
     """Switch a bundled importer on if its operator is not there."""
     if not hasattr(getattr(bpy.ops, group), operator) or not _known(group, operator):
         import addon_utils
+
         addon_utils.enable(name, default_set=False)
 
 

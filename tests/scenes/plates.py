@@ -1,7 +1,7 @@
 """Measured walks and what force plates said of them, and the errors of computed loads against those.
 
-    gait = plates.trial("gait_bmc_walk1")
-    found = plates.errors("gait_bmc_walk1", walker.loads(gait), gait)
+gait = plates.trial("gait_bmc_walk1")
+found = plates.errors("gait_bmc_walk1", walker.loads(gait), gait)
 """
 
 import os
@@ -55,9 +55,12 @@ def leave_out(skeleton, motion, gone):
             up = int(skeleton.parents[up])
         parents.append(keep.index(up) if up >= 0 else -1)
     column = [motion.bones.index(skeleton.names[k]) for k in keep]
-    return (body.Skeleton(tuple(skeleton.names[k] for k in keep), np.array(parents, "i4"), skeleton.rest[keep],
-                          skeleton.length[keep]),
-            body.Motion(motion.time, tuple(skeleton.names[k] for k in keep), motion.matrix[:, column]))
+    return (
+        body.Skeleton(
+            tuple(skeleton.names[k] for k in keep), np.array(parents, "i4"), skeleton.rest[keep], skeleton.length[keep]
+        ),
+        body.Motion(motion.time, tuple(skeleton.names[k] for k in keep), motion.matrix[:, column]),
+    )
 
 
 @dataclass(frozen=True)
@@ -75,9 +78,12 @@ def measured(name, time):
     weight = TRIALS[name].mass * 9.81
     since = table["time"] - table["time"][0]  # a clip begins at 0
     at = lambda column: np.stack([np.interp(time, since, column(s)) for s in FEET])
-    return Plates(at(lambda s: table[f"{s}_fz"]) / weight, at(lambda s: table[f"{s}_fx"]) / weight,
-                  at(lambda s: (table[f"{s}_fz"] > CARRIES) * 1.0) > 0.5,
-                  at(lambda s: np.nan_to_num(table[f"{s}_cop_x"])))
+    return Plates(
+        at(lambda s: table[f"{s}_fz"]) / weight,
+        at(lambda s: table[f"{s}_fx"]) / weight,
+        at(lambda s: (table[f"{s}_fz"] > CARRIES) * 1.0) > 0.5,
+        at(lambda s: np.nan_to_num(table[f"{s}_cop_x"])),
+    )
 
 
 def by_foot(gait, loads):
@@ -106,12 +112,18 @@ def errors(name, loads, gait, window=None):
     first, last = window or TRIALS[name].window
     inside = (loads.time >= first) & (loads.time <= last)
     rms = lambda e: np.sqrt(np.mean(e[:, inside] ** 2, axis=1))
-    apart = [abs(point[k, :, 0] - plate.point[k])[inside & (plate.weight[k] > 0.15)
-                                                 & (force[k, :, 2] > 0.13)].mean() for k in (0, 1)]
-    return Errors(rms(force[..., 2] - plate.weight),
-                  np.array([np.corrcoef(force[k, inside, 2], plate.weight[k, inside])[0, 1] for k in (0, 1)]),
-                  rms(force[..., 0] - plate.drive), float(force[:, inside, 2].sum(axis=0).mean()),
-                  late(loads.time, on, plate.on, inside), np.array(apart))
+    apart = [
+        abs(point[k, :, 0] - plate.point[k])[inside & (plate.weight[k] > 0.15) & (force[k, :, 2] > 0.13)].mean()
+        for k in (0, 1)
+    ]
+    return Errors(
+        rms(force[..., 2] - plate.weight),
+        np.array([np.corrcoef(force[k, inside, 2], plate.weight[k, inside])[0, 1] for k in (0, 1)]),
+        rms(force[..., 0] - plate.drive),
+        float(force[:, inside, 2].sum(axis=0).mean()),
+        late(loads.time, on, plate.on, inside),
+        np.array(apart),
+    )
 
 
 def late(time, found, true, inside):
@@ -152,5 +164,6 @@ def raised(gait, height):
 
 def mirrored(gait):
     """Left and right changed; the limbs keep their order."""
-    return replace(gait, com=gait.com * (1, -1, 1), pose=gait.pose * (1, -1, 1, 1, -1, 1, -1),
-                   point=gait.point * (1, -1, 1))
+    return replace(
+        gait, com=gait.com * (1, -1, 1), pose=gait.pose * (1, -1, 1, 1, -1, 1, -1), point=gait.point * (1, -1, 1)
+    )

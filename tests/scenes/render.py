@@ -8,12 +8,13 @@
 
 `view` looks through the file's own camera; `prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames N, N .. of the film.
 """
+
 import os
 import sys
 
 import bpy
 
-what, path, *numbers = sys.argv[sys.argv.index("--") + 1:]
+what, path, *numbers = sys.argv[sys.argv.index("--") + 1 :]
 width, height, samples, *which = map(int, numbers)
 scene = bpy.context.scene
 scene.render.resolution_x, scene.render.resolution_y = width, height

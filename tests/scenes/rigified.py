@@ -5,6 +5,7 @@
 
 They are generated in a process of their own: the bpy module of 4.5 does not end after Rigify has run.
 """
+
 import atexit
 import math
 import os
@@ -23,6 +24,7 @@ _files = {}  # kind -> the file of it, made once a run
 def body(kind):
     """A "human", "quadruped", "bird", "cat", "horse" or "wolf" at rest."""
     from . import meshes
+
     with bpy.data.libraries.load(_generated(kind), link=False) as (_, wanted):
         wanted.objects = ["Walker"]
     obj = meshes.link(wanted.objects[0])
@@ -33,6 +35,7 @@ def body(kind):
 def walker(fk=False):
     """A person that walks along -Y from frame 1 on, on IK or FK legs."""
     from . import people
+
     obj = body("human")
     people.lead(obj, "torso", "foot_ik.{}", roll="foot_heel_ik.{}")
     if fk:
@@ -42,7 +45,8 @@ def walker(fk=False):
 
 BEASTS = {  # controls of the feet, hind left and right, fore left and right; a stride [m]
     "horse": (("hind_foot_ik.L", "hind_foot_ik.R", "forefoot_ik.L", "forefoot_ik.R"), 0.9),
-    "cat": (("foot_ik.L", "foot_ik.R", "hand_ik.L", "hand_ik.R"), 0.15)}
+    "cat": (("foot_ik.L", "foot_ik.R", "hand_ik.L", "hand_ik.R"), 0.15),
+}
 
 
 def beast(kind, frames=36, period=24, stands=0.7):
@@ -98,8 +102,9 @@ def _generated(kind):
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
         place = os.path.join(folder, "body.blend")
         blender = bpy.app.binary_path  # empty in the bpy module
-        start = ([blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python"] if blender
-                 else [sys.executable])
+        start = (
+            [blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python"] if blender else [sys.executable]
+        )
         done = subprocess.run(start + [__file__, "--", kind, place], capture_output=True, text=True, timeout=300)
         if done.returncode:
             raise RuntimeError(f"Rigify made no {kind}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")

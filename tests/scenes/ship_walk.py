@@ -1,6 +1,6 @@
 """Make addon/desire_path/walks/walk.npz anew: whole strides of the recorded walk that repeat, 75 kg.
 
-    python tests/scenes/ship_walk.py [OUT.npz]
+python tests/scenes/ship_walk.py [OUT.npz]
 """
 
 import pathlib
@@ -35,8 +35,16 @@ def made():
     com[:, 2] -= found.floor
     pose[..., 2] -= found.floor
     pose[..., :3] = pose[..., :3].round(6)
-    return replace(clip, time=np.arange(count + 1) / RATE, com=com.round(6)[None], pose=pose, frame_rate=RATE,
-                   frame_start=1, walker_name=("Walker",), warnings=()).check()
+    return replace(
+        clip,
+        time=np.arange(count + 1) / RATE,
+        com=com.round(6)[None],
+        pose=pose,
+        frame_rate=RATE,
+        frame_start=1,
+        walker_name=("Walker",),
+        warnings=(),
+    ).check()
 
 
 def write(path):

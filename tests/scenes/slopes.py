@@ -1,4 +1,5 @@
 """slopes.py - how much loose soil lies steeper than it stays. Oracle 5 of the design."""
+
 import math
 
 import numpy as np

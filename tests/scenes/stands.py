@@ -1,6 +1,7 @@
 """stands.py - figures whose prints can be reckoned by hand: soles of known shape on feet that are moved by
 numbers, under a mass centre that stays where it is put. Baked by the public operators, read as users read.
 """
+
 import json
 import math
 import os
@@ -140,8 +141,7 @@ def bake(obj, seconds=None, **settings):
     rest = compat.positions(obj.data)
     nx = int((np.abs(rest[:, 1] - rest[0, 1]) < 1e-6).sum())
     grid = lambda values: np.asarray(values, np.float64).reshape(-1, nx, *np.shape(values)[1:])
-    final = {name: grid(compat.float_attribute(obj.data, name))
-             for name in ("compression", "heap", "pressure_time")}
+    final = {name: grid(compat.float_attribute(obj.data, name)) for name in ("compression", "heap", "pressure_time")}
     colour = grid(compat.colour_attribute(shown, playback.ATTRIBUTE))
     assert (colour[..., 2] == final["compression"]).all()  # playback and final map are one ground
     return Trail(report, own.cell_size, grid(rest), grid(compat.positions(shown)), **final)

@@ -75,7 +75,8 @@ def double_hump(u):
 def heel_run(u):
     """A run over the heel: one hump, and the knock of the heel before it."""
     return np.clip(np.sin(np.pi * u) * (1.0 + 0.15 * np.cos(np.pi * u)), 0, None) + 0.35 * np.exp(
-        -0.5 * ((u - 0.12) / 0.045) ** 2)
+        -0.5 * ((u - 0.12) / 0.045) ** 2
+    )
 
 
 def sprint(u):
@@ -97,7 +98,7 @@ def _foot_in_stance(stance, u):
     """(ankle along and up (n, 2), pitch (n,)) over shares u of a stance; heel up is pitch > 0."""
     first, last = stance.flat
     if first > last:  # on the ball all the time: the heel sinks and rises
-        pitch = stance.strike + (stance.leave - stance.strike) * u ** 2
+        pitch = stance.strike + (stance.leave - stance.strike) * u**2
         pitch = pitch - 0.25 * stance.strike * np.sin(np.pi * u)
     else:
         down = 1.0 - smooth(u / first) if first > 0 else np.zeros_like(u)
@@ -140,8 +141,9 @@ def _feet(stances, time):
             ankle[foot, air, 2] += lift * (4 * u * (1 - u)) ** 2
             ankle[foot, air, 1] = a.at[1] + (b.at[1] - a.at[1]) * smooth(u)
             pitch[foot, air] = _hermite(u, tilt_a[1], tilt_b[0], 2.0, 0.0, span)
-            toe[foot, air] = (-np.clip(tilt_a[1], 0, 0.9) * (1 - smooth(u * 2))
-                              - np.clip(tilt_b[0], 0, 0.9) * smooth(u * 2 - 1))
+            toe[foot, air] = -np.clip(tilt_a[1], 0, 0.9) * (1 - smooth(u * 2)) - np.clip(tilt_b[0], 0, 0.9) * smooth(
+                u * 2 - 1
+            )
     return ankle, pitch, toe
 
 
@@ -153,12 +155,11 @@ def _pressure(stances, time):
         u = (time[on] - s.begin) / (s.end - s.begin)
         first, last = s.flat
         if first > last:
-            along = BALL - 0.01 + 0.05 * u ** 2
+            along = BALL - 0.01 + 0.05 * u**2
         elif s.end - s.begin > 3.0 or last >= 1.0:
             along = np.full_like(u, 0.05)
         else:
-            along = HEEL + 0.02 + (BALL - HEEL - 0.03) * smooth(u / max(last, 0.3)) + 0.05 * smooth(
-                (u - 0.6) / 0.4)
+            along = HEEL + 0.02 + (BALL - HEEL - 0.03) * smooth(u / max(last, 0.3)) + 0.05 * smooth((u - 0.6) / 0.4)
         point[s.foot, on, 0], point[s.foot, on, 1], point[s.foot, on, 2] = s.at[0] + along, s.at[1], s.height
     return point
 
@@ -200,8 +201,12 @@ def _hips(com, ankle, pitch):
         for f, side in enumerate((1.0, -1.0)):
             top = hips + [0, side * HIP_WIDE, 0]
             knee = _knee(top, ankle[f])
-            mean = mean + upper[0] * (top + upper[1] * (knee - top)) + lower[0] * (
-                knee + lower[1] * (ankle[f] - knee)) + sole[0] * (ankle[f] + sole[1] * ball[f])
+            mean = (
+                mean
+                + upper[0] * (top + upper[1] * (knee - top))
+                + lower[0] * (knee + lower[1] * (ankle[f] - knee))
+                + sole[0] * (ankle[f] + sole[1] * ball[f])
+            )
         hips = hips + com - mean
     return hips
 
@@ -212,7 +217,7 @@ def _knee(hip, ankle):
     down = down / reach
     ahead = np.array([1.0, 0, 0]) - down[:, :1] * down
     ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
-    bend = np.sqrt(np.maximum(THIGH ** 2 - np.minimum(reach, THIGH + SHANK) ** 2 / 4, 0.0))
+    bend = np.sqrt(np.maximum(THIGH**2 - np.minimum(reach, THIGH + SHANK) ** 2 / 4, 0.0))
     return (hip + ankle) / 2 + bend * ahead
 
 
@@ -246,8 +251,21 @@ def _joints(hips, ankle, pitch, toe, ball_up, lower):
     return np.stack(heads, axis=1), np.stack(tails, axis=1)
 
 
-def build(stances, seconds, *, rate, mass=75.0, scale=True, height=0.98, ball_up=0.03, lower=ANKLE,
-          window=None, shake=0.0, seed=3, share=None):
+def build(
+    stances,
+    seconds,
+    *,
+    rate,
+    mass=75.0,
+    scale=True,
+    height=0.98,
+    ball_up=0.03,
+    lower=ANKLE,
+    window=None,
+    shake=0.0,
+    seed=3,
+    share=None,
+):
     """A Trial of stances.
 
     scale: their forces are scaled to carry the body over the clip; share(time, lift): says them instead.
@@ -287,18 +305,30 @@ def build(stances, seconds, *, rate, mass=75.0, scale=True, height=0.98, ball_up
     if shake:  # skin, cloth and breath: slow wobbles of the trunk that no force makes
         random = np.random.default_rng(seed)
         for f in (1.3, 2.1, 3.4, 4.7):
-            hips = hips + shake / f * random.normal(size=3) * np.sin(
-                2 * np.pi * (f * time + random.uniform())[:, None])
+            hips = hips + shake / f * random.normal(size=3) * np.sin(2 * np.pi * (f * time + random.uniform())[:, None])
     heads, tails = _joints(hips, ankle, pitch, toe, ball_up, lower)
     pick = np.round(np.arange(0, seconds * rate + 1e-9) * FINE / rate).astype(int)
     pick = pick[pick < count]
     rest_heads, rest_tails = _rest(ball_up, lower)
     parents = np.array(PARENTS, "i4")
-    skeleton = Skeleton(NAMES, parents, _matrices(rest_heads[None], rest_tails[None])[0],
-                        np.linalg.norm(rest_tails - rest_heads, axis=1))
+    skeleton = Skeleton(
+        NAMES,
+        parents,
+        _matrices(rest_heads[None], rest_tails[None])[0],
+        np.linalg.norm(rest_tails - rest_heads, axis=1),
+    )
     motion = Motion(time[pick], NAMES, _matrices(heads[pick], tails[pick]))
-    return Trial(skeleton, motion, rate, mass, time[pick], force[:, pick], point[:, pick], com[pick],
-                 window or (0.4, seconds - 0.4))
+    return Trial(
+        skeleton,
+        motion,
+        rate,
+        mass,
+        time[pick],
+        force[:, pick],
+        point[:, pick],
+        com[pick],
+        window or (0.4, seconds - 0.4),
+    )
 
 
 def _rest(ball_up, lower):
@@ -329,13 +359,45 @@ def walk(rate, speed=1.25, step=0.55, **more):
 
 
 def run(rate, speed=3.8, **more):
-    return build(steps(speed, 0.355, 0.22, heel_run, wide=0.05, strike=-0.25, flat=(0.18, 0.45), leave=1.0,
-                       arrive=(1.2, -0.9), part=(1.5, 1.6)), 3.0, rate=rate, height=0.94, **more)
+    return build(
+        steps(
+            speed,
+            0.355,
+            0.22,
+            heel_run,
+            wide=0.05,
+            strike=-0.25,
+            flat=(0.18, 0.45),
+            leave=1.0,
+            arrive=(1.2, -0.9),
+            part=(1.5, 1.6),
+        ),
+        3.0,
+        rate=rate,
+        height=0.94,
+        **more,
+    )
 
 
 def dash(rate, **more):
-    return build(steps(9.0, 0.225, 0.105, sprint, wide=0.03, strike=0.35, flat=(1.0, 0.0), leave=1.1,
-                       arrive=(1.5, -1.8), part=(3.0, 2.5)), 3.0, rate=rate, height=0.95, **more)
+    return build(
+        steps(
+            9.0,
+            0.225,
+            0.105,
+            sprint,
+            wide=0.03,
+            strike=0.35,
+            flat=(1.0, 0.0),
+            leave=1.1,
+            arrive=(1.5, -1.8),
+            part=(3.0, 2.5),
+        ),
+        3.0,
+        rate=rate,
+        height=0.95,
+        **more,
+    )
 
 
 def landing(rate, late=0.0, share=0.5, drop=0.4, **more):
@@ -364,20 +426,53 @@ def landing(rate, late=0.0, share=0.5, drop=0.4, **more):
     flat = lambda u: np.ones_like(u)
     stances = []
     for foot, side in ((0, 1.0), (1, -1.0)):
-        stances.append(Stance(foot, -9.0, leave, (0.0, side * wide), flat, strike=0.0, flat=(0.0, 1.0), leave=0.0,
-                              part=(0.8, 0.2), height=drop))
+        stances.append(
+            Stance(
+                foot,
+                -9.0,
+                leave,
+                (0.0, side * wide),
+                flat,
+                strike=0.0,
+                flat=(0.0, 1.0),
+                leave=0.0,
+                part=(0.8, 0.2),
+                height=drop,
+            )
+        )
         begin = touch + (late if foot else 0.0)
-        stances.append(Stance(foot, begin, begin + long, (0.45, side * wide), flat, strike=0.45, flat=(0.05, 1.0),
-                              leave=0.0, arrive=(0.2, -0.9 * speed)))
-    return build(stances, touch + 1.4, rate=rate, scale=False, height=drop + 0.98, share=carry,
-                 window=(leave + 0.05, touch + 1.2), **more)
+        stances.append(
+            Stance(
+                foot,
+                begin,
+                begin + long,
+                (0.45, side * wide),
+                flat,
+                strike=0.45,
+                flat=(0.05, 1.0),
+                leave=0.0,
+                arrive=(0.2, -0.9 * speed),
+            )
+        )
+    return build(
+        stances,
+        touch + 1.4,
+        rate=rate,
+        scale=False,
+        height=drop + 0.98,
+        share=carry,
+        window=(leave + 0.05, touch + 1.2),
+        **more,
+    )
 
 
 def squat(rate, uneven=0.0, **more):
     """Three squats of 25 cm; `uneven` shifts the mass centre towards the left by that share of the stance."""
     flat = lambda u: np.ones_like(u)
-    stances = [Stance(foot, -9.0, 99.0, (0.0, side * 0.18), flat, strike=0.0, flat=(0.0, 1.0), leave=0.0)
-               for foot, side in ((0, 1.0), (1, -1.0))]
+    stances = [
+        Stance(foot, -9.0, 99.0, (0.0, side * 0.18), flat, strike=0.0, flat=(0.0, 1.0), leave=0.0)
+        for foot, side in ((0, 1.0), (1, -1.0))
+    ]
 
     def carry(time, lift):
         w = 2 * np.pi / 2.0
@@ -421,17 +516,23 @@ class Errors:
 
 def compare(trial, gait, loads):
     from scenes import plates
+
     force, on, _ = plates.by_foot(gait, loads)
     true = trial.force / (trial.mass * G)
     inside = (loads.time >= trial.window[0]) & (loads.time <= trial.window[1])
     rms = np.sqrt(((force - true)[:, inside] ** 2).mean(axis=1))
-    return Errors(rms[:, 2], rms[:, 0], float(force[:, inside, 2].sum() / true[:, inside, 2].sum()),
-                  plates.late(loads.time, on, trial.force[..., 2] > plates.CARRIES, inside))
+    return Errors(
+        rms[:, 2],
+        rms[:, 0],
+        float(force[:, inside, 2].sum() / true[:, inside, 2].sum()),
+        plates.late(loads.time, on, trial.force[..., 2] > plates.CARRIES, inside),
+    )
 
 
 def errors(name, rate=120.0, **more):
     from desire_path.loads import walker
     from desire_path.rig import body
+
     trial = make(name, rate, **more)
     gait = body.gait_from_bones(trial.skeleton, trial.motion, mass=trial.mass, frame_rate=rate)
     return compare(trial, gait, walker.loads(gait))

@@ -2,6 +2,14 @@
 
 from .. import lazy
 
-__getattr__, __dir__, __all__ = lazy.names(__name__, {
-    "Bake": "bake", "FILMS": "bake", "FORMAT": "folder", "FrameIndex": "folder", "free": "output",
-    "read_index": "folder"})
+__getattr__, __dir__, __all__ = lazy.names(
+    __name__,
+    {
+        "Bake": "bake",
+        "FILMS": "bake",
+        "FORMAT": "folder",
+        "FrameIndex": "folder",
+        "free": "output",
+        "read_index": "folder",
+    },
+)

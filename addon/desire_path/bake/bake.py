@@ -85,15 +85,34 @@ class Bake:
     limits: what it may take of memory, disk and so on: run() refuses more before anything is written.
     """
 
-    def __init__(self, gait, ground, soils="dry-sand", folder="bake", *, cell_size=0.01,
-                 frame_start=None, frame_end=None, load_model="inertia", law="sole", heap="rest",
-                 rim_width=0.04, threads=0, origin=(0.0, 0.0), resume=True, map_seconds=True,
-                 plants=(), plant_mesh=False, film=None, owner="", inputs=None, wait=30.0,
-                 limits=Limits()):
+    def __init__(
+        self,
+        gait,
+        ground,
+        soils="dry-sand",
+        folder="bake",
+        *,
+        cell_size=0.01,
+        frame_start=None,
+        frame_end=None,
+        load_model="inertia",
+        law="sole",
+        heap="rest",
+        rim_width=0.04,
+        threads=0,
+        origin=(0.0, 0.0),
+        resume=True,
+        map_seconds=True,
+        plants=(),
+        plant_mesh=False,
+        film=None,
+        owner="",
+        inputs=None,
+        wait=30.0,
+        limits=Limits(),
+    ):
         if load_model not in LOAD_MODELS:
-            raise DesirePathError(
-                f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}."
-            )
+            raise DesirePathError(f"There is no load model '{load_model}': choose {' or '.join(LOAD_MODELS)}.")
         if film not in (None, *FILMS):
             raise DesirePathError(f"There is no film '{film}': choose {' or '.join(FILMS)}.")
         self.gait = gait = jumps.found(gait.check())
@@ -103,8 +122,11 @@ class Bake:
         self.folder = self.parcels[0].folder
         self.wait, self.limits = float(wait), limits
         self.frame_rate = float(gait.frame_rate)
-        frames = (len(self.passes) - 1 if self.film == "passes"
-                  else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6))
+        frames = (
+            len(self.passes) - 1
+            if self.film == "passes"
+            else math.floor((gait.time[-1] - gait.time[0]) * self.frame_rate + 1e-6)
+        )
         last = gait.frame_start + frames
         try:
             self.frame_start = gait.frame_start if frame_start is None else int(frame_start)
@@ -153,8 +175,17 @@ class Bake:
         """The same for two bakes exactly when they write the same files."""
         digest = hashlib.sha256(f"{VERSION} {FORMAT}".encode())
         gait = self.gait
-        arrays = [gait.time, gait.com, gait.pose, gait.point, gait.part_limb, gait.limb_walker, gait.cut,
-                  gait.jump, gait.leg]
+        arrays = [
+            gait.time,
+            gait.com,
+            gait.pose,
+            gait.point,
+            gait.part_limb,
+            gait.limb_walker,
+            gait.cut,
+            gait.jump,
+            gait.leg,
+        ]
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
         for parcel in self.parcels:
@@ -188,7 +219,7 @@ class Bake:
         self.limits.check("memory", bounds.CELL_BYTES * sum(cells))
         count, taken = self.frame_end - self.frame_start + 1, 0.0
         for share, held in zip(self.shares, cells):
-            pressed = bounds.pressed_area(self.gait, share.loads.touching) / self.cell_size ** 2
+            pressed = bounds.pressed_area(self.gait, share.loads.touching) / self.cell_size**2
             taken += count * bounds.frame_bytes(held, pressed / len(self.shares), bool(share.plants))
             if share.parcel.plant_mesh:
                 taken += plant_mesh.size(share.sim, count, share.plants)
@@ -229,9 +260,16 @@ class Bake:
         """Of parcels that lie beside each other."""
         ground, soils = fields.sewn(storey, self.cell_size)
         plants = [(planting, parcel.has) for parcel in storey for planting in parcel.plants]
-        return Simulation(ground, soils, self.cell_size, threads=self.threads, plants=[each for each, _ in plants],
-                          areas=[has for _, has in plants] if len(storey) > 1 else None, limits=self.limits,
-                          **self.options)
+        return Simulation(
+            ground,
+            soils,
+            self.cell_size,
+            threads=self.threads,
+            plants=[each for each, _ in plants],
+            areas=[has for _, has in plants] if len(storey) > 1 else None,
+            limits=self.limits,
+            **self.options,
+        )
 
     def _rectangle(self, sim, parcel, gait, loads):
         """Tiles (x, y, nx, ny) the frames of a parcel cover: what the walk can reach of it; None: nothing."""
@@ -268,9 +306,7 @@ class Bake:
                 f"{_plain(problem)}. What was baked before is still there; make room or choose another folder, then bake again."
             ) from None
         except MemoryError:
-            raise DesirePathError(
-                "There is not enough memory: choose a larger cell size or fewer frames."
-            ) from None
+            raise DesirePathError("There is not enough memory: choose a larger cell size or fewer frames.") from None
         except DesirePathError:
             raise
         except ValueError as problem:
@@ -286,7 +322,7 @@ class Bake:
             size = np.sort(np.ptp(sole.vertices.astype(float), axis=0))
             lowest = self.gait.pose[part, self.gait.pose[part, :, 2].argmin(), 3:]
             area[part] = np.prod(np.ptp(turned(lowest, sole.vertices.astype(float))[:, :2], axis=0))
-            if size[1] * size[2] > MOST_SOLE * self.cell_size ** 2:
+            if size[1] * size[2] > MOST_SOLE * self.cell_size**2:
                 raise DesirePathError(
                     f"The sole of bone {self.gait.bone(part)} is {size[2]:.1f} m long, too large for cells of {self.cell_size:g} m: check the walker's scale or choose a larger cell size."
                 )
@@ -294,22 +330,28 @@ class Bake:
         self.lost = []
         for walker_number, name in enumerate(self.gait.walker_name):
             limbs = np.flatnonzero(np.asarray(self.gait.limb_walker) == walker_number)
-            largest = [max(np.flatnonzero(np.asarray(self.gait.part_limb) == limb), key=lambda part: area[part])
-                       for limb in limbs]
+            largest = [
+                max(np.flatnonzero(np.asarray(self.gait.part_limb) == limb), key=lambda part: area[part])
+                for limb in limbs
+            ]
             lost = [part for part in largest if area[part] < LEAST_SAMPLES * step**2]
             if lost and len(lost) == len(largest):
                 least = max(math.sqrt(area[lost].max()) / 8, 0.0005)
                 raise DesirePathError(
                     f"The feet of {name} are lost between cells of {self.cell_size:g} m: choose a cell size of {least:.1g} m or so, or check the walker's scale."
                 )
-            self.lost += [f"The sole of bone {self.gait.bone(part)} is lost between cells of {self.cell_size:g} m and leaves no print: choose smaller cells."
-                          for part in lost]
+            self.lost += [
+                f"The sole of bone {self.gait.bone(part)} is lost between cells of {self.cell_size:g} m and leaves no print: choose smaller cells."
+                for part in lost
+            ]
 
     def _run(self):
         check_cell(self.cell_size)
         self._check_walk()
         with contextlib.ExitStack() as folders:
-            for parcel in sorted(self.parcels, key=lambda each: each.folder):  # in one order, so that no two wait in turn
+            for parcel in sorted(
+                self.parcels, key=lambda each: each.folder
+            ):  # in one order, so that no two wait in turn
                 out = Output(parcel.folder, parcel.owner)
                 out.open(self.wait)
                 folders.callback(out.release)
@@ -409,22 +451,32 @@ class Bake:
         total = {name: sum(each[name] for each in found) for name in found[0]}
         left = [each for sim in sims for each in sim.warnings]
         warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *self.lost, *left]))
-        if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils)
-               for sim, each in zip(sims, found)):
-            warnings.append("A print reaches the rigid ground under the soil: check the walker's mass, "
-                            "or choose a firmer soil.")
+        if any(
+            each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)
+        ):
+            warnings.append(
+                "A print reaches the rigid ground under the soil: check the walker's mass, or choose a firmer soil."
+            )
         if total["off_ground"] and walker.BESIDE not in warnings:
             warnings.append(walker.BESIDE)
         return {
-            "passes": len(self.passes), "contacts": total["contacts"],
+            "passes": len(self.passes),
+            "contacts": total["contacts"],
             "deepest_m": max(each["deepest_m"] for each in found),
-            "pressed_m3": total["pressed_m3"], "pressed_heap_m3": total["pressed_heap_m3"],
-            "heaped_m3": total["heaped_m3"], "displaced_m3": total["displaced_m3"],
-            **({"plants": total["plants"], "broken_bends": total["broke"]}
-               if any(parcel.plants for parcel in self.parcels) else {}),
+            "pressed_m3": total["pressed_m3"],
+            "pressed_heap_m3": total["pressed_heap_m3"],
+            "heaped_m3": total["heaped_m3"],
+            "displaced_m3": total["displaced_m3"],
+            **(
+                {"plants": total["plants"], "broken_bends": total["broke"]}
+                if any(parcel.plants for parcel in self.parcels)
+                else {}
+            ),
             "seconds": round(seconds["total"], 3),
             "stages": {name: round(spent, 3) for name, spent in seconds.items()},
-            "warnings": warnings, "version": VERSION, "parameters": self.parameters(self.parcels[0]),
+            "warnings": warnings,
+            "version": VERSION,
+            "parameters": self.parameters(self.parcels[0]),
         }
 
     def _told(self, share):
@@ -433,18 +485,26 @@ class Bake:
             return self.report
         end = self._sample(self.frame_end) + 1
         numbers = {"contacts": fields.contacts(share.parcel, self.stepped, share.loads, end), **share.numbers()}
-        whole = {name: self.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3",
-                                                      "heaped_m3", "displaced_m3")}
+        whole = {
+            name: self.report[name]
+            for name in ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "displaced_m3")
+        }
         rest = {name: value for name, value in self.report.items() if name not in whole}
-        return {**numbers, "with": [each.parcel.name for each in self.shares if each is not share], "in_all": whole,
-                **rest, "parameters": self.parameters(share.parcel)}
+        return {
+            **numbers,
+            "with": [each.parcel.name for each in self.shares if each is not share],
+            "in_all": whole,
+            **rest,
+            "parameters": self.parameters(share.parcel),
+        }
 
 
 def _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs):
     """The Parcels of a bake, from one ground or a list of them."""
     if isinstance(ground, Ground):
-        return [Parcel(ground, soils, folder, plants=plants, plant_mesh=plant_mesh, owner=owner,
-                       inputs=dict(inputs or {}))]
+        return [
+            Parcel(ground, soils, folder, plants=plants, plant_mesh=plant_mesh, owner=owner, inputs=dict(inputs or {}))
+        ]
     parcels = list(ground)
     if not parcels or not all(isinstance(each, Parcel) for each in parcels):
         raise DesirePathError("A bake needs a Ground, or a list of Parcels.")
@@ -452,8 +512,9 @@ def _parcels(ground, soils, folder, plants, plant_mesh, owner, inputs):
     for each in parcels:
         other = folders.setdefault(each.folder, each)
         if other is not each:
-            raise DesirePathError(f"'{other.name}' and '{each.name}' bake into the same folder: choose another one for "
-                                  "either.")
+            raise DesirePathError(
+                f"'{other.name}' and '{each.name}' bake into the same folder: choose another one for either."
+            )
     return parcels
 
 

@@ -91,10 +91,10 @@ def _is_whole_frame(path):
             while head[at] != 0:  # attributes: name, type, size, value
                 end = head.index(b"\0", at)
                 value = head.index(b"\0", end + 1) + 5
-                size, = struct.unpack_from("<i", head, value - 4)
+                (size,) = struct.unpack_from("<i", head, value - 4)
                 if size < 0:
                     return False
-                found[head[at:end]] = head[value:value + size]
+                found[head[at:end]] = head[value : value + size]
                 at = value + size
             x0, y0, x1, y1 = struct.unpack("<4i", found[b"dataWindow"])
             wide, high = struct.unpack_from("<2I", found[b"tiles"])
@@ -104,7 +104,7 @@ def _is_whole_frame(path):
             file.seek(at + 1)
             starts = struct.unpack(f"<{tiles}Q", file.read(8 * tiles))
             file.seek(max(starts) + 16)  # behind the tile's place
-            size, = struct.unpack("<i", file.read(4))
+            (size,) = struct.unpack("<i", file.read(4))
             return min(starts) > at and max(starts) + 20 + size == long
     except (OSError, ValueError, IndexError, KeyError, ZeroDivisionError, OverflowError, struct.error):
         return False
@@ -188,8 +188,10 @@ def read_index(folder, just_baked=False):
         if "format" not in data:
             raise DesirePathError(f"{path} is damaged: bake again.")
         if data["format"] != FORMAT:
-            raise DesirePathError(f"The bake in {folder} was written by version {str(data.get('version'))[:40]} in "
-                                  "another form: bake again.")
+            raise DesirePathError(
+                f"The bake in {folder} was written by version {str(data.get('version'))[:40]} in "
+                "another form: bake again."
+            )
         try:
             return _index(frames, data, just_baked)
         except (KeyError, TypeError, ValueError, OverflowError):
@@ -206,9 +208,22 @@ def _index(frames, data, just_baked):
         raise ValueError
     count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
     there = count if just_baked else max(0, frames_there(frames, lean, count))
-    return FrameIndex(frames, cell, _number(data["x0"]), _number(data["y0"]), nx, ny, first, last, rate, there,
-                      there == count, lean, owner if isinstance(owner, str) else "",
-                      inputs if isinstance(inputs := data.get(INPUTS), dict) else {})
+    return FrameIndex(
+        frames,
+        cell,
+        _number(data["x0"]),
+        _number(data["y0"]),
+        nx,
+        ny,
+        first,
+        last,
+        rate,
+        there,
+        there == count,
+        lean,
+        owner if isinstance(owner, str) else "",
+        inputs if isinstance(inputs := data.get(INPUTS), dict) else {},
+    )
 
 
 def _number(value):

@@ -37,8 +37,15 @@ from pathlib import Path
 from ..files import atomic_file, disk
 from ..errors import DesirePathError
 
-FRAMES = ("trail_*.exr", "trail_*.part", "lean_*.exr", "lean_*.part", "index.json", "index.json.*part",
-          "trail_sums.txt")
+FRAMES = (
+    "trail_*.exr",
+    "trail_*.part",
+    "lean_*.exr",
+    "lean_*.part",
+    "index.json",
+    "index.json.*part",
+    "trail_sums.txt",
+)
 MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
 FILES = ("maps_start.exr", "maps_final.exr", "report.json", "plants.pc2", "plants.npz")
 NAMES = ("frames", "maps", *FILES)
@@ -97,13 +104,16 @@ class Output:
             self._made.append(place)
             place = os.path.dirname(place)
         if os.path.lexists(self.folder) and not os.path.isdir(self.folder):
-            raise DesirePathError(f"{self.folder} is a {atomic_file.kind_of(self.folder)}, in which no bake can lie: choose a "
-                                  "folder.")
+            raise DesirePathError(
+                f"{self.folder} is a {atomic_file.kind_of(self.folder)}, in which no bake can lie: choose a folder."
+            )
         try:
             os.makedirs(self.folder, exist_ok=True)
         except (OSError, ValueError) as problem:
-            raise DesirePathError(f"The folder {self.folder} cannot be made "
-                                  f"({getattr(problem, 'strerror', None) or problem}): choose another one.") from None
+            raise DesirePathError(
+                f"The folder {self.folder} cannot be made "
+                f"({getattr(problem, 'strerror', None) or problem}): choose another one."
+            ) from None
         try:
             self._take(time.monotonic() + wait)
             self._check_places()
@@ -112,7 +122,8 @@ class Output:
         except OSError as problem:
             self.release()
             raise DesirePathError(
-                f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one.") from None
+                f"The folder {self.folder} cannot be written ({problem.strerror}): choose another one."
+            ) from None
         except BaseException:
             self.release()
             raise
@@ -129,7 +140,8 @@ class Output:
                 if process == str(os.getpid()) or time.monotonic() > until:
                     raise DesirePathError(
                         f"Another bake into {self.folder} is running (process {process} on {host}, since {since}): "
-                        "wait for it, stop it, or choose another folder.") from None
+                        "wait for it, stop it, or choose another folder."
+                    ) from None
                 time.sleep(0.1)
 
     def release(self):
@@ -357,8 +369,9 @@ def bring_back(aside, folder, owner=""):
         out.open()
         _shift(aside, folder)
     except OSError as problem:
-        raise DesirePathError(f"The bake in {aside} cannot be moved ({problem.strerror}): move it to {folder} by hand."
-                              ) from None
+        raise DesirePathError(
+            f"The bake in {aside} cannot be moved ({problem.strerror}): move it to {folder} by hand."
+        ) from None
     finally:
         out.release()
     with contextlib.suppress(OSError):

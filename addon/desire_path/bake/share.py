@@ -67,8 +67,12 @@ class Share:
         done, sound, place = -1, {}, None
         for each in (fresh, shown):
             old = told(each)
-            if (self.bake.resume and old and (each == fresh or not old.get("complete"))
-                    and all(old.get(name) == index.get(name) for name in ("signature", OWNER))):
+            if (
+                self.bake.resume
+                and old
+                and (each == fresh or not old.get("complete"))
+                and all(old.get(name) == index.get(name) for name in ("signature", OWNER))
+            ):
                 there, found = frames_sound(each, bool(self.plants))
                 if there > done:
                     done, sound, place = there, found, each
@@ -113,8 +117,11 @@ class Share:
     def end(self):
         """The first and the last maps."""
         self.films.write_maps(self.out.path("maps_final.exr"), self.bake.time(self.bake.frame_end))
-        maps.write(self.out.path("maps_start.exr"), self.start,
-                   [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes())
+        maps.write(
+            self.out.path("maps_start.exr"),
+            self.start,
+            [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(),
+        )
         self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
         if self.mesh:
             self.mesh.finish(self.sim)
@@ -123,8 +130,9 @@ class Share:
         """The bake is whole: write its report and say so in its index."""
         self.report = report
         atomic_file.write_json(self.out.path("report.json"), report, "The report")
-        atomic_file.write_json(self.out.path("frames", "index.json"), {**self.index, "complete": True},
-                         "The index of the frames")
+        atomic_file.write_json(
+            self.out.path("frames", "index.json"), {**self.index, "complete": True}, "The index of the frames"
+        )
 
     def ready(self):
         """The bake is whole, here and soon on every ground."""
@@ -168,9 +176,12 @@ class Share:
     def numbers(self):
         """Depth [m] and volumes [m^3] of what was pressed into this ground, of several."""
         pressed, heap = (self.final[name][self.own].astype(float) for name in ("compression", "heap"))
-        area = self.sim.cell_size ** 2
-        return {"deepest_m": float(pressed.max(initial=0.0)), "pressed_m3": float(pressed.sum()) * area,
-                "heaped_m3": float(heap.sum()) * area}
+        area = self.sim.cell_size**2
+        return {
+            "deepest_m": float(pressed.max(initial=0.0)),
+            "pressed_m3": float(pressed.sum()) * area,
+            "heaped_m3": float(heap.sum()) * area,
+        }
 
     def _index(self, signature):
         bake = self.bake
@@ -178,19 +189,31 @@ class Share:
         ox, oy = self.sim.origin
         side = TILE * self.sim.cell_size
         return {
-            "format": FORMAT, "version": VERSION, "signature": signature,
-            "cell": self.sim.cell_size, "x0": ox + tx * side, "y0": oy + ty * side,
-            "nx": nx * TILE, "ny": ny * TILE, "frame_start": bake.frame_start,
-            "frame_end": bake.frame_end, "frame_rate": bake.frame_rate, "complete": False,
-            **({"lean": True} if self.plants else {}), **({OWNER: self.out.owner} if self.out.owner else {}),
+            "format": FORMAT,
+            "version": VERSION,
+            "signature": signature,
+            "cell": self.sim.cell_size,
+            "x0": ox + tx * side,
+            "y0": oy + ty * side,
+            "nx": nx * TILE,
+            "ny": ny * TILE,
+            "frame_start": bake.frame_start,
+            "frame_end": bake.frame_end,
+            "frame_rate": bake.frame_rate,
+            "complete": False,
+            **({"lean": True} if self.plants else {}),
+            **({OWNER: self.out.owner} if self.out.owner else {}),
             **({INPUTS: self.parcel.inputs} if self.parcel.inputs else {}),
         }
 
     def _notes(self):
         index = self._index("")
         notes = [
-            ("software", f"Desire Path {VERSION}"), ("cell", index["cell"]), ("originX", index["x0"]),
-            ("originY", index["y0"]), ("parameters", json.dumps(self.bake.parameters(self.parcel))),
+            ("software", f"Desire Path {VERSION}"),
+            ("cell", index["cell"]),
+            ("originX", index["x0"]),
+            ("originY", index["y0"]),
+            ("parameters", json.dumps(self.bake.parameters(self.parcel))),
         ]
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 
@@ -200,8 +223,13 @@ class Share:
     def _start_maps(self):
         strength = self.sim.read("plant_strength", *self.window)
         modulus = self.sim.read("young_modulus", *self.window)
-        planes = {maps.PICTURE: modulus, "young_modulus_in": modulus, "plant_strength_in": strength,
-                  "plant_strength": strength, "rest": self.sim.read("rest", *self.window)}
+        planes = {
+            maps.PICTURE: modulus,
+            "young_modulus_in": modulus,
+            "plant_strength_in": strength,
+            "plant_strength": strength,
+            "rest": self.sim.read("rest", *self.window),
+        }
         if self.plants:
             planes.update({entry.name: self.sim.read(entry.name, *self.window) for entry in maps.LEAN})
         return planes

@@ -1,12 +1,20 @@
 """Blender on top: operators collect, call and write; panels draw; arithmetic lives in the core."""
+
 import atexit
 
 import bpy
 
 from . import handlers, op_bake, op_forces, op_place, op_plants, op_walkers, panels, panels_walker, props
 
-_CLASSES = (op_walkers.CLASSES + op_bake.CLASSES + op_forces.CLASSES + op_place.CLASSES + op_plants.CLASSES
-            + panels.CLASSES + panels_walker.CLASSES)
+_CLASSES = (
+    op_walkers.CLASSES
+    + op_bake.CLASSES
+    + op_forces.CLASSES
+    + op_place.CLASSES
+    + op_plants.CLASSES
+    + panels.CLASSES
+    + panels_walker.CLASSES
+)
 
 
 def register():

@@ -3,6 +3,7 @@
 Blender's world is right-handed with +Z up like ours, so that only lengths change: a position in
 the scene times `unit_scale` is in metres.
 """
+
 import numpy as np
 
 from ..errors import DesirePathError
@@ -26,12 +27,11 @@ def matrix(value, name):
     out = np.array(value, dtype=np.float64).reshape(4, 4)
     if not (np.abs(out) < FAR).all():
         raise DesirePathError(
-            f"The transform of '{name}' has NaN or infinite numbers: set its location, rotation "
-            "and scale anew.")
+            f"The transform of '{name}' has NaN or infinite numbers: set its location, rotation and scale anew."
+        )
     size = np.linalg.norm(out[:3, :3], axis=0).max()
-    if size == 0.0 or abs(np.linalg.det(out[:3, :3])) < 1e-9 * size ** 3:
-        raise DesirePathError(f"'{name}' is scaled to nothing along an axis: give it a scale "
-                              "other than 0.")
+    if size == 0.0 or abs(np.linalg.det(out[:3, :3])) < 1e-9 * size**3:
+        raise DesirePathError(f"'{name}' is scaled to nothing along an axis: give it a scale other than 0.")
     return out
 
 

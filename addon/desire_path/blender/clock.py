@@ -4,6 +4,7 @@ Time stretching (Output > Frame Range) plays an animation slower or faster: keys
 caches then live at other frames than the timeline shows. A walk in slow motion falls and lands as it was keyed,
 so that its seconds are those of the animation.
 """
+
 import bpy
 
 

@@ -1,10 +1,14 @@
 """compat.py - what differs between Blender 3.4 and 5.2, asked for by feature, never by version."""
+
 import bpy
 import numpy as np
 
 # a path property takes Blender's `//` only when it says so, where it can say so
-RELATIVE = ({"PATH_SUPPORTS_BLEND_RELATIVE"}
-            if "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties else set())
+RELATIVE = (
+    {"PATH_SUPPORTS_BLEND_RELATIVE"}
+    if "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
+    else set()
+)
 
 
 def positions(mesh):
@@ -80,9 +84,13 @@ def _ints(mesh, name, out):
 def _are_quads(mesh, corners):
     """Whether all faces are known to be quads; asking each face would take longer than all else."""
     from ..ground import mesh as meshes  # the core is loaded when it is first needed
+
     around, edges = np.empty(len(corners), np.int32), np.empty((len(mesh.edges), 2), np.int32)
-    return (_ints(mesh, ".corner_edge", around) and _ints(mesh, ".edge_verts", edges.ravel())
-            and meshes.are_quads(corners, around, edges))
+    return (
+        _ints(mesh, ".corner_edge", around)
+        and _ints(mesh, ".edge_verts", edges.ravel())
+        and meshes.are_quads(corners, around, edges)
+    )
 
 
 def float_attribute(mesh, name):
@@ -135,7 +143,9 @@ def node_objects(modifier):
     """The objects that a nodes modifier is given, and that its nodes name."""
     inputs = getattr(getattr(modifier, "properties", None), "inputs", None)
     if inputs is not None:
-        given = [getattr(getattr(inputs, name, None), "value", None) for name in dir(inputs) if name.startswith("Socket")]
+        given = [
+            getattr(getattr(inputs, name, None), "value", None) for name in dir(inputs) if name.startswith("Socket")
+        ]
     else:
         given = [modifier[name] for name in modifier.keys()]
     trees = [modifier.node_group]
@@ -207,8 +217,13 @@ def curve(animation, path):
         return None
     bags = [action]
     if hasattr(action, "layers"):
-        bags = [bag for layer in action.layers for strip in layer.strips for bag in strip.channelbags
-                if bag.slot == animation.action_slot]
+        bags = [
+            bag
+            for layer in action.layers
+            for strip in layer.strips
+            for bag in strip.channelbags
+            if bag.slot == animation.action_slot
+        ]
     return next(filter(None, (bag.fcurves.find(path) for bag in bags)), None)
 
 
@@ -227,6 +242,7 @@ def use_action(animation, action, slot=None):
 def flat_shader():
     """The shader that fills with one colour, and how many numbers its positions have."""
     import gpu
+
     try:
         return gpu.shader.from_builtin("UNIFORM_COLOR"), 3
     except ValueError:

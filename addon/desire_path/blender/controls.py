@@ -7,6 +7,7 @@ A foot has one lead that takes it along whole (an IK control), or one that place
 one that takes the toes along and one that rolls the foot over them (a paw), or one each for thigh, shank and foot
 (FK); where an animation switches from one to the other, both. A lead of the toes goes with any but a paw's.
 """
+
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -58,8 +59,11 @@ def upstream(armature, names):
 
 def candidates(armature, foot):
     """Bones upstream of a foot that keys move."""
-    return [name for name in upstream(armature, [n for n in (foot.toe, foot.foot) if n])
-            if posing.holders(armature, name) is None and not _locked(armature, name, "rotation")]
+    return [
+        name
+        for name in upstream(armature, [n for n in (foot.toe, foot.foot) if n])
+        if posing.holders(armature, name) is None and not _locked(armature, name, "rotation")
+    ]
 
 
 def _locked(armature, name, kind):
@@ -94,10 +98,14 @@ class Nudges:
         self.watched = set(names) | set(watched) | {bones[n].parent.name for n in names if bones[n].parent}
         seen = sample.evaluated(own, armature, frame)
         self.rest = self._pose(seen)
-        self.keys = {name: [(self._key(curves, name, prop, index, value), value)
-                            for prop, each in posing.values(armature.pose.bones[name],
-                                                             seen.pose.bones[name].matrix_basis.copy())[0]
-                            for index, value in enumerate(each)] for name in names}
+        self.keys = {
+            name: [
+                (self._key(curves, name, prop, index, value), value)
+                for prop, each in posing.values(armature.pose.bones[name], seen.pose.bones[name].matrix_basis.copy())[0]
+                for index, value in enumerate(each)
+            ]
+            for name in names
+        }
 
     def _key(self, curves, name, prop, index, value):
         path = f'pose.bones["{bpy.utils.escape_identifier(name)}"].{prop}'
@@ -301,8 +309,12 @@ class Solver:
         for _ in range(ROUNDS):
             quiet = True
             for stage in STAGES:
-                wrote = [self._step(seen, foot, lead, write) for foot in self.feet
-                         for lead in self.leads[foot.foot] if lead.job in stage]
+                wrote = [
+                    self._step(seen, foot, lead, write)
+                    for foot in self.feet
+                    for lead in self.leads[foot.foot]
+                    if lead.job in stage
+                ]
                 if any(wrote):
                     quiet, seen = False, self.look()
             if quiet:
@@ -321,8 +333,9 @@ class Solver:
         bone = self.armature.data.bones[lead.bone]
         parents = seen.pose[bone.parent.name] if bone.parent else None
         wanted = np.linalg.inv(seen.world) @ move @ seen.at(lead.bone)
-        kinds = {"whole": ("location", "rotation"), "paw": ("location", "rotation"),
-                 "place": ("location",)}.get(lead.job, ("rotation",))
+        kinds = {"whole": ("location", "rotation"), "paw": ("location", "rotation"), "place": ("location",)}.get(
+            lead.job, ("rotation",)
+        )
         write(lead.bone, wanted, parents, kinds)
         return True
 
@@ -337,8 +350,9 @@ class Solver:
             return posing.turned(turn, ankle, goal if job == "whole" else ankle)
         if job in ("toe", "paw", "roll"):
             head, of = _heads(seen, foot.toe), foot.foot if job == "roll" else foot.toe
-            return posing.turned(between(seen.at(of), self.goal[of]), head,
-                                 self.goal[of][:, :3, 3] if job == "paw" else head)
+            return posing.turned(
+                between(seen.at(of), self.goal[of]), head, self.goal[of][:, :3, 3] if job == "paw" else head
+            )
         hip, knee = _heads(seen, foot.thigh), _heads(seen, foot.shank)
         if job == "thigh":
             turn, _, _ = leg.reach(hip, knee, ankle, goal, self.ahead[foot.foot])

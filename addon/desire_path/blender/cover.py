@@ -3,6 +3,7 @@
 Playback needs neither. Attributes are for materials and nodes, groups for hair and for modifiers that
 know nothing else. What we made is remembered by name and removed again; what was there stays.
 """
+
 import os
 
 import numpy as np
@@ -32,26 +33,33 @@ def fill(obj, surface, index, depth, planes, standing=()):
     """Write the last frame's values, and off the images plants as they grew (`standing`: see playback.attach);
     returns sentences about what could not be written."""
     from ..ground import mesh as meshes
+
     settings = obj.desire_path
     mesh = obj.data
     if not settings.attributes and depth == 0.0:
         return []
     if mesh.library is not None:
         return [f"The mesh of '{obj.name}' is linked from another file: no attributes were written."]
-    value = meshes.at_points({name: plane for name, plane in planes.items() if plane.any()}, index.cell,
-                             (index.x0, index.y0), compat.positions(mesh),
-                             surface.world[:3] * surface.scale, playback.ALIGNED)
+    value = meshes.at_points(
+        {name: plane for name, plane in planes.items() if plane.any()},
+        index.cell,
+        (index.x0, index.y0),
+        compat.positions(mesh),
+        surface.world[:3] * surface.scale,
+        playback.ALIGNED,
+    )
     if "plant_strength" in value and standing:
         at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
         off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
-        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(np.float32)
+        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(
+            np.float32
+        )
     warnings = []
     if settings.attributes:
         made = []
         for name in planes:
             if name in mesh.attributes:
-                warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left "
-                                "alone.")
+                warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left alone.")
                 continue
             made.append(mesh.attributes.new(name, "FLOAT", "POINT").name)
             if name in value:  # else it is 0 all over, as it is made
@@ -111,17 +119,25 @@ def few_points(obj, surface, index, planes):
     wide = WIDE * cells / edges  # in cells
     apart = lambda cells: f"{cells * index.cell:.2g} m apart" if np.isfinite(cells) else "too far apart"
     if min(render, drawn) > wide:
-        return [f"'{obj.name}' has hardly a point {WHERE}, so that they cannot be seen: "
-                f"subdivide it there, to about {index.cell:g} m."]
+        return [
+            f"'{obj.name}' has hardly a point {WHERE}, so that they cannot be seen: "
+            f"subdivide it there, to about {index.cell:g} m."
+        ]
     if render > wide:
-        return [f"The viewport shows {PRINTS} '{obj.name}', renders do not, where its points lie "
-                f"{apart(render)}: let its modifiers make it as fine in renders."]
+        return [
+            f"The viewport shows {PRINTS} '{obj.name}', renders do not, where its points lie "
+            f"{apart(render)}: let its modifiers make it as fine in renders."
+        ]
     if drawn > wide:
-        return [f"Renders show {PRINTS} '{obj.name}', the viewport does not, where its points lie "
-                f"{apart(drawn)}: let its modifiers make it as fine in the viewport if you want to see them there."]
+        return [
+            f"Renders show {PRINTS} '{obj.name}', the viewport does not, where its points lie "
+            f"{apart(drawn)}: let its modifiers make it as fine in the viewport if you want to see them there."
+        ]
     if render > COARSE:
-        return [f"The points of '{obj.name}' lie {apart(render)} {WHERE}, which are baked in cells of "
-                f"{index.cell:g} m: make it as fine as those there to see prints as they are."]
+        return [
+            f"The points of '{obj.name}' lie {apart(render)} {WHERE}, which are baked in cells of "
+            f"{index.cell:g} m: make it as fine as those there to see prints as they are."
+        ]
     return []
 
 
@@ -133,21 +149,28 @@ def is_of_points(sentence):
 def _apart(points, index, printed):
     """How far points lie apart where the prints are, infinite where there is none [cells]."""
     from ..ground import mesh as meshes
-    there = np.count_nonzero(meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), points,
-                                              still=1.0)["printed"])
+
+    there = np.count_nonzero(
+        meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), points, still=1.0)["printed"]
+    )
     return np.sqrt(np.count_nonzero(printed) / there) if there else np.inf
 
 
 def planes(index):
     """The maps after the last frame that is there, by name."""
     from ..ground import maps
+
     final = os.path.join(os.path.dirname(index.folder), "maps_final.exr")
     if index.complete and os.path.exists(final):
         found = maps.read(final).planes
         return {each.name: found[each.name] for each in maps.MAPS}
     frame = maps.read(index.path(index.frames)).planes
-    return {"compression": frame["B"], "heap": frame["R"] + frame["B"],
-            "pressure_time": frame["A"], "plant_strength": frame["G"]}
+    return {
+        "compression": frame["B"],
+        "heap": frame["R"] + frame["B"],
+        "pressure_time": frame["A"],
+        "plant_strength": frame["G"],
+    }
 
 
 def _weigh(group, weight):

@@ -1,7 +1,8 @@
 """footing.py - which bones of an armature are keyed so that its feet come to their places, and how.
 
-    Bones as they are seen + a Gait and where it should be --Plan--> a move of each bone in the world --> keys
+Bones as they are seen + a Gait and where it should be --Plan--> a move of each bone in the world --> keys
 """
+
 import bpy
 import numpy as np
 
@@ -23,7 +24,8 @@ def free(armature, name):
         raise DesirePathError(
             f"Bone '{name}' of '{armature.name}' {held}, so that keys would not move it: bake the animation to "
             "keys first (Pose > Animation > Bake Action, with Visual Keying and Clear Constraints), or choose "
-            "the bone that leads it as the foot.")
+            "the bone that leads it as the foot."
+        )
     return name
 
 
@@ -36,7 +38,8 @@ def ik_target(armature, foot, thigh):
                 if each.target != armature or not each.subtarget:
                     raise DesirePathError(
                         f"The leg of '{foot}' reaches for the object '{each.target.name}': move that object, or "
-                        "let the constraint reach for a bone of the armature.")
+                        "let the constraint reach for a bone of the armature."
+                    )
                 return each.subtarget
         if bone.name == thigh:
             return None
@@ -77,9 +80,13 @@ class Plan:
         self.late = []  # bones whose parents are moved by a solver
         self.keyed_at = [frame / clock.stretch(scene) for frame in frames]
         self.fresh = []  # (path, index, value) of channels that had no keys
-        self.stood = {bone.name: {prop: tuple(getattr(bone, prop)) for prop in (
-            "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle")}
-            for bone in armature.pose.bones}
+        self.stood = {
+            bone.name: {
+                prop: tuple(getattr(bone, prop))
+                for prop in ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle")
+            }
+            for bone in armature.pose.bones
+        }
         self.shapes = {}  # foot bone -> FootShape as a dict
         self.goal = {}  # foot bone -> where its head must come to be (T, 3)
         self.turn, self.ahead = {}, {}  # led foot or toe bone -> its matrix in the world; where it points
@@ -117,8 +124,12 @@ class Plan:
 
     def hangs(self, foot):
         """Does a foot hang on a leg of two bones that keys can move?"""
-        return bool(foot.thigh and foot.shank and under(self.armature, foot.foot, foot.shank)
-                    and under(self.armature, foot.shank, foot.thigh))
+        return bool(
+            foot.thigh
+            and foot.shank
+            and under(self.armature, foot.foot, foot.shank)
+            and under(self.armature, foot.shank, foot.thigh)
+        )
 
     def _carry(self, gait, placed):
         """Roots rise and lean with the body, and come down as far as legs are too short."""
@@ -181,13 +192,18 @@ class Plan:
             if bone.use_connect:
                 raise DesirePathError(
                     f"Bone '{foot.foot}' of '{self.armature.name}' is fixed to its parent and no leg of two bones "
-                    "was found above it: choose the foot bone of a leg, or disconnect it in Edit Mode.")
+                    "was found above it: choose the foot bone of a leg, or disconnect it in Edit Mode."
+                )
             self._key(free(self.armature, foot.foot), move, "location", "rotation")
         if toes is not None and posing.holders(self.armature, foot.toe) is None:
             head = self.heads(foot.toe)
             apart = not under(self.armature, foot.toe, foot.foot)
-            self._key(foot.toe, posing.turned(toes[:, :3, :3], head, _at(move, head)),
-                      *(("location", "rotation") if apart else ("rotation",)), late=target is not None)
+            self._key(
+                foot.toe,
+                posing.turned(toes[:, :3, :3], head, _at(move, head)),
+                *(("location", "rotation") if apart else ("rotation",)),
+                late=target is not None,
+            )
 
     def shape(self, foot, parts, gait):
         """How a foot lies under its bones, as FootShape has it, read off a recording."""
@@ -200,10 +216,16 @@ class Plan:
         bends = np.ptp(ball[:, 0]) > 1e-6  # a toe part that turns about its joint
         ball = joint if bends else ball[0]
         heel, toe = (gait.soles[part].vertices[:, 0] for part in (parts[0], parts[-1]))
-        return {"ball": ball[0], "tip": ball[0] + float(toe.max()), "heel": float(heel.min()),
-                "ankle_height": ankle[2], "ball_height": joint[2], "ball_side": joint[1],
-                "foot_turn": (inside(foot.foot) @ turns[0][0]).tolist(),
-                "toe_turn": (inside(foot.toe) @ turns[1][0]).tolist() if foot.toe else None}
+        return {
+            "ball": ball[0],
+            "tip": ball[0] + float(toe.max()),
+            "heel": float(heel.min()),
+            "ankle_height": ankle[2],
+            "ball_height": joint[2],
+            "ball_side": joint[1],
+            "foot_turn": (inside(foot.foot) @ turns[0][0]).tolist(),
+            "toe_turn": (inside(foot.toe) @ turns[1][0]).tolist() if foot.toe else None,
+        }
 
     def _key(self, name, move, *channels, late=False):
         self.move[name] = move
@@ -269,6 +291,7 @@ class Plan:
             seen = posing.look(scene, self.armature, [above], self.bones.frames)
             self.write(curves, name, self.wanted(name), seen.pose[above], self.keyed[name])
         if self.leads:
-            solver = controls.Solver(scene, self.armature, self.leads, self.feet, self.turn, self.ahead,
-                                     self.bones.frames)
+            solver = controls.Solver(
+                scene, self.armature, self.leads, self.feet, self.turn, self.ahead, self.bones.frames
+            )
             solver.run(lambda *each: self.write(curves, *each))

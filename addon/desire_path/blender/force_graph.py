@@ -1,15 +1,22 @@
 """force_graph.py - a graph of each foot's vertical force over time, drawn into a corner of a viewport.
 
-    Forces --layout--> lines, bands and labels in pixels --draw--> the viewport
+Forces --layout--> lines, bands and labels in pixels --draw--> the viewport
 """
+
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from . import compat
 
-COLOURS = ((0.35, 0.66, 0.95), (0.95, 0.52, 0.25), (0.40, 0.80, 0.45), (0.75, 0.50, 0.90), (0.90, 0.78, 0.30),
-           (0.45, 0.80, 0.85))
+COLOURS = (
+    (0.35, 0.66, 0.95),
+    (0.95, 0.52, 0.25),
+    (0.40, 0.80, 0.45),
+    (0.75, 0.50, 0.90),
+    (0.90, 0.78, 0.30),
+    (0.45, 0.80, 0.85),
+)
 PAPER, INK, PALE = (0.08, 0.08, 0.08, 0.82), (0.9, 0.9, 0.9, 1.0), (0.9, 0.9, 0.9, 0.35)
 WIDE, HIGH = 460.0, 190.0  # of a graph [pixel], times the interface's scale
 EDGE = 14.0  # between graphs and to the viewport's edge
@@ -93,6 +100,7 @@ def draw(context, name, forces, frame, row):
     import blf
     import gpu
     from gpu_extras.batch import batch_for_shader
+
     region, scale = context.region, context.preferences.system.ui_scale
     made = layout(forces, name, frame, (region.width, region.height), scale, row)
     if not made.lines:

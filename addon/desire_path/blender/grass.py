@@ -6,6 +6,7 @@ The points are placed once, by the core, on the ground as it lies before any bak
 ever jumps. Everything is in metres and in the world's axes. Only tufts that the frame's images show
 as touched are made real and bent; all others are instances: cost follows the feet.
 """
+
 import bpy
 import numpy as np
 
@@ -168,19 +169,32 @@ def _tree(obj, collection, height, index, images, count):
     points = wire.add("NodeGroupInput").outputs[0]
     points = wire.store(points, STRENGTH, 1.0)
     leave = tree.nodes.new("NodeGroupOutput")
-    info = wire.add("GeometryNodeCollectionInfo", {"transform_space": "ORIGINAL"}, Collection=collection,
-                    **{"Separate Children": True, "Reset Children": True}).outputs[0]
+    info = wire.add(
+        "GeometryNodeCollectionInfo",
+        {"transform_space": "ORIGINAL"},
+        Collection=collection,
+        **{"Separate Children": True, "Reset Children": True},
+    ).outputs[0]
     if images is None or "lean" not in images:
         grown = _instances(wire, points, info)
     else:
         field = _Field(wire, index, images, count, clock.stretch_of(obj))
         here = wire.add("GeometryNodeInputPosition").outputs[0]
-        beside = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=points,
-                          Selection=playback.within(wire, field.where(here)))
-        parted = wire.add("GeometryNodeSeparateGeometry", {"domain": "POINT"}, Geometry=beside.outputs[0],
-                          Selection=_touched(wire, field, here, tufts.reach(collection)))
-        risen = wire.add("GeometryNodeSetPosition", Geometry=parted.outputs[1],
-                         Offset=wire.xyz(z=field.ground(here)[0])).outputs[0]
+        beside = wire.add(
+            "GeometryNodeSeparateGeometry",
+            {"domain": "POINT"},
+            Geometry=points,
+            Selection=playback.within(wire, field.where(here)),
+        )
+        parted = wire.add(
+            "GeometryNodeSeparateGeometry",
+            {"domain": "POINT"},
+            Geometry=beside.outputs[0],
+            Selection=_touched(wire, field, here, tufts.reach(collection)),
+        )
+        risen = wire.add(
+            "GeometryNodeSetPosition", Geometry=parted.outputs[1], Offset=wire.xyz(z=field.ground(here)[0])
+        ).outputs[0]
         standing = _instances(wire, _join(wire, risen, beside.outputs[1]), info)
         grown = _join(wire, standing, _trodden(wire, parted.outputs[0], info, field, height))
     tree.links.new(grown, leave.inputs[0])
@@ -196,9 +210,14 @@ def _join(wire, one, other):
 
 def _instances(wire, points, info):
     size = wire.named(SIZE)
-    return wire.add("GeometryNodeInstanceOnPoints", Points=points, Instance=info,
-                    Rotation=wire.xyz(z=wire.named(TURN)), Scale=wire.xyz(size, size, size),
-                    **{"Pick Instance": True, "Instance Index": wire.named(PICK, "INT")}).outputs[0]
+    return wire.add(
+        "GeometryNodeInstanceOnPoints",
+        Points=points,
+        Instance=info,
+        Rotation=wire.xyz(z=wire.named(TURN)),
+        Scale=wire.xyz(size, size, size),
+        **{"Pick Instance": True, "Instance Index": wire.named(PICK, "INT")},
+    ).outputs[0]
 
 
 class _Field:
@@ -212,8 +231,12 @@ class _Field:
 
     def where(self, place):
         """Image coordinates of a place."""
-        return self.wire.vector("MULTIPLY_ADD", place, (1 / self.size[0], 1 / self.size[1], 0.0),
-                                (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0))
+        return self.wire.vector(
+            "MULTIPLY_ADD",
+            place,
+            (1 / self.size[0], 1 / self.size[1], 0.0),
+            (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0),
+        )
 
     def ground(self, place):
         """How much higher the ground is than at rest [m], and the pressure over time it bore [Pa s]."""
@@ -251,8 +274,9 @@ def _trodden(wire, points, info, field, high):
     turn, size = wire.named(TURN), wire.named(SIZE)
 
     def turned(name):
-        return wire.add("ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=wire.named(name, "FLOAT_VECTOR"),
-                        Angle=turn).outputs[0]
+        return wire.add(
+            "ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=wire.named(name, "FLOAT_VECTOR"), Angle=turn
+        ).outputs[0]
 
     root = wire.vector("SCALE", turned(ROOT), scale=size)
     across = wire.vector("SCALE", turned(AT), scale=size)
@@ -261,14 +285,18 @@ def _trodden(wire, points, info, field, high):
     foreign = wire.math("LESS_THAN", wire.split(root)[2], 1e-6)
     as_it_is = wire.vector("SUBTRACT", wire.add("GeometryNodeInputPosition").outputs[0], place)
     across = wire.vector("ADD", across, wire.vector("SCALE", as_it_is, scale=foreign))
-    length = wire.math("ADD", wire.split(root)[2], wire.math("MULTIPLY", foreign, wire.math(
-        "MULTIPLY", size, max(high, tuft.SHORTEST))))
+    length = wire.math(
+        "ADD",
+        wire.split(root)[2],
+        wire.math("MULTIPLY", foreign, wire.math("MULTIPLY", size, max(high, tuft.SHORTEST))),
+    )
     along = wire.split(across)[2]
     root, across = (wire.vector("MULTIPLY", each, (1, 1, 0)) for each in (root, across))
     foot = wire.vector("ADD", place, root)
     tone = wire.split(wire.named(LOOK, "FLOAT_VECTOR"))[1]
-    chance = [wire.math("FRACT", wire.math("MULTIPLY_ADD", tone, factor, wire.named(TONE)))
-              for factor in (61.7, 173.3, 331.9)]
+    chance = [
+        wire.math("FRACT", wire.math("MULTIPLY_ADD", tone, factor, wire.named(TONE))) for factor in (61.7, 173.3, 331.9)
+    ]
 
     # what happened at its root: b = share broken here; this stem is broken, or one of the others
     lean, _ = field.lean(foot)
@@ -277,8 +305,9 @@ def _trodden(wire, points, info, field, high):
     crushed = wire.split(lean)[2]
     lean = wire.vector("MULTIPLY", lean, (1, 1, 0))
     of_broken = wire.math("DIVIDE", crushed, wire.math("MAXIMUM", broken, 0.02))
-    of_others = wire.math("DIVIDE", wire.math("SUBTRACT", crushed, broken),
-                          wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, broken), 0.05))
+    of_others = wire.math(
+        "DIVIDE", wire.math("SUBTRACT", crushed, broken), wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, broken), 0.05)
+    )
     own = _mix(wire, is_broken, of_others, of_broken)
     own = wire.math("MINIMUM", wire.math("MAXIMUM", own, 0.0), 1.0)
     share = wire.math("DIVIDE", wire.math("ADD", own, 0.05), wire.math("ADD", crushed, 0.05))
@@ -291,8 +320,9 @@ def _trodden(wire, points, info, field, high):
     way = wire.vector("NORMALIZE", wire.vector("ADD", way, outward))
     # how far its tip is off the root: as far as it is said, or as the height it lost lets it be
     height = wire.math("SUBTRACT", 1.0, own)
-    fallen = wire.math("SQRT", wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, wire.math(
-        "MULTIPLY", height, height)), 0.0))
+    fallen = wire.math(
+        "SQRT", wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", height, height)), 0.0)
+    )
     angle = wire.math("ARCTAN2", wire.math("MAXIMUM", aside, fallen), height)
     angle = wire.math("MULTIPLY", angle, wire.math("MULTIPLY_ADD", chance[2], 0.16, 0.92))
     # a leaning stem is an arc, more bent towards its tip; a crushed one lies straight from its root on
@@ -301,15 +331,22 @@ def _trodden(wire, points, info, field, high):
     last = wire.math("MINIMUM", wire.math("SUBTRACT", wire.math("MULTIPLY", angle, 2.0), first), 1.72)
     keep = wire.math("MULTIPLY_ADD", own, -0.85, 1.0)
     tilt = wire.vector("ADD", wire.vector("SCALE", tilt, scale=keep), wire.vector("SCALE", way, scale=first))
-    arch = wire.vector("ADD", wire.vector("SCALE", arch, scale=keep),
-                       wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)))
+    arch = wire.vector(
+        "ADD",
+        wire.vector("SCALE", arch, scale=keep),
+        wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)),
+    )
 
     # what lay across it is pressed flat, to the sides of the way it leans
     aside = wire.vector("CROSS_PRODUCT", (0, 0, 1), way)
-    wide = wire.math("MULTIPLY", wire.vector("LENGTH", across), wire.math(
-        "SIGN", wire.vector("DOT_PRODUCT", across, aside)))
-    across = wire.vector("ADD", wire.vector("SCALE", across, scale=height), wire.vector(
-        "SCALE", aside, scale=wire.math("MULTIPLY", wide, own)))
+    wide = wire.math(
+        "MULTIPLY", wire.vector("LENGTH", across), wire.math("SIGN", wire.vector("DOT_PRODUCT", across, aside))
+    )
+    across = wire.vector(
+        "ADD",
+        wire.vector("SCALE", across, scale=height),
+        wire.vector("SCALE", aside, scale=wire.math("MULTIPLY", wide, own)),
+    )
 
     # broken stems turn to straw and are ground away foot by foot
     level, pressure = _surface(wire, field, place, foot)
@@ -321,25 +358,29 @@ def _trodden(wire, points, info, field, high):
     length = wire.math("MULTIPLY", length, left)
 
     where = _bent(wire, length, along, across, tilt, arch)
-    where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))),
-                        wire.xyz(z=level))
+    where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))), wire.xyz(z=level))
     # nothing lies under the ground, but the buried end
     low, high = STEM_LIFT
-    lift = wire.math("MULTIPLY", wire.math("MULTIPLY_ADD", chance[1], high - low, low), wire.math(
-        "MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0))
+    lift = wire.math(
+        "MULTIPLY",
+        wire.math("MULTIPLY_ADD", chance[1], high - low, low),
+        wire.math("MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0),
+    )
     least = wire.math("ADD", _surface(wire, field, place, where)[0], lift)
     least = _mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
     x, y, z = wire.split(where)
-    real = wire.add("GeometryNodeSetPosition", Geometry=real,
-                    Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))).outputs[0]
+    real = wire.add(
+        "GeometryNodeSetPosition", Geometry=real, Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))
+    ).outputs[0]
     pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", ground, 0.70, 0.25))
     return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
 
 
 def _mix(wire, share, a, b):
     """a where share is 0, b where it is 1."""
-    return wire.math("ADD", wire.math("MULTIPLY", wire.math("SUBTRACT", 1.0, share), a),
-                     wire.math("MULTIPLY", share, b))
+    return wire.math(
+        "ADD", wire.math("MULTIPLY", wire.math("SUBTRACT", 1.0, share), a), wire.math("MULTIPLY", share, b)
+    )
 
 
 def _surface(wire, field, place, at):
@@ -365,8 +406,9 @@ def _bent(wire, length, along, across, tilt, arch):
     out = None
     for part, weight in tuft.GAUSS:
         vector, angle, sine, cosine = towards(wire.math("MULTIPLY", share, part))
-        piece = wire.vector("ADD", wire.vector("SCALE", vector, scale=wire.math("DIVIDE", sine, angle)),
-                            wire.xyz(z=cosine))
+        piece = wire.vector(
+            "ADD", wire.vector("SCALE", vector, scale=wire.math("DIVIDE", sine, angle)), wire.xyz(z=cosine)
+        )
         piece = wire.vector("SCALE", piece, scale=wire.math("MULTIPLY", along, weight))
         out = piece if out is None else wire.vector("ADD", out, piece)
     # what lies across the stem is turned with it

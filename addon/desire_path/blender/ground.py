@@ -3,6 +3,7 @@
 The mesh is taken as renders have it at the first frame, with the modifiers that come before the one that plays
 our own bake: a subdivided or displaced ground is walked on as it looks, without the hair that grows on it.
 """
+
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -51,16 +52,21 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
     from ..ground.sim import Ground  # the core is loaded when it is first needed
+
     scale = axes.unit_scale(scene)
     warnings = []
     groups = [each.vertex_group for each in obj.desire_path.painted]
     for name in groups:
         if name not in obj.vertex_groups:
-            raise DesirePathError(f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
-                                  "choose another group or remove the soil from the list.")
+            raise DesirePathError(
+                f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
+                "choose another group or remove the soil from the list."
+            )
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
-        warnings.append(f"'{obj.name}' shows instances of its children, in which there are no prints: make them real "
-                        "(Object > Apply > Make Instances Real) if they are walked on.")
+        warnings.append(
+            f"'{obj.name}' shows instances of its children, in which there are no prints: make them real "
+            "(Object > Apply > Make Instances Real) if they are walked on."
+        )
     place = stack.find(scene, obj, frame_start)
     trees = [stack.realised()] if place.realise else []
     trees += [weights_tree(groups)] if groups else []
@@ -77,8 +83,10 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         if not len(found.data.polygons):
             raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
         if any(not _same(each, compat.positions(found.data)) for each in later):
-            warnings.append(f"The shape of '{obj.name}' changes between the frames, by keys, drivers or a modifier: "
-                            f"it is walked on as it is at frame {frame_start}.")
+            warnings.append(
+                f"The shape of '{obj.name}' changes between the frames, by keys, drivers or a modifier: "
+                f"it is walked on as it is at frame {frame_start}."
+            )
         del later
         near = _near(found.data, world * scale, box)
         weights = [compat.float_attribute(found.data, WEIGHT.format(k)) for k in range(len(groups))]
@@ -88,19 +96,28 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
             stack.show(scene, copy, obj, render=False)
             drawn = _near(sample.evaluated(own, copy, frame_start).data, world * scale, box).vertices
     if near.bad >= 0:
-        raise DesirePathError(f"Vertex {near.bad} of '{obj.name}' is NaN or infinite: move or remove "
-                              "it in Edit Mode.")
+        raise DesirePathError(f"Vertex {near.bad} of '{obj.name}' is NaN or infinite: move or remove it in Edit Mode.")
     if not len(near.triangles):
-        raise Beside(f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one lies "
-                     "over the other.")
+        raise Beside(
+            f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one lies "
+            "over the other."
+        )
     vertices, triangles = near.vertices, near.triangles
     _faces_up(obj, world, vertices, triangles)
-    kinds = _kinds([w[near.of] if w is not None else None for w in weights],
-                   len(vertices)) if groups else None
-    return Surface(Ground(("mesh", vertices, triangles, kinds), "mesh"), world, scale, vertices,
-                   np.array(list(product(*zip(near.low, near.high))), np.float64),
-                   _cell_corner(vertices, cell), (*warnings, *place.warnings), place,
-                   vertices if drawn is None else drawn, mark, finer)
+    kinds = _kinds([w[near.of] if w is not None else None for w in weights], len(vertices)) if groups else None
+    return Surface(
+        Ground(("mesh", vertices, triangles, kinds), "mesh"),
+        world,
+        scale,
+        vertices,
+        np.array(list(product(*zip(near.low, near.high))), np.float64),
+        _cell_corner(vertices, cell),
+        (*warnings, *place.warnings),
+        place,
+        vertices if drawn is None else drawn,
+        mark,
+        finer,
+    )
 
 
 def laid(surface, world):
@@ -120,18 +137,22 @@ def _same(one, other):
     if np.array_equal(one, other):  # nearly always, and much sooner found
         return True
     size = float(np.abs(other).max(initial=0.0))
-    return bool(np.isfinite(size)) and bool(np.allclose(one, other, rtol=0.0, atol=1e-5 * size)) or not np.isfinite(size)
+    return (
+        bool(np.isfinite(size)) and bool(np.allclose(one, other, rtol=0.0, atol=1e-5 * size)) or not np.isfinite(size)
+    )
 
 
 def _near(mesh, place, box):
     """The faces of a mesh that reach into a box; place: from its own space to the world (4, 4) [m]."""
     from ..ground import mesh as meshes
+
     return meshes.near(compat.positions(mesh), *compat.faces(mesh), place[:3], box)
 
 
 def _mark(mesh, place, weights):
     """A word for all of a mesh, where it is, and what is painted on it."""
     from ..ground import mesh as meshes
+
     corners, _, _ = compat.faces(mesh)
     there = [each for each in weights if each is not None]
     return meshes.mark([compat.positions(mesh), corners, *there], [len(mesh.polygons), place.tolist()])
@@ -150,7 +171,7 @@ def _faces_up(obj, world, vertices, triangles):
     has_area = looks_down = False
     first, block = 0, 64
     while first < len(triangles):
-        a, b, c = (vertices[triangles[first:first + block, k]] for k in range(3))
+        a, b, c = (vertices[triangles[first : first + block, k]] for k in range(3))
         first, block = first + block, min(2 * block, BLOCK)
         normal = np.cross(b - a, c - a) * hand
         area = np.linalg.norm(normal, axis=1)
@@ -162,10 +183,11 @@ def _faces_up(obj, world, vertices, triangles):
     if not has_area:
         raise DesirePathError(f"The faces of '{obj.name}' have no area: give it faces to walk on.")
     if looks_down:
-        raise DesirePathError(f"All faces of '{obj.name}' look down or sideways: flip its normals "
-                              "(Mesh > Normals > Flip) or turn it over.")
-    raise DesirePathError(f"'{obj.name}' stands upright like a wall: turn it so that it can be "
-                          "walked on.")
+        raise DesirePathError(
+            f"All faces of '{obj.name}' look down or sideways: flip its normals "
+            "(Mesh > Normals > Flip) or turn it over."
+        )
+    raise DesirePathError(f"'{obj.name}' stands upright like a wall: turn it so that it can be walked on.")
 
 
 def _cell_corner(vertices, cell):
@@ -182,12 +204,14 @@ def _cell_corner(vertices, cell):
 def smooth(vertices, cell, corner):
     """Whether points lie between the centres of cells, so that playback must interpolate."""
     from ..ground import mesh as meshes
+
     return not meshes.are_centres(vertices, cell, corner, playback.ALIGNED)
 
 
 def land(surface, cell):
     """A Simulation of a ground's shape alone, to ask for heights and slopes; its soils do not matter."""
     from ..ground.sim import Ground, Simulation
+
     shape = surface.ground.native[:3]
     return Simulation(Ground((*shape, None), surface.ground.name), cell_size=cell)
 
@@ -198,6 +222,7 @@ def walked(scene, walkers, gait, below, frame_start, frame_end):
     asks = [row for row, each in enumerate(walkers) if each.desire_path.place_feet]
     from ..placement import place
     from ..rig import slope
+
     if slope.steep(below, gait):
         gait = sample.gaits(scene, walkers, frame_start, frame_end, below)
     return place.place_feet(gait, below, walkers=asks) if asks else gait
@@ -213,10 +238,13 @@ def weights_tree(groups):
     geometry = wire.add("NodeGroupInput").outputs[0]
     for k, name in enumerate(groups):
         weight = wire.add("GeometryNodeInputNamedAttribute", {"data_type": "FLOAT"}, Name=name)
-        geometry = wire.add("GeometryNodeStoreNamedAttribute",
-                            {"data_type": "FLOAT", "domain": "POINT"}, Geometry=geometry,
-                            Name=WEIGHT.format(k),
-                            Value=compat.socket(weight.outputs, "Attribute")).outputs[0]
+        geometry = wire.add(
+            "GeometryNodeStoreNamedAttribute",
+            {"data_type": "FLOAT", "domain": "POINT"},
+            Geometry=geometry,
+            Name=WEIGHT.format(k),
+            Value=compat.socket(weight.outputs, "Attribute"),
+        ).outputs[0]
     leave = tree.nodes.new("NodeGroupOutput")
     tree.links.new(geometry, leave.inputs[0])
     return tree

@@ -3,6 +3,7 @@
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
 undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
 """
+
 import atexit
 from contextlib import suppress
 
@@ -19,6 +20,7 @@ _unsaved = False  # whether the file that is being saved never was before
 def refresh(scene, obj):
     """Let a ground play its bake folder as it is now; nothing to do when it already does."""
     from ..bake.bake import read_index
+
     settings = obj.desire_path
     if obj.library is not None:  # its own file looks after it
         return
@@ -96,8 +98,19 @@ def after_save(*_):
     first, _unsaved = _unsaved and bool(bpy.data.filepath), False
     if bpy.data.filepath:
         trash.empty()
-    there = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground
-             and obj.desire_path.bake_id and not obj.desire_path.bake_file] if first else []
+    there = (
+        [
+            obj
+            for obj in bpy.data.objects
+            if obj.type == "MESH"
+            and obj.library is None
+            and obj.desire_path.is_ground
+            and obj.desire_path.bake_id
+            and not obj.desire_path.bake_file
+        ]
+        if first
+        else []
+    )
     for obj in there:
         with suppress(OSError):  # then it stays where it is
             home.move_in(obj)

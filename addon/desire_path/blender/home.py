@@ -5,6 +5,7 @@ The id belongs to one ground of one file. A file saved under another name, a cop
 that was appended elsewhere all carry it along: whichever bakes in another place, or second, gets an id and
 a folder of its own, so that a bake is replaced and freed by its own ground only.
 """
+
 import contextlib
 import os
 import shutil
@@ -42,8 +43,12 @@ def played(obj):
 def sharing(obj):
     """Other grounds of the file with the same bake folder."""
     own = folder(obj)
-    return [other for scene in bpy.data.scenes for other in grounds(scene)
-            if other != obj and other.desire_path.folder and folder(other) == own]
+    return [
+        other
+        for scene in bpy.data.scenes
+        for other in grounds(scene)
+        if other != obj and other.desire_path.folder and folder(other) == own
+    ]
 
 
 def lost(obj):
@@ -90,9 +95,14 @@ def beside():
 def default(obj):
     """Where an object's bake goes when nobody chose: a place that no other bake has."""
     from ..bake.folder import owner_of
+
     name, own = bpy.path.clean_name(obj.name), obj.desire_path.bake_id
-    taken = {folder(other) for scene in bpy.data.scenes for other in grounds(scene)
-             if other != obj and other.desire_path.folder}
+    taken = {
+        folder(other)
+        for scene in bpy.data.scenes
+        for other in grounds(scene)
+        if other != obj and other.desire_path.folder
+    }
     number = 1
     while True:
         place = f"{beside()}/{name}" + (f"_{number}" if number > 1 else "")
@@ -105,9 +115,13 @@ def default(obj):
 def fits(obj):
     """Whether a folder nobody chose may stay: it is this file's, and no other ground has its bake there."""
     from ..bake.folder import owner_of
+
     settings = obj.desire_path
-    return (settings.folder.startswith(f"{beside()}/") and not sharing(obj)
-            and owner_of(folder(obj)) in ("", settings.bake_id))
+    return (
+        settings.folder.startswith(f"{beside()}/")
+        and not sharing(obj)
+        and owner_of(folder(obj)) in ("", settings.bake_id)
+    )
 
 
 # ---- whose a bake is --------------------------------------------------------------------------------
@@ -130,16 +144,23 @@ def is_own(obj):
     settings = obj.desire_path
     if not settings.bake_id:
         return False
-    same_file = (settings.bake_file == _file()
-                 or bool(settings.bake_seen) and settings.bake_seen == _seen_from(folder(obj)))
+    same_file = (
+        settings.bake_file == _file() or bool(settings.bake_seen) and settings.bake_seen == _seen_from(folder(obj))
+    )
     return same_file and _first(obj)
 
 
 def _first(obj):
     """Whether an object is the first of those that carry its id."""
     own = obj.desire_path.bake_id
-    there = [each for each in bpy.data.objects if each.type == "MESH" and each.library is None
-             and each.desire_path.is_ground and each.desire_path.bake_id == own]
+    there = [
+        each
+        for each in bpy.data.objects
+        if each.type == "MESH"
+        and each.library is None
+        and each.desire_path.is_ground
+        and each.desire_path.bake_id == own
+    ]
     holder = _holder.get(own)
     if holder in map(_session, there):
         return _session(obj) == holder
@@ -154,6 +175,7 @@ def _session(obj):
 def may_free(obj):
     """Whether the bake in a ground's folder is its own, or nobody's in a folder chosen by hand."""
     from ..bake.folder import owner_of
+
     if lost(obj) or sharing(obj):
         return False
     owner = owner_of(folder(obj))
@@ -191,17 +213,20 @@ def sign(obj):
 def claim(obj):
     """The folder a ground may bake into, with an id of its own; or a sentence that says whose it is."""
     from ..bake.folder import owner_of
+
     settings = obj.desire_path
     settle(obj)
     if lost(obj):
-        raise DesirePathError("The folder lies beside a file that was never saved: save the file "
-                              "or choose another folder.")
+        raise DesirePathError(
+            "The folder lies beside a file that was never saved: save the file or choose another folder."
+        )
     for other in sharing(obj):
-        raise DesirePathError(f"'{other.name}' bakes into the same folder: choose another one for "
-                              "either.")
+        raise DesirePathError(f"'{other.name}' bakes into the same folder: choose another one for either.")
     if owner_of(folder(obj)) not in ("", settings.bake_id):
-        raise DesirePathError(f"The folder {folder(obj)} holds the bake of another ground or of another file: choose "
-                              f"another folder for '{obj.name}'.")
+        raise DesirePathError(
+            f"The folder {folder(obj)} holds the bake of another ground or of another file: choose "
+            f"another folder for '{obj.name}'."
+        )
     return folder(obj)
 
 
@@ -217,6 +242,7 @@ def forget():
 def move_in(obj):
     """Let the bake of a ground whose file was just saved for the first time move beside it."""
     from ..bake.folder import owner_of
+
     settings = obj.desire_path
     old = folder(obj)
     there = owner_of(old) == settings.bake_id and not sharing(obj)
@@ -233,6 +259,7 @@ def move_in(obj):
 def find(obj):
     """Go to where the bake was moved, after undo brought back the folder it was in."""
     from ..bake.folder import owner_of
+
     settings = obj.desire_path
     if settings.folder_auto and settings.bake_id and not fits(obj) and owner_of(folder(obj)) != settings.bake_id:
         old, place = folder(obj), default(obj)

@@ -4,6 +4,7 @@
     ground meshes --read--> Surfaces -------> Bake, which only has to be run
     plants, settings --> Parcels ----------/
 """
+
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -24,6 +25,7 @@ def taken(scene, company, folders, **more):
     from ..bake.bake import Bake  # the core is loaded when it is first needed
     from ..ground.parcels import Parcel
     from ..ground.sim import check_cell
+
     grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
     settings = grounds[0].desire_path
     check(grounds, walkers)
@@ -37,14 +39,16 @@ def taken(scene, company, folders, **more):
         def land(box):
             found.update(_read(scene, company, cell, box))
             return _land(found, None, cell)
+
         gait = way.carried(scene, walkers, first, last, land)
         last = None  # every pass is shown
     else:
         gait = company.gait or sample.gaits(scene, walkers, first, last)
         yield
         found = _read(scene, company, cell, ground.under(gait))
-        if (any(np.ptp(each.vertices[:, 2]) >= ground.LEVEL for each in found.values())
-                or any(each.desire_path.place_feet for each in walkers)):
+        if any(np.ptp(each.vertices[:, 2]) >= ground.LEVEL for each in found.values()) or any(
+            each.desire_path.place_feet for each in walkers
+        ):
             gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
     gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell)))
     origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
@@ -54,12 +58,31 @@ def taken(scene, company, folders, **more):
     parcels = []
     for each, (path, owner) in zip(grounds, folders):
         grown = plants.plantings(scene, each)
-        parcels.append(Parcel(found[each.name].ground, ground.soils(each), path, each.name, grown,
-                              each.desire_path.plant_mesh and bool(grown), owner))
+        parcels.append(
+            Parcel(
+                found[each.name].ground,
+                ground.soils(each),
+                path,
+                each.name,
+                grown,
+                each.desire_path.plant_mesh and bool(grown),
+                owner,
+            )
+        )
         yield
-    return Bake(gait, parcels, cell_size=cell, frame_start=first, frame_end=last,
-                load_model=walkers[0].desire_path.load_model, law=settings.law, heap=settings.heap,
-                threads=settings.threads, origin=origin, **more), found
+    return Bake(
+        gait,
+        parcels,
+        cell_size=cell,
+        frame_start=first,
+        frame_end=last,
+        load_model=walkers[0].desire_path.load_model,
+        law=settings.law,
+        heap=settings.heap,
+        threads=settings.threads,
+        origin=origin,
+        **more,
+    ), found
 
 
 def now(scene, obj):
@@ -86,36 +109,59 @@ def marks(obj, company, made, found):
     made, found: the Bake and its Surfaces, as taken() gives them
     """
     from ..ground import mesh
+
     gait, settings = made.gait, obj.desire_path
-    walk = [gait.time, gait.com, gait.pose, gait.limb_walker, gait.part_limb, gait.point, gait.point_part,
-            gait.point_role, gait.cut]
+    walk = [
+        gait.time,
+        gait.com,
+        gait.pose,
+        gait.limb_walker,
+        gait.part_limb,
+        gait.point,
+        gait.point_part,
+        gait.point_role,
+        gait.cut,
+    ]
     for sole in gait.soles:
         walk += [sole.vertices, sole.triangles]
     plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
     soils = sorted(([asdict(soil) for soil in parcel.soils] for parcel in made.parcels), key=repr)
-    chosen = [made.cell_size, made.frame_start, made.frame_end, made.frame_rate, made.film, options,
-              sorted({each.desire_path.load_model for each in company.walkers}), soils,
-              settings.plant_mesh and bool(settings.plants), settings.attributes, settings.vertex_group,
-              sum(each.desire_path.place_feet for each in company.walkers)]
-    return {"walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
-            "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
-            "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
-            "settings": mesh.mark((), chosen)}
+    chosen = [
+        made.cell_size,
+        made.frame_start,
+        made.frame_end,
+        made.frame_rate,
+        made.film,
+        options,
+        sorted({each.desire_path.load_model for each in company.walkers}),
+        soils,
+        settings.plant_mesh and bool(settings.plants),
+        settings.attributes,
+        settings.vertex_group,
+        sum(each.desire_path.place_feet for each in company.walkers),
+    ]
+    return {
+        "walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
+        "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
+        "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
+        "settings": mesh.mark((), chosen),
+    }
 
 
 def check(grounds, walkers):
     """Refuse grounds and walkers that cannot be baked together, in a sentence."""
     if len({each.desire_path.load_model for each in walkers}) > 1:
-        raise DesirePathError("The walkers of one ground need the same load model: choose one "
-                              "for all of them.")
+        raise DesirePathError("The walkers of one ground need the same load model: choose one for all of them.")
     one = grounds[0]
     for other in grounds[1:]:
         for name, words in ALIKE.items():
             if getattr(one.desire_path, name) != getattr(other.desire_path, name):
-                raise DesirePathError(f"The walk crosses '{one.name}' and '{other.name}', which need the same {words}: "
-                                      "choose one for both.")
+                raise DesirePathError(
+                    f"The walk crosses '{one.name}' and '{other.name}', which need the same {words}: "
+                    "choose one for both."
+                )
 
 
 def told(company):
@@ -125,16 +171,17 @@ def told(company):
     coarser = [f"'{name}'" for name, cell in cells.items() if cell > cells[finest]]
     if not coarser:
         return []
-    return [f"The walk crosses '{finest}' with cells of {cells[finest]:g} m and {', '.join(coarser)} with larger ones: "
-            f"all are pressed in cells of {cells[finest]:g} m."]
+    return [
+        f"The walk crosses '{finest}' with cells of {cells[finest]:g} m and {', '.join(coarser)} with larger ones: "
+        f"all are pressed in cells of {cells[finest]:g} m."
+    ]
 
 
 def _read(scene, company, cell, box):
     """The Surface of each ground of a company within a box of the world, by name."""
     wide = company.beside
     box = (box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide)
-    return {each.name: ground.read(scene, each, cell, company.first, company.last, box=box)
-            for each in company.grounds}
+    return {each.name: ground.read(scene, each, cell, company.first, company.last, box=box) for each in company.grounds}
 
 
 def _land(found, gait, cell):
@@ -143,6 +190,7 @@ def _land(found, gait, cell):
         return ground.land(*found.values(), cell)
     from ..ground import parcels
     from ..ground.sim import Simulation
+
     there = [parcels.Parcel(each.ground, name=name) for name, each in found.items()]
     if gait is not None:
         there = [there[number] for number in parcels.storeys(there, gait)[0]]

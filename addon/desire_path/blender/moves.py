@@ -5,6 +5,7 @@
 
 Keys and strips say themselves when they begin and end. Anything else may go on for ever.
 """
+
 import builtins
 import math
 import re
@@ -14,12 +15,37 @@ import bpy
 from . import clock, compat, playback, props
 
 # modifiers that change a mesh with time, and nodes that do
-BY_TIME = {"BUILD", "CLOTH", "DYNAMIC_PAINT", "EXPLODE", "FLUID", "MESH_CACHE", "MESH_SEQUENCE_CACHE", "OCEAN",
-           "PARTICLE_INSTANCE", "PARTICLE_SYSTEM", "SOFT_BODY", "WAVE"}
+BY_TIME = {
+    "BUILD",
+    "CLOTH",
+    "DYNAMIC_PAINT",
+    "EXPLODE",
+    "FLUID",
+    "MESH_CACHE",
+    "MESH_SEQUENCE_CACHE",
+    "OCEAN",
+    "PARTICLE_INSTANCE",
+    "PARTICLE_SYSTEM",
+    "SOFT_BODY",
+    "WAVE",
+}
 NODES_BY_TIME = {"GeometryNodeInputSceneTime", "GeometryNodeSimulationInput"}
 # words of a driver's expression that know no time
-TIMELESS = {*dir(math), *dir(builtins), "and", "or", "not", "if", "else", "in", "is", "self", "lerp", "clamp",
-            "smoothstep"}
+TIMELESS = {
+    *dir(math),
+    *dir(builtins),
+    "and",
+    "or",
+    "not",
+    "if",
+    "else",
+    "in",
+    "is",
+    "self",
+    "lerp",
+    "clamp",
+    "smoothstep",
+}
 
 
 def frame_range(scene, obj):
@@ -129,16 +155,20 @@ class _Movers:
                 self._driver(curve.driver)
 
     def _action(self, animation):
-        curves = [curve for curve in compat.curves_played(animation) if not curve.mute
-                  and (len(curve.keyframe_points) or len(curve.modifiers) or len(curve.sampled_points))]
+        curves = [
+            curve
+            for curve in compat.curves_played(animation)
+            if not curve.mute and (len(curve.keyframe_points) or len(curve.modifiers) or len(curve.sampled_points))
+        ]
         if not curves:
             return
         action = animation.action
         if action.use_frame_range:  # set by hand
             self.spans.append((action.frame_start, action.frame_end))
         else:
-            self.spans += [tuple(curve.range()) for curve in curves
-                           if len(curve.keyframe_points) or len(curve.sampled_points)]
+            self.spans += [
+                tuple(curve.range()) for curve in curves if len(curve.keyframe_points) or len(curve.sampled_points)
+            ]
         self.goes_on |= any(_goes_on(curve) for curve in curves)
 
     def _driver(self, driver):

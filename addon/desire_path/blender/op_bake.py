@@ -6,6 +6,7 @@
 The mesh is touched once, at the end. `execute` does all of it in one go (this is what `blender -b`
 runs); with a window the same steps run in slices, so that Blender stays awake and ESC stops them.
 """
+
 import json
 import time
 from contextlib import closing
@@ -48,8 +49,9 @@ class Job:
         inputs.check((obj,), there)
         first, last = moves.follow(scene, obj, there)
         if there and last <= first:
-            raise DesirePathError(f"The frames {first} to {last} of '{obj.name}' hold no motion: set "
-                                  "an end after the start.")
+            raise DesirePathError(
+                f"The frames {first} to {last} of '{obj.name}' hold no motion: set an end after the start."
+            )
         Limits().check("frames", last - first + 1)
         check_idle(home.claim(obj))
         self.begun = time.perf_counter()
@@ -67,8 +69,7 @@ class Job:
         scene, obj = bpy.data.scenes[self.scene_name], self.object()
         there = [bpy.data.objects.get(name) for name in self.walkers]
         if None in there:
-            raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake "
-                                  "again.")
+            raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake again.")
         company = yield from reach.company(scene, obj)
         if not company.walkers:
             raise DesirePathError(NOBODY.format(obj.name))
@@ -118,19 +119,27 @@ class Job:
             self.warnings += warnings
             obj.desire_path.summary = json.dumps(
                 {name: share.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "heaped_m3")}
-                | {"seconds_in_all": spent, "frames": [index.frame_start, index.frame_end],
-                   "with": share.report.get("with", []), "warnings": self.warnings})
+                | {
+                    "seconds_in_all": spent,
+                    "frames": [index.frame_start, index.frame_end],
+                    "with": share.report.get("with", []),
+                    "warnings": self.warnings,
+                }
+            )
         names = [share.parcel.name for share in shares]
         if self.name not in names:
             self.warnings.append(f"No foot has trodden '{self.name}': it is as it was.")
         report = self.bake.report
-        return (f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent:.1f} s: "
-                f"{report['contacts']} contacts, deepest print {1000 * report['deepest_m']:.0f} mm; files in "
-                f"{', '.join(share.out.folder for share in shares)}.")
+        return (
+            f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent:.1f} s: "
+            f"{report['contacts']} contacts, deepest print {1000 * report['deepest_m']:.0f} mm; files in "
+            f"{', '.join(share.out.folder for share in shares)}."
+        )
 
     def play(self):
         """Play what a bake that was not whole has left, on all its grounds that play no whole one."""
         from ..bake.bake import read_index
+
         for share in self.bake.shares:
             obj = bpy.data.objects.get(share.parcel.name)
             if obj is not None:

@@ -6,6 +6,7 @@
 An arrow begins where the foot presses and points the way the ground pushes back. The mass centre has a ring, and
 a plumb line down to the ground; a cross tells where all feet press together.
 """
+
 import json
 import os
 from dataclasses import dataclass, replace
@@ -76,10 +77,12 @@ def read(scene, armature):
     """A Reading of what an armature does now."""
     from ..loads import walker
     from ..ground.soil import SOILS
+
     settings = armature.desire_path
     land = settings.ground
-    first, last = (moves.frames(scene, land, walkers(scene, land)) if land is not None
-                   else moves.frame_range(scene, armature))
+    first, last = (
+        moves.frames(scene, land, walkers(scene, land)) if land is not None else moves.frame_range(scene, armature)
+    )
     gait = sample.record(scene, armature, first, last)
     below, yields = None, {}
     if land is not None:
@@ -88,14 +91,17 @@ def read(scene, armature):
         gait = ground.walked(scene, [armature], gait, shape, first, last)
         below = shape.rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)
-    forces = replace(limbs(gait, loads, axes.unit_scale(scene), below),
-                     carry=ride.path(scene, land, gait.frame(np.arange(len(gait.time))).tolist()))
+    forces = replace(
+        limbs(gait, loads, axes.unit_scale(scene), below),
+        carry=ride.path(scene, land, gait.frame(np.arange(len(gait.time))).tolist()),
+    )
     return Reading(gait, loads, forces, tuple(dict.fromkeys(gait.warnings + loads.warnings)))
 
 
 def limbs(gait, loads, scale, below=None):
     """Loads of parts as Forces of limbs, of a recording of one walker. below: height of the ground at (n, 2)."""
     from ..loads import report
+
     count = len(gait.limb_walker)
     force = np.zeros((count, len(loads.time), 3))
     touching = np.zeros(force.shape[:2], bool)
@@ -106,9 +112,19 @@ def limbs(gait, loads, scale, below=None):
     centre = gait.com[0]
     under = below(centre[:, :2]) if below is not None else np.zeros(len(centre))
     tall = float(np.median(centre[:, 2]) - np.quantile(gait.pose[..., 2], 0.05))
-    return Forces(loads.time, force / (gait.mass[0] * 9.81), point / scale, centre / scale, under / scale,
-                  report.pressure_centre(gait, loads, *range(count)) / scale, touching, gait.limb_name,
-                  REACH * max(tall, 0.1) / scale, gait.frame_start, gait.frame_rate)
+    return Forces(
+        loads.time,
+        force / (gait.mass[0] * 9.81),
+        point / scale,
+        centre / scale,
+        under / scale,
+        report.pressure_centre(gait, loads, *range(count)) / scale,
+        touching,
+        gait.limb_name,
+        REACH * max(tall, 0.1) / scale,
+        gait.frame_start,
+        gait.frame_rate,
+    )
 
 
 # ---- lines: pairs of points (2 n, 3) --------------------------------------------------------------------
@@ -178,8 +194,7 @@ def _pairs(lines):
 
 
 def _seen(scene, names):
-    return [name for name in names if name in _shown and name in scene.objects
-            and scene.objects[name].visible_get()]
+    return [name for name in names if name in _shown and name in scene.objects and scene.objects[name].visible_get()]
 
 
 def _draw():
@@ -196,6 +211,7 @@ def _draw():
 def _draw_lines(context, lines, colour):
     import gpu
     from gpu_extras.batch import batch_for_shader
+
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("viewportSize", (context.region.width, context.region.height))
@@ -260,6 +276,7 @@ def _redraw():
 def keep(obj, reading):
     """Keep what the forces came to on the walker, for the panel."""
     from ..loads import report
+
     (told,) = report.summary(reading.gait, reading.loads)
     obj.desire_path.forces = json.dumps(told)
     return told
@@ -282,8 +299,11 @@ class _Forces(Refusal):
     def windowless(self):
         if not bpy.app.background:
             return False
-        self.report({"WARNING"}, "Forces are shown in a viewport, and Blender runs without a window: draw them to "
-                                 "a picture with python -m desire_path plot.")
+        self.report(
+            {"WARNING"},
+            "Forces are shown in a viewport, and Blender runs without a window: draw them to "
+            "a picture with python -m desire_path plot.",
+        )
         return True
 
 
@@ -305,8 +325,11 @@ class OBJECT_OT_desire_path_forces_show(_Forces, bpy.types.Operator):
         forces = reading.forces
         show(obj, forces)
         last = forces.frame_start + forces.time[-1] * forces.frame_rate
-        self.report({"INFO"}, f"The forces of '{obj.name}' are shown from frame {forces.frame_start} to "
-                              f"{last:.0f}; after a change of the walk show them anew.")
+        self.report(
+            {"INFO"},
+            f"The forces of '{obj.name}' are shown from frame {forces.frame_start} to "
+            f"{last:.0f}; after a change of the walk show them anew.",
+        )
         return {"FINISHED"}
 
 
@@ -333,11 +356,16 @@ class OBJECT_OT_desire_path_forces_graph(_Forces, bpy.types.Operator):
 
 
 class _Report(_Forces):
-    directory: StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"},
-                              description="Where loads.csv and contacts.csv are written; empty = nowhere")
+    directory: StringProperty(
+        name="Folder",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"},
+        description="Where loads.csv and contacts.csv are written; empty = nowhere",
+    )
 
     def work(self, context):
         from ..loads import report, walker
+
         obj = context.object
         reading = self.read(context)
         told = keep(obj, reading)
@@ -372,5 +400,9 @@ class OBJECT_OT_desire_path_forces_write(_Report, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
 
-CLASSES = (OBJECT_OT_desire_path_forces_show, OBJECT_OT_desire_path_forces_graph,
-           OBJECT_OT_desire_path_forces_report, OBJECT_OT_desire_path_forces_write)
+CLASSES = (
+    OBJECT_OT_desire_path_forces_show,
+    OBJECT_OT_desire_path_forces_graph,
+    OBJECT_OT_desire_path_forces_report,
+    OBJECT_OT_desire_path_forces_write,
+)

@@ -7,6 +7,7 @@ The action it had stays, to go back to, and shows what it showed. Roots are carr
 their feet, feet that hang on no leg are moved, and legs that follow an IK target have the target moved; feet that
 constraints hold are led by the control bones found for them.
 """
+
 import json
 
 import bpy
@@ -38,14 +39,20 @@ def read(scene, armature, land, frames, prints):
     from ..bake import bake as baking
     from ..loads import walker
     from ..placement import settle_feet
+
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
     below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)
     if prints:
-        film = settle_feet.Films([settle_feet.Film(baking.read_index(home.folder(each))) for each in (land, *beside)
-                           if each == land or playback.modifier(each) is not None])
+        film = settle_feet.Films(
+            [
+                settle_feet.Film(baking.read_index(home.folder(each)))
+                for each in (land, *beside)
+                if each == land or playback.modifier(each) is not None
+            ]
+        )
         loads = walker.loads(placed, armature.desire_path.load_model, ground=below.rest_height)
         placed = settle_feet.into_prints(placed, loads, film, below.rest_height)
     return gait, placed, warnings
@@ -79,8 +86,9 @@ def bake(scene, armature, land, prints=False):
         frames = frames_of(scene, armature, land)
         gait, placed, warnings = read(scene, armature, land, frames, prints)
         if np.abs(placed.pose - gait.pose).max() < 1e-6 and np.abs(placed.com - gait.com).max() < 1e-6:
-            raise DesirePathError(f"The feet of '{armature.name}' lie on '{land.name}' already: there is nothing "
-                                  "to place.")
+            raise DesirePathError(
+                f"The feet of '{armature.name}' lie on '{land.name}' already: there is nothing to place."
+            )
         with sample.private_scene(scene, armature) as own:
             world = axes.matrix(sample.evaluated(own, armature, frames[0]).matrix_world, armature.name)
             found = sample.rig(armature, sample.skeleton(armature, world, axes.unit_scale(scene)))
@@ -129,28 +137,40 @@ def check(scene, armature, plan, frames):
     seen = posing.look(scene, armature, names, [frames[k] for k in some])
     for foot in plan.feet:
         goal = plan.goal[foot.foot][some]
-        size = float(np.median(np.linalg.norm(plan.heads(foot.thigh) - plan.heads(foot.foot), axis=1))
-                     if foot.thigh else np.ptp(goal, axis=0).max())
+        size = float(
+            np.median(np.linalg.norm(plan.heads(foot.thigh) - plan.heads(foot.foot), axis=1))
+            if foot.thigh
+            else np.ptp(goal, axis=0).max()
+        )
         checks = [(foot.foot, goal)]
         if foot.foot in plan.leads and plan.hips:
             checks.append((plan.hips, plan.carried(plan.hips)[some]))
         for name, wanted in checks:
             far = np.linalg.norm(seen.at(name)[:, :3, 3] - wanted, axis=1)
             if far.max() > OFF * max(size, 1e-9):
-                refuse(armature, name, f"{far.max() * plan.bones.scale:.2f} m from its place",
-                       frames[some[int(far.argmax())]])
+                refuse(
+                    armature,
+                    name,
+                    f"{far.max() * plan.bones.scale:.2f} m from its place",
+                    frames[some[int(far.argmax())]],
+                )
         if foot.foot in plan.leads:
             turned = controls.between(seen.at(foot.foot), plan.turn[foot.foot][some])
             far = np.arccos(np.clip((np.trace(turned, axis1=1, axis2=2) - 1.0) / 2.0, -1.0, 1.0))
             if far.max() > OFF_TURN:
-                refuse(armature, foot.foot, f"turned by {np.degrees(far.max()):.0f} degrees from its place",
-                       frames[some[int(far.argmax())]])
+                refuse(
+                    armature,
+                    foot.foot,
+                    f"turned by {np.degrees(far.max()):.0f} degrees from its place",
+                    frames[some[int(far.argmax())]],
+                )
 
 
 def refuse(armature, name, how, frame):
     raise DesirePathError(
         f"Bone '{name}' of '{armature.name}' stays {how} at frame {frame}, since constraints or limits hold it: bake "
-        "the animation to keys first (Pose > Animation > Bake Action, with Visual Keying and Clear Constraints).")
+        "the animation to keys first (Pose > Animation > Bake Action, with Visual Keying and Clear Constraints)."
+    )
 
 
 class OBJECT_OT_desire_path_place_feet(Refusal, bpy.types.Operator):
@@ -161,8 +181,9 @@ floor. Makes a new action; the one it had stays"""
     bl_label = "Place Feet"
     bl_options = {"REGISTER", "UNDO"}
 
-    into_prints: BoolProperty(name="Into Prints", description="Let the feet down into the prints that are baked, and "
-                              "the body with them")
+    into_prints: BoolProperty(
+        name="Into Prints", description="Let the feet down into the prints that are baked, and the body with them"
+    )
 
     @classmethod
     def poll(cls, context):
@@ -178,8 +199,11 @@ floor. Makes a new action; the one it had stays"""
         for each in warnings:
             self.report({"WARNING"}, each)
         back, where = action.get(SOURCE), "in the prints of" if self.into_prints else "on"
-        self.report({"INFO"}, f"'{obj.name}' plays '{action.name}', its feet {where} '{land.name}'"
-                    + (f"; '{back}' is as it was." if back else "."))
+        self.report(
+            {"INFO"},
+            f"'{obj.name}' plays '{action.name}', its feet {where} '{land.name}'"
+            + (f"; '{back}' is as it was." if back else "."),
+        )
         return {"FINISHED"}
 
 

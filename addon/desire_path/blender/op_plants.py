@@ -1,4 +1,5 @@
 """op_plants.py - plants are put on a ground and taken off it."""
+
 import functools
 from contextlib import contextmanager
 
@@ -58,6 +59,7 @@ def refresh(scene, obj):
         return []
     told = plants.plant(scene, obj, late)
     from . import show
+
     show.show_plants(obj)
     return told
 
@@ -66,6 +68,7 @@ class _OfGround(Refusal):
     @classmethod
     def poll(cls, context):
         from .op_bake import idle_ground
+
         if not idle_ground(cls, context):
             return False
         if not context.object.desire_path.is_ground:
@@ -86,15 +89,28 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     kind: StringProperty(
-        name="Kind", default="carex", search=props.kinds, search_options={"SUGGESTION"},
-        description="A kind of plant, or a .json file in which a kind was saved")
-    density: FloatProperty(name="Density [1/m2]", min=0.0, max=5e4, description="Plants on a square metre where the "
-                           "group is 1; 0 = as dense as the kind usually stands")
-    density_group: StringProperty(name="Density Group", description="A vertex group or float attribute that thins "
-                                  "the plants out; empty = they grow everywhere")
+        name="Kind",
+        default="carex",
+        search=props.kinds,
+        search_options={"SUGGESTION"},
+        description="A kind of plant, or a .json file in which a kind was saved",
+    )
+    density: FloatProperty(
+        name="Density [1/m2]",
+        min=0.0,
+        max=5e4,
+        description="Plants on a square metre where the group is 1; 0 = as dense as the kind usually stands",
+    )
+    density_group: StringProperty(
+        name="Density Group",
+        description="A vertex group or float attribute that thins the plants out; empty = they grow everywhere",
+    )
     density_image: StringProperty(
-        name="Density Image", search=_images, description="Name of an image that thins the plants out, white = all of "
-        "them; by the active UV map, else stretched over the ground seen from above; empty = none")
+        name="Density Image",
+        search=_images,
+        description="Name of an image that thins the plants out, white = all of "
+        "them; by the active UV map, else stretched over the ground seen from above; empty = none",
+    )
     grass: BoolProperty(name="Grass", default=True, description="Make an object that shows the plants")
 
     def work(self, context):
@@ -143,6 +159,7 @@ class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
         each.grass = plants.grass.make(obj, each.kind)
         plants.plant(context.scene, obj, [each])
         from . import show
+
         show.show_plants(obj)
         return {"FINISHED"}
 
@@ -156,6 +173,7 @@ class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
 
     def work(self, context):
         from . import show
+
         obj = context.object
         context.view_layer.update()
         for sentence in plants.plant(context.scene, obj):
@@ -184,5 +202,9 @@ class OBJECT_OT_desire_path_plants_remove(_OfGround, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_desire_path_plants_add, OBJECT_OT_desire_path_grass_add, OBJECT_OT_desire_path_plants_update,
-           OBJECT_OT_desire_path_plants_remove)
+CLASSES = (
+    OBJECT_OT_desire_path_plants_add,
+    OBJECT_OT_desire_path_grass_add,
+    OBJECT_OT_desire_path_plants_update,
+    OBJECT_OT_desire_path_plants_remove,
+)

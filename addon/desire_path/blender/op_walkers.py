@@ -1,4 +1,5 @@
 """op_walkers.py - grounds and walkers are chosen, and a walk is recorded to a file."""
+
 import bpy
 from bpy.props import IntProperty, StringProperty
 
@@ -29,8 +30,11 @@ class AsksFirst:
         if bpy.app.background or context.window is None or obj.type != "MESH" or playback.modifier(obj) is None:
             return self.execute(context)
         ask = context.window_manager.invoke_confirm
-        words = {"title": f"Free the bake of '{obj.name}'?", "confirm_text": "Free",
-                 "message": "Undo brings it back until the file is saved or closed."}
+        words = {
+            "title": f"Free the bake of '{obj.name}'?",
+            "confirm_text": "Free",
+            "message": "Undo brings it back until the file is saved or closed.",
+        }
         known = bpy.types.WindowManager.bl_rna.functions["invoke_confirm"].parameters
         return ask(self, event, **{name: text for name, text in words.items() if name in known})
 
@@ -52,8 +56,10 @@ def active(cls, context, kind, words, *, changed=True):
         cls.poll_message_set("Leave Edit Mode first")
         return False
     if changed and obj.library is not None:
-        cls.poll_message_set(f"'{obj.name}' is linked from another file: make a library override of it "
-                             "(Object > Library Override > Make), or open that file")
+        cls.poll_message_set(
+            f"'{obj.name}' is linked from another file: make a library override of it "
+            "(Object > Library Override > Make), or open that file"
+        )
         return False
     return True
 
@@ -69,13 +75,19 @@ def walkers(scene, ground):
 
 def absent(scene, ground):
     """Sentences about walkers of a ground that renders leave out."""
-    return [f"'{obj.name}' is off in renders, by itself or by its collection, and leaves no prints."
-            for obj in _chosen(scene, ground) if not worn.walks(scene, obj)]
+    return [
+        f"'{obj.name}' is off in renders, by itself or by its collection, and leaves no prints."
+        for obj in _chosen(scene, ground)
+        if not worn.walks(scene, obj)
+    ]
 
 
 def _chosen(scene, ground):
-    return [obj for obj in scene.objects if obj.type in WALKERS and obj.desire_path.is_walker
-            and obj.desire_path.ground == ground]
+    return [
+        obj
+        for obj in scene.objects
+        if obj.type in WALKERS and obj.desire_path.is_walker and obj.desire_path.ground == ground
+    ]
 
 
 class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
@@ -89,13 +101,16 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
     def poll(cls, context):
         obj = context.object
         if obj is not None and obj.type == "EMPTY" and obj.instance_collection is not None:
-            cls.poll_message_set(f"'{obj.name}' shows instances of a collection: make them real (Object > Apply > Make "
-                                 "Instances Real) and select the mesh that is walked on")
+            cls.poll_message_set(
+                f"'{obj.name}' shows instances of a collection: make them real (Object > Apply > Make "
+                "Instances Real) and select the mesh that is walked on"
+            )
             return False
         return active(cls, context, {"MESH"}, "the mesh that is walked on")
 
     def work(self, context):
         from . import home
+
         obj, scene = context.object, context.scene
         if not len(obj.data.polygons) and not obj.modifiers:
             raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
@@ -106,8 +121,7 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
             props.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
         text = f"'{obj.name}' is a ground"
         if not bpy.data.filepath and settings.folder_auto:
-            text += (f"; until the file is saved its bake goes to the temporary folder "
-                     f"{settings.folder}")
+            text += f"; until the file is saved its bake goes to the temporary folder {settings.folder}"
         self.report({"INFO"}, text + ".")
         return {"FINISHED"}
 
@@ -150,9 +164,13 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
             self.report({"WARNING"}, each)
         feet = "; ".join(
             f"{foot.limb}: " + ", ".join(name for name in (foot.foot, foot.toe, foot.heel) if name)
-            for foot in found.feet)
-        self.report({"INFO"}, f"'{obj.name}' has {len(found.feet)} feet ({feet}) and "
-                    + (f"hangs on {found.hips}." if found.hips else "no hips bone."))
+            for foot in found.feet
+        )
+        self.report(
+            {"INFO"},
+            f"'{obj.name}' has {len(found.feet)} feet ({feet}) and "
+            + (f"hangs on {found.hips}." if found.hips else "no hips bone."),
+        )
         return {"FINISHED"}
 
 
@@ -237,12 +255,15 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
             found = detect(scene, obj, keep=not obj.desire_path.is_walker)
             shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
             odd = sample.odd_size(obj, shape, found)
-            return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (odd[:1] if odd else ())
+            return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (
+                odd[:1] if odd else ()
+            )
         bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]
         if bound or obj.parent is not None and obj.parent.type == "ARMATURE":
             rig = bound[0] if bound else obj.parent
-            raise DesirePathError(f"'{obj.name}' is moved by the armature '{rig.name}': select that, and press Add "
-                                  "Walker.")
+            raise DesirePathError(
+                f"'{obj.name}' is moved by the armature '{rig.name}': select that, and press Add Walker."
+            )
         if not len(obj.data.polygons) and not obj.modifiers:
             raise DesirePathError(f"'{obj.name}' has no faces to press the ground with: give it some.")
         return "as a rigid body", ()
@@ -257,11 +278,11 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         if len(selected) == 1:
             return selected[0]
         if not there:
-            raise DesirePathError("There is no ground yet: select the mesh that is walked on and "
-                                  "press Add Ground.")
+            raise DesirePathError("There is no ground yet: select the mesh that is walked on and press Add Ground.")
         if len(there) > 1:
-            raise DesirePathError("There are several grounds: select the one to walk on together "
-                                  "with the armature, the armature last.")
+            raise DesirePathError(
+                "There are several grounds: select the one to walk on together with the armature, the armature last."
+            )
         return there[0]
 
 
@@ -275,11 +296,11 @@ class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         obj = context.object
-        return obj is not None and obj.mode != "EDIT" and (
-            obj.desire_path.is_ground or obj.desire_path.is_walker)
+        return obj is not None and obj.mode != "EDIT" and (obj.desire_path.is_ground or obj.desire_path.is_walker)
 
     def work(self, context):
         from .op_bake import free
+
         obj = context.object
         settings = obj.desire_path
         if settings.is_ground:
@@ -300,8 +321,9 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
     bl_label = "Record Walk"
     bl_options = {"REGISTER"}
 
-    filepath: StringProperty(name="File", subtype="FILE_PATH", default="walk.npz",
-                             description="Where the recording is written")
+    filepath: StringProperty(
+        name="File", subtype="FILE_PATH", default="walk.npz", description="Where the recording is written"
+    )
     filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
 
     @classmethod
@@ -368,6 +390,14 @@ class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_desire_path_ground_add, OBJECT_OT_desire_path_walker_add,
-           OBJECT_OT_desire_path_rig_detect, OBJECT_OT_desire_path_foot_add, OBJECT_OT_desire_path_foot_remove, OBJECT_OT_desire_path_remove, OBJECT_OT_desire_path_record,
-           OBJECT_OT_desire_path_paint_add, OBJECT_OT_desire_path_paint_remove)
+CLASSES = (
+    OBJECT_OT_desire_path_ground_add,
+    OBJECT_OT_desire_path_walker_add,
+    OBJECT_OT_desire_path_rig_detect,
+    OBJECT_OT_desire_path_foot_add,
+    OBJECT_OT_desire_path_foot_remove,
+    OBJECT_OT_desire_path_remove,
+    OBJECT_OT_desire_path_record,
+    OBJECT_OT_desire_path_paint_add,
+    OBJECT_OT_desire_path_paint_remove,
+)

@@ -3,6 +3,7 @@
 From 5.0 on Blender drops what an override adds to a property group that its library never had. The file therefore
 keeps it a second time, on a scene, and gives it back when it is read.
 """
+
 import json
 from contextlib import suppress
 
@@ -15,10 +16,15 @@ KEPT = "desire_path_overrides"  # on a scene: what each of them was told, as JSO
 
 def at_risk():
     """Overrides whose library says nothing of them."""
-    return [obj for obj in bpy.data.objects if obj.override_library is not None and obj.library is None
-            and obj.override_library.reference is not None
-            and not obj.override_library.reference.is_property_set("desire_path")
-            and (obj.desire_path.is_ground or obj.desire_path.is_walker)]
+    return [
+        obj
+        for obj in bpy.data.objects
+        if obj.override_library is not None
+        and obj.library is None
+        and obj.override_library.reference is not None
+        and not obj.override_library.reference.is_property_set("desire_path")
+        and (obj.desire_path.is_ground or obj.desire_path.is_walker)
+    ]
 
 
 def keep():
@@ -51,7 +57,9 @@ def told(group):
         if each.function is bpy.props.CollectionProperty:
             out[name] = [told(one) | {"name": one.name} for one in value]
         elif each.function is bpy.props.PointerProperty:
-            out[name] = [value.bl_rna.identifier, value.name, value.library and value.library.filepath] if value else None
+            out[name] = (
+                [value.bl_rna.identifier, value.name, value.library and value.library.filepath] if value else None
+            )
         else:
             out[name] = value
     return out

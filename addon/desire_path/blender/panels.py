@@ -1,4 +1,5 @@
 """panels.py - Properties > Physics > Desire Path, and the same in the sidebar."""
+
 import json
 
 import bpy
@@ -45,8 +46,10 @@ def draw_ground(layout, context, obj):
     there = walkers(context.scene, obj)
     for each in there:
         passes = each.desire_path.passes if each.desire_path.path is not None else 1
-        box.label(text=f"{each.name}, {weight(each.desire_path)}" + (f", {passes} passes" if passes > 1 else ""),
-                  icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA")
+        box.label(
+            text=f"{each.name}, {weight(each.desire_path)}" + (f", {passes} passes" if passes > 1 else ""),
+            icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA",
+        )
     if not there:
         box.label(text="None: select one and press Add Walker", icon="INFO")
 
@@ -87,9 +90,14 @@ def draw_result(layout, context, settings):
     found = json.loads(settings.summary)
     column = layout.column(align=True)
     baked = "Frames {} to {}: ".format(*found["frames"]) if "frames" in found else ""  # not in older files
-    _lines(column, f"{baked}{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
-                   f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
-                   f"rims, baked in {found['seconds_in_all']:.1f} s", "BLANK1", width)
+    _lines(
+        column,
+        f"{baked}{found['contacts']} contacts, deepest print {1000 * found['deepest_m']:.0f} mm, "
+        f"{1000 * found['pressed_m3']:.2f} l pressed, {1000 * found['heaped_m3']:.2f} l in "
+        f"rims, baked in {found['seconds_in_all']:.1f} s",
+        "BLANK1",
+        width,
+    )
     if found.get("with"):
         names = ", ".join(f"'{name}'" for name in found["with"])
         _lines(column, f"Baked together with {names}", "LINKED", width)
@@ -119,8 +127,7 @@ def _lines(layout, text, icon, width):
 def draw_painted(layout, obj):
     settings = obj.desire_path
     row = layout.row()
-    row.template_list("OBJECT_UL_desire_path_paint", "", settings, "painted", settings,
-                      "painted_index", rows=2)
+    row.template_list("OBJECT_UL_desire_path_paint", "", settings, "painted", settings, "painted_index", rows=2)
     side = row.column(align=True)
     side.operator("object.desire_path_paint_add", text="", icon="ADD")
     side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
@@ -129,8 +136,7 @@ def draw_painted(layout, obj):
 def draw_plants(layout, context, obj):
     settings = obj.desire_path
     row = layout.row()
-    row.template_list("OBJECT_UL_desire_path_plants", "", settings, "plants", settings, "plants_index",
-                      rows=2)
+    row.template_list("OBJECT_UL_desire_path_plants", "", settings, "plants", settings, "plants_index", rows=2)
     side = row.column(align=True)
     side.operator("object.desire_path_plants_add", text="", icon="ADD")
     side.operator("object.desire_path_plants_remove", text="", icon="REMOVE")
@@ -191,8 +197,9 @@ def draw_walker(layout, obj):
     column.prop(settings, "ground")
     column.prop(settings, "mass")
     if not settings.mass:
-        column.label(text=weight(settings).capitalize() if settings.estimated_mass
-                     else "Estimated when recorded", icon="INFO")
+        column.label(
+            text=weight(settings).capitalize() if settings.estimated_mass else "Estimated when recorded", icon="INFO"
+        )
     legged = obj.type == "ARMATURE"
     if legged:
         column.prop(settings, "sole")
@@ -324,7 +331,15 @@ class VIEW3D_PT_desire_path_output(_Sidebar, _Output, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
 
-CLASSES = (OBJECT_UL_desire_path_paint, OBJECT_UL_desire_path_plants, PHYSICS_PT_desire_path,
-           PHYSICS_PT_desire_path_painted, PHYSICS_PT_desire_path_plants, PHYSICS_PT_desire_path_output,
-           VIEW3D_PT_desire_path, VIEW3D_PT_desire_path_painted, VIEW3D_PT_desire_path_plants,
-           VIEW3D_PT_desire_path_output)
+CLASSES = (
+    OBJECT_UL_desire_path_paint,
+    OBJECT_UL_desire_path_plants,
+    PHYSICS_PT_desire_path,
+    PHYSICS_PT_desire_path_painted,
+    PHYSICS_PT_desire_path_plants,
+    PHYSICS_PT_desire_path_output,
+    VIEW3D_PT_desire_path,
+    VIEW3D_PT_desire_path_painted,
+    VIEW3D_PT_desire_path_plants,
+    VIEW3D_PT_desire_path_output,
+)

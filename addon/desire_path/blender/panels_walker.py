@@ -1,4 +1,5 @@
 """panels_walker.py - what an armature is taken for, bone by bone, and what its forces are."""
+
 import json
 
 import bpy
@@ -33,8 +34,12 @@ def draw_forces(layout, context, obj):
     settings = obj.desire_path
     shown, graph = op_forces.shows(obj), op_forces.shows_graph(obj)
     row = layout.row(align=True)
-    row.operator("object.desire_path_forces_show", text="Hide Forces" if shown else "Show Forces",
-                 icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
+    row.operator(
+        "object.desire_path_forces_show",
+        text="Hide Forces" if shown else "Show Forces",
+        icon="HIDE_OFF" if shown else "HIDE_ON",
+        depress=shown,
+    )
     row.operator("object.desire_path_forces_graph", text="Graph", icon="FCURVE", depress=graph)
     row = layout.row(align=True)
     row.operator("object.desire_path_forces_report", text="Report", icon="TEXT")
@@ -42,6 +47,7 @@ def draw_forces(layout, context, obj):
     if not settings.forces:
         return
     from ..loads.report import sentences
+
     told, width = json.loads(settings.forces), _letters(context)
     column = layout.column(align=True)
     for each in sentences(told):
@@ -89,5 +95,9 @@ class VIEW3D_PT_desire_path_forces(_Sidebar, _Forces, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
 
-CLASSES = (PHYSICS_PT_desire_path_rig, PHYSICS_PT_desire_path_forces, VIEW3D_PT_desire_path_rig,
-           VIEW3D_PT_desire_path_forces)
+CLASSES = (
+    PHYSICS_PT_desire_path_rig,
+    PHYSICS_PT_desire_path_forces,
+    VIEW3D_PT_desire_path_rig,
+    VIEW3D_PT_desire_path_forces,
+)

@@ -1,7 +1,8 @@
 """picture.py - an image as a number for every place of a ground: 1 where it is white, 0 where it is black.
 
-    Image --pixels as stored--> brightness (rows, columns) --UV map, or seen from above--> 0..1 at places
+Image --pixels as stored--> brightness (rows, columns) --UV map, or seen from above--> 0..1 at places
 """
+
 import bpy
 import numpy as np
 
@@ -17,8 +18,9 @@ def named(name):
         return None
     image = bpy.data.images.get(name)
     if image is None:
-        raise DesirePathError(f"There is no image '{name}' in this file: open it in the Image Editor, or leave the "
-                              "density image empty.")
+        raise DesirePathError(
+            f"There is no image '{name}' in this file: open it in the Image Editor, or leave the density image empty."
+        )
     return image
 
 
@@ -29,13 +31,18 @@ def is_still(_self, image):
 def brightness(image):
     """Rec. 709 luminance of an image's pixels as they are stored, float32 (rows, columns) 0..1, row 0 below."""
     if not is_still(None, image):
-        raise DesirePathError(f"The density image '{image.name}' is no single picture but a {image.source.lower()}: "
-                              "save the picture that is meant as a file of its own and choose that.")
+        raise DesirePathError(
+            f"The density image '{image.name}' is no single picture but a {image.source.lower()}: "
+            "save the picture that is meant as a file of its own and choose that."
+        )
     count, (width, height) = len(image.pixels), image.size
     if not count or count % (width * height):
         path = bpy.path.abspath(image.filepath)
-        raise DesirePathError(f"The density image '{image.name}' cannot be loaded" + (f" from {path}" if path else "") +
-                              ": mend its path in the Image Editor, or choose another image.")
+        raise DesirePathError(
+            f"The density image '{image.name}' cannot be loaded"
+            + (f" from {path}" if path else "")
+            + ": mend its path in the Image Editor, or choose another image."
+        )
     pixels = np.empty(count, np.float32)
     image.pixels.foreach_get(pixels)
     pixels = pixels.reshape(height, width, -1)
@@ -76,6 +83,7 @@ class Lay:
         if self.uv is None:
             return (at - self.low) / self.size
         from ..ground.sim import Ground, Simulation
+
         # each face is raised by a hair of its own, so that the height tells which of them is seen from above
         corner = self.vertices[self.triangles]
         hair = 1e-4 / len(corner)
@@ -97,6 +105,7 @@ def _shares(corner, at):
     def area(p, q, r):
         return (q[:, 0] - p[:, 0]) * (r[:, 1] - p[:, 1]) - (q[:, 1] - p[:, 1]) * (r[:, 0] - p[:, 0])
 
-    share = np.clip(np.stack([area(at, b, c), area(a, at, c), area(a, b, at)], axis=1)
-                    * np.sign(area(a, b, c))[:, None], 0.0, None)
+    share = np.clip(
+        np.stack([area(at, b, c), area(a, at, c), area(a, b, at)], axis=1) * np.sign(area(a, b, c))[:, None], 0.0, None
+    )
     return share / np.maximum(share.sum(axis=1, keepdims=True), 1e-30)

@@ -1,8 +1,9 @@
 """plants.py - the plants of a ground: kinds, roots where they are painted, grass one can see.
 
-    Object.desire_path.plants --kind, density, group, image, seed--> roots --> grass (grass.py)
-                                                                         \\--> Planting, for the bake
+Object.desire_path.plants --kind, density, group, image, seed--> roots --> grass (grass.py)
+                                                                     \\--> Planting, for the bake
 """
+
 import os
 from dataclasses import dataclass
 
@@ -22,14 +23,16 @@ SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
 def kind(name):
     """A kind by its name, or from the JSON file a user saved one in."""
     from ..ground.plants import KINDS, Kind  # the core is loaded when it is first needed
+
     if name in KINDS:
         return KINDS[name]
     if not name:
         raise DesirePathError(f"A kind of plant is missing: choose one of {', '.join(KINDS)}, or a file.")
     path = bpy.path.abspath(name)
     if not name.lower().endswith(".json") and not os.path.exists(path):
-        raise DesirePathError(f"There is no plant kind '{name}': choose one of {', '.join(KINDS)}, or a "
-                              "file that Kind.save() wrote.")
+        raise DesirePathError(
+            f"There is no plant kind '{name}': choose one of {', '.join(KINDS)}, or a file that Kind.save() wrote."
+        )
     return Kind.load(path)
 
 
@@ -60,10 +63,14 @@ class Bed:
     def __init__(self, scene, obj, chosen, frame):
         """chosen: the plantings it is read for"""
         from ..ground.sim import Ground, Simulation
+
         self.scale = axes.unit_scale(scene)
         groups = [name for name in dict.fromkeys(each.density_group for each in chosen) if name]
-        self.light = {each.density_image: picture.brightness(each.density_image)
-                      for each in chosen if each.density_image is not None}
+        self.light = {
+            each.density_image: picture.brightness(each.density_image)
+            for each in chosen
+            if each.density_image is not None
+        }
         place = stack.find(scene, obj, frame)
         trees = [stack.realised()] if place.realise else []
         trees += [ground.weights_tree(groups)] if groups else []
@@ -78,12 +85,15 @@ class Bed:
             for k, name in enumerate(groups):
                 value = compat.float_attribute(found.data, ground.WEIGHT.format(k))
                 if value is None or name not in obj.vertex_groups and name not in found.data.attributes:
-                    raise DesirePathError(f"'{obj.name}' has no vertex group or attribute '{name}' for "
-                                          "the density of its plants: choose another one.")
+                    raise DesirePathError(
+                        f"'{obj.name}' has no vertex group or attribute '{name}' for "
+                        "the density of its plants: choose another one."
+                    )
                 odd = np.flatnonzero(~np.isfinite(value))
                 if len(odd):
-                    raise DesirePathError(f"'{name}' of '{obj.name}' is no number at point {odd[0]}: give it one "
-                                          "from 0 to 1.")
+                    raise DesirePathError(
+                        f"'{name}' of '{obj.name}' is no number at point {odd[0]}: give it one from 0 to 1."
+                    )
                 painted[name] = value
         if not len(triangles):
             raise DesirePathError(f"'{obj.name}' has no faces: give it some for plants to grow on.")
@@ -120,6 +130,7 @@ class Bed:
         there, so that another density takes plants away or adds some and leaves the others alone.
         """
         from ..ground.plants import Planting
+
         weight = self.spread(each).weight
         size = self.high - self.low
         density = axes.typed(each.density)
@@ -128,8 +139,7 @@ class Bed:
         base = its.density * 2.0 ** np.ceil(np.log2(density / its.density) - 1e-9)
         if not each.density_group and each.density_image is None and abs(base - density) < 1e-6 * base:
             return Planting(its, base, each.seed), wanted
-        return Planting(its, base, each.seed, weight * (density / base),
-                        (*self.low, *self.high)), wanted
+        return Planting(its, base, each.seed, weight * (density / base), (*self.low, *self.high)), wanted
 
     def roots(self, planting):
         """Where its plants stand on the ground, float32 (n, 3) [m]."""
@@ -165,11 +175,15 @@ def plant(scene, obj, chosen=None):
         each.count = len(root)
         each.mark = mark(each)
         if wanted > MOST:
-            told.append(f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
-                        f"{MOST / 1e6:.0f} million: paint a density group or image where they are seen.")
+            told.append(
+                f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
+                f"{MOST / 1e6:.0f} million: paint a density group or image where they are seen."
+            )
         elif not len(root):
-            told.append(f"No {each.kind} grows on '{obj.name}': check its density, and the group and the image "
-                        "that thin it out.")
+            told.append(
+                f"No {each.kind} grows on '{obj.name}': check its density, and the group and the image "
+                "that thin it out."
+            )
         if shown(each) is not None:
             look = tuft.look_of(each.kind, its)
             grass.fill(each.grass, obj, root, bed.slope(root), look.sizes, look.tufts, bed.scale)

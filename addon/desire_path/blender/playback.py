@@ -9,6 +9,7 @@ where plants grew, a second image says how they lie. All numbers are constants i
 same tree works from 3.4 to 5.2. File 0 is the untouched ground, file n the frame
 `frame_start + n - 1`.
 """
+
 import os
 
 import bpy
@@ -54,8 +55,7 @@ def images(tree):
     return found
 
 
-def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0,
-           standing=(), place=None):
+def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0, standing=(), place=None):
     """Play the frames of a bake on the object; replaces what it played before.
 
     frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
@@ -71,9 +71,8 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
     detach(obj)
-    shown = {name: _image(frames, name) for name in ("trail", "lean")[:1 + has_lean(index)]}
-    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing,
-                 place)
+    shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(index)]}
+    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place)
     tree[TAG] = mark(frames, index, count)
     ours = compat.nodes_modifier(obj, MODIFIER, tree)
     ours.show_expanded = False
@@ -104,7 +103,9 @@ def samples(obj):
     vertices = obj.data.vertices
     if not len(vertices):
         return np.zeros((0, 3))
-    return np.array([vertices[k].co for k in np.unique(np.linspace(0, len(vertices) - 1, SAMPLES).astype(int))], np.float64)
+    return np.array(
+        [vertices[k].co for k in np.unique(np.linspace(0, len(vertices) - 1, SAMPLES).astype(int))], np.float64
+    )
 
 
 def stacked(obj):
@@ -117,8 +118,11 @@ def stacked(obj):
             out.append("ours")
             continue
         of = f'modifiers["{bpy.utils.escape_identifier(each.name)}"].'
-        values = {name: getattr(each, name) for name in STACKED if hasattr(each, name)
-                  and not compat.is_keyed(obj.animation_data, of + name)}
+        values = {
+            name: getattr(each, name)
+            for name in STACKED
+            if hasattr(each, name) and not compat.is_keyed(obj.animation_data, of + name)
+        }
         shown = any([values.pop(name, False) for name in ("show_viewport", "show_render")])
         out.append(f"{each.name} {each.type} {shown} {tree.name if tree is not None else ''} {list(values.values())}")
     return "; ".join(out)
@@ -155,7 +159,7 @@ def repoint(old, new):
     for each in [image for image in bpy.data.images if TAG in image] + stems:
         path = os.path.abspath(bpy.path.abspath(each.filepath))
         if each.id_data.library is None and path.startswith(old + os.sep):
-            each.filepath = join(new, *path[len(old) + 1:].split(os.sep))
+            each.filepath = join(new, *path[len(old) + 1 :].split(os.sep))
 
 
 def has_lean(index):
@@ -171,8 +175,10 @@ def is_published(frames):
 def mark(frames, index, count):
     """What a tree plays, in a word, to tell whether the files are still the same."""
     place = "frames" if is_published(frames) else NEW
-    return (f"{place} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
-            f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean")
+    return (
+        f"{place} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
+        f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean"
+    )
 
 
 def _image(frames, name):
@@ -234,21 +240,27 @@ class Wiring:
         return node
 
     def math(self, operation, *values):
-        node = self.add("ShaderNodeMath", {"operation": operation},
-                        **{f"_{i}": v for i, v in enumerate(values)})
+        node = self.add("ShaderNodeMath", {"operation": operation}, **{f"_{i}": v for i, v in enumerate(values)})
         return node.outputs[0]
 
     def vector(self, operation, *values, scale=None):
-        node = self.add("ShaderNodeVectorMath", {"operation": operation},
-                        **{f"_{i}": v for i, v in enumerate(values)},
-                        **({} if scale is None else {"Scale": scale}))
+        node = self.add(
+            "ShaderNodeVectorMath",
+            {"operation": operation},
+            **{f"_{i}": v for i, v in enumerate(values)},
+            **({} if scale is None else {"Scale": scale}),
+        )
         return compat.socket(node.outputs, "Vector") or compat.socket(node.outputs, "Value")
 
     def image(self, image, at, number, smooth, beyond="CLIP"):
         """Sample file `number` of an image sequence; outputs Color and Alpha. beyond: what lies around it"""
-        return self.add("GeometryNodeImageTexture",
-                        {"interpolation": "Linear" if smooth else "Closest", "extension": beyond},
-                        Image=image, Vector=at, Frame=number)
+        return self.add(
+            "GeometryNodeImageTexture",
+            {"interpolation": "Linear" if smooth else "Closest", "extension": beyond},
+            Image=image,
+            Vector=at,
+            Frame=number,
+        )
 
     def named(self, name, kind="FLOAT"):
         """The field of a named attribute."""
@@ -257,8 +269,13 @@ class Wiring:
 
     def store(self, geometry, name, value, kind="FLOAT", domain="POINT"):
         """Store a field as a named attribute; returns the geometry."""
-        return self.add("GeometryNodeStoreNamedAttribute", {"data_type": kind, "domain": domain},
-                        Geometry=geometry, Name=name, Value=value).outputs[0]
+        return self.add(
+            "GeometryNodeStoreNamedAttribute",
+            {"data_type": kind, "domain": domain},
+            Geometry=geometry,
+            Name=name,
+            Value=value,
+        ).outputs[0]
 
     def xyz(self, x=0.0, y=0.0, z=0.0):
         return self.add("ShaderNodeCombineXYZ", X=x, Y=y, Z=z).outputs[0]
@@ -300,11 +317,16 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     some = {} if inside is None else {"Selection": inside}
     stored = entry
     scattered = place is not None and place.scattered  # before us: it goes down with the ground
-    for domain in ("INSTANCE", "POINT")[not scattered:]:
-        stored = wire.add("GeometryNodeStoreNamedAttribute", {"data_type": "FLOAT_COLOR", "domain": domain},
-                          Geometry=stored.outputs[0], Name=ATTRIBUTE, Value=texture.outputs["Color"], **some)
-    split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"},
-                     Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
+    for domain in ("INSTANCE", "POINT")[not scattered :]:
+        stored = wire.add(
+            "GeometryNodeStoreNamedAttribute",
+            {"data_type": "FLOAT_COLOR", "domain": domain},
+            Geometry=stored.outputs[0],
+            Name=ATTRIBUTE,
+            Value=texture.outputs["Color"],
+            **some,
+        )
+    split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"}, Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
     up = axes.lift(world, scale)
     if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
         offset = wire.add("ShaderNodeCombineXYZ", Z=split.outputs[0]).outputs[0]
@@ -316,8 +338,7 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     if "lean" in shown:
         grown = _grown(wire, standing, world, scale) if inside is not None else None
         geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
-    geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset,
-                        **some).outputs[0]
+    geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset, **some).outputs[0]
 
     # a group of that name on the object is filled instead of an attribute
     if layer_depth > 0.0:
@@ -368,8 +389,11 @@ def _lean(wire, geometry, texture, inside, grown):
     """Store how plants lie and how strong they are; off the image they stand as they grew."""
     strength = texture.outputs["Alpha"]
     if inside is not None:
-        strength = wire.math("ADD", wire.math("MULTIPLY", strength, inside),
-                             wire.math("MULTIPLY", grown, wire.math("SUBTRACT", 1.0, inside)))
+        strength = wire.math(
+            "ADD",
+            wire.math("MULTIPLY", strength, inside),
+            wire.math("MULTIPLY", grown, wire.math("SUBTRACT", 1.0, inside)),
+        )
         lean = wire.vector("SCALE", texture.outputs["Color"], scale=inside)
     else:
         lean = texture.outputs["Color"]
@@ -382,4 +406,3 @@ def within(wire, at):
     from_middle = wire.vector("ABSOLUTE", wire.vector("SUBTRACT", at, (0.5, 0.5, 0.0)))
     split = wire.add("ShaderNodeSeparateXYZ", Vector=from_middle)
     return wire.math("LESS_THAN", wire.math("MAXIMUM", split.outputs[0], split.outputs[1]), 0.5)
-

@@ -1,4 +1,5 @@
 """posing.py - the bones of an armature: seen in the world over the frames, held by what, and keyed."""
+
 from dataclasses import dataclass
 
 import bpy
@@ -29,15 +30,17 @@ class Bones:
 def look(scene, armature, names, frames):
     """Bones as they are seen at each frame, constraints and all; a ground that moves lies as at the first one."""
     world, pose = [], {name: [] for name in names}
-    with (sample.still(armature), sample.private_scene(scene, armature) as own,
-          ride.on(own, armature.desire_path.ground, frames[0]) as carry):
+    with (
+        sample.still(armature),
+        sample.private_scene(scene, armature) as own,
+        ride.on(own, armature.desire_path.ground, frames[0]) as carry,
+    ):
         for frame in frames:
             seen = sample.evaluated(own, armature, frame)
             world.append(sample.world_of(seen, carry))
             for name in names:
                 pose[name].append(np.array(seen.pose.bones[name].matrix, np.float64))
-    return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()},
-                 axes.unit_scale(scene))
+    return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()}, axes.unit_scale(scene))
 
 
 def holders(armature, name):
@@ -56,8 +59,11 @@ def holders(armature, name):
 
 def basis(bone, wanted, parent):
     """The basis matrix that brings a bone to a matrix of its armature's axes; parent: its parent's, or None."""
-    more = {} if parent is None else {"parent_matrix": Matrix(parent.tolist()),
-                                      "parent_matrix_local": bone.parent.matrix_local}
+    more = (
+        {}
+        if parent is None
+        else {"parent_matrix": Matrix(parent.tolist()), "parent_matrix_local": bone.parent.matrix_local}
+    )
     return bone.convert_local_to_pose(Matrix(wanted.tolist()), bone.matrix_local, invert=True, **more)
 
 
@@ -107,7 +113,8 @@ def unlocked(bone, kind, values):
     if np.ptp(moved, axis=0).max() > LOCKED:
         raise DesirePathError(
             f"The {kind} of bone '{bone.name}' is locked and would have to change: unlock it (Item in the "
-            "sidebar of the 3D view), or place the feet of another rig.")
+            "sidebar of the 3D view), or place the feet of another rig."
+        )
 
 
 def turned(turn, about, to):

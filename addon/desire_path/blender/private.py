@@ -1,4 +1,5 @@
 """private.py - a scene of our own, in which something is looked at while the user's scene stays as it is."""
+
 import math
 from contextlib import contextmanager
 
@@ -40,6 +41,7 @@ def evaluated(own, obj, frame):
     own.frame_set(whole, subframe=frame - whole)
     found = obj.evaluated_get(own.view_layers[0].depsgraph)
     if not found.is_evaluated:
-        raise DesirePathError(f"'{obj.name}' is disabled in viewports: enable it (the screen icon in "
-                              "the Outliner) and try again.")
+        raise DesirePathError(
+            f"'{obj.name}' is disabled in viewports: enable it (the screen icon in the Outliner) and try again."
+        )
     return found

@@ -1,7 +1,15 @@
 """props.py - what a ground and a walker remember: Object.desire_path."""
+
 import bpy
-from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
-                       PointerProperty, StringProperty)
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ..ground.soil import SOILS
 from . import compat, picture
@@ -12,14 +20,18 @@ def _words(name):
 
 
 _SOIL_ITEMS = tuple(
-    (name, _words(name), f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
-     f"{soil.rest_angle * 57.29578:.0f} degrees, yields in {soil.settle_time:.2g} s")
-    for name, soil in SOILS.items())
+    (
+        name,
+        _words(name),
+        f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
+        f"{soil.rest_angle * 57.29578:.0f} degrees, yields in {soil.settle_time:.2g} s",
+    )
+    for name, soil in SOILS.items()
+)
 
 
 def _soil(description):
-    return EnumProperty(name="Soil", description=description, items=_SOIL_ITEMS,
-                        default=_SOIL_ITEMS[0][0])
+    return EnumProperty(name="Soil", description=description, items=_SOIL_ITEMS, default=_SOIL_ITEMS[0][0])
 
 
 def is_ground(_self, obj):
@@ -58,18 +70,19 @@ def overridable(group):
 class DesirePathPaint(bpy.types.PropertyGroup):
     """A soil painted by a vertex group."""
 
-    vertex_group: StringProperty(
-        name="Vertex Group", description="Where this soil lies: weights above one half")
+    vertex_group: StringProperty(name="Vertex Group", description="Where this soil lies: weights above one half")
     soil: _soil("The soil that lies where the group is painted")
 
 
 def kinds(_self, _context, _text):
     from ..ground.plants import KINDS  # the core is loaded when it is first needed
+
     return list(KINDS)
 
 
 def _replant(self, context):
     from . import op_plants
+
     op_plants.changed(self.id_data)
 
 
@@ -78,26 +91,48 @@ class DesirePathPlants(bpy.types.PropertyGroup):
     """Plants of one kind that grow on a ground."""
 
     kind: StringProperty(
-        name="Kind", default="carex", search=kinds, search_options={"SUGGESTION"}, update=_replant,
-        description="A kind of plant, or a .json file in which a kind was saved")
+        name="Kind",
+        default="carex",
+        search=kinds,
+        search_options={"SUGGESTION"},
+        update=_replant,
+        description="A kind of plant, or a .json file in which a kind was saved",
+    )
     density: FloatProperty(
-        name="Density [1/m2]", default=80.0, min=0.001, soft_max=1000.0, max=5e4, precision=1, step=100,
-        update=_replant, description="How many plants grow on a square metre where the group is 1")
+        name="Density [1/m2]",
+        default=80.0,
+        min=0.001,
+        soft_max=1000.0,
+        max=5e4,
+        precision=1,
+        step=100,
+        update=_replant,
+        description="How many plants grow on a square metre where the group is 1",
+    )
     density_group: StringProperty(
-        name="Density Group", update=_replant, description="A vertex group or float attribute that thins "
-        "the plants out: 1 = all of them, 0 = none. Empty = they grow everywhere")
+        name="Density Group",
+        update=_replant,
+        description="A vertex group or float attribute that thins "
+        "the plants out: 1 = all of them, 0 = none. Empty = they grow everywhere",
+    )
     density_image: PointerProperty(
-        name="Density Image", type=bpy.types.Image, poll=picture.is_still, update=_replant,
+        name="Density Image",
+        type=bpy.types.Image,
+        poll=picture.is_still,
+        update=_replant,
         description="An image that thins the plants out, times the group if both are set: white = all of them, black = "
         "none, by the brightness of its pixels as they are stored. It lies on the ground by the active UV map; where "
         "there is none, it is stretched over the ground's bounding rectangle seen from above. Update Plants takes over "
-        "what was painted since")
-    seed: IntProperty(name="Seed", min=0, update=_replant,
-                      description="Another number puts every plant somewhere else")
+        "what was painted since",
+    )
+    seed: IntProperty(name="Seed", min=0, update=_replant, description="Another number puts every plant somewhere else")
     count: IntProperty(options={"HIDDEN"}, description="How many plants there are")
     mark: StringProperty(options={"HIDDEN"}, description="What the roots were placed for")
-    grass: PointerProperty(name="Grass", type=bpy.types.Object, description="The object that shows "
-                           "these plants; empty = they are not shown")
+    grass: PointerProperty(
+        name="Grass",
+        type=bpy.types.Object,
+        description="The object that shows these plants; empty = they are not shown",
+    )
 
 
 @overridable
@@ -105,13 +140,16 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     """The bones of one foot."""
 
     limb: StringProperty(name="Limb", description="Which foot this is")
-    foot: StringProperty(name="Foot", update=_foot_by_hand,
-                         description="The bone that begins at the ankle")
-    toe: StringProperty(name="Toe", description="The bone that begins at the ball of the foot; "
-                                                "empty where the rig has none")
+    foot: StringProperty(name="Foot", update=_foot_by_hand, description="The bone that begins at the ankle")
+    toe: StringProperty(
+        name="Toe", description="The bone that begins at the ball of the foot; empty where the rig has none"
+    )
     heel: StringProperty(name="Heel", description="A bone that lies at the heel, if there is one")
-    thigh: StringProperty(name="Thigh", description="The bone that begins at the hip of this leg; with neither "
-                          "thigh nor shank both are found above the foot")
+    thigh: StringProperty(
+        name="Thigh",
+        description="The bone that begins at the hip of this leg; with neither "
+        "thigh nor shank both are found above the foot",
+    )
     shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
 
 
@@ -121,46 +159,75 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
     soil: _soil("What the ground is made of where nothing else is painted")
     cell_size: FloatProperty(
-        name="Cell Size [m]", default=0.01, soft_min=0.002, soft_max=0.1, step=0.1, precision=4,
-        description="Side of a cell of the pressed ground, in metres: smaller shows finer prints")
-    frame_start: IntProperty(name="Start", default=1, update=_frames_by_hand,
-                             description="First frame that is baked")
-    frame_end: IntProperty(name="End", default=250, update=_frames_by_hand,
-                           description="Last frame that is baked")
-    frames_auto: BoolProperty(default=True, options={"HIDDEN"},
-                              description="The frames follow the walkers until set by hand")
+        name="Cell Size [m]",
+        default=0.01,
+        soft_min=0.002,
+        soft_max=0.1,
+        step=0.1,
+        precision=4,
+        description="Side of a cell of the pressed ground, in metres: smaller shows finer prints",
+    )
+    frame_start: IntProperty(name="Start", default=1, update=_frames_by_hand, description="First frame that is baked")
+    frame_end: IntProperty(name="End", default=250, update=_frames_by_hand, description="Last frame that is baked")
+    frames_auto: BoolProperty(
+        default=True, options={"HIDDEN"}, description="The frames follow the walkers until set by hand"
+    )
     folder: StringProperty(
-        name="Folder", subtype="DIR_PATH", update=_folder_by_hand, options=compat.RELATIVE,
-        description="Where the baked frames, maps and the report are written")
-    folder_auto: BoolProperty(default=True, options={"HIDDEN"},
-                              description="The folder follows the file until set by hand")
-    painted: CollectionProperty(type=DesirePathPaint, name="Painted Soils",
-                                description="Soils that lie where a vertex group is painted")
+        name="Folder",
+        subtype="DIR_PATH",
+        update=_folder_by_hand,
+        options=compat.RELATIVE,
+        description="Where the baked frames, maps and the report are written",
+    )
+    folder_auto: BoolProperty(
+        default=True, options={"HIDDEN"}, description="The folder follows the file until set by hand"
+    )
+    painted: CollectionProperty(
+        type=DesirePathPaint, name="Painted Soils", description="Soils that lie where a vertex group is painted"
+    )
     painted_index: IntProperty(options={"HIDDEN"})
-    plants: CollectionProperty(type=DesirePathPlants, name="Plants",
-                               description="What grows on this ground, bends under feet and wears")
+    plants: CollectionProperty(
+        type=DesirePathPlants, name="Plants", description="What grows on this ground, bends under feet and wears"
+    )
     plants_index: IntProperty(options={"HIDDEN"})
     plant_mesh: BoolProperty(
-        name="Plant Mesh", description="Also bake the simulated plants as a mesh of stems, for close-ups: "
-        "where feet come near, in place of the grass, and down as long as that where trodden; large files")
-    plant_object: PointerProperty(type=bpy.types.Object, options={"HIDDEN"},
-                                  description="The mesh of the simulated plants")
+        name="Plant Mesh",
+        description="Also bake the simulated plants as a mesh of stems, for close-ups: "
+        "where feet come near, in place of the grass, and down as long as that where trodden; large files",
+    )
+    plant_object: PointerProperty(
+        type=bpy.types.Object, options={"HIDDEN"}, description="The mesh of the simulated plants"
+    )
     vertex_group: BoolProperty(
-        name="Vertex Groups", description="Also fill vertex groups with plant strength and "
-        "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play")
+        name="Vertex Groups",
+        description="Also fill vertex groups with plant strength and "
+        "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play",
+    )
     attributes: BoolProperty(
-        name="Attributes", default=True, description="Also write the final compression, heap, "
-        "pressure and plant strength as attributes of the mesh, for materials and nodes")
+        name="Attributes",
+        default=True,
+        description="Also write the final compression, heap, "
+        "pressure and plant strength as attributes of the mesh, for materials and nodes",
+    )
     law: EnumProperty(
-        name="Contact", description="How a sole presses the ground",
-        items=(("sole", "Rigid sole", "A tread prints its tread, a tilted sole digs in its edge"),
-               ("uniform", "Even pressure", "The same pressure under the whole sole")))
+        name="Contact",
+        description="How a sole presses the ground",
+        items=(
+            ("sole", "Rigid sole", "A tread prints its tread, a tilted sole digs in its edge"),
+            ("uniform", "Even pressure", "The same pressure under the whole sole"),
+        ),
+    )
     heap: EnumProperty(
-        name="Rims", description="How displaced soil is laid around a print",
-        items=(("rest", "At rest", "At once in the shape it comes to rest in"),
-               ("paper", "Falling off", "On the rim, falling off over its width, then sliding")))
-    threads: IntProperty(name="Threads", min=0, max=64, default=0,
-                         description="Processors to bake with, 0 = all; the result is the same")
+        name="Rims",
+        description="How displaced soil is laid around a print",
+        items=(
+            ("rest", "At rest", "At once in the shape it comes to rest in"),
+            ("paper", "Falling off", "On the rim, falling off over its width, then sliding"),
+        ),
+    )
+    threads: IntProperty(
+        name="Threads", min=0, max=64, default=0, description="Processors to bake with, 0 = all; the result is the same"
+    )
     bake_id: StringProperty(options={"HIDDEN"}, description="Whose a bake is, see home.py")
     bake_file: StringProperty(options={"HIDDEN"}, description="The file the id was given in")
     bake_seen: StringProperty(options={"HIDDEN"}, description="The same, seen from the folder")
@@ -174,54 +241,88 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     def bake_state(self):
         """What has become of the bake, NONE, FRESH, OUTDATED, PARTIAL or MISSING: found anew whenever it is asked for."""
         from . import state
+
         return state.ask(self.id_data).state
 
     @property
     def missing(self):
         """The same in a sentence, which says what to do; empty where all is well."""
         from . import state
+
         return state.ask(self.id_data).text
 
     # ---- a walker
     is_walker: BoolProperty(name="Walker", description="This armature, or rigid body, leaves prints")
-    ground: PointerProperty(name="Ground", type=bpy.types.Object, poll=is_ground,
-                            description="The mesh this walker leaves prints in")
-    mass: FloatProperty(name="Mass [kg]", default=75.0, soft_min=1.0, soft_max=1000.0, precision=1,
-                        description="How heavy the walker is, in kilograms; 0 = estimated from its "
-                        "height")
+    ground: PointerProperty(
+        name="Ground", type=bpy.types.Object, poll=is_ground, description="The mesh this walker leaves prints in"
+    )
+    mass: FloatProperty(
+        name="Mass [kg]",
+        default=75.0,
+        soft_min=1.0,
+        soft_max=1000.0,
+        precision=1,
+        description="How heavy the walker is, in kilograms; 0 = estimated from its height",
+    )
     estimated_mass: FloatProperty(options={"HIDDEN"}, description="What mass 0 came to [kg]")
     mass_center: StringProperty(
-        name="Mass Centre", description="A bone that begins at the body's mass centre; empty = found "
-        "from the segments of the body")
+        name="Mass Centre",
+        description="A bone that begins at the body's mass centre; empty = found from the segments of the body",
+    )
     sole: PointerProperty(
-        name="Sole", type=bpy.types.Object, poll=is_sole,
+        name="Sole",
+        type=bpy.types.Object,
+        poll=is_sole,
         description="A mesh whose underside is the sole of every foot, mirrored for the other side; "
-        "place it at a foot of the rest pose. Empty = the walker's own feet or shoes")
+        "place it at a foot of the rest pose. Empty = the walker's own feet or shoes",
+    )
     place_feet: BoolProperty(
-        name="Placed Feet in Prints", description="Prints are pressed as if the feet were placed on the ground's "
-        "slopes; the character stays as it is. Place Feet changes the character too")
+        name="Placed Feet in Prints",
+        description="Prints are pressed as if the feet were placed on the ground's "
+        "slopes; the character stays as it is. Place Feet changes the character too",
+    )
     path: PointerProperty(
-        name="Path", type=bpy.types.Object, poll=is_path,
+        name="Path",
+        type=bpy.types.Object,
+        poll=is_path,
         description="A curve, a mesh of edges or an empty with empties: the walk's cycle is carried along it. Empty "
-        "= the walker goes where its keys lead it")
-    passes: IntProperty(name="Passes", default=1, min=1, soft_max=500, max=100000,
-                        description="How often the path is walked")
-    back_and_forth: BoolProperty(name="Back and Forth", default=True,
-                                 description="Every other pass goes back; else all go one way")
+        "= the walker goes where its keys lead it",
+    )
+    passes: IntProperty(
+        name="Passes", default=1, min=1, soft_max=500, max=100000, description="How often the path is walked"
+    )
+    back_and_forth: BoolProperty(
+        name="Back and Forth", default=True, description="Every other pass goes back; else all go one way"
+    )
     lateral: FloatProperty(
-        name="Scatter [m]", default=0.1, min=0.0, soft_max=1.0, max=100.0, precision=3, step=1,
-        description="How far passes lie beside the path, as a standard deviation in metres")
+        name="Scatter [m]",
+        default=0.1,
+        min=0.0,
+        soft_max=1.0,
+        max=100.0,
+        precision=3,
+        step=1,
+        description="How far passes lie beside the path, as a standard deviation in metres",
+    )
     path_seed: IntProperty(name="Seed", min=0, description="Another number scatters the passes otherwise")
     load_model: EnumProperty(
-        name="Load", description="How the weight on each foot is found",
-        items=(("inertia", "Body in motion",
-                "From how the body's mass centre moves: walks, runs, jumps, landings"),
-               ("impulse", "Impulse", "Weight, and an impulse at every touch-down")))
+        name="Load",
+        description="How the weight on each foot is found",
+        items=(
+            ("inertia", "Body in motion", "From how the body's mass centre moves: walks, runs, jumps, landings"),
+            ("impulse", "Impulse", "Weight, and an impulse at every touch-down"),
+        ),
+    )
     subframes: IntProperty(
-        name="Samples a Frame", default=1, min=1, max=16,
-        description="How often the armature is looked at in a frame; between, it is interpolated")
-    feet: CollectionProperty(type=DesirePathFoot, name="Feet",
-                             description="The bones of the walker's feet, found by Add Walker or Find Feet")
+        name="Samples a Frame",
+        default=1,
+        min=1,
+        max=16,
+        description="How often the armature is looked at in a frame; between, it is interpolated",
+    )
+    feet: CollectionProperty(
+        type=DesirePathFoot, name="Feet", description="The bones of the walker's feet, found by Add Walker or Find Feet"
+    )
     forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
 
@@ -240,8 +341,9 @@ CLASSES = (DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings
 def register():
     for each in CLASSES:
         bpy.utils.register_class(each)
-    bpy.types.Object.desire_path = PointerProperty(name="Desire Path", type=DesirePathSettings,
-                                                 override={"LIBRARY_OVERRIDABLE"})
+    bpy.types.Object.desire_path = PointerProperty(
+        name="Desire Path", type=DesirePathSettings, override={"LIBRARY_OVERRIDABLE"}
+    )
 
 
 def unregister():

@@ -3,6 +3,7 @@
     the active ground --walkers that tread it--> other grounds they tread --their walkers--> .. --> Company
 A terrain cut into objects is one ground to those who cross it. Grounds nobody goes over to are left alone.
 """
+
 from dataclasses import dataclass, field, replace
 
 import bpy
@@ -49,15 +50,18 @@ class _Track:
 def others(scene, obj):
     """Grounds of the scene that a bake of this one could reach: a walk is taken as its ground sees it, so that one that
     moves is left to those that move with it."""
-    return [each for each in grounds(scene) if each != obj and worn.drawn(scene, each)
-            and _move_alike(scene, obj, each)]
+    return [
+        each for each in grounds(scene) if each != obj and worn.drawn(scene, each) and _move_alike(scene, obj, each)
+    ]
 
 
 def _barred(obj):
     """Why a ground takes no prints now; empty: it does."""
     if obj.library is not None:
-        return f"'{obj.name}' is linked from another file, and what is trodden of it stays as it is: make a library " \
-               "override of it."
+        return (
+            f"'{obj.name}' is linked from another file, and what is trodden of it stays as it is: make a library "
+            "override of it."
+        )
     if obj.mode == "EDIT":
         return f"'{obj.name}' is in Edit Mode, and what is trodden of it stays as it is: leave Edit Mode."
     return ""
@@ -110,8 +114,10 @@ def company(scene, obj):
     if not any(obj in trodden[walker] for walker in crew):
         if not there:
             return alone
-        raise ground.Beside(f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one "
-                            "lies over the other.")
+        raise ground.Beside(
+            f"The walk passes beside the ground '{obj.name}': move the walker or the ground so that one "
+            "lies over the other."
+        )
     # in an order that is the same for all of them
     crew = [tracks[each] for each in scene.objects if each in crew]
     chosen = tuple(each for each in scene.objects if each in chosen)
@@ -119,14 +125,22 @@ def company(scene, obj):
     gait = None
     if all((each.first, each.last) == (first, last) and each.gait is not None for each in crew):
         gait = Gait.join([each.gait for each in crew])
-    return Company(chosen, tuple(each.walker for each in crew), first, last, gait, tuple(warnings),
-                   max(each.beside for each in crew))
+    return Company(
+        chosen,
+        tuple(each.walker for each in crew),
+        first,
+        last,
+        gait,
+        tuple(warnings),
+        max(each.beside for each in crew),
+    )
 
 
 def under(scene, walker, home, gait, frame):
     """(a Simulation of what lies below the recording of a walker of a ground, grounds it treads besides, sentences)."""
     from ..ground import parcels
     from ..ground.sim import Simulation
+
     cell = axes.typed(home.desire_path.cell_size)
     near = others(scene, home)
     track = _Track(walker, frame, frame, gait, parcels.around(gait), parcels.length(gait))
@@ -161,14 +175,21 @@ def _frames(chosen, crew):
 
 def _track(scene, walker, home, all_walkers):
     from ..ground import parcels  # the core is loaded when it is first needed
+
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
         gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
         line = way.waypoints(scene, walker.desire_path.path, first)
-        return _Track(walker, first, last, None,
-                      _beside(line, parcels.length(gait) + SCATTER * walker.desire_path.lateral), parcels.length(gait))
+        return _Track(
+            walker,
+            first,
+            last,
+            None,
+            _beside(line, parcels.length(gait) + SCATTER * walker.desire_path.lateral),
+            parcels.length(gait),
+        )
     except DesirePathError as problem:
         return _Track(walker, first, last, problem=problem)
 
@@ -188,21 +209,32 @@ def _beside(line, wide):
 def _parcel(scene, obj, tracks):
     """The shape of a ground near the tracks; None: it is not near any."""
     from ..ground.parcels import Parcel
+
     scale = axes.unit_scale(scene)
     seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     world = np.array(seen.matrix_world, np.float64) * scale
     box = np.array([world[:2, :3] @ np.array(each[:]) + world[:2, 3] for each in seen.bound_box])
     close = [each.places[:, :2] for each in tracks if len(each.places)]
-    close = [each for each in close if moves.moves(obj)  # it lies elsewhere now than at the first frame
-             or (each.max(axis=0) + ROUGH >= box.min(axis=0)).all()
-             and (each.min(axis=0) - ROUGH <= box.max(axis=0)).all()]
+    close = [
+        each
+        for each in close
+        if moves.moves(obj)  # it lies elsewhere now than at the first frame
+        or (each.max(axis=0) + ROUGH >= box.min(axis=0)).all()
+        and (each.min(axis=0) - ROUGH <= box.max(axis=0)).all()
+    ]
     if not close:
         return None
     close = np.concatenate(close)
     first = min(each.first for each in tracks)
     try:
-        surface = ground.read(scene, obj, axes.typed(obj.desire_path.cell_size), first, None,
-                              box=(*(close.min(axis=0) - ROUGH), *(close.max(axis=0) + ROUGH)))
+        surface = ground.read(
+            scene,
+            obj,
+            axes.typed(obj.desire_path.cell_size),
+            first,
+            None,
+            box=(*(close.min(axis=0) - ROUGH), *(close.max(axis=0) + ROUGH)),
+        )
     except ground.Beside:
         return None
     return Parcel(surface.ground, name=obj.name)
@@ -212,6 +244,7 @@ def _trodden(tracks, parcels):
     """The grounds each walker goes over: those that are nearest to its feet in height somewhere. Of two in the same
     place it treads its own."""
     from ..ground import parcels as fields
+
     grounds_there = list(parcels)
     found = {}
     for track in tracks:

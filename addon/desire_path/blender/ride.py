@@ -1,7 +1,8 @@
 """ride.py - a ground that moves: a ship, a lift, a turning platform. The walk is taken as it is seen from it.
 
-    matrices of walker and ground at a frame --carried--> the walker's, as if the ground lay as at the first frame
+matrices of walker and ground at a frame --carried--> the walker's, as if the ground lay as at the first frame
 """
+
 from contextlib import contextmanager
 
 import bpy
@@ -34,15 +35,18 @@ class Ride:
         """Sentences about what riding leaves out. centre: of the walker as seen from the ground (T, 3) [m]; frames
         (T,), even, of which there are `rate` in a second; scale: metres in a unit [m]."""
         back = np.array(self.back)
-        if (np.abs(back - np.eye(4)).max(axis=(0, 1)) < 1e-6 * np.array((1, 1, 1, max(1.0, np.abs(self.first).max())))
-                ).all():
+        if (
+            np.abs(back - np.eye(4)).max(axis=(0, 1)) < 1e-6 * np.array((1, 1, 1, max(1.0, np.abs(self.first).max())))
+        ).all():
             return ()
         out = [f"'{self.name}' moves: its prints stay on it, and the walk is taken as it is seen from it."]
         up = axes.rigid(back, 1.0)[:, 2, 2]
         tilt = np.degrees(np.arccos(np.clip(up.min(), -1.0, 1.0)))
         if tilt > TILT:
-            out.append(f"'{self.name}' tilts by up to {tilt:.0f} degrees under the walk: the walker's weight is taken "
-                       "as if it did not; tilt it less where forces matter.")
+            out.append(
+                f"'{self.name}' tilts by up to {tilt:.0f} degrees under the walk: the walker's weight is taken "
+                "as if it did not; tilt it less where forces matter."
+            )
         size = np.cbrt(np.abs(np.linalg.det(back[:, :3, :3])))
         if abs(size - 1.0).max() > 0.01:
             out.append(f"'{self.name}' changes its size under the walk: key its location and rotation only.")
@@ -53,8 +57,10 @@ class Ride:
             swerve *= (rate / (frames[1] - frames[0])) ** 2
             k = int(swerve.argmax())
             if swerve[k] > SWAY:
-                out.append(f"'{self.name}' speeds up, slows down or turns with {swerve[k]:.2g} times gravity near frame "
-                           f"{frames[k + 1]:g}: forces are found as if it moved evenly.")
+                out.append(
+                    f"'{self.name}' speeds up, slows down or turns with {swerve[k]:.2g} times gravity near frame "
+                    f"{frames[k + 1]:g}: forces are found as if it moved evenly."
+                )
         return tuple(out)
 
 

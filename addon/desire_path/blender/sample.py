@@ -5,6 +5,7 @@
 The private scene holds only the armature (Blender brings along what it depends on), so that a heavy
 character costs nothing and the user's frame stays where it is.
 """
+
 import json
 import math
 from contextlib import contextmanager
@@ -57,8 +58,13 @@ def skeleton(armature, world, scale):
     local = np.array([bone.matrix_local for bone in bones], np.float64)
     parents = [number[bone.parent.name] if bone.parent else -1 for bone in bones]
     reach = (size @ local)[:, :3, 1] * np.array([bone.length for bone in bones])[:, None]
-    return body.Skeleton(tuple(number), np.array(parents, np.int32), axes.rigid(size @ local, scale),
-                         np.linalg.norm(reach, axis=1) * scale, bool(np.linalg.det(size[:3, :3]) < 0.0))
+    return body.Skeleton(
+        tuple(number),
+        np.array(parents, np.int32),
+        axes.rigid(size @ local, scale),
+        np.linalg.norm(reach, axis=1) * scale,
+        bool(np.linalg.det(size[:3, :3]) < 0.0),
+    )
 
 
 def world_of(found, carry=None):
@@ -83,7 +89,8 @@ def motion(own, armature, names, frames, rate, scale, carry=None):
         raise DesirePathError(
             f"Bone '{names[b]}' of '{armature.name}' has no usable transform at frame "
             f"{frames[t]:g} (NaN, infinite, or scaled to nothing): look at its keys and drivers "
-            "there.")
+            "there."
+        )
     time = (np.asarray(frames, np.float64) - frames[0]) / rate
     return body.Motion(time, tuple(names), axes.rigid(out, scale))
 
@@ -103,26 +110,29 @@ def _known(armature, shape, name):
     if name not in shape.names:
         raise DesirePathError(
             f"'{armature.name}' has no bone '{name}', it may have been renamed or removed: press Find "
-            "Feet to find the feet anew, or choose the bone by hand.")
+            "Feet to find the feet anew, or choose the bone by hand."
+        )
 
 
 def _chosen(armature, shape):
     settings = armature.desire_path
     feet = []
     for each in settings.feet:
-        names = {name: getattr(each, name) or None
-                 for name in ("foot", "toe", "heel", "thigh", "shank")}
+        names = {name: getattr(each, name) or None for name in ("foot", "toe", "heel", "thigh", "shank")}
         for name in filter(None, list(names.values()) + [settings.hips]):
             _known(armature, shape, name)
         if names["foot"] is None:
-            raise DesirePathError(f"The {each.limb} foot of '{armature.name}' has no foot bone: "
-                                  "choose one, or press Find Feet.")
+            raise DesirePathError(
+                f"The {each.limb} foot of '{armature.name}' has no foot bone: choose one, or press Find Feet."
+            )
         if not (names["thigh"] or names["shank"]):
             names["thigh"], names["shank"] = rigs.legs(shape, names["foot"])
         for other in feet:
             if other.foot == names["foot"]:
-                raise DesirePathError(f"Bone '{other.foot}' of '{armature.name}' is both the {other.limb} foot and "
-                                      f"the {each.limb} foot: choose another for one of them.")
+                raise DesirePathError(
+                    f"Bone '{other.foot}' of '{armature.name}' is both the {other.limb} foot and "
+                    f"the {each.limb} foot: choose another for one of them."
+                )
         feet.append(rigs.Foot(each.limb, **names))
     return rigs.build(shape, feet, settings.hips or None)
 
@@ -130,8 +140,10 @@ def _chosen(armature, shape):
 def poses(armature):
     """Refuse an armature that shows its rest pose whatever its keys say."""
     if armature.type == "ARMATURE" and armature.data.pose_position == "REST":
-        raise DesirePathError(f"'{armature.name}' is set to Rest Position, in which it stands still: choose Pose Position "
-                              "in its Object Data properties.")
+        raise DesirePathError(
+            f"'{armature.name}' is set to Rest Position, in which it stands still: choose Pose Position "
+            "in its Object Data properties."
+        )
 
 
 def odd_size(armature, shape, found):
@@ -139,8 +151,9 @@ def odd_size(armature, shape, found):
     height = mass.standing_height(shape, found)
     if height is None or not (found.hips and all(foot.thigh for foot in found.feet)):
         return None
-    return mass.odd_size(armature.name, height, armature.desire_path.mass or None,
-                         armature.desire_path.is_property_set("mass"))
+    return mass.odd_size(
+        armature.name, height, armature.desire_path.mass or None, armature.desire_path.is_property_set("mass")
+    )
 
 
 def believed(armature, shape, found):
@@ -158,8 +171,9 @@ def weight(armature, shape, found, volume=None):
     """
     settings = armature.desire_path
     if not (math.isfinite(settings.mass) and settings.mass >= 0.0):
-        raise DesirePathError(f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0, "
-                              "or 0 to have it estimated.")
+        raise DesirePathError(
+            f"'{armature.name}' weighs {settings.mass:g} kg: give it a mass above 0, or 0 to have it estimated."
+        )
     if settings.mass > 0.0:
         return axes.typed(settings.mass), ()
     if volume:
@@ -180,8 +194,12 @@ def placed(armature):
     kept = action.get(PLACED) if action is not None else None
     if not kept:
         return None
-    return {bone: FootShape(**{name: np.array(value) if isinstance(value, list) else value
-                               for name, value in shape.items()}) for bone, shape in json.loads(kept).items()}
+    return {
+        bone: FootShape(
+            **{name: np.array(value) if isinstance(value, list) else value for name, value in shape.items()}
+        )
+        for bone, shape in json.loads(kept).items()
+    }
 
 
 def samples_of(scene, walkers):
@@ -197,8 +215,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     if armature is None or armature.type not in {"ARMATURE", "MESH"}:
         raise DesirePathError("There is nobody to record: select the armature that walks, or a mesh that moves.")
     if frame_end <= frame_start:
-        raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end "
-                              "after the start.")
+        raise DesirePathError(f"The frames {frame_start} to {frame_end} hold no motion: set an end after the start.")
     settings = armature.desire_path
     poses(armature)
     samples = samples or samples_of(scene, [armature])
@@ -206,7 +223,12 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     if armature.type == "MESH":
         return _solid(scene, armature, frames, samples, rate, scale)
-    with looked_at(armature), still(armature), private_scene(scene, armature) as own, ride.on(own, settings.ground, frame_start) as carry:
+    with (
+        looked_at(armature),
+        still(armature),
+        private_scene(scene, armature) as own,
+        ride.on(own, settings.ground, frame_start) as carry,
+    ):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         found, volume = rig(armature, shape), None
@@ -220,17 +242,31 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         kilograms, told = weight(armature, shape, found, volume)
         moved = motion(own, armature, found.bones, frames, rate, scale, carry)
     worn = skin(scene, armature, found.feet, world, scale, frames)
-    gait = body.gait_from_bones(shape, moved, mass=kilograms, name=armature.name, rig=found, skin=worn,
-                                tread=tread(scene, armature, found.feet, world, scale, frames),
-                                frame_rate=rate, frame_start=frame_start, land=land,
-                                shapes=placed(armature))
+    gait = body.gait_from_bones(
+        shape,
+        moved,
+        mass=kilograms,
+        name=armature.name,
+        rig=found,
+        skin=worn,
+        tread=tread(scene, armature, found.feet, world, scale, frames),
+        frame_rate=rate,
+        frame_start=frame_start,
+        land=land,
+        shapes=placed(armature),
+    )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
     return replace(gait, warnings=size + gait.warnings + told + rode)
 
 
 def _solid(scene, obj, frames, samples, rate, scale):
     """What a mesh did as one rigid body, as it is at the first frame, with its modifiers."""
-    with looked_at(obj), still(obj), private_scene(scene, obj) as own, ride.on(own, obj.desire_path.ground, frames[0]) as carry:
+    with (
+        looked_at(obj),
+        still(obj),
+        private_scene(scene, obj) as own,
+        ride.on(own, obj.desire_path.ground, frames[0]) as carry,
+    ):
         (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
         placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
     if simulated(obj):
@@ -238,8 +274,10 @@ def _solid(scene, obj, frames, samples, rate, scale):
         placed = placed if carry is None else np.array(carry.back) @ placed
     bad = ~(np.abs(placed) < axes.FAR).all(axis=(1, 2)) | ~(np.linalg.norm(placed[:, :3, :3], axis=1) > 0.0).all(axis=1)
     if bad.any():
-        raise DesirePathError(f"'{obj.name}' has no usable transform at frame {frames[bad.argmax()]:g} (NaN, infinite, "
-                              "or scaled to nothing): look at its keys and drivers there.")
+        raise DesirePathError(
+            f"'{obj.name}' has no usable transform at frame {frames[bad.argmax()]:g} (NaN, infinite, "
+            "or scaled to nothing): look at its keys and drivers there."
+        )
     turned = axes.rigid(placed, scale)
     size = np.swapaxes(turned[:, :3, :3], 1, 2) @ placed[:, :3, :3]  # what the turn leaves: scale, mirror, shear
     shape = np.eye(4)
@@ -248,12 +286,22 @@ def _solid(scene, obj, frames, samples, rate, scale):
     faces = faces[:, ::-1] if np.linalg.det(size[0]) < 0.0 else faces
     told, apart = [], np.abs(size - size[0]).max() / np.abs(size[0]).max()
     if apart > STIFF or len(last) != len(rest) or (len(rest) and np.abs(last - rest).max() > STIFF * np.ptp(rest)):
-        told.append(f"'{obj.name}' changes its shape or size between the frames: it presses as it is at frame "
-                    f"{frames[0]:g}.")
+        told.append(
+            f"'{obj.name}' changes its shape or size between the frames: it presses as it is at frame {frames[0]:g}."
+        )
     kilograms, estimated = _solid_weight(obj, vertices, faces)
     time = (np.asarray(frames) - frames[0]) / rate
-    gait = solid.gait_from_solid(time, turned, vertices, faces, mass=kilograms, name=obj.name,
-                                 frame_rate=rate, frame_start=round(frames[0]), warnings=told + estimated)
+    gait = solid.gait_from_solid(
+        time,
+        turned,
+        vertices,
+        faces,
+        mass=kilograms,
+        name=obj.name,
+        frame_rate=rate,
+        frame_start=round(frames[0]),
+        warnings=told + estimated,
+    )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
     return replace(gait, warnings=gait.warnings + rode)
 
@@ -270,8 +318,9 @@ def _solid_weight(obj, vertices, faces):
         return axes.typed(settings.mass), []
     volume = solid.centre(vertices, faces)[1] if len(faces) else 0.0
     if not volume > 0.0:
-        raise DesirePathError(f"The mass of '{obj.name}' cannot be estimated, since its mesh is not closed: give it a "
-                              "mass in kilograms.")
+        raise DesirePathError(
+            f"The mass of '{obj.name}' cannot be estimated, since its mesh is not closed: give it a mass in kilograms."
+        )
     settings.estimated_mass = mass.DENSITY * volume
     return mass.DENSITY * volume, [mass.told_by_volume(obj.name, mass.DENSITY * volume, volume)]
 

@@ -1,4 +1,5 @@
 """show.py - what a ground plays of the bake in its folder, and how it is given back as it was."""
+
 import os
 
 import bpy
@@ -15,6 +16,7 @@ def play(obj, surface, baked=None):
     baked: the final maps by name, where the bake was made just now and is whole
     """
     from ..bake.bake import read_index
+
     settings = obj.desire_path
     index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
@@ -22,11 +24,22 @@ def play(obj, surface, baked=None):
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
-        smooth = surface.between or any(ground.smooth(points, index.cell, (index.x0, index.y0))
-                                        for points in (surface.vertices, surface.drawn))
-        playback.attach(obj, frames, index, count=index.frames, world=surface.world,
-                        scale=surface.scale, smooth=smooth, corners=surface.corners,
-                        layer_depth=depth, standing=standing, place=surface.place)
+        smooth = surface.between or any(
+            ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
+        )
+        playback.attach(
+            obj,
+            frames,
+            index,
+            count=index.frames,
+            world=surface.world,
+            scale=surface.scale,
+            smooth=smooth,
+            corners=surface.corners,
+            layer_depth=depth,
+            standing=standing,
+            place=surface.place,
+        )
         planes = baked or cover.planes(index)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if index.complete:
@@ -36,8 +49,9 @@ def play(obj, surface, baked=None):
         warnings = []
     plants.show(obj, index)
     stems.remove(plants.grass.of(settings.plant_object, obj))
-    settings.plant_object = stems.show(obj, settings.folder, folder(obj), index.frame_start,
-                                       surface.scale) if index.complete else None
+    settings.plant_object = (
+        stems.show(obj, settings.folder, folder(obj), index.frame_start, surface.scale) if index.complete else None
+    )
     return index, warnings
 
 
@@ -45,6 +59,7 @@ def plays_on(obj, index):
     """Whether a ground goes on with what it plays: the whole bake in its folder, whose index this is, or a whole one
     from elsewhere as long as the one in its folder is not."""
     from ..bake.bake import read_index
+
     ours, place = playback.modifier(obj), home.played(obj)
     if ours is None or not place:
         return False
@@ -59,6 +74,7 @@ def plays_on(obj, index):
 def show_plants(obj):
     """Let the grass of a ground follow what it plays."""
     from ..bake.bake import read_index
+
     plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
 
 
@@ -69,13 +85,16 @@ def missing(index):
     if not index.frames:
         return "The last bake was stopped before its first frame, or has lost it since: bake again."
     last = index.frame_start + index.frames - 1
-    return (f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
-            f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on.")
+    return (
+        f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
+        f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on."
+    )
 
 
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
     from ..bake.output import is_whole
+
     return is_whole(index.folder)
 
 

@@ -5,6 +5,7 @@
 What a nodes modifier does is seen by what comes out of it: one that leaves the ground's own points and faces as
 they were and adds something within their bounds scatters, any other shapes.
 """
+
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -14,9 +15,19 @@ import numpy as np
 from . import axes, compat, playback
 from .private import evaluated, private_scene
 
-STANDS = {"PARTICLE_SYSTEM", "COLLISION", "SURFACE", "WEIGHTED_NORMAL", "NORMAL_EDIT"}  # on the ground, or for its looks
-LEVELS = {"SUBSURF": ("levels", "render_levels"), "MULTIRES": ("levels", "render_levels"),
-          "SCREW": ("steps", "render_steps"), "OCEAN": ("viewport_resolution", "resolution")}
+STANDS = {
+    "PARTICLE_SYSTEM",
+    "COLLISION",
+    "SURFACE",
+    "WEIGHTED_NORMAL",
+    "NORMAL_EDIT",
+}  # on the ground, or for its looks
+LEVELS = {
+    "SUBSURF": ("levels", "render_levels"),
+    "MULTIRES": ("levels", "render_levels"),
+    "SCREW": ("steps", "render_steps"),
+    "OCEAN": ("viewport_resolution", "resolution"),
+}
 SPREAD = 1.25  # what a scatter adds reaches over no more than this many times the ground's own rectangle
 ALIKE = 16  # points in the place of a ground's first one that may be that one
 MOST_FACES = 2e7  # subdivision goes no farther than this where the ground is read
@@ -64,9 +75,16 @@ def find(scene, obj, frame):
     stack = others(obj)
     before = min((k for k in standing if k > last), default=len(stack))
     above = [stack[k] for k in sorted(standing) if k < last and stack[k].type == "PARTICLE_SYSTEM"]
-    return Place(before, realise, not realise and any(k < before for k in scatters), tuple(
-        f"The particles '{each.name}' of '{obj.name}' come before '{stack[last].name}' among its modifiers and do not "
-        "follow the prints: move them below it." for each in above))
+    return Place(
+        before,
+        realise,
+        not realise and any(k < before for k in scatters),
+        tuple(
+            f"The particles '{each.name}' of '{obj.name}' come before '{stack[last].name}' among its modifiers and do not "
+            "follow the prints: move them below it."
+            for each in above
+        ),
+    )
 
 
 # ---- a ground as some of its modifiers make it -------------------------------------------------------
@@ -110,9 +128,9 @@ def show(scene, copy, obj, render=True):
             continue
         level = fineness(scene, source, render)
         if each.type in ("SUBSURF", "MULTIRES") and each.show_viewport:
-            while level > 0 and faces * 4 ** level > MOST_FACES:
+            while level > 0 and faces * 4**level > MOST_FACES:
                 level, left_out = level - 1, left_out * 4
-            faces *= 4 ** level
+            faces *= 4**level
         setattr(each, LEVELS[each.type][0], level)
     return left_out
 
@@ -185,8 +203,12 @@ def _look(scene, obj, count, frame):
         points, corners = compat.positions(found.data), np.empty(len(found.data.loops), np.int32)
         if len(corners):
             found.data.loops.foreach_get("vertex_index", corners)
-    tail = _tree("desire_path instances", "GeometryNodeSeparateComponents", "GeometryNodeInstancesToPoints",
-                 "GeometryNodePointsToVertices")
+    tail = _tree(
+        "desire_path instances",
+        "GeometryNodeSeparateComponents",
+        "GeometryNodeInstancesToPoints",
+        "GeometryNodePointsToVertices",
+    )
     with shaped(scene, obj, count, [tail]) as (own, copy):
         instances = compat.positions(evaluated(own, copy, frame).data)
     return _Made(points, corners, instances, world)
@@ -210,7 +232,10 @@ def _added(was, now):
     first = np.flatnonzero((now.points == was.points[0]).all(axis=1))[:ALIKE] if count else [0]
     for at in first:
         corner = np.flatnonzero(now.corners == was.corners[0] + at)[:1] if sides else [0]
-        if (len(corner) and np.array_equal(now.points[at:at + count], was.points)
-                and np.array_equal(now.corners[corner[0]:corner[0] + sides] - at, was.corners)):
-            return np.concatenate([now.points[:at], now.points[at + count:]])
+        if (
+            len(corner)
+            and np.array_equal(now.points[at : at + count], was.points)
+            and np.array_equal(now.corners[corner[0] : corner[0] + sides] - at, was.corners)
+        ):
+            return np.concatenate([now.points[:at], now.points[at + count :]])
     return None

@@ -5,6 +5,7 @@
 Scripts are told by looking anew every time they ask. A panel may not look while it is drawn: it shows the last
 answer, and once something has changed a timer looks again as soon as Blender rests.
 """
+
 import os
 import time
 from dataclasses import dataclass
@@ -19,8 +20,12 @@ from .private import looked_at
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
 LOOKS = {  # the word and the icon of each in the panel
-    NONE: ("Not Baked", "RADIOBUT_OFF"), FRESH: ("Baked", "CHECKMARK"), OUTDATED: ("Outdated", "FILE_REFRESH"),
-    PARTIAL: ("Partly Baked", "PAUSE"), MISSING: ("Files Missing", "ERROR")}
+    NONE: ("Not Baked", "RADIOBUT_OFF"),
+    FRESH: ("Baked", "CHECKMARK"),
+    OUTDATED: ("Outdated", "FILE_REFRESH"),
+    PARTIAL: ("Partly Baked", "PAUSE"),
+    MISSING: ("Files Missing", "ERROR"),
+}
 PARTS = {"walk": "the walk", "ground": "the ground", "plants": "the plants", "settings": "the settings"}
 REST = 0.3  # without a change before the timer looks [s]
 SHARE = 4.0  # looking takes a fifth of the time at most
@@ -40,6 +45,7 @@ class Told:
 def found(obj):
     """What has become of the bake of a ground, looked up anew."""
     from ..bake.bake import read_index
+
     settings = obj.desire_path
     plays = playback.modifier(obj) is not None
     if not settings.is_ground or not plays and (not settings.folder or home.lost(obj)):
@@ -180,8 +186,12 @@ def _busy():
     """Whether the user is in the middle of something."""
     for window in bpy.context.window_manager.windows:
         active = window.view_layer.objects.active
-        if (window.screen.is_animation_playing or active is not None and active.mode == "EDIT"
-                or len(getattr(window, "modal_operators", ()))):
+        if (
+            window.screen.is_animation_playing
+            or active is not None
+            and active.mode == "EDIT"
+            or len(getattr(window, "modal_operators", ()))
+        ):
             return True
     return False
 

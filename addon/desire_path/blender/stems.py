@@ -1,7 +1,8 @@
 """stems.py - the simulated plants themselves as a mesh, for close-ups.
 
-    plants.npz, plants.pc2 --edges, Mesh Cache--> stems in motion --native nodes--> blades of some width
+plants.npz, plants.pc2 --edges, Mesh Cache--> stems in motion --native nodes--> blades of some width
 """
+
 import math
 import os
 
@@ -76,8 +77,9 @@ def _blades(name, kinds):
     # from 4.5 on the node takes the radius only where it is told to
     blades = wire.add("GeometryNodeCurveToMesh", Curve=line, Scale=thin, **{"Profile Curve": across}).outputs[0]
     for number, kind in enumerate(kinds):
-        its = wire.add("FunctionNodeCompare", {"data_type": "INT", "operation": "EQUAL"}, A=wire.named(KIND, "INT"),
-                       B=number).outputs[0]
+        its = wire.add(
+            "FunctionNodeCompare", {"data_type": "INT", "operation": "EQUAL"}, A=wire.named(KIND, "INT"), B=number
+        ).outputs[0]
         made = tufts.material(str(kind), tuft.LOOKS.get(str(kind), tuft.LOOKS["meadow"]))
         blades = wire.add("GeometryNodeSetMaterial", Geometry=blades, Selection=its, Material=made).outputs[0]
     leave = tree.nodes.new("NodeGroupOutput")
@@ -90,15 +92,19 @@ def remove(obj):
     """Take the object away, with all that was made for it."""
     if obj is None:
         return
-    trees = [each.node_group for each in obj.modifiers if each.type == "NODES" and each.node_group is not None
-             and playback.TAG in each.node_group]
+    trees = [
+        each.node_group
+        for each in obj.modifiers
+        if each.type == "NODES" and each.node_group is not None and playback.TAG in each.node_group
+    ]
     mesh = obj.data
     bpy.data.objects.remove(obj)
     if mesh.users == 0:
         bpy.data.meshes.remove(mesh)
     for tree in trees:
-        made = {node.inputs["Material"].default_value for node in tree.nodes
-                if node.bl_idname == "GeometryNodeSetMaterial"}
+        made = {
+            node.inputs["Material"].default_value for node in tree.nodes if node.bl_idname == "GeometryNodeSetMaterial"
+        }
         playback.discard(tree)
         for each in made - {None}:
             tufts.discard_material(each)

@@ -2,6 +2,7 @@
 
 So undo brings them back; redo puts them aside again.
 """
+
 import os
 from contextlib import suppress
 

@@ -3,6 +3,7 @@
     tuft.py --arrays--> a collection of tufts that is in no scene, all of one native material
 Every vertex knows the straight stem it belongs to (see tuft.Tuft), so that grass.py can bend it.
 """
+
 import bpy
 import numpy as np
 
@@ -30,8 +31,13 @@ def collection(name, kind):
         mesh = bpy.data.meshes.new(f"{label(name)} {number + 1}")
         mesh.from_pydata(shape.vertices.tolist(), [], [list(face) for face in shape.faces])
         mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
-        for key, value in ((ROOT, shape.root), (AT, shape.at), (TILT, shape.tilt), (ARCH, shape.arch),
-                           (LOOK, shape.look)):
+        for key, value in (
+            (ROOT, shape.root),
+            (AT, shape.at),
+            (TILT, shape.tilt),
+            (ARCH, shape.arch),
+            (LOOK, shape.look),
+        ):
             store(mesh, key, "FLOAT_VECTOR", value)
         mesh.materials.append(made)
         mesh.update()
@@ -43,8 +49,7 @@ def store(mesh, name, kind, value):
     """Values of a mesh's points as an attribute."""
     layer = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "POINT")
     key = "vector" if kind == "FLOAT_VECTOR" else "value"
-    layer.data.foreach_set(key, np.ascontiguousarray(
-        value, np.int32 if kind == "INT" else np.float32).ravel())
+    layer.data.foreach_set(key, np.ascontiguousarray(value, np.int32 if kind == "INT" else np.float32).ravel())
 
 
 def reach(collection):
@@ -100,7 +105,7 @@ def material(name, look):
     where `plant_strength` is low. Native nodes, to be changed at will."""
     made = bpy.data.materials.new(label(name))
     made[TAG] = 1
-    made.diffuse_color = (*(2.2 * each ** 0.8 for each in look.high), 1.0)
+    made.diffuse_color = (*(2.2 * each**0.8 for each in look.high), 1.0)
     made.use_nodes = True
     tree = made.node_tree
     tree.nodes.clear()

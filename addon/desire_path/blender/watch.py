@@ -5,6 +5,7 @@
 
 What our tree was made for is kept on it, so that nothing is done where nothing has changed, and undo brings it back.
 """
+
 import json
 from contextlib import suppress
 from dataclasses import replace
@@ -59,6 +60,7 @@ def _applied(obj, made_for, was, before, now):
 def _again(scene, obj, world):
     """Play anew, on a ground that was at a place when it was baked."""
     from ..bake.bake import read_index
+
     try:
         index = read_index(home.played(obj))
         surface = ground.read(scene, obj, index.cell, index.frame_start)
@@ -99,8 +101,13 @@ def changed(scene, depsgraph):
         return
     for each in depsgraph.updates:
         obj = each.id.original
-        if isinstance(obj, bpy.types.Object) and obj.type == "MESH" and obj.library is None \
-                and obj.desire_path.is_ground and obj.name in scene.objects:
+        if (
+            isinstance(obj, bpy.types.Object)
+            and obj.type == "MESH"
+            and obj.library is None
+            and obj.desire_path.is_ground
+            and obj.name in scene.objects
+        ):
             if bpy.app.background:
                 look(scene, obj)
             else:

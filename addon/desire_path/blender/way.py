@@ -1,7 +1,8 @@
 """way.py - walkers that go along a curve, as often as wanted, instead of where their keys lead them.
 
-    path object --waypoints--> passes.along --in turn--> one recording, baked a frame a pass
+path object --waypoints--> passes.along --in turn--> one recording, baked a frame a pass
 """
+
 from dataclasses import replace
 
 import bpy
@@ -21,8 +22,10 @@ def waypoints(scene, obj, frame=None):
     if obj.type == "EMPTY":
         there = sorted((child for child in obj.children if child.type == "EMPTY"), key=lambda each: each.name)
         if len(there) < 2:
-            raise DesirePathError(f"The path '{obj.name}' is an empty without empties: parent two or more to it, named "
-                                  "in the order they are walked to.")
+            raise DesirePathError(
+                f"The path '{obj.name}' is an empty without empties: parent two or more to it, named "
+                "in the order they are walked to."
+            )
         copies = [each.copy() for each in there]
         try:
             for each in copies:
@@ -94,8 +97,12 @@ def goes(walkers):
 
 def warnings(walkers):
     """Sentences about walkers whose passes go nowhere."""
-    return [f"'{each.name}' has {each.desire_path.passes} passes and no path to go along: it walks once as keyed; set "
-            "its Path." for each in walkers if each.desire_path.path is None and each.desire_path.passes > 1]
+    return [
+        f"'{each.name}' has {each.desire_path.passes} passes and no path to go along: it walks once as keyed; set "
+        "its Path."
+        for each in walkers
+        if each.desire_path.path is None and each.desire_path.passes > 1
+    ]
 
 
 def carried(scene, walkers, first, last, read):
@@ -106,9 +113,12 @@ def carried(scene, walkers, first, last, read):
     Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
     from ..placement.passes import in_turn
+
     alone = [sample.record(scene, each, first, last) for each in walkers]
-    lines = [waypoints(scene, each.desire_path.path, first) if each.desire_path.path is not None else None
-             for each in walkers]
+    lines = [
+        waypoints(scene, each.desire_path.path, first) if each.desire_path.path is not None else None
+        for each in walkers
+    ]
     boxes = []
     for each, line, gait in zip(walkers, lines, alone):
         if line is None:
@@ -123,8 +133,14 @@ def carried(scene, walkers, first, last, read):
     for each, line, gait in zip(walkers, lines, alone):
         settings = each.desire_path
         if line is not None:
-            gait = gait.along(line[:, :2], settings.passes, back_and_forth=settings.back_and_forth,
-                              lateral=axes.typed(settings.lateral), seed=settings.path_seed, ground=land)
+            gait = gait.along(
+                line[:, :2],
+                settings.passes,
+                back_and_forth=settings.back_and_forth,
+                lateral=axes.typed(settings.lateral),
+                seed=settings.path_seed,
+                ground=land,
+            )
         walked.append(gait)
     rate = max(gait.rate() or gait.frame_rate for gait in walked)
     walked = [gait if gait.rate() == rate else gait.resample(rate) for gait in walked]

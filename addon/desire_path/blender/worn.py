@@ -6,6 +6,7 @@ Bones that are named by vertex groups of an armature modifier move what the grou
 (Surface Deform, constraints, lattices, parents of parents) is watched at some frames: a point belongs to the bone
 that carries it along.
 """
+
 import functools
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -50,12 +51,13 @@ def skin(scene, armature, feet, world, scale, frames=None):
     if not vertices:
         return None
     names = sorted(set().union(*weights))
-    joined = {name: np.concatenate([w.get(name, np.zeros(len(v), np.float32))
-                                    for w, v in zip(weights, vertices)]) for name in names}
+    joined = {
+        name: np.concatenate([w.get(name, np.zeros(len(v), np.float32)) for w, v in zip(weights, vertices)])
+        for name in names
+    }
     vertices = np.concatenate(vertices)
     if not (np.abs(vertices) < axes.FAR).all():
-        raise DesirePathError(f"A mesh on '{armature.name}' has NaN or infinite vertices at its feet: "
-                              "repair the mesh.")
+        raise DesirePathError(f"A mesh on '{armature.name}' has NaN or infinite vertices at its feet: repair the mesh.")
     return body.Skin(vertices, np.concatenate(triangles).astype(np.int32), joined)
 
 
@@ -65,8 +67,7 @@ def tread(scene, armature, feet, world, scale, frames=None):
     if obj is None:
         return None
     if obj.type != "MESH":
-        raise DesirePathError(f"'{obj.name}' is no mesh: choose a mesh as the sole of "
-                              f"'{armature.name}'.")
+        raise DesirePathError(f"'{obj.name}' is no mesh: choose a mesh as the sole of '{armature.name}'.")
     parts = []
     if obj in hanging(scene, armature):
         parts = [each for each in bound(scene, armature, [obj], owners(armature, feet), frames) if each[2]]
@@ -111,15 +112,20 @@ def walks(scene, obj):
     if obj.type != "ARMATURE":
         return drawn(scene, obj)
     used = [each for each in scene.view_layers if each.use] or list(scene.view_layers)
-    return (any(_within(each.layer_collection, obj) for each in used)
-            or any(drawn(scene, each) for each in hanging(scene, obj)))
+    return any(_within(each.layer_collection, obj) for each in used) or any(
+        drawn(scene, each) for each in hanging(scene, obj)
+    )
 
 
 def _within(layer, obj):
     if layer.collection.hide_render:
         return False
-    return not layer.exclude and obj.name in layer.collection.objects and layer.collection.objects[obj.name] == obj \
+    return (
+        not layer.exclude
+        and obj.name in layer.collection.objects
+        and layer.collection.objects[obj.name] == obj
         or any(_within(each, obj) for each in layer.children)
+    )
 
 
 # ---- what hangs on an armature -------------------------------------------------------------------------
@@ -127,14 +133,23 @@ def _within(layer, obj):
 
 def hanging(scene, armature):
     """Meshes, and empties that show collections, which follow an armature in any way, in the scene's order."""
-    wants = {obj: set(_led_by(obj)) for obj in scene.objects
-             if obj != armature and not (obj.type == "MESH" and obj.desire_path.is_ground)}
+    wants = {
+        obj: set(_led_by(obj))
+        for obj in scene.objects
+        if obj != armature and not (obj.type == "MESH" and obj.desire_path.is_ground)
+    }
     found, more = set(), {armature}
     while more:
         more = {obj for obj, leaders in wants.items() if obj not in found and leaders & more}
         found |= more
-    return [obj for obj in wants if obj in found and (
-        obj.type == "MESH" or obj.type == "EMPTY" and obj.instance_type == "COLLECTION" and obj.instance_collection)]
+    return [
+        obj
+        for obj in wants
+        if obj in found
+        and (
+            obj.type == "MESH" or obj.type == "EMPTY" and obj.instance_type == "COLLECTION" and obj.instance_collection
+        )
+    ]
 
 
 def _led_by(obj):
@@ -155,8 +170,11 @@ def _led_by(obj):
 @functools.cache
 def _pointers(kind):
     """Names of the properties of a kind of modifier that are objects."""
-    return [prop.identifier for prop in kind.bl_rna.properties
-            if prop.type == "POINTER" and prop.fixed_type.identifier == "Object"]
+    return [
+        prop.identifier
+        for prop in kind.bl_rna.properties
+        if prop.type == "POINTER" and prop.fixed_type.identifier == "Object"
+    ]
 
 
 # ---- points and bones ----------------------------------------------------------------------------------
@@ -180,12 +198,17 @@ def bound(scene, armature, objects, owner, frames=None):
     frames = list(frames) if frames is not None else [scene.frame_current]
     pieces = [piece for obj in objects for piece in _pieces(obj)]
     groups = {piece.source: _groups(piece.source, armature, owner) if piece.inside is None else {} for piece in pieces}
-    on_bone = {obj: obj.parent_bone for obj in objects if obj.parent == armature and obj.parent_type == "BONE"
-               and not groups.get(obj) and not len(obj.constraints)}
+    on_bone = {
+        obj: obj.parent_bone
+        for obj in objects
+        if obj.parent == armature and obj.parent_type == "BONE" and not groups.get(obj) and not len(obj.constraints)
+    }
     pieces = [piece for piece in pieces if piece.holder not in on_bone or on_bone[piece.holder] in owner]
     if not pieces:
         return []
-    with _copies(scene, {each for piece in pieces for each in (piece.holder, piece.source)}, groups, armature) as copies:
+    with _copies(
+        scene, {each for piece in pieces for each in (piece.holder, piece.source)}, groups, armature
+    ) as copies:
         with _resting(armature), private_scene(scene, armature, *copies.values()) as own:
             rest = [_seen(own, armature, copies[p.source], _placed(p, copies), frames[0]) for p in pieces]
         shares, watched = [], []
@@ -200,8 +223,9 @@ def bound(scene, armature, objects, owner, frames=None):
                 watched.append(k)
         if watched:
             looks = [frames[int(round(at))] for at in np.linspace(0, len(frames) - 1, min(LOOKS, len(frames)))]
-            followed = _watched(scene, armature, [pieces[k] for k in watched], copies,
-                                [rest[k][0] for k in watched], owner, looks)
+            followed = _watched(
+                scene, armature, [pieces[k] for k in watched], copies, [rest[k][0] for k in watched], owner, looks
+            )
             for k, share in zip(watched, followed):
                 shares[k] = share
     return [(points, faces, share) for (points, faces, _), share in zip(rest, shares)]
@@ -233,9 +257,14 @@ def _shown(collection, outer):
 
 def _groups(obj, armature, owner):
     """Bone that counts -> the vertex groups that move with it, of a mesh that the armature deforms by them."""
-    deforms = obj.parent == armature and obj.parent_type == "ARMATURE" or any(
-        each.type == "ARMATURE" and each.object == armature and each.show_render and each.use_vertex_groups
-        for each in obj.modifiers)
+    deforms = (
+        obj.parent == armature
+        and obj.parent_type == "ARMATURE"
+        or any(
+            each.type == "ARMATURE" and each.object == armature and each.show_render and each.use_vertex_groups
+            for each in obj.modifiers
+        )
+    )
     found = {}
     for group in obj.vertex_groups if deforms else ():
         if group.name in owner:
@@ -313,8 +342,11 @@ def _seen(own, armature, copy, placed, frame):
     faces = compat.triangles(found.data)
     if np.linalg.det(local[:3, :3]) < 0.0:
         faces = faces[:, ::-1]
-    ours = {each.name: compat.float_attribute(found.data, each.name) for each in found.data.attributes
-            if each.name.startswith(WEIGHT.format(""))}
+    ours = {
+        each.name: compat.float_attribute(found.data, each.name)
+        for each in found.data.attributes
+        if each.name.startswith(WEIGHT.format(""))
+    }
     return axes.points(local, compat.positions(found.data), 1.0), faces, ours
 
 

@@ -14,8 +14,14 @@ import tempfile
 from . import disk
 from ..errors import DesirePathError
 
-KINDS = ((stat.S_ISLNK, "link"), (stat.S_ISDIR, "folder"), (stat.S_ISFIFO, "pipe"), (stat.S_ISSOCK, "socket"),
-         (stat.S_ISCHR, "device"), (stat.S_ISBLK, "device"))
+KINDS = (
+    (stat.S_ISLNK, "link"),
+    (stat.S_ISDIR, "folder"),
+    (stat.S_ISFIFO, "pipe"),
+    (stat.S_ISSOCK, "socket"),
+    (stat.S_ISCHR, "device"),
+    (stat.S_ISBLK, "device"),
+)
 
 
 def _umask():
@@ -40,8 +46,9 @@ def check(path, what):
     except (OSError, ValueError) as problem:
         raise DesirePathError(_sentence(what, path, problem)) from None
     if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
-        raise DesirePathError(f"{what} cannot be written to {path}, whose folder is not there: choose another folder "
-                              "or make this one.")
+        raise DesirePathError(
+            f"{what} cannot be written to {path}, whose folder is not there: choose another folder or make this one."
+        )
     if found not in ("", "file"):
         raise DesirePathError(f"{what} cannot be written to {path}, which is a {found}: choose the name of a file.")
 
@@ -83,8 +90,9 @@ def file(path, what, mode="wb", **more):
     except OSError as problem:
         raise DesirePathError(_sentence(what, path, problem)) from None
     except MemoryError:
-        raise DesirePathError(f"There is not enough memory to write {what.lower()}: close other programs or make less "
-                              "of it.") from None
+        raise DesirePathError(
+            f"There is not enough memory to write {what.lower()}: close other programs or make less of it."
+        ) from None
     finally:
         if temporary is not None:
             with contextlib.suppress(OSError):
@@ -92,8 +100,10 @@ def file(path, what, mode="wb", **more):
 
 
 def _sentence(what, path, problem):
-    return (f"{what} cannot be written to {path} ({getattr(problem, 'strerror', None) or problem}): choose another "
-            "folder or make room.")
+    return (
+        f"{what} cannot be written to {path} ({getattr(problem, 'strerror', None) or problem}): choose another "
+        "folder or make room."
+    )
 
 
 def write_json(path, data, what):

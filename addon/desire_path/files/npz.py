@@ -21,8 +21,21 @@ _MOST_ARRAYS = 64
 _MOST_HEADER = 4096  # bytes
 _MOST_PACKED = 1100  # times as long as packed; deflate's own bound is 1032
 _KINDS = "biufU"  # types of arrays: truth, numbers, text
-_DAMAGE = (OSError, ValueError, TypeError, KeyError, EOFError, RuntimeError, SyntaxError, OverflowError, MemoryError,
-           RecursionError, NotImplementedError, zipfile.BadZipFile, zlib.error)
+_DAMAGE = (
+    OSError,
+    ValueError,
+    TypeError,
+    KeyError,
+    EOFError,
+    RuntimeError,
+    SyntaxError,
+    OverflowError,
+    MemoryError,
+    RecursionError,
+    NotImplementedError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 
 class Damaged(Exception):
@@ -59,7 +72,8 @@ def _unpacked(box, most, long):
     if sum(member.file_size for member in members) > most:
         raise Damaged(f"its arrays take more than {most / 1e9:.1f} GB")
     if any(member.file_size > _MOST_PACKED * member.compress_size for member in members) or long < sum(
-            member.compress_size for member in members):
+        member.compress_size for member in members
+    ):
         raise Damaged("it says that it holds more than it can")
     if any(member.flag_bits & 1 for member in members):
         raise Damaged("it is encrypted")

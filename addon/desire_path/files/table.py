@@ -20,15 +20,17 @@ def read(path, needed, *, columns=None):
     try:
         with atomic_file.reader(path) as file:
             if os.fstat(file.fileno()).st_size > MOST:
-                raise DesirePathError(f"{path} is larger than {MOST >> 20} MB: give a shorter table with the columns "
-                                      f"{columns}.")
+                raise DesirePathError(
+                    f"{path} is larger than {MOST >> 20} MB: give a shorter table with the columns {columns}."
+                )
             stream = io.TextIOWrapper(file, encoding="utf-8-sig", newline="")
             rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]
     except MemoryError:
         raise DesirePathError(f"There is not enough memory for {path}: give a shorter table.") from None
     except OSError as error:
-        raise DesirePathError(f"{path} cannot be read ({error.strerror}): give a table with the columns "
-                              f"{columns}.") from None
+        raise DesirePathError(
+            f"{path} cannot be read ({error.strerror}): give a table with the columns {columns}."
+        ) from None
     except (UnicodeDecodeError, csv.Error):
         raise DesirePathError(f"{path} is no table of text: give one with the columns {columns}.") from None
     names = [cell.strip().lower() for cell in rows[0]] if rows else []

@@ -81,15 +81,11 @@ def write(path, planes, notes=()):
     for name, plane in planes.items():
         grid = np.ascontiguousarray(plane, np.float32)
         if grid.ndim != 2 or 0 in grid.shape:
-            raise DesirePathError(
-                f"The map '{name}' for {path} has the shape {grid.shape}: give it rows and columns."
-            )
+            raise DesirePathError(f"The map '{name}' for {path} has the shape {grid.shape}: give it rows and columns.")
         grids[name] = grid
     if len({grid.shape for grid in grids.values()}) > 1:
         shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
-        raise DesirePathError(
-            f"The maps for {path} differ in shape ({shapes}): give all the same."
-        )
+        raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
     pairs = list(notes.items() if isinstance(notes, dict) else notes)
     pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
     atomic_file.check(path, "The maps")
@@ -113,9 +109,7 @@ def read(path):
     try:
         nx, ny, names, data, notes = _native.maps_read(path)
     except OSError:
-        raise DesirePathError(
-            f"{path} cannot be opened: check that the file is there and may be read."
-        ) from None
+        raise DesirePathError(f"{path} cannot be opened: check that the file is there and may be read.") from None
     except ValueError as problem:
         if "packing" in str(problem):
             raise DesirePathError(

@@ -49,8 +49,10 @@ def near(points, corners, starts, sides, place, box=None):
     box = None if box is None else np.array(box, np.float64)
     place = np.ascontiguousarray(place, np.float64)
     low, high, bad, *blocks = _native.mesh_cut(points, corners, starts, sides, place, box)
-    vertices, triangles, of = (np.frombuffer(block, kind) if block is not None else np.zeros(0, kind)
-                               for block, kind in zip(blocks, (np.float64, np.int32, np.int32)))
+    vertices, triangles, of = (
+        np.frombuffer(block, kind) if block is not None else np.zeros(0, kind)
+        for block, kind in zip(blocks, (np.float64, np.int32, np.int32))
+    )
     return Near(low, high, bad, vertices.reshape(-1, 3), triangles.reshape(-1, 3), of)
 
 

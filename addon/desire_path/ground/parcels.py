@@ -1,8 +1,8 @@
 """Grounds side by side that one walk crosses, as the tiles of a terrain: pressed as one, each with a bake of its own.
 
-    Parcels --storeys--> those that lie beside each other | those that lie over others
-    a storey --sewn--> one Ground and its soils, without a gap where two of them meet
-    a recording --treads--> which storey each foot is on: the one whose height is nearest to it
+Parcels --storeys--> those that lie beside each other | those that lie over others
+a storey --sewn--> one Ground and its soils, without a gap where two of them meet
+a recording --treads--> which storey each foot is on: the one whose height is nearest to it
 """
 
 from __future__ import annotations
@@ -184,9 +184,11 @@ def sewn(parcels, cell):
         vertices[number] = np.concatenate([vertices[number], more[0]])
         triangles[number] = np.concatenate([triangles[number], faces])
     first = np.cumsum([0] + [len(each) for each in vertices[:-1]])
-    ground = Ground.mesh(np.concatenate(vertices),
-                         np.concatenate([each + start for each, start in zip(triangles, first)]),
-                         np.concatenate(kinds, axis=1) if len(soils) > 1 else None)
+    ground = Ground.mesh(
+        np.concatenate(vertices),
+        np.concatenate([each + start for each, start in zip(triangles, first)]),
+        np.concatenate(kinds, axis=1) if len(soils) > 1 else None,
+    )
     return ground, as_soils(soils)
 
 
@@ -209,8 +211,9 @@ def _rim(triangles):
     """Which edges of triangles (m, 3), from each corner to the next, belong to one triangle only (m, 3)."""
     edge = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2).astype(np.int64)
     edge.sort(axis=1)
-    _, of, count = np.unique(edge[:, 0] * (edge.max(initial=0) + 1) + edge[:, 1], return_inverse=True,
-                             return_counts=True)
+    _, of, count = np.unique(
+        edge[:, 0] * (edge.max(initial=0) + 1) + edge[:, 1], return_inverse=True, return_counts=True
+    )
     return (count[of.reshape(-1)] == 1).reshape(-1, 3)
 
 
@@ -238,9 +241,12 @@ def _hem(vertices, triangles, rim, wide):
 def on(loads, over, storey):
     """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
     here = over == storey
-    return replace(loads, touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
-                   force=np.where(here[..., None], loads.force, 0.0),
-                   point=np.where(here[..., None], loads.point, np.nan))
+    return replace(
+        loads,
+        touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
+        force=np.where(here[..., None], loads.force, 0.0),
+        point=np.where(here[..., None], loads.point, np.nan),
+    )
 
 
 def under(parcel, gait, loads, wide):

@@ -1,9 +1,9 @@
 """Plants, design 7 and 9: kinds, as data in SI units that can be saved, changed and shared, and where they stand.
 
-    lawn = Planting(KINDS["lawn"], seed=3)                       # wherever the walk goes, 300 plants a m^2
-    meadow = Planting("meadow", weight=grid, rectangle=(0, 0, 8, 5))   # thinned by an image over 8 x 5 m
-    sim = Simulation(ground, soils, plants=[lawn, meadow])       # several kinds on one ground
-    bake = Bake(gait, ground, soils, folder, plants=[lawn])
+lawn = Planting(KINDS["lawn"], seed=3)                       # wherever the walk goes, 300 plants a m^2
+meadow = Planting("meadow", weight=grid, rectangle=(0, 0, 8, 5))   # thinned by an image over 8 x 5 m
+sim = Simulation(ground, soils, plants=[lawn, meadow])       # several kinds on one ground
+bake = Bake(gait, ground, soils, folder, plants=[lawn])
 """
 
 from __future__ import annotations
@@ -26,11 +26,27 @@ YEAR = 365.25 * 86400.0  # [s]
 _VERSION = 1
 _MOST_TEXT = 1 << 16  # bytes of a kind's file
 _RANGES = {  # what native/plants refuses, said by name; angles in radians
-    "height": (0, 10), "width": (0, 10), "depth": (0, 10), "spacing": (1e-4, 10), "radius": (0, 1),
-    "curl": (0, math.pi / 2), "sway": (1e-3, 1e3), "across": (1e-3, 1e4), "damping": (0, 1e4),
-    "strength": (1e-9, 1e9), "degrade_angle": (0, math.pi), "break_angle": (0, 1e3), "degrade_rate": (0, 1e9),
-    "recover_rate": (0, 1e9), "spread": (0, 4), "regrow_rate": (0, 1e3), "seed_share": (0, 1), "reach": (1e-3, 100),
-    "full_density": (1e-6, 1e9), "modulus": (0, 1e12), "density": (1e-6, 1e9),
+    "height": (0, 10),
+    "width": (0, 10),
+    "depth": (0, 10),
+    "spacing": (1e-4, 10),
+    "radius": (0, 1),
+    "curl": (0, math.pi / 2),
+    "sway": (1e-3, 1e3),
+    "across": (1e-3, 1e4),
+    "damping": (0, 1e4),
+    "strength": (1e-9, 1e9),
+    "degrade_angle": (0, math.pi),
+    "break_angle": (0, 1e3),
+    "degrade_rate": (0, 1e9),
+    "recover_rate": (0, 1e9),
+    "spread": (0, 4),
+    "regrow_rate": (0, 1e3),
+    "seed_share": (0, 1),
+    "reach": (1e-3, 100),
+    "full_density": (1e-6, 1e9),
+    "modulus": (0, 1e12),
+    "density": (1e-6, 1e9),
 }
 
 
@@ -70,14 +86,17 @@ class Kind:
         for name, (low, high) in _RANGES.items():
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-                raise DesirePathError(f"A plant's {name} of {_told(value)} cannot be used: choose one from {low:.4g} "
-                                      f"to {high:.4g}.")
+                raise DesirePathError(
+                    f"A plant's {name} of {_told(value)} cannot be used: choose one from {low:.4g} to {high:.4g}."
+                )
         if self.break_angle < self.degrade_angle:
             raise DesirePathError("A plant's break_angle lies below its degrade_angle: raise it.")
         rows, stems = self.height / self.spacing + 1, self.width / self.spacing + 1
         if rows > 64 or stems * (self.sheets if self.form == "tuft" else 1) > 96:
-            raise DesirePathError(f"A plant {self.height:g} m high and {self.width:g} m wide has too many particles "
-                                  f"{self.spacing:g} m apart: raise its spacing.")
+            raise DesirePathError(
+                f"A plant {self.height:g} m high and {self.width:g} m wide has too many particles "
+                f"{self.spacing:g} m apart: raise its spacing."
+            )
 
     def numbers(self):
         """What the core reads: float64 (22) in the order of DpPlantKind."""
@@ -99,8 +118,10 @@ class Kind:
         except FileNotFoundError:
             raise DesirePathError(f"There is no plant kind at {path}: check the path.") from None
         except (OSError, ValueError) as error:
-            raise DesirePathError(f"The plant kind {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
-                                  "choose a file that Kind.save() wrote.") from None
+            raise DesirePathError(
+                f"The plant kind {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
+                "choose a file that Kind.save() wrote."
+            ) from None
         try:
             told = json.loads(text.decode("utf-8")) if len(text) <= _MOST_TEXT else None
         except (ValueError, RecursionError, MemoryError):
@@ -117,18 +138,24 @@ class Kind:
 def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *, curl_deg=0.0, hours=None, **more):
     if hours is not None:  # until strength that was lost is back, and trodden stems stand again
         more["recover_rate"] = strength / (3600.0 * hours)
-    return Kind(height=height, width=width, depth=width, spacing=spacing, sway=sway, strength=strength,
-                degrade_angle=math.radians(degrade_deg), break_angle=math.radians(break_deg),
-                curl=math.radians(curl_deg), **more)
+    return Kind(
+        height=height,
+        width=width,
+        depth=width,
+        spacing=spacing,
+        sway=sway,
+        strength=strength,
+        degrade_angle=math.radians(degrade_deg),
+        break_angle=math.radians(break_deg),
+        curl=math.radians(curl_deg),
+        **more,
+    )
 
 
 # As printed in TRAIL Table 1, with its phi_max of 70 and 50 degrees: a boot folds stems of pieces 15 mm long farther than
 # that, so that one pass over a lane leaves 62 and 59 per cent of it and 25 leave 3 and 1, where measured lanes keep 86.
 # For looks, and to compare with.
-PAPER = {
-    "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10),
-    "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08),
-}
+PAPER = {"carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10), "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08)}
 
 # Wear of carex follows `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex`, from the cover of Cole's
 # lanes; how it grows again is fitted in the same way. tests/core/test_lane.py holds it to lanes of another seed, on
@@ -147,19 +174,105 @@ TWO_WEEKS = 14 * 24.0  # [h]
 # within hours, straw and fronds hardly the next day.
 KINDS = {
     "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 180, RESERVE, spread=SPREAD, hours=TWO_WEEKS, **REGROWTH),
-    "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 180, 0.8 * RESERVE, spread=SPREAD, hours=TWO_WEEKS,
-                        **REGROWTH),
-    "lawn": _kind(0.05, 0.04, 0.0125, 6.0, 20, 180, 0.4, form="tuft", radius=0.003, reach=0.08, full_density=150.0,
-                  density=300.0, modulus=12e6, hours=0.25, degrade_rate=0.007, spread=1.0),
-    "meadow": _kind(0.30, 0.08, 0.04, 1.8, 15, 180, 0.2, form="tuft", sheets=3, curl_deg=6, radius=0.004, reach=0.18,
-                    full_density=30.0, density=60.0, hours=3.0, degrade_rate=0.012, spread=1.0),
-    "wheat": _kind(0.80, 0.06, 0.06, 1.1, 12, 180, 0.1, form="tuft", curl_deg=1.0, radius=0.004, across=12.0,
-                   reach=0.12, full_density=50.0, density=100.0, modulus=6e6, hours=24.0, degrade_rate=0.03,
-                   spread=1.0),
-    "moss": _kind(0.02, 0.05, 0.01, 12.0, 25, 180, 0.15, form="tuft", sheets=3, radius=0.003, damping=20.0, reach=0.06,
-                  full_density=250.0, density=500.0, modulus=2e6, hours=1.0, degrade_rate=0.01, spread=1.0),
-    "fern": _kind(0.45, 0.16, 0.05, 1.4, 8, 180, 0.06, form="tuft", sheets=3, curl_deg=11, radius=0.006, across=10.0,
-                  reach=0.30, full_density=5.0, density=8.0, modulus=5e6, hours=24.0, degrade_rate=0.03, spread=1.0),
+    "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 180, 0.8 * RESERVE, spread=SPREAD, hours=TWO_WEEKS, **REGROWTH),
+    "lawn": _kind(
+        0.05,
+        0.04,
+        0.0125,
+        6.0,
+        20,
+        180,
+        0.4,
+        form="tuft",
+        radius=0.003,
+        reach=0.08,
+        full_density=150.0,
+        density=300.0,
+        modulus=12e6,
+        hours=0.25,
+        degrade_rate=0.007,
+        spread=1.0,
+    ),
+    "meadow": _kind(
+        0.30,
+        0.08,
+        0.04,
+        1.8,
+        15,
+        180,
+        0.2,
+        form="tuft",
+        sheets=3,
+        curl_deg=6,
+        radius=0.004,
+        reach=0.18,
+        full_density=30.0,
+        density=60.0,
+        hours=3.0,
+        degrade_rate=0.012,
+        spread=1.0,
+    ),
+    "wheat": _kind(
+        0.80,
+        0.06,
+        0.06,
+        1.1,
+        12,
+        180,
+        0.1,
+        form="tuft",
+        curl_deg=1.0,
+        radius=0.004,
+        across=12.0,
+        reach=0.12,
+        full_density=50.0,
+        density=100.0,
+        modulus=6e6,
+        hours=24.0,
+        degrade_rate=0.03,
+        spread=1.0,
+    ),
+    "moss": _kind(
+        0.02,
+        0.05,
+        0.01,
+        12.0,
+        25,
+        180,
+        0.15,
+        form="tuft",
+        sheets=3,
+        radius=0.003,
+        damping=20.0,
+        reach=0.06,
+        full_density=250.0,
+        density=500.0,
+        modulus=2e6,
+        hours=1.0,
+        degrade_rate=0.01,
+        spread=1.0,
+    ),
+    "fern": _kind(
+        0.45,
+        0.16,
+        0.05,
+        1.4,
+        8,
+        180,
+        0.06,
+        form="tuft",
+        sheets=3,
+        curl_deg=11,
+        radius=0.006,
+        across=10.0,
+        reach=0.30,
+        full_density=5.0,
+        density=8.0,
+        modulus=5e6,
+        hours=24.0,
+        degrade_rate=0.03,
+        spread=1.0,
+    ),
 }
 
 
@@ -167,7 +280,7 @@ KINDS = {
 
 # Most plants of a kind are alike, a few give way at once, a few bear nearly anything: the density of their vigour z
 # is as exp(-sqrt(|z| / c)), mean 0, deviation 1. Reserves are exp(spread z) times the kind's.
-_VIGOUR = 120.0 ** -0.5  # c
+_VIGOUR = 120.0**-0.5  # c
 MOST_VIGOUR = 8.0  # no plant is farther out
 
 
@@ -221,8 +334,10 @@ class Planting:
         put = functools.partial(object.__setattr__, self)
         put("kind", as_kind(self.kind))
         if self.density is not None and not (_is_number(self.density) and 1e-6 <= self.density <= 1e5):
-            raise DesirePathError(f"A density of {self.density} plants a m^2 cannot be planted: choose one from 1e-6 "
-                                  "to 100000, or None for the kind's own.")
+            raise DesirePathError(
+                f"A density of {self.density} plants a m^2 cannot be planted: choose one from 1e-6 "
+                "to 100000, or None for the kind's own."
+            )
         put("density", float(self.kind.density if self.density is None else self.density))
         if isinstance(self.seed, bool) or not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 1 << 64:
             raise DesirePathError(f"A seed of {self.seed} cannot be used: choose a whole number, 0 or more.")
@@ -266,7 +381,7 @@ class Planting:
         side = self.side
         columns = range(math.floor(x0 / side), math.ceil(x1 / side))
         rows = range(math.floor(y0 / side), math.ceil(y1 / side))
-        plants = len(columns) * len(rows) * side ** 2 * self.density
+        plants = len(columns) * len(rows) * side**2 * self.density
         limits.check("plants", plants)
         limits.check("memory", PLANT_BYTES * plants)
         return [(column, row) for row in rows for column in columns]
@@ -305,10 +420,11 @@ class Planting:
                 given.append(roots[((roots > low - apart) & (roots < low + side + apart)).all(1)])
         given = np.concatenate(given)
         room = np.zeros((len(given) + int(side * side * self.density) + 2, 2), np.float32)
-        room[:len(given)] = given
-        count = _native.plants_place(*low, *(low + side), self.density, None, _mixed(self.seed, column, row), room,
-                                     len(given))
-        known[at] = room[len(given):count]
+        room[: len(given)] = given
+        count = _native.plants_place(
+            *low, *(low + side), self.density, None, _mixed(self.seed, column, row), room, len(given)
+        )
+        known[at] = room[len(given) : count]
         return known[at]
 
     @property

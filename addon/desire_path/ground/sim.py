@@ -82,7 +82,8 @@ class Ground:
             kind_weight = np.ascontiguousarray(kind_weight, np.float32)
             if kind_weight.ndim != 3 or kind_weight.shape[1:] != heights.shape:
                 raise DesirePathError(
-                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height.")
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height."
+                )
             kind_weight = kind_weight.reshape(len(kind_weight), -1)
         native = ("heights", heights, float(spacing), float(x0), float(y0), base, kind_weight)
         return Ground(native, "heights")
@@ -100,7 +101,8 @@ class Ground:
         if vertices.ndim != 2 or triangles.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
             raise DesirePathError(
                 f"The ground has vertices of shape {vertices.shape} and triangles of shape "
-                f"{triangles.shape}: give (n, 3) positions and (m, 3) indices.")
+                f"{triangles.shape}: give (n, 3) positions and (m, 3) indices."
+            )
         if triangles.min() < 0 or triangles.max() >= len(vertices):
             raise DesirePathError("A triangle of the ground names a vertex that is not there: mend its indices.")
         vertices = np.ascontiguousarray(vertices)
@@ -114,7 +116,8 @@ class Ground:
             kind_weight = np.ascontiguousarray(kind_weight, np.float32)
             if kind_weight.ndim != 2 or kind_weight.shape[1] != len(vertices):
                 raise DesirePathError(
-                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex.")
+                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex."
+                )
         return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
 
     @staticmethod
@@ -139,7 +142,9 @@ class Ground:
 
     def arrays(self):
         """The arrays the ground is made of, for telling one ground from another."""
-        return [part for part in self.native if isinstance(part, np.ndarray)] + (self.trail.arrays() if self.trail else [])
+        return [part for part in self.native if isinstance(part, np.ndarray)] + (
+            self.trail.arrays() if self.trail else []
+        )
 
 
 def as_soils(soils):
@@ -195,8 +200,21 @@ class Simulation:
     areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.
     """
 
-    def __init__(self, ground, soils="dry-sand", cell_size=0.01, *, origin=(0.0, 0.0), law="sole",
-                 heap="rest", rim_width=0.04, threads=0, plants=(), areas=None, limits=Limits()):
+    def __init__(
+        self,
+        ground,
+        soils="dry-sand",
+        cell_size=0.01,
+        *,
+        origin=(0.0, 0.0),
+        law="sole",
+        heap="rest",
+        rim_width=0.04,
+        threads=0,
+        plants=(),
+        areas=None,
+        limits=Limits(),
+    ):
         check_cell(cell_size)
         if law not in LAWS:
             raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
@@ -219,8 +237,16 @@ class Simulation:
         self._planted = [set() for _ in self.plantings]  # squares
         try:
             self._core = _native.Simulation(
-                ground.native, _soil_rows(self.soils), self.cell_size, self.origin,
-                LAWS.index(law), HEAPS.index(heap), float(rim_width), 100000, 0.25, int(threads),
+                ground.native,
+                _soil_rows(self.soils),
+                self.cell_size,
+                self.origin,
+                LAWS.index(law),
+                HEAPS.index(heap),
+                float(rim_width),
+                100000,
+                0.25,
+                int(threads),
             )
         except ValueError as problem:
             if "no ground" in str(problem):
@@ -276,8 +302,9 @@ class Simulation:
     def settle_time(self, xy):
         """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
         taus = np.array([soil.settle_time for soil in self.soils])
-        cells, number = np.unique(np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0,
-                                  return_inverse=True)
+        cells, number = np.unique(
+            np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0, return_inverse=True
+        )
         if len(taus) == 1:
             return np.full(len(xy), taus[0])
         kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
@@ -296,8 +323,16 @@ class Simulation:
 
         gait: walker.native_gait() of one.
         """
-        self._core.place(gait, int(walker), bool(flat), bool(carry), np.ascontiguousarray(numbers, np.float64),
-                         np.ascontiguousarray(clearance, np.float64), pose, com)
+        self._core.place(
+            gait,
+            int(walker),
+            bool(flat),
+            bool(carry),
+            np.ascontiguousarray(numbers, np.float64),
+            np.ascontiguousarray(clearance, np.float64),
+            pose,
+            com,
+        )
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
@@ -308,13 +343,17 @@ class Simulation:
         vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
         triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
         self._core.load(
-            np.ascontiguousarray(gait.time), np.ascontiguousarray(gait.mass),
-            np.ascontiguousarray(gait.pose), np.ascontiguousarray(gait.limb_walker, np.int32),
-            np.ascontiguousarray(gait.part_limb, np.int32), np.ascontiguousarray(vertices),
+            np.ascontiguousarray(gait.time),
+            np.ascontiguousarray(gait.mass),
+            np.ascontiguousarray(gait.pose),
+            np.ascontiguousarray(gait.limb_walker, np.int32),
+            np.ascontiguousarray(gait.part_limb, np.int32),
+            np.ascontiguousarray(vertices),
             np.array([len(sole.vertices) for sole in gait.soles], np.int32),
             np.ascontiguousarray(triangles),
             np.array([len(sole.triangles) for sole in gait.soles], np.int32),
-            np.ascontiguousarray(touching), np.ascontiguousarray(loads.force),
+            np.ascontiguousarray(touching),
+            np.ascontiguousarray(loads.force),
             np.ascontiguousarray(loads.point),
         )
         if self.plantings:

@@ -19,24 +19,36 @@ class Soil:
     shear_modulus: float = 0.0  # K, how far it shears before it carries sideways [m] 0..0.1; 0: soles do not slip
 
     def __post_init__(self):
-        ranges = {"layer_depth": (1e-4, 100), "young_modulus": (1, 1e12), "settle_time": (1e-5, 1e4),
-                  "rest_angle": (1e-3, math.radians(89))}
+        ranges = {
+            "layer_depth": (1e-4, 100),
+            "young_modulus": (1, 1e12),
+            "settle_time": (1e-5, 1e4),
+            "rest_angle": (1e-3, math.radians(89)),
+        }
         for name, (low, high) in ranges.items():
             value = getattr(self, name)
             if not low <= value <= high:
-                raise DesirePathError(f"A soil's {name} of {value:g} cannot be used: choose one from {low:.4g} "
-                                      f"to {high:.4g}.")
+                raise DesirePathError(
+                    f"A soil's {name} of {value:g} cannot be used: choose one from {low:.4g} to {high:.4g}."
+                )
         if not 0 <= self.poisson_ratio <= 0.5:
             raise DesirePathError(f"A soil's poisson_ratio of {self.poisson_ratio:g} cannot be used: choose 0 to 0.5.")
         if not (self.push_threshold >= 0 and math.isfinite(self.push_threshold)):
             raise DesirePathError("A soil's push_threshold must be 0 or more newtons.")
         if not 0 <= self.shear_modulus <= 0.1:
-            raise DesirePathError(f"A soil's shear_modulus of {self.shear_modulus:g} cannot be used: choose 0 to 0.1 m.")
+            raise DesirePathError(
+                f"A soil's shear_modulus of {self.shear_modulus:g} cannot be used: choose 0 to 0.1 m."
+            )
 
 
 def _soil(megapascal, nu, rest_angle_deg, tau, shear=0.0):
-    return Soil(young_modulus=1e6 * megapascal, poisson_ratio=nu, rest_angle=math.radians(rest_angle_deg),
-                settle_time=tau, shear_modulus=shear)
+    return Soil(
+        young_modulus=1e6 * megapascal,
+        poisson_ratio=nu,
+        rest_angle=math.radians(rest_angle_deg),
+        settle_time=tau,
+        shear_modulus=shear,
+    )
 
 
 # Middle of each range in TRAIL Table 1 and SOFT22 Table 1. Loose grains shear by 1 to 2.5 cm before they carry

@@ -1,7 +1,7 @@
 """Ground out of an OpenEXR image: heights of any writer, or a trail as a bake left it.
 
-    maps_final.exr, maps/..   rest, compression, heap and pressure_time by name: another walk goes on from there
-    any other image           the channel height, Z, V, Y, or a grey picture
+maps_final.exr, maps/..   rest, compression, heap and pressure_time by name: another walk goes on from there
+any other image           the channel height, Z, V, Y, or a grey picture
 """
 
 from __future__ import annotations
@@ -44,22 +44,33 @@ class Trail:
 
     def on(self, cell, origin):
         """The trail on cells of another size or place [m]: (i0, j0, its grids by name, sentences)."""
-        told = [f"The plants of {self.path} are not in the map: what grows here now was not trodden before."
-                ] if self.planted else []
+        told = (
+            [f"The plants of {self.path} are not in the map: what grows here now was not trodden before."]
+            if self.planted
+            else []
+        )
         i0, j0 = (self.x0 - origin[0]) / cell, (self.y0 - origin[1]) / cell
         grids = {name: getattr(self, name) for name in LEFT}
-        if (abs(cell / self.cell - 1.0) * max(self.rest.shape) < SAME
-                and max(abs(i0 - round(i0)), abs(j0 - round(j0))) < SAME):
+        if (
+            abs(cell / self.cell - 1.0) * max(self.rest.shape) < SAME
+            and max(abs(i0 - round(i0)), abs(j0 - round(j0))) < SAME
+        ):
             return round(i0), round(j0), grids, told
-        told.append(f"The cells of {self.path} ({self.cell:g} m from {self.x0:g}, {self.y0:g}) are not those of this "
-                    f"bake: the trail was averaged over cells of {cell:g} m.")
+        told.append(
+            f"The cells of {self.path} ({self.cell:g} m from {self.x0:g}, {self.y0:g}) are not those of this "
+            f"bake: the trail was averaged over cells of {cell:g} m."
+        )
         i0, j0 = math.floor(i0), math.floor(j0)
         ny, nx = (math.ceil(count * self.cell / cell) + 1 for count in self.rest.shape)
         if nx * ny > 1 << 28:
             raise DesirePathError(f"{self.path} covers too many cells of {cell:g} m: choose a larger cell size.")
-        at = [_shares(start + k * cell - low, cell, self.cell, count) for start, low, k, count in (
-            (origin[1], self.y0, j0 + np.arange(ny), self.rest.shape[0]),
-            (origin[0], self.x0, i0 + np.arange(nx), self.rest.shape[1]))]
+        at = [
+            _shares(start + k * cell - low, cell, self.cell, count)
+            for start, low, k, count in (
+                (origin[1], self.y0, j0 + np.arange(ny), self.rest.shape[0]),
+                (origin[0], self.x0, i0 + np.arange(nx), self.rest.shape[1]),
+            )
+        ]
         return i0, j0, {name: _averaged(grid, *at) for name, grid in grids.items()}, told
 
 
@@ -113,7 +124,8 @@ def _trail(path, picture):
     planes, notes = picture.planes, picture.notes
     if "rest" not in planes:
         raise DesirePathError(
-            f"{path} is a map without the height before the walk (no rest.V): bake it again, and go on from that.")
+            f"{path} is a map without the height before the walk (no rest.V): bake it again, and go on from that."
+        )
     cell = notes.get("cell")
     if not isinstance(cell, float) or not CELLS[0] <= cell <= CELLS[1]:
         raise DesirePathError(f"{path} does not say how large its cells are: give the map as the bake wrote it.")
@@ -147,6 +159,8 @@ def _heights(path, picture):
     for name in HEIGHTS:
         if name in planes:
             return planes[name]
-    if "R" in planes and all(np.array_equal(planes["R"], planes.get(name, planes["R"]), equal_nan=True) for name in "GB"):
+    if "R" in planes and all(
+        np.array_equal(planes["R"], planes.get(name, planes["R"]), equal_nan=True) for name in "GB"
+    ):
         return planes["R"]
     raise DesirePathError(f"{path} has no channel of heights among {words}: call it height, Z, V or Y [m].")

@@ -52,28 +52,62 @@ class Look:
 LOOKS = {
     "carex": Look(
         (Stems(80, (0.55, 1.5), 0.0027, 2.4, (0.02, 0.45), (0.4, 1.4), rows=5),),
-        (0.055, 0.095, 0.020), (0.165, 0.265, 0.052), (0.20, 0.16, 0.06), (0.38, 0.29, 0.135)),
+        (0.055, 0.095, 0.020),
+        (0.165, 0.265, 0.052),
+        (0.20, 0.16, 0.06),
+        (0.38, 0.29, 0.135),
+    ),
     "lycopodium": Look(
         (Stems(11, (0.45, 1.1), 0.0022, 2.4, (0.0, 0.35), (-0.2, 0.3), "shoot", 4, 40, 0.0095),),
-        (0.020, 0.060, 0.018), (0.050, 0.150, 0.040), (0.16, 0.17, 0.05), (0.24, 0.17, 0.075)),
+        (0.020, 0.060, 0.018),
+        (0.050, 0.150, 0.040),
+        (0.16, 0.17, 0.05),
+        (0.24, 0.17, 0.075),
+    ),
     "lawn": Look(
         (Stems(64, (0.5, 1.25), 0.0028, 2.0, (0.0, 0.4), (-0.1, 0.9), rows=3),),
-        (0.045, 0.095, 0.022), (0.125, 0.270, 0.050), (0.2, 0.2, 0.1), (0.40, 0.33, 0.155), sizes=(0.8, 1.15)),
+        (0.045, 0.095, 0.022),
+        (0.125, 0.270, 0.050),
+        (0.2, 0.2, 0.1),
+        (0.40, 0.33, 0.155),
+        sizes=(0.8, 1.15),
+    ),
     "meadow": Look(
-        (Stems(52, (0.35, 1.25), 0.0040, 2.0, (0.0, 0.35), (0.15, 1.2), rows=6),
-         Stems(3, (1.0, 1.4), 0.0016, 1.0, (0.0, 0.15), (0.1, 0.5), "panicle", 5, 14, 0.007),
-         Stems(8, (0.2, 0.4), 0.011, 1.8, (0.3, 0.8), (0.2, 0.7), rows=4)),
-        (0.046, 0.088, 0.020), (0.165, 0.270, 0.055), (0.34, 0.265, 0.14), (0.42, 0.33, 0.16)),
+        (
+            Stems(52, (0.35, 1.25), 0.0040, 2.0, (0.0, 0.35), (0.15, 1.2), rows=6),
+            Stems(3, (1.0, 1.4), 0.0016, 1.0, (0.0, 0.15), (0.1, 0.5), "panicle", 5, 14, 0.007),
+            Stems(8, (0.2, 0.4), 0.011, 1.8, (0.3, 0.8), (0.2, 0.7), rows=4),
+        ),
+        (0.046, 0.088, 0.020),
+        (0.165, 0.270, 0.055),
+        (0.34, 0.265, 0.14),
+        (0.42, 0.33, 0.16),
+    ),
     "wheat": Look(
-        (Stems(3, (0.95, 1.1), 0.0032, 0.7, (0.0, 0.08), (0.02, 0.25), "ear", 6, 18, 0.012),
-         Stems(6, (0.45, 0.75), 0.010, 0.7, (0.05, 0.3), (0.5, 1.7), rows=6)),
-        (0.16, 0.135, 0.045), (0.42, 0.300, 0.100), (0.52, 0.350, 0.130), (0.44, 0.33, 0.16), sizes=(0.88, 1.1)),
+        (
+            Stems(3, (0.95, 1.1), 0.0032, 0.7, (0.0, 0.08), (0.02, 0.25), "ear", 6, 18, 0.012),
+            Stems(6, (0.45, 0.75), 0.010, 0.7, (0.05, 0.3), (0.5, 1.7), rows=6),
+        ),
+        (0.16, 0.135, 0.045),
+        (0.42, 0.300, 0.100),
+        (0.52, 0.350, 0.130),
+        (0.44, 0.33, 0.16),
+        sizes=(0.88, 1.1),
+    ),
     "moss": Look(
         (Stems(28, (0.45, 1.0), 0.0014, 2.0, (0.0, 0.45), (-0.1, 0.4), "shoot", 1, 6, 0.0085),),
-        (0.028, 0.050, 0.010), (0.120, 0.185, 0.028), (0.25, 0.14, 0.05), (0.22, 0.165, 0.07)),
+        (0.028, 0.050, 0.010),
+        (0.120, 0.185, 0.028),
+        (0.25, 0.14, 0.05),
+        (0.22, 0.165, 0.07),
+    ),
     "fern": Look(
         (Stems(8, (0.9, 1.55), 0.0040, 0.25, (0.15, 0.6), (0.4, 1.2), "frond", 8, 17, 0.085),),
-        (0.040, 0.075, 0.018), (0.085, 0.190, 0.035), (0.1, 0.1, 0.05), (0.27, 0.155, 0.06)),
+        (0.040, 0.075, 0.018),
+        (0.085, 0.190, 0.035),
+        (0.1, 0.1, 0.05),
+        (0.27, 0.155, 0.06),
+    ),
 }
 _PLAIN = "meadow"  # the blades of kinds that are nobody's
 
@@ -98,8 +132,12 @@ def look_of(name, kind):
         if word.startswith(known):
             return look
     blades = LOOKS[_PLAIN]
-    return replace(blades, stems=tuple(replace(each, width=max(0.001, each.width * (kind.height / 0.3) ** 0.5))
-                                       for each in blades.stems[:1]))
+    return replace(
+        blades,
+        stems=tuple(
+            replace(each, width=max(0.001, each.width * (kind.height / 0.3) ** 0.5)) for each in blades.stems[:1]
+        ),
+    )
 
 
 def tuft(kind, look, seed):
@@ -120,13 +158,20 @@ def tuft(kind, look, seed):
             straight, cut, head = _SHAPES[sort.shape](sort, length, random)
             turn = heading + math.pi / 2 + random.normal(0.0, 0.5)
             c, s = math.cos(turn), math.sin(turn)
-            at = np.stack([c * straight[:, 0] - s * straight[:, 1], s * straight[:, 0] + c * straight[:, 1],
-                           straight[:, 2]], axis=1)
+            at = np.stack(
+                [c * straight[:, 0] - s * straight[:, 1], s * straight[:, 0] + c * straight[:, 1], straight[:, 2]],
+                axis=1,
+            )
             rows = np.ones((len(at), 1))
-            blocks.append((
-                rows * (place * math.cos(out), place * math.sin(out), length), at, rows * (*tilt, 0.0),
-                rows * (*arch, 0.0),
-                np.stack([np.clip(at[:, 2] / length, 0.0, 1.0), rows[:, 0] * random.uniform(), head], axis=1)))
+            blocks.append(
+                (
+                    rows * (place * math.cos(out), place * math.sin(out), length),
+                    at,
+                    rows * (*tilt, 0.0),
+                    rows * (*arch, 0.0),
+                    np.stack([np.clip(at[:, 2] / length, 0.0, 1.0), rows[:, 0] * random.uniform(), head], axis=1),
+                )
+            )
             faces += [tuple(v + count for v in face) for face in cut]
             count += len(at)
     root, at, tilt, arch, told = (np.concatenate(each).astype(np.float32) for each in zip(*blocks, strict=True))
@@ -185,7 +230,7 @@ def _blade(sort, length, random):
     """Widest at a third, pointed."""
     places = _rows(sort, length)
     u = np.clip(places / length, 0.0, 1.0)
-    width = sort.width * random.uniform(0.75, 1.2) * np.minimum(1.0, 0.62 + 1.3 * u) * (1.0 - u ** 2.6) ** 0.8
+    width = sort.width * random.uniform(0.75, 1.2) * np.minimum(1.0, 0.62 + 1.3 * u) * (1.0 - u**2.6) ** 0.8
     return _join([(_strip(places, np.maximum(width, 1e-5)), 0)])
 
 
@@ -217,11 +262,13 @@ def _ear(sort, length, random):
         s = length - ear * (1.0 - k / sort.leaves)
         out, side = _around(math.pi / 2 * (k % 4) + 0.3)
         grain = sort.leaf * (0.8 + 0.4 * math.sin(math.pi * k / sort.leaves))
-        parts.append((_leaf((0.001 * out[0], 0.001 * out[1], s), 0.42 * grain * out + (0, 0, grain), side,
-                            0.62 * grain), 1))
+        parts.append(
+            (_leaf((0.001 * out[0], 0.001 * out[1], s), 0.42 * grain * out + (0, 0, grain), side, 0.62 * grain), 1)
+        )
         if k % 3 == 0:
-            parts.append((_leaf((0.003 * out[0], 0.003 * out[1], s + 0.6 * grain), 0.014 * out + (0, 0, 0.045), side,
-                                0.0011), 1))
+            parts.append(
+                (_leaf((0.003 * out[0], 0.003 * out[1], s + 0.6 * grain), 0.014 * out + (0, 0, 0.045), side, 0.0011), 1)
+            )
     return _join(parts)
 
 
@@ -234,8 +281,17 @@ def _panicle(sort, length, random):
         out, side = _around(2.4 * k + random.uniform(-0.4, 0.4))
         reach = 0.14 * head * (1.0 - share) * random.uniform(0.5, 1.1) + 0.0015
         s = length - head * (1.0 - share)
-        parts.append((_leaf(reach * out + (0, 0, s + 0.5 * reach), 0.35 * sort.leaf * out + (0, 0, sort.leaf), side,
-                            0.42 * sort.leaf), 1))
+        parts.append(
+            (
+                _leaf(
+                    reach * out + (0, 0, s + 0.5 * reach),
+                    0.35 * sort.leaf * out + (0, 0, sort.leaf),
+                    side,
+                    0.42 * sort.leaf,
+                ),
+                1,
+            )
+        )
     return _join(parts)
 
 
@@ -260,7 +316,7 @@ def _pinna(start, along, width):
     teeth = 5
     for k in range(teeth + 1):
         u = k / teeth
-        half = 0.5 * width * (1.0 - u ** 2) ** 0.8
+        half = 0.5 * width * (1.0 - u**2) ** 0.8
         for at, wide in ((u, 1.0), (u + 0.55 / teeth, 0.45)):
             if at > 1.0:
                 continue
@@ -280,12 +336,20 @@ def _shoot(sort, length, random):
         out, side = _around(2.39996 * k)
         size = sort.leaf * (1.0 - 0.45 * u) * random.uniform(0.8, 1.1)
         up = 0.35 + 0.75 * u
-        parts.append((_leaf((0, 0, u * length), size * (out + (0, 0, up)) / math.hypot(1.0, up), side, 0.34 * size),
-                      1 if u > 0.86 else 0))
+        parts.append(
+            (
+                _leaf((0, 0, u * length), size * (out + (0, 0, up)) / math.hypot(1.0, up), side, 0.34 * size),
+                1 if u > 0.86 else 0,
+            )
+        )
     return _join(parts)
 
 
 _SHAPES = {
-    "blade": _blade, "ear": _ear, "panicle": _panicle, "frond": _frond, "shoot": _shoot,
+    "blade": _blade,
+    "ear": _ear,
+    "panicle": _panicle,
+    "frond": _frond,
+    "shoot": _shoot,
     "stalk": lambda *each: _join(_stalk(*each)),
 }

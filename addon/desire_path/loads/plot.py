@@ -31,8 +31,7 @@ def spans(touching, time):
     """(start, end) [s] of each contact of one limb; half a sample is added on either side."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], touching.astype("i1"), [0]])))
     half = 0.5 * float(np.median(np.diff(time))) if len(time) > 1 else 0.0
-    return [(float(time[first]) - half, float(time[last - 1]) + half)
-            for first, last in zip(edges[::2], edges[1::2])]
+    return [(float(time[first]) - half, float(time[last - 1]) + half) for first, last in zip(edges[::2], edges[1::2])]
 
 
 def figure(gait, loads):
@@ -40,8 +39,10 @@ def figure(gait, loads):
     try:
         from matplotlib.figure import Figure
     except ImportError:
-        raise DesirePathError("Drawing forces needs Matplotlib, which is not here: install it with "
-                              "pip install desire-path[plot], or pip install matplotlib.") from None
+        raise DesirePathError(
+            "Drawing forces needs Matplotlib, which is not here: install it with "
+            "pip install desire-path[plot], or pip install matplotlib."
+        ) from None
     force, touching = foot_loads(gait, loads)
     walkers = len(gait.mass)
     made = Figure(figsize=(WIDE, 0.6 + HIGH * walkers), layout="constrained")
@@ -54,14 +55,14 @@ def figure(gait, loads):
             for start, end in spans(touching[limb], loads.time):
                 graph.axvspan(start, end, color=colour, alpha=0.12, linewidth=0)
         if len(limbs) > 1:
-            graph.plot(loads.time, force[limbs].sum(axis=0), color="0.45", linewidth=0.8,
-                       label="all feet")
+            graph.plot(loads.time, force[limbs].sum(axis=0), color="0.45", linewidth=0.8, label="all feet")
         graph.axhline(1.0, color="black", linewidth=0.9, linestyle="--", label="body weight")
         graph.set_ylim(bottom=min(0.0, float(force[limbs].min(initial=0.0))))
         graph.set_ylabel("vertical force [body weights]")
         graph.set_title(f"{gait.walker_name[w]}, {gait.mass[w]:.3g} kg", loc="left")
-        graph.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small",
-                     ncols=len(limbs) + 2)
+        graph.legend(
+            loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small", ncols=len(limbs) + 2
+        )
     if len(loads.time) > 1:
         graphs[-1].set_xlim(float(loads.time[0]), float(loads.time[-1]))
     graphs[-1].set_xlabel("time [s]")
@@ -73,8 +74,9 @@ def write(path, gait, loads):
     path = os.fspath(path)
     kind = os.path.splitext(path)[1].lower()
     if kind not in KINDS:
-        raise DesirePathError(f"{path} is no picture this can draw: let its name end in "
-                              + ", ".join(KINDS[:-1]) + f" or {KINDS[-1]}.")
+        raise DesirePathError(
+            f"{path} is no picture this can draw: let its name end in " + ", ".join(KINDS[:-1]) + f" or {KINDS[-1]}."
+        )
     made = figure(gait, loads)
     with atomic_file.file(path, "The picture") as stream:
         made.savefig(stream, format=kind[1:], dpi=120)

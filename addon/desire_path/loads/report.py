@@ -1,6 +1,6 @@
 """What the forces of a recording come to: each contact of each foot, and a walker's numbers.
 
-    Gait, FootForce ---contacts---> [Contact] ---summary---> a dict for each walker, contacts.csv
+Gait, FootForce ---contacts---> [Contact] ---summary---> a dict for each walker, contacts.csv
 """
 
 import csv
@@ -43,8 +43,18 @@ def contacts(gait, loads):
             if weight.sum() > 0.0:
                 place = (weight[:, None] * np.nan_to_num(middle[during])).sum(axis=0) / weight.sum()
             mean = float(newtons[during].mean())
-            found.append(Contact(int(walker), limb, start, end, float(newtons[during].max()), mean,
-                                 mean * (end - start), tuple(map(float, place))))
+            found.append(
+                Contact(
+                    int(walker),
+                    limb,
+                    start,
+                    end,
+                    float(newtons[during].max()),
+                    mean,
+                    mean * (end - start),
+                    tuple(map(float, place)),
+                )
+            )
     return sorted(found, key=lambda each: (each.start, each.limb))
 
 
@@ -76,27 +86,32 @@ def summary(gait, loads):
         way = np.linalg.norm(np.diff(gait.com[w, :, :2], axis=0), axis=1)
         way[gait.cuts_of([w]) - 1] = 0.0
         total = force[limbs].sum(axis=0)
-        told.append({
-            "walker": name, "mass_kg": float(gait.mass[w]),
-            "contacts": sum(each.walker == w for each in stays),
-            "cadence_per_min": (60.0 * (len(starts) - 1) / (starts[-1] - starts[0])
-                                if again and starts[-1] > starts[0] else None),
-            "mean_force_bw": float(loads.mean[w]) if loads.mean is not None else float(total.mean()),
-            "peak_force_bw": float(force[limbs].max(initial=0.0)),
-            "speed_m_s": float(way.sum() / lasts) if lasts > 0.0 else 0.0,
-            "air_share": float((~touching[limbs].any(axis=0)).mean()),
-            "warnings": list(dict.fromkeys(gait.warnings + tuple(loads.warnings))),
-        })
+        told.append(
+            {
+                "walker": name,
+                "mass_kg": float(gait.mass[w]),
+                "contacts": sum(each.walker == w for each in stays),
+                "cadence_per_min": (
+                    60.0 * (len(starts) - 1) / (starts[-1] - starts[0]) if again and starts[-1] > starts[0] else None
+                ),
+                "mean_force_bw": float(loads.mean[w]) if loads.mean is not None else float(total.mean()),
+                "peak_force_bw": float(force[limbs].max(initial=0.0)),
+                "speed_m_s": float(way.sum() / lasts) if lasts > 0.0 else 0.0,
+                "air_share": float((~touching[limbs].any(axis=0)).mean()),
+                "warnings": list(dict.fromkeys(gait.warnings + tuple(loads.warnings))),
+            }
+        )
     return told
 
 
 def sentences(told):
     """A walker's numbers in words, a line each."""
-    lines = [f"{told['contacts']} contacts"
-             + (f", {told['cadence_per_min']:.0f} a minute" if told["cadence_per_min"] else "")
-             + f", {told['speed_m_s']:.2f} m/s",
-             f"Mean force {told['mean_force_bw']:.2f} body weights, largest of a foot "
-             f"{told['peak_force_bw']:.2f}"]
+    lines = [
+        f"{told['contacts']} contacts"
+        + (f", {told['cadence_per_min']:.0f} a minute" if told["cadence_per_min"] else "")
+        + f", {told['speed_m_s']:.2f} m/s",
+        f"Mean force {told['mean_force_bw']:.2f} body weights, largest of a foot {told['peak_force_bw']:.2f}",
+    ]
     if told["air_share"] >= 0.005:
         lines.append(f"In the air for {100 * told['air_share']:.0f} % of the time")
     return lines
@@ -109,6 +124,18 @@ def write_contacts(path, gait, loads):
         table = csv.writer(stream, lineterminator="\n")
         table.writerow(COLUMNS.split(","))
         for each in contacts(gait, loads):
-            table.writerow([gait.walker_name[each.walker], gait.limb_name[each.limb]] + [
-                number(x) for x in (each.start, each.end, each.end - each.start, each.peak, each.mean,
-                                    each.impulse, *each.place)])
+            table.writerow(
+                [gait.walker_name[each.walker], gait.limb_name[each.limb]]
+                + [
+                    number(x)
+                    for x in (
+                        each.start,
+                        each.end,
+                        each.end - each.start,
+                        each.peak,
+                        each.mean,
+                        each.impulse,
+                        *each.place,
+                    )
+                ]
+            )

@@ -27,13 +27,32 @@ BESIDE = "Some steps land beside the ground and leave no print there."
 
 # Those of a grown person: lengths go with a walker's leg, times and speeds with its root (see size).
 # Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
-LIMITS = {"touch_height": 0.03, "release_height": 0.03, "release_height_toe": 0.05,
-          "touch_speed": 0.3, "touch_speed_share": 0.4, "release_speed": 1.2, "slow_speed": 0.25,
-          "shortest": 0.03, "point_cutoff": 20.0, "com_cutoff": 3.0, "support_fall": 0.5,
-          "frame_time": 0.0}
-OPTIONS = {"cutoff_share": 3.0, "cutoff_low": 5.0, "cutoff_high": 10.0, "cutoff_flight": 8.0, "cutoff_level": 2.0 / 3.0,
-           "overlap_most": 0.3, "ramp_standing": 0.1, "ramp_alone": 0.03, "ramp_trust": 0.25,
-           "reach": 0.3}
+LIMITS = {
+    "touch_height": 0.03,
+    "release_height": 0.03,
+    "release_height_toe": 0.05,
+    "touch_speed": 0.3,
+    "touch_speed_share": 0.4,
+    "release_speed": 1.2,
+    "slow_speed": 0.25,
+    "shortest": 0.03,
+    "point_cutoff": 20.0,
+    "com_cutoff": 3.0,
+    "support_fall": 0.5,
+    "frame_time": 0.0,
+}
+OPTIONS = {
+    "cutoff_share": 3.0,
+    "cutoff_low": 5.0,
+    "cutoff_high": 10.0,
+    "cutoff_flight": 8.0,
+    "cutoff_level": 2.0 / 3.0,
+    "overlap_most": 0.3,
+    "ramp_standing": 0.1,
+    "ramp_alone": 0.03,
+    "ramp_trust": 0.25,
+    "reach": 0.3,
+}
 
 
 @dataclass(frozen=True)
@@ -49,15 +68,23 @@ class FootForce:
 
 
 def native_gait(gait):
-    return (gait.time, gait.com, gait.mass, gait.pose, gait.limb_walker, gait.part_limb, gait.point,
-            gait.point_part, gait.point_role)
+    return (
+        gait.time,
+        gait.com,
+        gait.mass,
+        gait.pose,
+        gait.limb_walker,
+        gait.part_limb,
+        gait.point,
+        gait.point_part,
+        gait.point_role,
+    )
 
 
 def _numbers(defaults, chosen):
     unknown = set(chosen or ()) - set(defaults)
     if unknown:
-        raise DesirePathError(f"There is no setting {sorted(unknown)[0]}: use one of "
-                              + ", ".join(defaults) + ".")
+        raise DesirePathError(f"There is no setting {sorted(unknown)[0]}: use one of " + ", ".join(defaults) + ".")
     return np.array([float({**defaults, **(chosen or {})}[name]) for name in defaults])
 
 
@@ -83,8 +110,10 @@ def ground_below(gait, ground):
     else:
         heights = np.asarray(0.0 if ground is None else ground, float)
         if heights.shape not in ((), shape):
-            raise DesirePathError(f"The ground's heights have shape {heights.shape} where {shape} is "
-                                  "needed: give one height for each contact point and sample.")
+            raise DesirePathError(
+                f"The ground's heights have shape {heights.shape} where {shape} is "
+                "needed: give one height for each contact point and sample."
+            )
     return np.ascontiguousarray(np.broadcast_to(heights, shape), "f8").copy()
 
 
@@ -134,8 +163,7 @@ def _contacts_of(gait, ground, limits):
     even, every = _even(gait, size)
     below = _on_even(gait, even, ground)
     person = sizes.as_person(even, size)
-    touching, clearance = _find_contacts(person, _carried_on(even, below) / size, limits,
-                                         _frames(gait) * np.sqrt(size))
+    touching, clearance = _find_contacts(person, _carried_on(even, below) / size, limits, _frames(gait) * np.sqrt(size))
     touching[_beside(even, below)] = 0
     pick = slice(None, None, every) if every else _nearest(even.time, gait.time)
     return touching[:, pick], clearance * size
@@ -178,14 +206,12 @@ def _beside(gait, below):
 
 
 def _nearest(have, want):
-    after = np.clip(np.searchsorted(have, want), 1, len(have) - 1) if len(have) > 1 else np.zeros(
-        len(want), int)
+    after = np.clip(np.searchsorted(have, want), 1, len(have) - 1) if len(have) > 1 else np.zeros(len(want), int)
     before = np.maximum(after - 1, 0)
     return np.where(abs(have[before] - want) <= abs(have[after] - want), before, after)
 
 
-def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=False, limits=None,
-          options=None, cell=0.0):
+def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=False, limits=None, options=None, cell=0.0):
     """FootForce of a recording at its own samples. TRAIL (3), SOFT22 (3)-(8)
 
     model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
@@ -228,12 +254,21 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     tau, taus = settle_time, None
     if callable(tau):
         tau, taus = 1.0, _settles(even, touching, tau) / np.sqrt(size)
-    _native.foot_force(native_gait(person), touching, floor, MODELS[model], tau / np.sqrt(size), bool(half_sine), force,
-                       point, _numbers(OPTIONS, options), taus)
+    _native.foot_force(
+        native_gait(person),
+        touching,
+        floor,
+        MODELS[model],
+        tau / np.sqrt(size),
+        bool(half_sine),
+        force,
+        point,
+        _numbers(OPTIONS, options),
+        taus,
+    )
     point, clearance = point * size, clearance * size
     mean, warnings = _weigh(person, touching, force) if model == "inertia" else (None, [])
-    warnings = (_sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, touching, size)
-                + warnings)
+    warnings = _sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, touching, size) + warnings
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
@@ -257,8 +292,12 @@ def _settles(gait, touching, tau):
 def _elsewhere(gait, below, touching, clearance, most, size):
     """Mark parts that stand farther over the ground than `most` [m]; sentences about who does."""
     over = point_places(gait)[..., 2] - below - clearance[:, None]
-    lowest = np.stack([np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
-                       for part in range(len(gait.part_limb))])
+    lowest = np.stack(
+        [
+            np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
+            for part in range(len(gait.part_limb))
+        ]
+    )
     up = (touching == PRESSES) & (lowest > most)
     touching[up] = ELSEWHERE
     told = []
@@ -267,9 +306,11 @@ def _elsewhere(gait, below, touching, clearance, most, size):
         edges = np.flatnonzero(np.diff(np.concatenate([[0], when, [0]])))
         if len(edges) and np.diff(edges)[::2].max() >= TELLING * np.sqrt(size) * (gait.rate() or 1.0):
             high = float(np.median(lowest[gait.limb_walker[gait.part_limb] == w][:, when].min(axis=0)))
-            told.append(f"{name} stands on something else than the ground, of which there is no print: about {high:.2g} "
-                        f"m over it, first at frame {gait.frame(when.argmax()):.0f}; make that a ground if it is to "
-                        "take prints.")
+            told.append(
+                f"{name} stands on something else than the ground, of which there is no print: about {high:.2g} "
+                f"m over it, first at frame {gait.frame(when.argmax()):.0f}; make that a ground if it is to "
+                "take prints."
+            )
     return told
 
 
@@ -324,10 +365,17 @@ def _turns(gait, ground):
             parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], walkers))
             points = np.flatnonzero(np.isin(gait.point_part, parts))
             samples = first + freeze.kept(after - first, stops)
-            yield _Turn(freeze.without(own, stops) if stops else own,
-                        ground if one else heights[np.ix_(points, samples)], np.array(walkers), parts,
-                        points, samples, tuple((first + a, first + b) for a, b in stops), not len(gait.cut),
-                        len(gait.point))
+            yield _Turn(
+                freeze.without(own, stops) if stops else own,
+                ground if one else heights[np.ix_(points, samples)],
+                np.array(walkers),
+                parts,
+                points,
+                samples,
+                tuple((first + a, first + b) for a, b in stops),
+                not len(gait.cut),
+                len(gait.point),
+            )
 
 
 def _let_go(gait, touching):
@@ -374,10 +422,13 @@ def _standing(gait, turns):
     for turn, touching, clearance, *_ in turns:
         stay = int(np.count_nonzero(touching))
         main[turn.walkers[0]] = max(main.get(turn.walkers[0], (0, 0.0)), (stay, height(turn, touching, clearance)))
-    return [(turn, touching, clearance, *more) for turn, touching, clearance, *more in turns
-            if turn.walkers[0] not in jumpers
-            or abs(height(turn, touching, clearance) - main[turn.walkers[0]][1])
-            <= ASIDE * np.median(turn.gait.com[0, :, 2] - turn.gait.pose[..., 2].min(axis=0))]
+    return [
+        (turn, touching, clearance, *more)
+        for turn, touching, clearance, *more in turns
+        if turn.walkers[0] not in jumpers
+        or abs(height(turn, touching, clearance) - main[turn.walkers[0]][1])
+        <= ASIDE * np.median(turn.gait.com[0, :, 2] - turn.gait.pose[..., 2].min(axis=0))
+    ]
 
 
 def _together(gait, turns):
@@ -412,8 +463,16 @@ def _together(gait, turns):
         raise sunk[0]
     _let_go(gait, touching)
     force[touching == 0], point[touching == 0] = 0.0, np.nan
-    return FootForce(gait.time, touching, force, point, _middle(clearance, len(gait.point)),
-                     weighed / np.maximum(span, 1.0) if span.any() else None, _once(told), held)
+    return FootForce(
+        gait.time,
+        touching,
+        force,
+        point,
+        _middle(clearance, len(gait.point)),
+        weighed / np.maximum(span, 1.0) if span.any() else None,
+        _once(told),
+        held,
+    )
 
 
 def _weighing(force, mass):
@@ -460,9 +519,11 @@ def _sinks(gait, below):
     ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
     for w in range(len(gait.mass)):
         if gait.com[w, :, 2].max() < ground:
-            raise _Sunk(f"{gait.walker_name[w]} is below the ground all the time, whose highest "
-                                  "faces count: move the ground down or the walker up, or take roofs "
-                                  "out of the ground.")
+            raise _Sunk(
+                f"{gait.walker_name[w]} is below the ground all the time, whose highest "
+                "faces count: move the ground down or the walker up, or take roofs "
+                "out of the ground."
+            )
     return []
 
 
@@ -476,8 +537,7 @@ def _hovers(gait, touching, clearance, size):
         if height > HOVER * size:
             warnings.append(f"{name} walks {height:.2f} m above the ground: lower it or raise the ground.")
         elif height < -HOVER * size:
-            warnings.append(f"{name} walks {-height:.2f} m deep in the ground: raise it or lower the "
-                            "ground.")
+            warnings.append(f"{name} walks {-height:.2f} m deep in the ground: raise it or lower the ground.")
     return warnings
 
 
@@ -495,8 +555,10 @@ def _slides(gait, touching, size):
         mine = mine & ~still if (mine & ~still).any() else mine
         speed = float(np.median(rush[mine])) if mine.any() else 0.0
         if speed > SLIDE * pace:
-            warnings.append(f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
-                            "that walks in place: move the character forward at that speed.")
+            warnings.append(
+                f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
+                "that walks in place: move the character forward at that speed."
+            )
     return warnings
 
 
@@ -520,24 +582,29 @@ def _weigh(gait, touching, force):
         parts = np.flatnonzero(np.isin(gait.part_limb, limbs))
         on = np.array([touching[gait.part_limb == limb].any(axis=0) for limb in limbs])
         if not on.any():
-            warnings.append(f"{gait.walker_name[w]} never touches the ground: check its feet, its "
-                            "scale and the frame range.")
+            warnings.append(
+                f"{gait.walker_name[w]} never touches the ground: check its feet, its scale and the frame range."
+            )
             mean[w] = 0.0
             continue
         if count < 5:
             continue
         first, last = _cycle(on, count)
-        total = -force[parts, first:last + 1, 2].sum(axis=0) / (mass * GRAVITY)
+        total = -force[parts, first : last + 1, 2].sum(axis=0) / (mass * GRAVITY)
         # over whole strides the body neither gains nor loses speed; elsewhere it may
         z, reach = gait.com[w, :, 2], max(1, int(round(0.05 / (gait.time[1] - gait.time[0]))))
-        slope = [(z[min(k + reach, count - 1)] - z[max(k - reach, 0)])
-                 / (gait.time[min(k + reach, count - 1)] - gait.time[max(k - reach, 0)])
-                 for k in (first, last)]
+        slope = [
+            (z[min(k + reach, count - 1)] - z[max(k - reach, 0)])
+            / (gait.time[min(k + reach, count - 1)] - gait.time[max(k - reach, 0)])
+            for k in (first, last)
+        ]
         gain = (slope[1] - slope[0]) / ((gait.time[last] - gait.time[first]) * GRAVITY)
         mean[w] = np.mean(total) - gain
         if not MEAN_FORCE[0] <= mean[w] <= MEAN_FORCE[1]:
-            warnings.append(f"The feet of {gait.walker_name[w]} carry {mean[w]:.2f} of its weight on "
-                            "average: check the mass centre, the scale and whether feet float.")
+            warnings.append(
+                f"The feet of {gait.walker_name[w]} carry {mean[w]:.2f} of its weight on "
+                "average: check the mass centre, the scale and whether feet float."
+            )
     return mean, warnings
 
 
@@ -547,12 +614,21 @@ def write_loads(path, gait, loads):
     with atomic_file.file(path, "The table of loads", "w", newline="", encoding="utf-8") as stream:
         table = csv.writer(stream, lineterminator="\n")
         table.writerow("time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(","))
-        names = [(gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
-                 for limb, part in zip(gait.part_limb, gait.part_name)]
+        names = [
+            (gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
+            for limb, part in zip(gait.part_limb, gait.part_name)
+        ]
         for t, time in enumerate(loads.time):
             for p, name in enumerate(names):
-                table.writerow([number(time), *name, int(loads.touching[p, t]),
-                                *map(number, loads.force[p, t]), *map(number, loads.point[p, t])])
+                table.writerow(
+                    [
+                        number(time),
+                        *name,
+                        int(loads.touching[p, t]),
+                        *map(number, loads.force[p, t]),
+                        *map(number, loads.point[p, t]),
+                    ]
+                )
 
 
 @dataclass(frozen=True)
@@ -577,5 +653,13 @@ class Walker:
 
     def loads(self, gait, ground=None):
         """FootForce of a recording on this ground: see loads()."""
-        return loads(gait, self.load_model, ground, settle_time=self.settle_time,
-                     half_sine=self.half_sine, limits=self.limits, options=self.options, cell=self.cell)
+        return loads(
+            gait,
+            self.load_model,
+            ground,
+            settle_time=self.settle_time,
+            half_sine=self.half_sine,
+            limits=self.limits,
+            options=self.options,
+            cell=self.cell,
+        )

@@ -47,7 +47,7 @@ def stops(time, com, poses, size, rests=False):
     for first, last in zip(edge[::2].tolist(), edge[1::2].tolist()):
         if time[last] - time[first] < stays.HELD * np.sqrt(size) - 1e-9:
             continue
-        stray = max(np.ptp(at[first:last + 1], axis=0).max() for at, _ in poses)
+        stray = max(np.ptp(at[first : last + 1], axis=0).max() for at, _ in poses)
         if stray < STRAY * size and (rests or _under_way(time, com, first, last, size)):
             found.append((first, last))
     return tuple(found)
@@ -56,7 +56,10 @@ def stops(time, com, poses, size, rests=False):
 def _under_way(time, com, first, last, size):
     """Did the body walk up to a hold, or does it from there on?"""
     span, pace = BEFORE * np.sqrt(size), WALKS * np.sqrt(size)
-    before, after = np.searchsorted(time, time[first] - span + 1e-9) - 1, np.searchsorted(time, time[last] + span - 1e-9)
+    before, after = (
+        np.searchsorted(time, time[first] - span + 1e-9) - 1,
+        np.searchsorted(time, time[last] + span - 1e-9),
+    )
     speed = []
     if before >= 0:
         speed.append((com[first] - com[before]) / (time[first] - time[before]))
@@ -65,8 +68,11 @@ def _under_way(time, com, first, last, size):
     if any(np.hypot(*v[:2]) > pace for v in speed):
         return True
     # in the air, too: what goes on as it came was stopped by nothing
-    return len(speed) == 2 and np.linalg.norm(speed[0]) > pace and (
-        np.linalg.norm(speed[0] - speed[1]) < 0.5 * np.linalg.norm(speed[0]))
+    return (
+        len(speed) == 2
+        and np.linalg.norm(speed[0]) > pace
+        and (np.linalg.norm(speed[0] - speed[1]) < 0.5 * np.linalg.norm(speed[0]))
+    )
 
 
 def holds(gait):
@@ -78,7 +84,7 @@ def kept(count, held):
     """Samples that are left of `count` without the holds: their first ones stand for them."""
     keep = np.ones(count, bool)
     for first, last in held:
-        keep[first + 1:last + 1] = False
+        keep[first + 1 : last + 1] = False
     return np.flatnonzero(keep)
 
 
@@ -92,7 +98,7 @@ def closed(time, held):
     """Times (T,) as they are without the holds in between."""
     step = np.diff(time, prepend=time[0])
     for first, last in held:
-        step[first + 1:last + 1] = 0.0
+        step[first + 1 : last + 1] = 0.0
     return time[0] + np.cumsum(step)
 
 

@@ -87,8 +87,9 @@ class Gait:
         object.__setattr__(self, "frame_start", int(self.frame_start))
 
     def _count(self, letter):
-        source = {"T": self.time, "W": self.mass, "L": self.limb_walker, "P": self.part_limb,
-                  "K": self.point_part}[letter]
+        source = {"T": self.time, "W": self.mass, "L": self.limb_walker, "P": self.part_limb, "K": self.point_part}[
+            letter
+        ]
         return len(source) if source.ndim else 0
 
     def frame(self, sample):
@@ -120,9 +121,16 @@ class Gait:
 
     def piece(self, first, after):
         """Samples first..after-1, which hold no cut, as a recording of their own."""
-        return replace(self, time=self.time[first:after], com=self.com[:, first:after],
-                       pose=self.pose[:, first:after], cut=(), jump=(),
-                       frame_start=round(self.frame(first)), warnings=())
+        return replace(
+            self,
+            time=self.time[first:after],
+            com=self.com[:, first:after],
+            pose=self.pose[:, first:after],
+            cut=(),
+            jump=(),
+            frame_start=round(self.frame(first)),
+            warnings=(),
+        )
 
     # ---- what a recording must be ------------------------------------------------------------
 
@@ -133,90 +141,100 @@ class Gait:
             want = tuple(int(c) if c.isdigit() else self._count(c) for c in letters)
             if value.shape != want:
                 raise DesirePathError(
-                    f"The recording's {name} has shape {value.shape} where {want} is needed: "
-                    "record the walk again.")
+                    f"The recording's {name} has shape {value.shape} where {want} is needed: record the walk again."
+                )
         for name, letter in _NAMES:
             if len(getattr(self, name)) != self._count(letter):
                 raise DesirePathError(
                     f"The recording's {name} has {len(getattr(self, name))} entries where "
-                    f"{self._count(letter)} are needed: record the walk again.")
+                    f"{self._count(letter)} are needed: record the walk again."
+                )
         if len(self.soles) != self._count("P"):
-            raise DesirePathError("The recording has not one sole for each part: record the walk "
-                                  "again.")
+            raise DesirePathError("The recording has not one sole for each part: record the walk again.")
         if not len(self.time):
-            raise DesirePathError("The recording has no frames: choose a frame range in which the "
-                                  "character walks.")
+            raise DesirePathError("The recording has no frames: choose a frame range in which the character walks.")
         if not len(self.part_limb) or not len(self.mass):
-            raise DesirePathError("The recording has no feet: choose the foot bones and record "
-                                  "again.")
+            raise DesirePathError("The recording has no feet: choose the foot bones and record again.")
         self._check_numbers()
         self._check_owners()
         return self
 
     def _check_numbers(self):
-        if len(self.cut) and (self.cut[0] < 1 or self.cut[-1] >= len(self.time)
-                              or (np.diff(self.cut) < 1).any()):
-            raise DesirePathError("The recording's cuts do not rise from its second sample to its "
-                                  "last: record the walk again.")
+        if len(self.cut) and (self.cut[0] < 1 or self.cut[-1] >= len(self.time) or (np.diff(self.cut) < 1).any()):
+            raise DesirePathError(
+                "The recording's cuts do not rise from its second sample to its last: record the walk again."
+            )
         if not (np.isin(self.jump[:, 0], self.cut).all() and np.isin(self.jump[:, 1], range(len(self.mass))).all()):
             raise DesirePathError("The recording's jumps are not among its cuts and walkers: record the walk again.")
         if not np.isfinite(self.time).all() or (np.diff(self.time) <= 0).any():
             raise DesirePathError("The recording's times do not increase: record the walk again.")
         if abs(self.time).max() > MOST_TIME or not self.frame_rate <= MOST_RATE:
-            raise DesirePathError(f"The recording reaches {abs(self.time).max():.3g} s at {self.frame_rate:g} frames a "
-                                  "second, which no scene does: record the walk again.")
+            raise DesirePathError(
+                f"The recording reaches {abs(self.time).max():.3g} s at {self.frame_rate:g} frames a "
+                "second, which no scene does: record the walk again."
+            )
         if abs(self.frame_start) > MOST_FRAME:
-            raise DesirePathError(f"The recording begins at frame {self.frame_start}, where no scene is: record the "
-                                  "walk again.")
+            raise DesirePathError(
+                f"The recording begins at frame {self.frame_start}, where no scene is: record the walk again."
+            )
         if not (np.isfinite(self.frame_rate) and self.frame_rate > 0):
-            raise DesirePathError(f"A frame rate of {self.frame_rate:g} cannot be used: set the "
-                                  "scene's frames a second to more than 0.")
+            raise DesirePathError(
+                f"A frame rate of {self.frame_rate:g} cannot be used: set the scene's frames a second to more than 0."
+            )
         for w, mass in enumerate(self.mass):
             if not 0 < mass <= MOST_MASS:
-                raise DesirePathError(f"{self.walker_name[w]} has a mass of {mass:g} kg: give it "
-                                      f"one above 0 and up to {MOST_MASS:g}.")
+                raise DesirePathError(
+                    f"{self.walker_name[w]} has a mass of {mass:g} kg: give it one above 0 and up to {MOST_MASS:g}."
+                )
             bad = ~np.isfinite(self.com[w]).all(axis=1)
             if bad.any():
                 raise DesirePathError(
                     f"The mass centre of {self.walker_name[w]} has no finite position at frame "
                     f"{self.frame(bad.argmax()):g}: mend the animation there or leave the frame "
-                    "out.")
+                    "out."
+                )
         if len(self.leg) not in (0, len(self.mass)) or not ((self.leg > 0) & np.isfinite(self.leg)).all():
-            raise DesirePathError("The recording's legs have no length above 0 for each walker: record the "
-                                  "walk again.")
+            raise DesirePathError("The recording's legs have no length above 0 for each walker: record the walk again.")
         for p in range(len(self.part_limb)):
             bad = ~np.isfinite(self.pose[p]).all(axis=1)
             if bad.any():
                 raise DesirePathError(
                     f"Bone {self.bone(p)} has no finite position at frame "
                     f"{self.frame(bad.argmax()):g}: mend the animation there or leave the frame "
-                    "out.")
+                    "out."
+                )
             size = np.linalg.norm(self.pose[p, :, 3:], axis=1)
             bad = abs(size - 1) > 1e-3
             if bad.any():
-                raise DesirePathError(f"Bone {self.bone(p)} has a broken rotation at frame "
-                                      f"{self.frame(bad.argmax()):g}: record the walk again.")
+                raise DesirePathError(
+                    f"Bone {self.bone(p)} has a broken rotation at frame "
+                    f"{self.frame(bad.argmax()):g}: record the walk again."
+                )
             sole = self.soles[p]
             if not len(sole.triangles) or not np.isfinite(sole.vertices).all():
-                raise DesirePathError(f"The sole of bone {self.bone(p)} has no faces or a broken "
-                                      "vertex: choose another sole.")
+                raise DesirePathError(
+                    f"The sole of bone {self.bone(p)} has no faces or a broken vertex: choose another sole."
+                )
             if sole.triangles.min() < 0 or sole.triangles.max() >= len(sole.vertices):
-                raise DesirePathError(f"The sole of bone {self.bone(p)} has a face without its "
-                                      "vertices: choose another sole.")
+                raise DesirePathError(
+                    f"The sole of bone {self.bone(p)} has a face without its vertices: choose another sole."
+                )
         if not np.isfinite(self.point).all():
             raise DesirePathError("A contact point has no finite position: record the walk again.")
 
     def _check_owners(self):
-        for name, owners, count in (("limb_walker", self.limb_walker, len(self.mass)),
-                                    ("part_limb", self.part_limb, len(self.limb_walker)),
-                                    ("point_part", self.point_part, len(self.part_limb)),
-                                    ("point_role", self.point_role, 3)):
+        for name, owners, count in (
+            ("limb_walker", self.limb_walker, len(self.mass)),
+            ("part_limb", self.part_limb, len(self.limb_walker)),
+            ("point_part", self.point_part, len(self.part_limb)),
+            ("point_role", self.point_role, 3),
+        ):
             if len(owners) and (owners.min() < 0 or owners.max() >= count):
-                raise DesirePathError(f"The recording's {name} points at something that is not "
-                                      "there: record the walk again.")
+                raise DesirePathError(
+                    f"The recording's {name} points at something that is not there: record the walk again."
+                )
         if set(range(len(self.part_limb))) - set(self.point_part.tolist()):
-            raise DesirePathError("A part of the recording has no contact point: record the walk "
-                                  "again.")
+            raise DesirePathError("A part of the recording has no contact point: record the walk again.")
 
     def only(self, walkers):
         """Some walkers of the recording, by their numbers."""
@@ -226,13 +244,23 @@ class Gait:
         jump = self.jump[np.isin(self.jump[:, 1], walkers)]
         jump[:, 1] = np.searchsorted(walkers, jump[:, 1])
         return replace(
-            self, cut=self.cuts_of(walkers), jump=jump, com=self.com[walkers], mass=self.mass[walkers], pose=self.pose[parts],
+            self,
+            cut=self.cuts_of(walkers),
+            jump=jump,
+            com=self.com[walkers],
+            mass=self.mass[walkers],
+            pose=self.pose[parts],
             leg=self.leg[walkers] if len(self.leg) else (),
             limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
-            part_limb=np.searchsorted(limbs, self.part_limb[parts]), soles=[self.soles[p] for p in parts],
-            point=self.point[points], point_part=np.searchsorted(parts, self.point_part[points]),
-            point_role=self.point_role[points], limb_name=[self.limb_name[limb] for limb in limbs],
-            part_name=[self.part_name[p] for p in parts], walker_name=[self.walker_name[w] for w in walkers])
+            part_limb=np.searchsorted(limbs, self.part_limb[parts]),
+            soles=[self.soles[p] for p in parts],
+            point=self.point[points],
+            point_part=np.searchsorted(parts, self.point_part[points]),
+            point_role=self.point_role[points],
+            limb_name=[self.limb_name[limb] for limb in limbs],
+            part_name=[self.part_name[p] for p in parts],
+            walker_name=[self.walker_name[w] for w in walkers],
+        )
 
     # ---- to disk and back ----------------------------------------------------------------------
 
@@ -260,32 +288,41 @@ class Gait:
         try:
             arrays = npz.read(path)
         except FileNotFoundError:
-            raise DesirePathError(f"There is no recording at {path}: record the walk first or "
-                                  "check the name.") from None
+            raise DesirePathError(
+                f"There is no recording at {path}: record the walk first or check the name."
+            ) from None
         except PermissionError as error:
-            raise DesirePathError(f"The recording {path} cannot be read ({error.strerror}): check "
-                                  "whose file it is.") from None
+            raise DesirePathError(
+                f"The recording {path} cannot be read ({error.strerror}): check whose file it is."
+            ) from None
         except npz.Damaged as error:
-            raise DesirePathError(f"{path} is damaged or no recording ({error}): record the walk "
-                                  "again.") from None
+            raise DesirePathError(f"{path} is damaged or no recording ({error}): record the walk again.") from None
         try:
             version = int(arrays["version"])
             if version != _VERSION:
-                raise DesirePathError(f"{path} was recorded by another version ({version}): "
-                                      "record the walk again.")
+                raise DesirePathError(f"{path} was recorded by another version ({version}): record the walk again.")
             wanted = {name: arrays[name] for name, _, _ in _NUMBERS}
             for name in ("limb_name", "part_name", "walker_name", "warnings"):
                 wanted[name] = tuple(arrays[name].tolist())
-            gait = Gait(soles=_unstack(arrays), frame_rate=float(arrays["frame_rate"]),
-                        frame_start=int(arrays["frame_start"]), cut=arrays.get("cut", ()),
-                        jump=arrays.get("jump", ()), leg=arrays.get("leg", ()), **wanted)
+            gait = Gait(
+                soles=_unstack(arrays),
+                frame_rate=float(arrays["frame_rate"]),
+                frame_start=int(arrays["frame_start"]),
+                cut=arrays.get("cut", ()),
+                jump=arrays.get("jump", ()),
+                leg=arrays.get("leg", ()),
+                **wanted,
+            )
         except DesirePathError:
             raise
         except (KeyError, ValueError, TypeError, IndexError, OverflowError) as error:
-            raise DesirePathError(f"{path} is damaged or no recording ({str(error)[:100]}): record the walk "
-                                  "again.") from None
+            raise DesirePathError(
+                f"{path} is damaged or no recording ({str(error)[:100]}): record the walk again."
+            ) from None
         except MemoryError:
-            raise DesirePathError(f"There is not enough memory for the recording {path}: record fewer frames.") from None
+            raise DesirePathError(
+                f"There is not enough memory for the recording {path}: record fewer frames."
+            ) from None
         return gait.check()
 
     # ---- several walkers, other rates ----------------------------------------------------------
@@ -301,27 +338,33 @@ class Gait:
         first = gaits[0]
         for other in gaits[1:]:
             if other.time.shape != first.time.shape or abs(other.time - first.time).max() > 1e-9:
-                raise DesirePathError("The walkers were recorded at different times: record them "
-                                      "over one frame range.")
+                raise DesirePathError("The walkers were recorded at different times: record them over one frame range.")
         limbs = np.cumsum([0] + [len(g.limb_walker) for g in gaits])
         parts = np.cumsum([0] + [len(g.part_limb) for g in gaits])
         walkers = np.cumsum([0] + [len(g.mass) for g in gaits])
         chain = lambda name: tuple(x for g in gaits for x in getattr(g, name))
         shifted = lambda name, by: np.concatenate([getattr(g, name) + b for g, b in zip(gaits, by)])
         return Gait(
-            time=first.time, com=np.concatenate([g.com for g in gaits]),
+            time=first.time,
+            com=np.concatenate([g.com for g in gaits]),
             mass=np.concatenate([g.mass for g in gaits]),
             pose=np.concatenate([g.pose for g in gaits]),
-            limb_walker=shifted("limb_walker", walkers), part_limb=shifted("part_limb", limbs),
-            soles=chain("soles"), point=np.concatenate([g.point for g in gaits]),
+            limb_walker=shifted("limb_walker", walkers),
+            part_limb=shifted("part_limb", limbs),
+            soles=chain("soles"),
+            point=np.concatenate([g.point for g in gaits]),
             point_part=shifted("point_part", parts),
             point_role=np.concatenate([g.point_role for g in gaits]),
-            limb_name=chain("limb_name"), part_name=chain("part_name"),
-            walker_name=chain("walker_name"), frame_rate=first.frame_rate,
-            frame_start=first.frame_start, warnings=tuple(dict.fromkeys(chain("warnings"))),
+            limb_name=chain("limb_name"),
+            part_name=chain("part_name"),
+            walker_name=chain("walker_name"),
+            frame_rate=first.frame_rate,
+            frame_start=first.frame_start,
+            warnings=tuple(dict.fromkeys(chain("warnings"))),
             cut=np.unique(np.concatenate([g.cut for g in gaits])),
             jump=np.concatenate([g.jump + (0, first) for g, first in zip(gaits, walkers)]),
-            leg=np.concatenate([size.legs(g) for g in gaits]) if any(len(g.leg) for g in gaits) else ())
+            leg=np.concatenate([size.legs(g) for g in gaits]) if any(len(g.leg) for g in gaits) else (),
+        )
 
     def rate(self):
         """Samples a second if they are even within every piece, else None."""
@@ -339,8 +382,7 @@ class Gait:
         from . import freeze
 
         if not (np.isfinite(rate) and rate > 0):
-            raise DesirePathError(f"A rate of {rate:g} samples a second cannot be used: give one "
-                                  "above 0.")
+            raise DesirePathError(f"A rate of {rate:g} samples a second cannot be used: give one above 0.")
         if len(self.cut):
             return self._resampled_pieces(rate)
         held = freeze.holds(self)
@@ -383,10 +425,14 @@ class Gait:
         cut = np.cumsum([len(p.time) for p in parts])[:-1]
         jump = self.jump.copy()
         jump[:, 0] = cut[np.searchsorted(self.cut, jump[:, 0])]
-        return replace(self, time=np.concatenate([p.time for p in parts]),
-                       com=np.concatenate([p.com for p in parts], axis=1),
-                       pose=np.concatenate([p.pose for p in parts], axis=1),
-                       cut=cut, jump=jump)
+        return replace(
+            self,
+            time=np.concatenate([p.time for p in parts]),
+            com=np.concatenate([p.com for p in parts], axis=1),
+            pose=np.concatenate([p.pose for p in parts], axis=1),
+            cut=cut,
+            jump=jump,
+        )
 
 
 def _stack(blocks, kind):

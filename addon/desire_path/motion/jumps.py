@@ -38,9 +38,17 @@ def found(gait):
         seen = []
         for first, after in gait.pieces(gait.cuts_of([w])):
             if w in gait.there(first, after):
-                seen += [(first + a, first + b, size) for a, b, size in between(
-                    gait.time[first:after], gait.com[w, first:after], gait.pose[feet, first:after, :3],
-                    gait.frame_rate, gait.time[0], sole)]
+                seen += [
+                    (first + a, first + b, size)
+                    for a, b, size in between(
+                        gait.time[first:after],
+                        gait.com[w, first:after],
+                        gait.pose[feet, first:after, :3],
+                        gait.frame_rate,
+                        gait.time[0],
+                        sole,
+                    )
+                ]
         for a, b, _ in seen:
             jump.update((sample, w) for sample in range(a + 1, b + 1))
         told += sentences(name, [(gait.frame(a), gait.frame(b), size) for a, b, size in seen])
@@ -83,7 +91,7 @@ def between(time, com, feet, frame_rate, start, least=0.0):
     jumps = []
     for a, b, size in _steps(time[frames], com[frames], feet[:, frames], leg) if len(frames) < len(time) else ():
         a, b = int(frames[a]), int(frames[b])
-        way = np.linalg.norm(np.diff(com[a:b + 1], axis=0), axis=1)
+        way = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
         if way.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
             a += int(way.argmax())
             b = a + 1
@@ -107,8 +115,10 @@ def _steps(time, com, feet, leg):
     ways = np.linalg.norm(np.diff(feet, axis=1), axis=2)
     body = _leaps(step, com, leg, *SWAY["com"]) & _most(ways > STAYS * way)
     limbs = _most([_leaps(step, foot, leg, *SWAY["foot"]) for foot in feet])
-    return [(int(at[k + 1] - 1), int(at[k + 1]), float(np.median([way[k], *ways[:, k]])))
-            for k in np.flatnonzero(body | limbs)]
+    return [
+        (int(at[k + 1] - 1), int(at[k + 1]), float(np.median([way[k], *ways[:, k]])))
+        for k in np.flatnonzero(body | limbs)
+    ]
 
 
 def _most(limbs):
@@ -132,10 +142,10 @@ def _leaps(step, at, leg, lengths, falls):
     change = after - before
     share = ((way - before) * change).sum(axis=1) / np.maximum((change * change).sum(axis=1), 1e-300)
     over = np.linalg.norm(way - before - np.clip(share, 0.0, 1.0)[:, None] * change, axis=1)
-    out = over > lengths * leg + np.minimum(falls * GRAVITY * step ** 2, MOST * leg)
+    out = over > lengths * leg + np.minimum(falls * GRAVITY * step**2, MOST * leg)
     far = np.linalg.norm(way, axis=1)
     for k in np.flatnonzero(out):
         reach = max(int(AROUND / step[k]), 2)
-        around = np.concatenate([far[max(k - reach, 0):k], far[k + 1:k + 1 + reach]])
+        around = np.concatenate([far[max(k - reach, 0) : k], far[k + 1 : k + 1 + reach]])
         out[k] = min(over[k], far[k]) > BEYOND * np.quantile(around, 0.9)
     return out

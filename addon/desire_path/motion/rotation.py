@@ -12,9 +12,14 @@ def quaternion(turn):
     four[..., 1, 1] = 1 + xx - yy - zz
     four[..., 2, 2] = 1 - xx + yy - zz
     four[..., 3, 3] = 1 - xx - yy + zz
-    for a, b, value in ((0, 1, m[..., 2, 1] - m[..., 1, 2]), (0, 2, m[..., 0, 2] - m[..., 2, 0]),
-                        (0, 3, m[..., 1, 0] - m[..., 0, 1]), (1, 2, m[..., 1, 0] + m[..., 0, 1]),
-                        (1, 3, m[..., 0, 2] + m[..., 2, 0]), (2, 3, m[..., 2, 1] + m[..., 1, 2])):
+    for a, b, value in (
+        (0, 1, m[..., 2, 1] - m[..., 1, 2]),
+        (0, 2, m[..., 0, 2] - m[..., 2, 0]),
+        (0, 3, m[..., 1, 0] - m[..., 0, 1]),
+        (1, 2, m[..., 1, 0] + m[..., 0, 1]),
+        (1, 3, m[..., 0, 2] + m[..., 2, 0]),
+        (2, 3, m[..., 2, 1] + m[..., 1, 2]),
+    ):
         four[..., a, b] = four[..., b, a] = value
     best = np.einsum("...ii->...i", four).argmax(axis=-1)
     q = np.take_along_axis(four, best[..., None, None], axis=-1)[..., 0]
@@ -28,9 +33,11 @@ def quaternion(turn):
 def matrix(q):
     """Rotation matrices (.., 3, 3) of unit quaternions (.., 4) w x y z."""
     w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
-    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
@@ -72,8 +79,15 @@ def product(a, b):
     """Unit quaternions (.., 4) w x y z that turn by b, then by a."""
     aw, ax, ay, az = np.moveaxis(np.asarray(a, float), -1, 0)
     bw, bx, by, bz = np.moveaxis(np.asarray(b, float), -1, 0)
-    return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], axis=-1)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ],
+        axis=-1,
+    )
 
 
 def inverse(q):

@@ -25,8 +25,10 @@ def legs(gait):
     if len(gait.leg):
         return gait.leg
     height, owner = point_places(gait)[..., 2], gait.limb_walker[gait.part_limb[gait.point_part]]
-    tall = [float((gait.com[w, :, 2] - height[owner == w].min(axis=0)).max())
-            if (gait.limb_walker == w).sum() > 1 else 0.0 for w in range(len(gait.mass))]
+    tall = [
+        float((gait.com[w, :, 2] - height[owner == w].min(axis=0)).max()) if (gait.limb_walker == w).sum() > 1 else 0.0
+        for w in range(len(gait.mass))
+    ]
     return np.array([high / TALL if high > 0.0 else LEG for high in tall])
 
 
@@ -41,8 +43,15 @@ def as_person(gait, size):
         return gait
     pose = gait.pose.copy()
     pose[..., :3] /= size
-    return replace(gait, time=gait.time / np.sqrt(size), com=gait.com / size, pose=pose, point=gait.point / size,
-                   frame_rate=gait.frame_rate * np.sqrt(size), leg=gait.leg / size)
+    return replace(
+        gait,
+        time=gait.time / np.sqrt(size),
+        com=gait.com / size,
+        pose=pose,
+        point=gait.point / size,
+        frame_rate=gait.frame_rate * np.sqrt(size),
+        leg=gait.leg / size,
+    )
 
 
 def hurry(gait):

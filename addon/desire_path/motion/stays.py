@@ -1,7 +1,7 @@
 """How long a pose is held tells nothing: what is known of a clip counts stays, not samples.
 
-    still    samples at which the whole body keeps its pose: one who holds it there, or waits for his turn
-    votes    a weight for each sample of a mask, so that each stay in it counts the same
+still    samples at which the whole body keeps its pose: one who holds it there, or waits for his turn
+votes    a weight for each sample of a mask, so that each stay in it counts the same
 """
 
 import numpy as np
@@ -21,9 +21,9 @@ def still(com, time, size=1.0):
         return held
     after = np.searchsorted(time, time + HELD * np.sqrt(size) - 1e-9)
     for first in np.flatnonzero(after < len(time)):
-        here = com[first:after[first] + 1]
+        here = com[first : after[first] + 1]
         if np.ptp(here, axis=0).max() < SPOT * size:
-            held[first:after[first] + 1] = True
+            held[first : after[first] + 1] = True
     return held
 
 

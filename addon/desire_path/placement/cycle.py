@@ -43,8 +43,7 @@ def carried(gait):
         way = since[:, None] * -shift
         com[w, :, :2] += way
         pose[gait.limb_walker[gait.part_limb] == w, :, :2] += way
-        told.append(f"{gait.walker_name[w]} walks in place and is carried ahead at "
-                    f"{np.hypot(*shift):.2f} m/s.")
+        told.append(f"{gait.walker_name[w]} walks in place and is carried ahead at {np.hypot(*shift):.2f} m/s.")
     return replace(gait, com=com, pose=pose, warnings=told)
 
 
@@ -113,8 +112,9 @@ class Cycle:
         """com (T, 3), pose (P, T, 7), stand (L, T, 2) at phases [cycles]."""
         ahead = self.way * np.asarray(phase, float)
         com, stand = _wrapped(self.com, phase), _wrapped(self.stand, phase)
-        pose = np.concatenate([_wrapped(self.pose[..., :3], phase),
-                               _wrapped(self.pose[..., 3:], phase, turns=True)], axis=-1)
+        pose = np.concatenate(
+            [_wrapped(self.pose[..., :3], phase), _wrapped(self.pose[..., 3:], phase, turns=True)], axis=-1
+        )
         com[:, 0] += ahead
         pose[..., 0] += ahead
         stand[..., 0] += ahead
@@ -146,14 +146,17 @@ def find(gait):
         gait = gait.resample(RATE if rate is None else rate * np.ceil(RATE / rate - 1e-6))
         rate = gait.rate()
     if rate is None or (len(gait.time) - 1) / rate < SHORTEST:
-        raise DesirePathError(f"The recording of {name} is too short to be carried along a path: record at "
-                              "least one whole stride.")
+        raise DesirePathError(
+            f"The recording of {name} is too short to be carried along a path: record at least one whole stride."
+        )
     on, _ = walker.contacts(gait, _floor(gait))
     touch = np.array([on[gait.part_limb == limb].any(axis=0) for limb in range(len(gait.limb_walker))])
     first, last = (0, len(gait.time) - 1) if loops else _span(gait, rate, touch)
     if np.hypot(*(gait.com[0, last] - gait.com[0, first])[:2]) < LEAST_SPEED * (last - first) / rate:
-        raise DesirePathError(f"{name} does not walk ahead in its recording and cannot be carried along a "
-                              "path: record a walk, in place or over the ground.")
+        raise DesirePathError(
+            f"{name} does not walk ahead in its recording and cannot be carried along a "
+            "path: record a walk, in place or over the ground."
+        )
     return _closed(gait, rate, first, last, touch)
 
 
@@ -188,7 +191,7 @@ def _span(gait, rate, touch):
     for row in touch:
         downs = np.flatnonzero(row[1:] & ~row[:-1]) + 1
         for i, a in enumerate(downs):
-            for b in downs[i + 1:]:
+            for b in downs[i + 1 :]:
                 if (b - a) / rate < SHORTEST or not all(other[a:b].any() for other in touch if other.any()):
                     continue
                 cost = drift(a, b) / (b - a)
@@ -237,8 +240,8 @@ def _led(com, first, last, length, rate):
     over = min(int(FADE * rate), first, count // 2)
     if over > 1:
         u = np.arange(1, over + 1) / (over + 1)
-        fade = (u ** 3 * (10 - 15 * u + 6 * u * u))[:, None]
-        body[-over:] += fade * (com[first - over:first] + (length, 0, 0) - body[-over:])
+        fade = (u**3 * (10 - 15 * u + 6 * u * u))[:, None]
+        body[-over:] += fade * (com[first - over : first] + (length, 0, 0) - body[-over:])
     else:
         body += np.arange(count)[:, None] / count * (com[first] + (length, 0, 0) - com[last])
     return body
@@ -272,8 +275,9 @@ def _made_up(pose, first, last, length, share):
     parts[..., :3] += share[..., None] * (start[:, :3] + (length, 0, 0) - end[:, :3])[:, None]
     back = rotation.product(start[:, 3:], rotation.inverse(end[:, 3:]))
     back *= np.where(back[:, :1] < 0, -1.0, 1.0)
-    part = np.concatenate([1.0 - share[..., None] * (1.0 - back[:, None, :1]),
-                           share[..., None] * back[:, None, 1:]], axis=-1)
+    part = np.concatenate(
+        [1.0 - share[..., None] * (1.0 - back[:, None, :1]), share[..., None] * back[:, None, 1:]], axis=-1
+    )
     part /= np.linalg.norm(part, axis=-1, keepdims=True)
     parts[..., 3:] = rotation.product(part, parts[..., 3:])
     return parts
@@ -293,7 +297,7 @@ def _stood(cycle):
     for limb in range(len(gait.limb_walker)):
         touch = on[gait.part_limb == limb].any(axis=0)
         mean = points[gait.part_limb[gait.point_part] == limb].mean(axis=0)
-        stand[limb] = _stands(touch, mean, hold)[count:2 * count]
+        stand[limb] = _stands(touch, mean, hold)[count : 2 * count]
     stand[..., 0] -= cycle.way * np.arange(count) / count
     touched = on[gait.point_part].any(axis=1)
     rise = float(np.median(clearance[touched])) if touched.any() else 0.0
@@ -314,11 +318,11 @@ def _stands(touch, mean, hold):
         knots.append((a - before, b - 1 + behind))
         places.append(mean[a:b].mean(axis=0))
     stand = np.empty_like(mean)
-    stand[:knots[0][0]], stand[knots[-1][1]:] = places[0], places[-1]
+    stand[: knots[0][0]], stand[knots[-1][1] :] = places[0], places[-1]
     for n, (a, b) in enumerate(knots):
-        stand[a:b + 1] = places[n]
+        stand[a : b + 1] = places[n]
         if n + 1 < len(knots):
             c = knots[n + 1][0]
             u = (np.arange(b, c + 1) - b)[:, None] / max(c - b, 1)
-            stand[b:c + 1] = places[n] + (u * u * (3 - 2 * u)) * (places[n + 1] - places[n])
+            stand[b : c + 1] = places[n] + (u * u * (3 - 2 * u)) * (places[n + 1] - places[n])
     return stand

@@ -29,8 +29,9 @@ EVEN = 1.1347241384015194 ** -np.arange(1.0, 6.0)
 GRAVITY = 9.81
 
 
-def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05, stride=0.05, seed=0, pause=0.0,
-          ground=None):
+def along(
+    gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05, stride=0.05, seed=0, pause=0.0, ground=None
+):
     """The walkers of a recording carried along a path as often as wanted: a Gait with a cut at each pass.
 
     path: waypoints (n, 2 or 3) [m], or a Path; its height is the ground's where it has one.
@@ -51,8 +52,12 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
         raise DesirePathError(f"A walk of {passes} passes cannot be made: give a whole number from 1 on.")
     if not _is_whole(seed, 0):
         raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number, 0 or more.")
-    for name, value, most in (("lateral", lateral, 100.0), ("timing", timing, 0.3), ("stride", stride, 0.3),
-                              ("pause", pause, 1e9)):
+    for name, value, most in (
+        ("lateral", lateral, 100.0),
+        ("timing", timing, 0.3),
+        ("stride", stride, 0.3),
+        ("pause", pause, 1e9),
+    ):
         if not (np.isfinite(value) and 0.0 <= value <= most):
             raise DesirePathError(f"A {name} of {value:g} cannot be used: choose one from 0 to {most:g}.")
     rate = gait.frame_rate * math.ceil(RATE / gait.frame_rate - 1e-6)
@@ -61,7 +66,8 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
     if samples > MOST_SAMPLES:
         raise DesirePathError(
             f"{passes} passes over {line.length:.0f} m are too long for one recording: walk them in several bakes, "
-            "or choose fewer passes or a lower frame rate.")
+            "or choose fewer passes or a lower frame rate."
+        )
     turns = []
     for number in range(int(passes)):
         way = line.backwards() if back_and_forth and number % 2 else line
@@ -76,8 +82,12 @@ def along(gait, path, passes=1, *, back_and_forth=True, lateral=0.1, timing=0.05
 
 
 def _is_whole(value, least):
-    return (isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-            and least <= value < math.inf and int(value) == value)
+    return (
+        isinstance(value, (int, float, np.integer, np.floating))
+        and not isinstance(value, bool)
+        and least <= value < math.inf
+        and int(value) == value
+    )
 
 
 # ---- one pass ----------------------------------------------------------------------------------------
@@ -97,7 +107,7 @@ class _Scatter:
 
     def __init__(self, even, random, lateral, timing, stride):
         self.start = even[0] if lateral or timing or stride else 0.0
-        self.shift = math.sqrt(1.0 - WEAVE ** 2) * lateral * _normal(even[1])
+        self.shift = math.sqrt(1.0 - WEAVE**2) * lateral * _normal(even[1])
         self.phase = 2.0 * math.pi * even[2]
         self.size = math.sqrt(2.0) * WEAVE * lateral * _normal(even[3])
         self.scale = math.exp(stride * _normal(even[4]))
@@ -144,7 +154,7 @@ def _one(cycle, line, rate, scatter, ground):
     # who goes round a bend leans into it
     s = grown(com[:, 0])
     speed = cycle.speed * scale * pace
-    lean = speed ** 2 * line.bend_at(s) * (com[:, 2] - cycle.floor) / GRAVITY
+    lean = speed**2 * line.bend_at(s) * (com[:, 2] - cycle.floor) / GRAVITY
     body, _ = _laid(line, scatter, np.stack([s, com[:, 1] + lean], axis=-1))
     if not placed and (ground is not None or line.has_height):
         com[:, 2] += below.body(s) - cycle.floor
@@ -211,8 +221,7 @@ class _Below:
             middle = look(ahead, 0.0)
             climb = (look(ahead, FOOT) - look(ahead, -FOOT)) / (2 * FOOT)
             side = (look(left, FOOT) - look(left, -FOOT)) / (2 * FOOT)
-        normal = np.concatenate([-climb[..., None] * ahead - side[..., None] * left,
-                                 np.ones(s.shape + (1,))], axis=-1)
+        normal = np.concatenate([-climb[..., None] * ahead - side[..., None] * left, np.ones(s.shape + (1,))], axis=-1)
         normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
         tilt = np.stack([1.0 + normal[..., 2], -normal[..., 1], normal[..., 0], 0.0 * s], axis=-1)
         return middle, tilt / np.linalg.norm(tilt, axis=-1, keepdims=True)
@@ -244,10 +253,20 @@ def _chained(gaits, turns, rate, pauses):
         pose[..., 3] = 1.0
         for (who, body, parts), start in zip(turns, starts):
             if who == w:
-                com[0, start:start + len(body)] = body
-                pose[:, start:start + len(body)] = parts
-        walking.append(replace(gait, time=time, com=com, pose=pose, cut=np.cumsum(lengths)[:-1], jump=(),
-                               frame_rate=gaits[0].frame_rate, frame_start=gaits[0].frame_start))
+                com[0, start : start + len(body)] = body
+                pose[:, start : start + len(body)] = parts
+        walking.append(
+            replace(
+                gait,
+                time=time,
+                com=com,
+                pose=pose,
+                cut=np.cumsum(lengths)[:-1],
+                jump=(),
+                frame_rate=gaits[0].frame_rate,
+                frame_start=gaits[0].frame_start,
+            )
+        )
     return Gait.join(walking)
 
 

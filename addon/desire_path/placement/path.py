@@ -71,15 +71,19 @@ def _checked(points):
     except (TypeError, ValueError):
         raise DesirePathError("The path is no list of places: give rows of x, y or x, y, z in metres.") from None
     if points.ndim != 2 or points.shape[1] not in (2, 3) or len(points) < 2:
-        raise DesirePathError(f"The path has the shape {points.shape}: give at least two rows of x, y or "
-                              "x, y, z in metres.")
+        raise DesirePathError(
+            f"The path has the shape {points.shape}: give at least two rows of x, y or x, y, z in metres."
+        )
     if not np.isfinite(points).all():
-        raise DesirePathError(f"Row {int(np.argmin(np.isfinite(points).all(axis=1))) + 1} of the path is not a "
-                              "finite place: mend it.")
+        raise DesirePathError(
+            f"Row {int(np.argmin(np.isfinite(points).all(axis=1))) + 1} of the path is not a finite place: mend it."
+        )
     far = abs(points).max(axis=1)
     if far.max() > FARTHEST:
-        raise DesirePathError(f"Row {int(np.argmax(far > FARTHEST)) + 1} of the path lies {far.max():.3g} m away: give "
-                              f"places within {FARTHEST:g} m.")
+        raise DesirePathError(
+            f"Row {int(np.argmax(far > FARTHEST)) + 1} of the path lies {far.max():.3g} m away: give "
+            f"places within {FARTHEST:g} m."
+        )
     return points
 
 
@@ -91,7 +95,7 @@ def _smoothed(line, sigma):
     weight = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     weight /= weight.sum()
     before = 2.0 * line[0] - line[reach:0:-1]
-    after = 2.0 * line[-1] - line[-2:-reach - 2:-1]
+    after = 2.0 * line[-1] - line[-2 : -reach - 2 : -1]
     long = np.concatenate([before, line, after])
     return np.stack([np.convolve(column, weight, "valid") for column in long.T], axis=1)
 

@@ -1,6 +1,6 @@
 """Feet put on the ground they walk over, and the walker carried there. TRAIL (1) (2), design 4.1
 
-    Gait of a level floor --carry: feet and body rise with the ground--> --tilt: (1), (2)--> Gait of the hill
+Gait of a level floor --carry: feet and body rise with the ground--> --tilt: (1), (2)--> Gait of the hill
 """
 
 import math
@@ -23,8 +23,19 @@ CLEARLY = 0.01  # the floor fits a clip better than the ground only by more than
 GROWN = 0.2  # shorter feet rest slower and fit better, in proportion [m]
 
 
-def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, carry=None, floor=None,
-               foot_radius=None, body_radius=None, walkers=None):
+def place_feet(
+    gait,
+    ground,
+    *,
+    reach=REACH,
+    toe_slope=TOE_SLOPE,
+    roll=True,
+    carry=None,
+    floor=None,
+    foot_radius=None,
+    body_radius=None,
+    walkers=None,
+):
     """The same walk with its feet on this ground, as a new Gait. TRAIL (1) (2)
 
     ground: a Ground or a Simulation. reach: d_max [m]. toe_slope: theta_0 [rad], the slope from which heels
@@ -41,8 +52,11 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
     land = Simulation(ground) if isinstance(ground, Ground) else ground
     if not isinstance(land, Simulation):
         raise DesirePathError("Feet are placed on a Ground or a Simulation: make one of the ground first.")
-    for name, value in (("reach", reach), ("smoothing radius of a foot", foot_radius),
-                        ("smoothing radius of the body", body_radius)):
+    for name, value in (
+        ("reach", reach),
+        ("smoothing radius of a foot", foot_radius),
+        ("smoothing radius of the body", body_radius),
+    ):
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise DesirePathError(f"A {name} of {value:g} m cannot be used: give one above 0.")
     if not 0.0 <= toe_slope <= math.pi / 2:
@@ -59,15 +73,16 @@ def place_feet(gait, ground, *, reach=REACH, toe_slope=TOE_SLOPE, roll=True, car
             continue
         clearance, stood = _stands(gait, land, row, carried, floor)
         high = sizes.TALL * float(sizes.legs(gait)[row])
-        numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row),
-                   body_radius or BODY * high, stood)
+        numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row), body_radius or BODY * high, stood)
         try:
             land.place(walks.native_gait(gait), row, numbers, clearance, pose, com, flat=not roll, carry=carried)
         except ValueError as problem:
             if "no ground" not in str(problem):
                 raise
-            raise DesirePathError(f"{gait.walker_name[row]} walks beside the ground: move the walker or the "
-                                  "ground so that one lies over the other.") from None
+            raise DesirePathError(
+                f"{gait.walker_name[row]} walks beside the ground: move the walker or the "
+                "ground so that one lies over the other."
+            ) from None
     return replace(gait, pose=pose, com=com)
 
 

@@ -1,6 +1,6 @@
 """Feet let down into the prints they press, and the body with them. Design 4.4
 
-    Gait, its loads, the pressed ground over time ---depth under each limb---> eased in the air ---> Gait in its prints
+Gait, its loads, the pressed ground over time ---depth under each limb---> eased in the air ---> Gait in its prints
 """
 
 from dataclasses import replace
@@ -28,6 +28,7 @@ class Film:
     def at(self, frame, xy):
         """(height change (n,), compression (n,)) [m] at a scene frame and places (n, 2); zero beside it."""
         from ..ground import maps
+
         index = self.index
         number = min(max(int(round(frame)) - index.frame_start + 1, 0), index.frames)
         if number != self.number:

@@ -1,6 +1,6 @@
 """From bones that moved to a Gait: mass centre, contact parts, soles, contact points. Design 3.
 
-    Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
+Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
 """
 
 from dataclasses import dataclass, replace
@@ -78,27 +78,28 @@ def _check(skeleton, motion, rig, mass, frame_rate, frame_start):
         raise DesirePathError("The skeleton's rest matrices do not fit its bones: record again.")
     time = np.asarray(motion.time, float)
     if not len(time):
-        raise DesirePathError("The recording has no frames: choose a frame range in which the "
-                              "character walks.")
+        raise DesirePathError("The recording has no frames: choose a frame range in which the character walks.")
     span = max(np.ptp(np.asarray(skeleton.rest, float)[:, :3, 3], axis=0).max(), np.max(skeleton.length))
     if span < LEAST_SPAN:
-        raise DesirePathError(f"The bones span {span:.2g} m, too little for feet: check the walker's scale and "
-                              "the scene's unit scale.")
+        raise DesirePathError(
+            f"The bones span {span:.2g} m, too little for feet: check the walker's scale and the scene's unit scale."
+        )
     if np.shape(motion.matrix) != (len(time), len(motion.bones), 4, 4):
-        raise DesirePathError("The recorded matrices do not fit their times and bones: record "
-                              "again.")
+        raise DesirePathError("The recorded matrices do not fit their times and bones: record again.")
     if not np.isfinite(mass) or mass <= 0:
-        raise DesirePathError(f"A mass of {mass:g} kg cannot press the ground: give the walker a "
-                              "mass above 0.")
+        raise DesirePathError(f"A mass of {mass:g} kg cannot press the ground: give the walker a mass above 0.")
     if not np.isfinite(frame_rate) or frame_rate <= 0:
-        raise DesirePathError(f"A frame rate of {frame_rate:g} cannot be used: set the scene's "
-                              "frames a second to more than 0.")
+        raise DesirePathError(
+            f"A frame rate of {frame_rate:g} cannot be used: set the scene's frames a second to more than 0."
+        )
     if not np.isfinite(time).all() or (np.diff(time) <= 0).any():
         raise DesirePathError("The recorded times do not increase: record again.")
     for name in rig.bones:
         if name not in skeleton.names or name not in motion.bones:
-            raise DesirePathError(f"Bone {name} was not recorded: it was renamed or removed; detect "
-                                  "the rig again or choose the bone by hand.")
+            raise DesirePathError(
+                f"Bone {name} was not recorded: it was renamed or removed; detect "
+                "the rig again or choose the bone by hand."
+            )
         row = list(skeleton.names).index(name)
         if not np.isfinite(skeleton.rest[row]).all() or not np.isfinite(skeleton.length[row]):
             raise DesirePathError(f"Bone {name} has a broken rest pose: mend the bone in edit mode.")
@@ -106,13 +107,16 @@ def _check(skeleton, motion, rig, mass, frame_rate, frame_start):
         bad = ~np.isfinite(matrix).all(axis=(1, 2))
         if bad.any():
             frame = frame_start + (time[bad.argmax()] - time[0]) * frame_rate
-            raise DesirePathError(f"Bone {name} has no finite position at frame {frame:g}: mend the "
-                                  "animation there or leave the frame out.")
+            raise DesirePathError(
+                f"Bone {name} has no finite position at frame {frame:g}: mend the "
+                "animation there or leave the frame out."
+            )
         bad = abs(np.linalg.det(matrix[:, :3, :3])) < 1e-9
         if bad.any():
             frame = frame_start + (time[bad.argmax()] - time[0]) * frame_rate
-            raise DesirePathError(f"Bone {name} is scaled to nothing at frame {frame:g}: give it a "
-                                  "scale above 0 there.")
+            raise DesirePathError(
+                f"Bone {name} is scaled to nothing at frame {frame:g}: give it a scale above 0 there."
+            )
 
 
 # ---- the mass centre --------------------------------------------------------------------------------------
@@ -179,7 +183,7 @@ def _knee(bones, leg, hip, ankle, ahead):
     down = down / np.maximum(reach, 1e-9)
     ahead = ahead - (ahead * down).sum(axis=1, keepdims=True) * down
     ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
-    return (hip + ankle) / 2.0 + np.sqrt(np.maximum(half ** 2 - reach ** 2 / 4.0, 0.0)) * ahead
+    return (hip + ankle) / 2.0 + np.sqrt(np.maximum(half**2 - reach**2 / 4.0, 0.0)) * ahead
 
 
 def rest_up(bones, rig):
@@ -197,8 +201,20 @@ def rest_up(bones, rig):
 # ---- the door --------------------------------------------------------------------------------------------------
 
 
-def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=None, tread=None,
-                    frame_rate, frame_start=1, land=None, shapes=None):
+def gait_from_bones(
+    skeleton,
+    motion,
+    *,
+    mass,
+    name="Walker",
+    rig=None,
+    skin=None,
+    tread=None,
+    frame_rate,
+    frame_start=1,
+    land=None,
+    shapes=None,
+):
     """What the walker did, from sampled bones. Refuses bad recordings with a sentence.
 
     Soles: the tread (a Tread), else the skin's underside, else built in. land: the ground it walks on, a
@@ -236,8 +252,7 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
     left_axis = np.cross(up_rest, ahead_rest)
     middle = ankles.mean(axis=0) @ left_axis
     to_left = ankles @ left_axis - middle
-    named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right")
-                      for f in feet])
+    named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right") for f in feet])
     mirrored = named @ to_left < 0.0  # the object is: what is called left stands on the right
     sided = -named if mirrored else named
     lefts = (sided > 0.0) | ((sided == 0.0) & (to_left > 0.0))
@@ -252,8 +267,9 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
         if hill is not None:
             flat = hill.flattened(bones, (foot.slots.foot, foot.slots.toe))
             foot = foot.over(flat)
-        pose, sole_pair, marks = feet_of.parts(foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin,
-                                               skeleton, laid, warnings)
+        pose, sole_pair, marks = feet_of.parts(
+            foot.bones, foot, time, up_rest, ahead_rest, lefts[limb], skin, skeleton, laid, warnings
+        )
         if hill is not None:
             pose = [hill.back(each) for each in pose]
         first = len(poses)
@@ -266,12 +282,26 @@ def gait_from_bones(skeleton, motion, *, mass, name="Walker", rig=None, skin=Non
             point_role.append(role)
     time, com = clip
     return Gait(
-        time=time, com=com[None], mass=np.array([mass]), pose=np.array(poses)[:, again],
-        limb_walker=np.zeros(len(feet)), part_limb=part_limb, soles=soles, point=np.array(points),
-        point_part=point_part, point_role=point_role, limb_name=[f.foot for f in rig.feet],
-        part_name=["heel", "toe"] * len(feet), walker_name=[name], frame_rate=frame_rate,
-        frame_start=frame_start, warnings=warnings, cut=cut,
-        jump=[(sample, 0) for sample in cut], leg=[own_leg]).check()
+        time=time,
+        com=com[None],
+        mass=np.array([mass]),
+        pose=np.array(poses)[:, again],
+        limb_walker=np.zeros(len(feet)),
+        part_limb=part_limb,
+        soles=soles,
+        point=np.array(points),
+        point_part=point_part,
+        point_role=point_role,
+        limb_name=[f.foot for f in rig.feet],
+        part_name=["heel", "toe"] * len(feet),
+        walker_name=[name],
+        frame_rate=frame_rate,
+        frame_start=frame_start,
+        warnings=warnings,
+        cut=cut,
+        jump=[(sample, 0) for sample in cut],
+        leg=[own_leg],
+    ).check()
 
 
 def _moving(skeleton, motion, rig, bones, time, com, cut, size):
@@ -285,10 +315,13 @@ def _moving(skeleton, motion, rig, bones, time, com, cut, size):
         piece = time[first:after], com[first:after], [(at[first:after], turn[first:after]) for at, turn in poses], size
         held += [(first + a, first + b) for a, b in freeze.stops(*piece)]
         for a, b in freeze.stops(*piece, rests=True):
-            rests[first + a + 1:first + b + 1] = True
+            rests[first + a + 1 : first + b + 1] = True
     keep = freeze.kept(len(time), held)
     if held:
-        tell, bones = bones.tell[keep], _Bones(skeleton, Motion(time[keep], motion.bones, np.asarray(motion.matrix)[keep]))
+        tell, bones = (
+            bones.tell[keep],
+            _Bones(skeleton, Motion(time[keep], motion.bones, np.asarray(motion.matrix)[keep])),
+        )
         bones.tell = tell
     again = np.searchsorted(keep, np.arange(len(time)), side="right") - 1
     return freeze.closed(time, held)[keep], com[keep], bones, again, rests[keep]
@@ -311,8 +344,7 @@ def _ahead(feet, up, square):
         ankle, _, tip = foot.joints(rest=True)
         run = tip - ankle
         way = way + (run - (run @ up) * up)
-    if np.linalg.norm(way) > 0.3 * sum(np.linalg.norm(np.subtract(*f.joints(rest=True)[::2]))
-                                       for f in feet):
+    if np.linalg.norm(way) > 0.3 * sum(np.linalg.norm(np.subtract(*f.joints(rest=True)[::2])) for f in feet):
         return rotation.unit(way)
     if square is not None:
         return square

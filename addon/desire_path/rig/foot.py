@@ -1,6 +1,6 @@
 """One foot: where its heel, ball and tip are while it stands flat, its two parts and their soles.
 
-    bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
+bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
 """
 
 import copy
@@ -67,8 +67,9 @@ class Foot:
         if self.toe:
             apart = np.linalg.norm(bones.rest_point(self.toe) - bones.rest_point(foot.foot))
             if apart <= 1e-4 * max(leg, 1e-9):
-                raise DesirePathError(f"Bone {foot.foot} has no length up to {self.toe}: choose "
-                                      "another toe bone or none.")
+                raise DesirePathError(
+                    f"Bone {foot.foot} has no length up to {self.toe}: choose another toe bone or none."
+                )
         self.leg = leg
         self.size = leg / sizes.LEG  # its leg in those of a grown person
         self.held = None  # samples at which the body keeps its pose: what other ones tell goes before them (T,)
@@ -110,8 +111,9 @@ class Foot:
 
     def _far(self):
         """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
-        ankle, ball, tip = (self.bones.rest_point(n, a) for n, a in (
-            (self.slots.foot, 0.0), (self.toe, 0.0), (self.toe, 1.0)))
+        ankle, ball, tip = (
+            self.bones.rest_point(n, a) for n, a in ((self.slots.foot, 0.0), (self.toe, 0.0), (self.toe, 1.0))
+        )
         reach = np.linalg.norm(ball - ankle)
         return reach > FOOT_TO_LEG * self.leg > 0 and np.linalg.norm(tip - ball) < 0.35 * reach
 
@@ -198,8 +200,10 @@ class Foot:
         bones, foot = self.bones, self.slots.foot
         rest = rotation.square(bones.rest[bones.row[foot], :3, :3])
         turn = rotation.mean_turn(np.swapaxes(foot_turn, 1, 2) @ frame, weight)
-        ends = [turn.T @ rest.T @ (bones.rest_point(self.slots.heel, along) - bones.rest_point(foot))
-                for along in (0.0, 1.0)]
+        ends = [
+            turn.T @ rest.T @ (bones.rest_point(self.slots.heel, along) - bones.rest_point(foot))
+            for along in (0.0, 1.0)
+        ]
         behind = min(end[0] for end in ends)
         return behind if -HEEL_FAR * tip_x < behind < 0.0 else heel_x
 
@@ -230,8 +234,10 @@ class Foot:
         frame = rotation.frame(across, up)
         inside = lambda p: stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
         ball_in, tip_in = inside(ball), inside(tip)
-        turns = tuple(None if each is None else rotation.mean_turn(np.swapaxes(each, 1, 2) @ frame, weight)
-                      for each in (foot_turn, toe_turn))
+        turns = tuple(
+            None if each is None else rotation.mean_turn(np.swapaxes(each, 1, 2) @ frame, weight)
+            for each in (foot_turn, toe_turn)
+        )
         if self.beast and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
             return self._paw(ball_in, tip_in, turns), flat
         reach = ball_in[0]
@@ -288,8 +294,7 @@ def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, wa
     if skin is not None:
         soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
         if soles is None and laid is None:
-            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in "
-                            "sole.")
+            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in sole.")
     if laid is not None:
         soles, below = treads.soles(laid, left, shape.ball)
         if at_foot:  # as thick as it was modelled
@@ -304,8 +309,11 @@ def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, wa
         toe_at = ball - toe_turn @ np.array([0.0, shape.ball_side, shape.ball_height])
     else:
         under = heel_at + heel_turn @ ball_in_foot
-        rest_height = (stays.median(under[:, 2], stays.votes(flat, time, foot.size)) if flat.any()
-                       else np.quantile(under[bones.tell, 2], 0.05))
+        rest_height = (
+            stays.median(under[:, 2], stays.votes(flat, time, foot.size))
+            if flat.any()
+            else np.quantile(under[bones.tell, 2], 0.05)
+        )
         low = 0.25 * (shape.tip - shape.heel)
         toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
         toe_at = under
@@ -317,11 +325,16 @@ def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, wa
         tip_x = shape.ball + float(soles[1].vertices[:, 0].max())
     length = tip_x - heel_x
     toe_length = tip_x - shape.ball
-    points = [(0, HEEL, (heel_x + 0.09 * length, 0.0, 0.0)),
-              (0, BALL, (shape.ball - BALL_PAD * length, 0.0, 0.0)),
-              (1, BALL, (0.0, 0.0, 0.0)), (1, TIP, (toe_length - 0.04 * length, 0.0, 0.0))]
-    poses = [np.concatenate([at, rotation.quaternion(turn)], axis=1)
-             for at, turn in ((heel_at, heel_turn), (toe_at, toe_turn))]
+    points = [
+        (0, HEEL, (heel_x + 0.09 * length, 0.0, 0.0)),
+        (0, BALL, (shape.ball - BALL_PAD * length, 0.0, 0.0)),
+        (1, BALL, (0.0, 0.0, 0.0)),
+        (1, TIP, (toe_length - 0.04 * length, 0.0, 0.0)),
+    ]
+    poses = [
+        np.concatenate([at, rotation.quaternion(turn)], axis=1)
+        for at, turn in ((heel_at, heel_turn), (toe_at, toe_turn))
+    ]
     return poses, soles, points
 
 

@@ -1,6 +1,6 @@
 """A leg of two bones that reaches for a foot: hip, knee and ankle over time, in any unit of length.
 
-    ankle -> target: the knee bends in the plane it bent in, the hips come down where legs are too short
+ankle -> target: the knee bends in the plane it bent in, the hips come down where legs are too short
 """
 
 import numpy as np
@@ -22,15 +22,14 @@ def drop(hip, knee, ankle, target):
     most = np.maximum(STRETCH * length(hip, knee, ankle), np.linalg.norm(ankle - hip, axis=1))
     apart = target - hip
     aside = np.hypot(apart[:, 0], apart[:, 1])
-    hang = np.sqrt(np.maximum(most ** 2 - aside ** 2, 0.0))
+    hang = np.sqrt(np.maximum(most**2 - aside**2, 0.0))
     return np.maximum(-apart[:, 2] - hang, 0.0)
 
 
 def eased(down, frames):
     """`down` (T,) never undercut, without jolts: its largest within `frames`, then the mean of those."""
     count = 2 * int(frames) + 1
-    near = lambda values: np.lib.stride_tricks.sliding_window_view(
-        np.pad(values, int(frames), mode="edge"), count)
+    near = lambda values: np.lib.stride_tricks.sliding_window_view(np.pad(values, int(frames), mode="edge"), count)
     return near(near(down).max(axis=1)).mean(axis=1)
 
 
@@ -64,8 +63,8 @@ def reach(hip, knee, ankle, target, ahead):
 
     turned = turn_between(line, wanted)
     new_pole = np.einsum("tij,tj->ti", turned, pole)
-    along = (upper ** 2 + far ** 2 - lower ** 2) / (2.0 * far)
-    out = np.sqrt(np.maximum(upper ** 2 - along ** 2, 0.0))
+    along = (upper**2 + far**2 - lower**2) / (2.0 * far)
+    out = np.sqrt(np.maximum(upper**2 - along**2, 0.0))
     new_knee = hip + along[:, None] * wanted + out[:, None] * new_pole
     hinge, new_hinge = np.cross(line, pole), np.cross(wanted, new_pole)
     thigh = _between_frames(knee - hip, hinge, new_knee - hip, new_hinge)

@@ -1,7 +1,7 @@
 """How heavy a walker is when nobody said, and where its weight is when no table knows its body.
 
-    legs of the rest pose --Winter--> standing height --body mass index--> mass of a person
-    mesh of the rest pose --volume of each bone--> segments, mass of anything else
+legs of the rest pose --Winter--> standing height --body mass index--> mass of a person
+mesh of the rest pose --volume of each bone--> segments, mass of anything else
 """
 
 import numpy as np
@@ -33,8 +33,7 @@ def standing_height(skeleton, rig):
     at = np.asarray(skeleton.rest, float)[:, :3, 3]
     legs = []
     for foot in rig.feet:
-        joints = [name for name in (foot.thigh or rig.hips, foot.shank if foot.thigh else None,
-                                    foot.foot) if name]
+        joints = [name for name in (foot.thigh or rig.hips, foot.shank if foot.thigh else None, foot.foot) if name]
         joints = at[[row[name] for name in joints]]
         legs.append(float(np.linalg.norm(np.diff(joints, axis=0), axis=1).sum()))
     leg = float(np.mean(legs))
@@ -83,8 +82,10 @@ def by_volume(skeleton, rig, skin):
 
 def told_by_volume(name, mass, volume):
     """What is told where a mass was estimated from a mesh."""
-    return (f"{name} weighs {mass:.3g} kg by an estimate from the {volume * 1000:.3g} litres of its mesh: set a "
-            "mass to use another.")
+    return (
+        f"{name} weighs {mass:.3g} kg by an estimate from the {volume * 1000:.3g} litres of its mesh: set a "
+        "mass to use another."
+    )
 
 
 def estimate(skeleton, rig, name="Walker"):
@@ -93,14 +94,14 @@ def estimate(skeleton, rig, name="Walker"):
     if height is None:
         raise DesirePathError(
             f"The mass of {name} cannot be estimated, since only people with two legs below their hips "
-            "tell their height, and no mesh is bound to it: give it a mass in kilograms.")
-    return BODY_MASS_INDEX * height ** 2, height
+            "tell their height, and no mesh is bound to it: give it a mass in kilograms."
+        )
+    return BODY_MASS_INDEX * height**2, height
 
 
 def sentence(name, mass, height):
     """What is told where a mass was estimated."""
-    return (f"{name} weighs {mass:.3g} kg by an estimate from its height of {height:.2f} m: set a mass "
-            "to use another.")
+    return f"{name} weighs {mass:.3g} kg by an estimate from its height of {height:.2f} m: set a mass to use another."
 
 
 def odd_size(name, height, kilograms=None, chosen=True):
@@ -111,18 +112,23 @@ def odd_size(name, height, kilograms=None, chosen=True):
     """
     if PEOPLE[0] <= height <= PEOPLE[1]:
         return None
-    off = 1.0 if kilograms is None else kilograms / (FILLS * height ** 3)
+    off = 1.0 if kilograms is None else kilograms / (FILLS * height**3)
     off = max(off, 1.0 / off)
     if kilograms is not None and off < AMISS[0]:
         return None
     units = UNITS if height > 1.0 else tuple((by, "") for by in SHRUNK)
     fits = [(by, unit) for by, unit in units if 0.5 <= height * by <= 2.6]
-    seems = (f"apply a scale of {fits[0][0]:.4g} to it" + (f", as it seems to be in {fits[0][1]}" if fits[0][1] else "")
-             if fits else "check its scale and the scene's unit scale")
+    seems = (
+        f"apply a scale of {fits[0][0]:.4g} to it" + (f", as it seems to be in {fits[0][1]}" if fits[0][1] else "")
+        if fits
+        else "check its scale and the scene's unit scale"
+    )
     size = f"'{name}' is {height:.3g} m tall"
     if off < AMISS[1]:
         return f"{size}: if that is not meant, {seems}.", False
     if not chosen and CREATURES[0] <= height <= CREATURES[1]:
-        return (f"{size} and weighs {kilograms:.3g} kg, since nobody gave it another mass: give it the mass of its size, or, "
-                f"if that size is not meant, {seems}."), False
+        return (
+            f"{size} and weighs {kilograms:.3g} kg, since nobody gave it another mass: give it the mass of its size, or, "
+            f"if that size is not meant, {seems}."
+        ), False
     return f"{size} and weighs {kilograms:.3g} kg, which cannot be: {seems}, or give it the mass of its size.", True

@@ -1,6 +1,6 @@
 """The bones of a skeleton with their names read, and the legs above feet.
 
-    names --rig_names.read--> words, side, place --find--> the best bone for a slot
+names --rig_names.read--> words, side, place --find--> the best bone for a slot
 """
 
 import re
@@ -96,8 +96,10 @@ def _legs_by_name(bones, side, place, foot):
     if thigh < 0:
         thigh = bones.find(THIGH + ("leg",), side, where=lambda b: b in on_chain and b != shank)
     if thigh < 0 or shank < 0:
-        arm = (bones.find(FORE_THIGH, side, where=on_chain.__contains__),
-               bones.find(FORE_SHANK, side, where=on_chain.__contains__))
+        arm = (
+            bones.find(FORE_THIGH, side, where=on_chain.__contains__),
+            bones.find(FORE_SHANK, side, where=on_chain.__contains__),
+        )
         if min(arm) >= 0 and bones.under(arm[1], arm[0]):
             thigh, shank = arm
     if thigh < 0 and shank < 0:
@@ -117,7 +119,7 @@ def legs_by_structure(bones, foot):
             shank = b
             break
     if shank >= 0:
-        for b in above[above.index(shank) + 1:]:
+        for b in above[above.index(shank) + 1 :]:
             if bones.apart(b, shank) > 0.12 * bones.size and bones.parents[b] >= 0:
                 thigh = b
                 break

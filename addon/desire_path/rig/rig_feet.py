@@ -1,7 +1,7 @@
 """Which bones are feet, and what belongs to them: by name (rig_names.py), by where they stand, by shape.
 
-    names of feet --> hind pair, people's feet     hands the body stands on, more named feet --> the other pairs
-    no names      --> rig_shape.py
+names of feet --> hind pair, people's feet     hands the body stands on, more named feet --> the other pairs
+no names      --> rig_shape.py
 """
 
 import numpy as np
@@ -50,8 +50,14 @@ def _foot_of(bones, foot, place):
 
 def _middle_toe(bones, under, layer):
     """The first bone of the middle one of single toes, whatever their numbers; -1 if there are none."""
-    toes = [b for b, name in enumerate(bones.read) if under(b) and name.layer <= layer
-            and any("toe" in word for word in name.words) and not NEVER_WORDS & set(name.words)]
+    toes = [
+        b
+        for b, name in enumerate(bones.read)
+        if under(b)
+        and name.layer <= layer
+        and any("toe" in word for word in name.words)
+        and not NEVER_WORDS & set(name.words)
+    ]
     first = min((len(bones.chain(b)) for b in toes), default=0)
     toes = [b for b in toes if len(bones.chain(b)) == first]
     middle = bones.head[toes].mean(axis=0) if toes else 0.0
@@ -70,8 +76,12 @@ class _Stand:
         self.bones = bones
         tops = [next((b for b in find_legs(bones, foot) if b >= 0), bones.chain(foot)[-1]) for foot in feet]
         self.tops = set(tops)
-        ways = np.array([bones.head[top] - max(self.ends(foot), key=lambda at: np.linalg.norm(at - bones.head[top]))
-                         for top, foot in zip(tops, feet)])
+        ways = np.array(
+            [
+                bones.head[top] - max(self.ends(foot), key=lambda at: np.linalg.norm(at - bones.head[top]))
+                for top, foot in zip(tops, feet)
+            ]
+        )
         legs = ways.mean(axis=0)
         share = np.abs(legs) / max(np.linalg.norm(ways, axis=1).mean(), 1e-12)
         self.axis = 2 if share.max() < CLEAR and share[2] > STEEP else int(np.argmax(share))
@@ -167,11 +177,10 @@ def find_feet(bones):
 def _more(bones, feet, places):
     """The other feet of a body that stands on more than two: named fore and mid, hands, more of the same name."""
     found = []
-    for table, place, word in ((FOOT, "front", "front"), (FOOT, "mid", "mid"), (FORE, None, "front"),
-                               (FOOT, None, "")):
+    for table, place, word in ((FOOT, "front", "front"), (FOOT, "mid", "mid"), (FORE, None, "front"), (FOOT, None, "")):
         if place in places or (word == "front" and any(each.place == "front" for each in found)):
             continue
-        for pair in _pairs(bones, table, _Stand(bones, feet), place)[:1 if word else None]:
+        for pair in _pairs(bones, table, _Stand(bones, feet), place)[: 1 if word else None]:
             number = word or str(len(feet) // 2 + 1)
             for side, foot in zip(("L", "R"), pair):
                 slots = _foot_of(bones, foot, bones.read[foot].place)

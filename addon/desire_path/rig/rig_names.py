@@ -12,43 +12,158 @@ from dataclasses import dataclass
 # ---- the tables ----------------------------------------------------------------------------------
 
 FOOT = ("foot", "ankle", "paw", "hoof", "feet", "足首")
-TOE = ("toe base", "toebase", "toes", "toe", "ball", "toe 0", "toes 01", "toe 01", "toes 1", "toe 1",
-       "big toe", "bigtoe", "bigtoe 1", "big toe 1", "toe 1 1", "toe 2 1", "toe 3 1", "toes 001",
-       "つま先", "足先 ex", "足先")
+TOE = (
+    "toe base",
+    "toebase",
+    "toes",
+    "toe",
+    "ball",
+    "toe 0",
+    "toes 01",
+    "toe 01",
+    "toes 1",
+    "toe 1",
+    "big toe",
+    "bigtoe",
+    "bigtoe 1",
+    "big toe 1",
+    "toe 1 1",
+    "toe 2 1",
+    "toe 3 1",
+    "toes 001",
+    "つま先",
+    "足先 ex",
+    "足先",
+)
 FORE = ("hand", "wrist", "carpus", "manus")  # feet, where the body stands on them
 HOOF = ("hoof",)  # stands on the ground below whatever is called the foot
-FINGERS = ("fingers", "finger", "middle 1", "middle 01", "middle 001", "finger 1", "finger 01", "finger 0", "palm",
-           "index 1", "index 01", "index 001")  # of a hand that is a foot, where it has no toe
+FINGERS = (
+    "fingers",
+    "finger",
+    "middle 1",
+    "middle 01",
+    "middle 001",
+    "finger 1",
+    "finger 01",
+    "finger 0",
+    "palm",
+    "index 1",
+    "index 01",
+    "index 001",
+)  # of a hand that is a foot, where it has no toe
 HEEL = ("heel 02", "heel", "heel 01", "heel ref", "calcaneus", "かかと")
-THIGH = ("up leg", "upleg", "upper leg", "upperleg", "thigh", "femur", "leg upper", "thigh stretch",
-         "hip", "足")
-SHANK = ("low leg", "lowleg", "lower leg", "lowerleg", "shin", "calf", "tibia", "knee", "leg lower",
-         "leg stretch", "leg", "ひざ")
+THIGH = ("up leg", "upleg", "upper leg", "upperleg", "thigh", "femur", "leg upper", "thigh stretch", "hip", "足")
+SHANK = (
+    "low leg",
+    "lowleg",
+    "lower leg",
+    "lowerleg",
+    "shin",
+    "calf",
+    "tibia",
+    "knee",
+    "leg lower",
+    "leg stretch",
+    "leg",
+    "ひざ",
+)
 FORE_THIGH = ("upper arm", "upperarm", "up arm", "humerus", "arm upper", "arm stretch", "arm")
 FORE_SHANK = ("forearm", "fore arm", "lower arm", "lowerarm", "radius", "elbow", "arm lower", "forearm stretch")
 HIPS = ("hips", "pelvis", "下半身", "hip", "spine", "root", "center", "センター", "torso")
-NECK = ("neck", "neck 01", "neck 1", "neck twist 01", "lower neck", "lowerneck", "neck lower", "neck x", "首",
-        "spine 004", "spine 005")
+NECK = (
+    "neck",
+    "neck 01",
+    "neck 1",
+    "neck twist 01",
+    "lower neck",
+    "lowerneck",
+    "neck lower",
+    "neck x",
+    "首",
+    "spine 004",
+    "spine 005",
+)
 HEAD = ("head", "head x", "頭", "spine 006")
-CHEST = ("upper chest", "chest", "spine 03", "spine 3", "spine 2", "spine 02", "thorax", "spine 1",
-         "上半身2", "上半身")
+CHEST = ("upper chest", "chest", "spine 03", "spine 3", "spine 2", "spine 02", "thorax", "spine 1", "上半身2", "上半身")
 
 LAYERS = {"def": 0, "org": 1}  # then plain names (2), then controls (3)
 CONTROL_WORDS = {
-    "ik", "fk", "ctrl", "control", "controller", "ctl", "roll", "rock", "pole", "target", "pivot",
-    "spin", "tweak", "mch", "vis", "gizmo", "handle", "socket", "snap", "wgt", "widget", "goal",
-    "dummy", "helper", "ref", "parent", "effector", "twist", "share", "bend", "pin", "ｉｋ", "親"}
+    "ik",
+    "fk",
+    "ctrl",
+    "control",
+    "controller",
+    "ctl",
+    "roll",
+    "rock",
+    "pole",
+    "target",
+    "pivot",
+    "spin",
+    "tweak",
+    "mch",
+    "vis",
+    "gizmo",
+    "handle",
+    "socket",
+    "snap",
+    "wgt",
+    "widget",
+    "goal",
+    "dummy",
+    "helper",
+    "ref",
+    "parent",
+    "effector",
+    "twist",
+    "share",
+    "bend",
+    "pin",
+    "ｉｋ",
+    "親",
+}
 NEVER_WORDS = {"end", "nub", "site", "effector", "tweak", "mch", "wgt"}
 LAST_WORDS = {"jnt", "joint", "bone", "bn"}  # behind a name they say nothing: `foot_L_jnt`
-SIDE_WORDS = {"l": "L", "left": "L", "lft": "L", "lt": "L", "r": "R", "right": "R", "rgt": "R", "rt": "R", "左": "L",
-              "右": "R"}
-PLACE_WORDS = {"front": "front", "fore": "front", "hind": "", "rear": "", "back": "",
-               "mid": "mid", "middle": "mid"}  # of a foot among many
+SIDE_WORDS = {
+    "l": "L",
+    "left": "L",
+    "lft": "L",
+    "lt": "L",
+    "r": "R",
+    "right": "R",
+    "rgt": "R",
+    "rt": "R",
+    "左": "L",
+    "右": "R",
+}
+PLACE_WORDS = {
+    "front": "front",
+    "fore": "front",
+    "hind": "",
+    "rear": "",
+    "back": "",
+    "mid": "mid",
+    "middle": "mid",
+}  # of a foot among many
 PLACE_LETTERS = {"f": "front", "r": "", "b": "", "h": "", "m": "mid"}  # beside a word for a foot or leg: `f_toe.L`
 CORNERS = {  # place and side in one word: `Paw_FL`, and as horsemen say it, `LF` and `LH`
-    "fl": ("front", "L"), "fr": ("front", "R"), "bl": ("", "L"), "br": ("", "R"), "rl": ("", "L"), "rr": ("", "R"),
-    "hl": ("", "L"), "hr": ("", "R"), "ml": ("mid", "L"), "mr": ("mid", "R"), "lf": ("front", "L"),
-    "rf": ("front", "R"), "lh": ("", "L"), "rh": ("", "R"), "lb": ("", "L"), "rb": ("", "R")}
+    "fl": ("front", "L"),
+    "fr": ("front", "R"),
+    "bl": ("", "L"),
+    "br": ("", "R"),
+    "rl": ("", "L"),
+    "rr": ("", "R"),
+    "hl": ("", "L"),
+    "hr": ("", "R"),
+    "ml": ("mid", "L"),
+    "mr": ("mid", "R"),
+    "lf": ("front", "L"),
+    "rf": ("front", "R"),
+    "lh": ("", "L"),
+    "rh": ("", "R"),
+    "lb": ("", "L"),
+    "rb": ("", "R"),
+}
 
 
 # ---- names ------------------------------------------------------------------------------------------
@@ -113,8 +228,8 @@ def _fused(word):
     for place in ("", *PLACE_WORDS):
         for mark in ("", "left", "right", "l", "r"):
             for start in {place + mark, mark + place}:
-                if start and word.startswith(start) and word[len(start):] in _FUSED:
-                    return word[len(start):], place, SIDE_WORDS.get(mark, "")
+                if start and word.startswith(start) and word[len(start) :] in _FUSED:
+                    return word[len(start) :], place, SIDE_WORDS.get(mark, "")
     return word, "", ""
 
 

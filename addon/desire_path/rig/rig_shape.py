@@ -1,6 +1,6 @@
 """Feet of a rig whose names say nothing: the lowest chains that come in mirrored pairs.
 
-    bones --low_chains--> chain ends --mirrored--> pairs, from one end of the body to the other --> [Found]
+bones --low_chains--> chain ends --mirrored--> pairs, from one end of the body to the other --> [Found]
 """
 
 import numpy as np
@@ -29,8 +29,11 @@ def by_structure(bones):
             _, pairs, chains, up, across = best
             left = _left(bones, chains, pairs, up, across)
             number = lambda k: f" {k + 1}" if len(pairs) > 1 else ""
-            return [Found(word + number(k), b, chains[b], -1) for k, pair in enumerate(pairs)
-                    for word, b in zip(("left", "right"), sorted(pair, key=lambda b: -left * bones.head[b, across]))]
+            return [
+                Found(word + number(k), b, chains[b], -1)
+                for k, pair in enumerate(pairs)
+                for word, b in zip(("left", "right"), sorted(pair, key=lambda b: -left * bones.head[b, across]))
+            ]
     return []
 
 
@@ -92,8 +95,12 @@ def _mirrored(bones, kept, chains, across, up):
         a = left.pop(0)
         if abs(bones.head[a, across] - middle) <= 0.01 * height:
             continue
-        twins = [b for b in left if off(a, b) < 0.1 * height
-                 and abs(bones.head[a, across] + bones.head[b, across] - 2 * middle) < 0.05 * height]
+        twins = [
+            b
+            for b in left
+            if off(a, b) < 0.1 * height
+            and abs(bones.head[a, across] + bones.head[b, across] - 2 * middle) < 0.05 * height
+        ]
         if twins:
             twin = min(twins, key=lambda b: off(a, b))
             left.remove(twin)

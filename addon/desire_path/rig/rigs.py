@@ -1,6 +1,6 @@
 """Which bones are feet, toes, heels, hips and body segments. Names first (rig_names.py), then structure.
 
-    Skeleton --rig_feet.find_feet--> feet, toes, heels --rig_bones.find_legs--> thighs, shanks --build--> Rig
+Skeleton --rig_feet.find_feet--> feet, toes, heels --rig_bones.find_legs--> thighs, shanks --build--> Rig
 """
 
 from dataclasses import dataclass
@@ -88,14 +88,20 @@ def detect(skeleton):
     if not found:
         raise DesirePathError(
             "No foot bones were found: the armature has no bone named like a foot or an ankle and "
-            "no pair of legs; choose the foot bones by hand.")
+            "no pair of legs; choose the foot bones by hand."
+        )
     warnings = []
     if by_shape:
-        warnings.append("The feet were found by the shape of the rig, not by name: check that "
-                        + ", ".join(bones.names[each.foot] for each in found) + " are the feet.")
+        warnings.append(
+            "The feet were found by the shape of the rig, not by name: check that "
+            + ", ".join(bones.names[each.foot] for each in found)
+            + " are the feet."
+        )
     name = lambda b: bones.names[b] if b >= 0 else None
-    feet = [Foot(each.limb, *map(name, (each.foot, each.toe, each.heel) + find_legs(bones, each.foot, each.place)))
-            for each in found]
+    feet = [
+        Foot(each.limb, *map(name, (each.foot, each.toe, each.heel) + find_legs(bones, each.foot, each.place)))
+        for each in found
+    ]
     return build(skeleton, feet, warnings=warnings)
 
 
@@ -116,8 +122,11 @@ def _hips(bones, feet):
     if len(feet) > 2 and tops:  # a trunk passes its legs, wherever it begins
         high = lambda b: bones.beside(b, top) < HIPS_NEAR * leg
     named = bones.find(HIPS[:2] if len(feet) > 2 else HIPS, "", where=lambda b: high(b) and near(b))
-    if named >= 0 and bones.read[named].layer < 3 and (
-            len(feet) == 2 or bones.read[named].layer <= max(bones.read[row[f.foot]].layer for f in feet)):
+    if (
+        named >= 0
+        and bones.read[named].layer < 3
+        and (len(feet) == 2 or bones.read[named].layer <= max(bones.read[row[f.foot]].layer for f in feet))
+    ):
         return named
     chains = [bones.chain(row[f.thigh or f.foot]) for f in (feet[:2] if len(feet) > 2 else feet)]
     shared = [b for b in chains[0][1:] if all(b in c for c in chains[1:]) and high(b)]
@@ -135,20 +144,25 @@ def build(skeleton, feet, hips=None, *, warnings=()):
     for foot in feet:
         for name in (foot.foot, foot.toe, foot.thigh, foot.shank):
             if name is not None and name not in bones.names:
-                raise DesirePathError(f"The armature has no bone {name}: it was renamed or removed; "
-                                      "detect the rig again or choose the bone by hand.")
+                raise DesirePathError(
+                    f"The armature has no bone {name}: it was renamed or removed; "
+                    "detect the rig again or choose the bone by hand."
+                )
     if not feet:
         raise DesirePathError("No foot bones were chosen: choose at least one foot bone.")
     if hips is not None and hips not in bones.names:
-        raise DesirePathError(f"The armature has no bone {hips}: it was renamed or removed; detect "
-                              "the rig again or choose the hips by hand.")
+        raise DesirePathError(
+            f"The armature has no bone {hips}: it was renamed or removed; detect "
+            "the rig again or choose the hips by hand."
+        )
     at = _hips(bones, feet) if hips is None else bones.names.index(hips)
     warnings = list(warnings)
     many = len(feet) > 2
     tops = tuple((f.thigh, 0.0) for f in feet if f.thigh)
     if at < 0 and not tops:
-        warnings.append("No hips bone was found: the mass centre is taken above the feet; choose "
-                        "the hips bone by hand.")
+        warnings.append(
+            "No hips bone was found: the mass centre is taken above the feet; choose the hips bone by hand."
+        )
         return Rig(tuple(feet), None, (), tuple(warnings))
     hip = ((bones.names[at], 0.0),) if at >= 0 else tops
     segments = []
@@ -165,8 +179,10 @@ def build(skeleton, feet, hips=None, *, warnings=()):
             end = ((bones.names[top], 1.0),)
         if end and at >= 0 and end[0][0] == bones.names[at]:
             end = ()
-        legs = [np.linalg.norm(bones.head[bones.names.index(f.thigh or hip[0][0])]
-                               - bones.head[bones.names.index(f.foot)]) for f in feet]
+        legs = [
+            np.linalg.norm(bones.head[bones.names.index(f.thigh or hip[0][0])] - bones.head[bones.names.index(f.foot)])
+            for f in feet
+        ]
         lift = TRUNK_LIFT * float(np.mean(legs))
         low = hip if end or len(tops) < len(feet) else tops  # straight up from between the hip joints
         segments.append(Segment("trunk", *TRUNK, low, end, 0.0 if end else lift))
@@ -179,10 +195,8 @@ def build(skeleton, feet, hips=None, *, warnings=()):
             segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1], top, knee))
             segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, LOWER[1], knee, ankle))
         else:
-            segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1], top, ankle,
-                                    knee="above"))
-            segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, LOWER[1], top, ankle,
-                                    knee="below"))
+            segments.append(Segment(f"{foot.limb} thigh", UPPER[0] * scale, UPPER[1], top, ankle, knee="above"))
+            segments.append(Segment(f"{foot.limb} shank", LOWER[0] * scale, LOWER[1], top, ankle, knee="below"))
         ball = ((foot.toe, 0.0),) if foot.toe else ((foot.foot, 1.0),)
         segments.append(Segment(f"{foot.limb} foot", SOLE[0] * scale, SOLE[1], ankle, ball))
     return Rig(tuple(feet), bones.names[at] if at >= 0 else None, tuple(segments), tuple(warnings))

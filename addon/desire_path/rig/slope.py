@@ -1,6 +1,6 @@
 """A foot that lies on a slope, seen as if the ground below it were level and at height 0.
 
-    bones over a hill ---flattened---> bones over a floor --foot.parts--> poses ---back---> poses on the hill
+bones over a hill ---flattened---> bones over a floor --foot.parts--> poses ---back---> poses on the hill
 """
 
 import copy
@@ -49,8 +49,9 @@ def steep(land, gait):
     """Is the ground below a recording's feet anywhere steeper than level?"""
     step = max(1, int(0.1 * len(gait.time) / max(gait.time[-1] - gait.time[0], 1e-9))) if len(gait.time) > 1 else 1
     radius = RADIUS * sizes.legs(gait)[gait.limb_walker[gait.part_limb]] / sizes.LEG
-    return any(land.normal(xy, over)[2] < 1.0 - STEEP
-               for part, over in zip(gait.pose[:, ::step, :2], radius) for xy in part)
+    return any(
+        land.normal(xy, over)[2] < 1.0 - STEEP for part, over in zip(gait.pose[:, ::step, :2], radius) for xy in part
+    )
 
 
 def below(land, feet, time, up_rest, lie=None):

@@ -10,12 +10,28 @@ from ..motion.gait import Sole
 
 # Half widths of a left shoe in shares of its length, seen from above: (from heel 0 to tip 1, inner, outer).
 # The widest place, at the ball, is 0.36 wide; last-makers' proportions.
-OUTLINE = np.array([
-    (0.000, 0.022, 0.022), (0.008, 0.052, 0.052), (0.025, 0.082, 0.082), (0.055, 0.104, 0.106),
-    (0.10, 0.119, 0.121), (0.17, 0.122, 0.127), (0.26, 0.107, 0.127), (0.36, 0.090, 0.129),
-    (0.46, 0.091, 0.139), (0.56, 0.121, 0.157), (0.65, 0.157, 0.174), (0.72, 0.177, 0.183),
-    (0.80, 0.178, 0.165), (0.87, 0.164, 0.130), (0.925, 0.141, 0.088), (0.965, 0.110, 0.046),
-    (0.990, 0.080, 0.010), (1.000, 0.058, -0.014)])
+OUTLINE = np.array(
+    [
+        (0.000, 0.022, 0.022),
+        (0.008, 0.052, 0.052),
+        (0.025, 0.082, 0.082),
+        (0.055, 0.104, 0.106),
+        (0.10, 0.119, 0.121),
+        (0.17, 0.122, 0.127),
+        (0.26, 0.107, 0.127),
+        (0.36, 0.090, 0.129),
+        (0.46, 0.091, 0.139),
+        (0.56, 0.121, 0.157),
+        (0.65, 0.157, 0.174),
+        (0.72, 0.177, 0.183),
+        (0.80, 0.178, 0.165),
+        (0.87, 0.164, 0.130),
+        (0.925, 0.141, 0.088),
+        (0.965, 0.110, 0.046),
+        (0.990, 0.080, 0.010),
+        (1.000, 0.058, -0.014),
+    ]
+)
 
 ROUND = 0.008  # the edge rises over this much [m]
 ARCH = 0.004  # the inner waist stands this high [m]
@@ -42,8 +58,7 @@ def built_in(heel, ball, tip, left):
     split = (ball - heel) / length
     u_heel = np.unique(np.r_[OUTLINE[OUTLINE[:, 0] < split - 0.02, 0], split])
     back = max(split - OVERLAP / length, 0.05)
-    u_toe = np.unique(np.r_[back, back + 0.3 * (split - back), split,
-                            OUTLINE[OUTLINE[:, 0] > split + 0.02, 0]])
+    u_toe = np.unique(np.r_[back, back + 0.3 * (split - back), split, OUTLINE[OUTLINE[:, 0] > split + 0.02, 0]])
     heel_part = _strip(u_heel, heel, length, left, 0.0, None)
     toe_part = _strip(u_toe, heel, length, left, ball, back)
     return heel_part, toe_part
@@ -67,8 +82,7 @@ def _strip(stations, heel, length, left, origin, back):
         waist = np.clip(1.0 - abs(u - 0.40) / 0.20, 0.0, 1.0)
         side = np.clip(-across / max(inner, 1e-9), 0.0, 1.0)  # the inner side only
         rise = np.maximum(rise, ARCH * (waist * waist * (3 - 2 * waist)) * side)
-        rows.append(np.stack([np.full(len(across), heel + u * length - origin),
-                              sign * across * length, rise], axis=1))
+        rows.append(np.stack([np.full(len(across), heel + u * length - origin), sign * across * length, rise], axis=1))
     columns = len(rows[0])
     vertices = np.concatenate(rows)
     triangles = []
@@ -163,8 +177,11 @@ def few_faces(gait, cell):
     """Sentences about feet whose soles have too few faces for prints in cells of this size [m] to have a shape."""
     found = {}
     for limb, name in enumerate(gait.limb_name):
-        soles = [gait.soles[part] for part in np.flatnonzero(np.asarray(gait.part_limb) == limb)
-                 if gait.part_name[part] in ("heel", "toe")]
+        soles = [
+            gait.soles[part]
+            for part in np.flatnonzero(np.asarray(gait.part_limb) == limb)
+            if gait.part_name[part] in ("heel", "toe")
+        ]
         corners = [np.asarray(each.vertices, float)[each.triangles] for each in soles]
         if not corners:
             continue
@@ -173,9 +190,11 @@ def few_faces(gait, cell):
         normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
         under = 2.0 * abs(normal[:, 2]) > np.linalg.norm(normal, axis=1)
         under &= corner[:, :, 2].max(axis=1) < corner[:, :, 2].min() + UNDERSIDE * length
-        faces, cells = int(under.sum()), abs(normal[under, 2]).sum() / 2.0 / cell ** 2
+        faces, cells = int(under.sum()), abs(normal[under, 2]).sum() / 2.0 / cell**2
         if faces < FEW and cells > COARSE * max(faces, 1):
             found.setdefault((faces, round(cells)), []).append(name)
-    return [f"{' and '.join(names)} press with {faces} triangles on {cells} cells, too few for the shape of a foot: "
-            "give the shoes or skin a finer mesh there, or choose a mesh as the sole."
-            for (faces, cells), names in found.items()]
+    return [
+        f"{' and '.join(names)} press with {faces} triangles on {cells} cells, too few for the shape of a foot: "
+        "give the shoes or skin a finer mesh there, or choose a mesh as the sole."
+        for (faces, cells), names in found.items()
+    ]

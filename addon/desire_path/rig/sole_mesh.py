@@ -1,6 +1,6 @@
 """A mesh somebody picked as the sole of every foot: a boot's tread, a hoof, a snowshoe.
 
-    mesh in rest space --nearest foot, or centred--> under one foot --mirrored, cut at the ball--> soles
+mesh in rest space --nearest foot, or centred--> under one foot --mirrored, cut at the ball--> soles
 """
 
 from dataclasses import dataclass
@@ -70,16 +70,17 @@ def lay(tread, feet, up, ahead):
         low, high = (f((used @ turn.T), axis=0) for f in (np.min, np.max))
         middle = 0.5 * (low + high)
         placed = placed - (middle[0] - 0.5 * (heel + tip), middle[1], low[2])
-        warnings = [f"{tread.name} lies at no foot of the rest pose: it was laid centred under each, its "
-                    "front the way the walker faces."]
+        warnings = [
+            f"{tread.name} lies at no foot of the rest pose: it was laid centred under each, its "
+            "front the way the walker faces."
+        ]
     found = sole.cut(placed, triangles)
     if found is None:
         raise DesirePathError(f"{tread.name} has no faces to be a sole: choose a mesh with faces.")
     placed, triangles = found
     length = float(np.ptp(placed[:, 0]))
     if not LIKELY[0] * (tip - heel) <= length <= LIKELY[1] * (tip - heel):
-        warnings.append(f"{tread.name} is {length:.2f} m long under a foot of {tip - heel:.2f} m: check "
-                        "its scale.")
+        warnings.append(f"{tread.name} is {length:.2f} m long under a foot of {tip - heel:.2f} m: check its scale.")
     return Laid(placed, triangles, left, best is not None, tuple(warnings))
 
 
@@ -113,8 +114,7 @@ def split(vertices, triangles, x):
         points = np.concatenate(corners).reshape(-1, 3)
         unique, packed = np.unique(points, axis=0, return_inverse=True)
         faces = packed.reshape(-1, 3)
-        whole = ((faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2])
-                 & (faces[:, 0] != faces[:, 2]))
+        whole = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 0] != faces[:, 2])
         parts.append((unique, faces[whole].astype("i4")))
     return parts
 

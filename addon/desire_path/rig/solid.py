@@ -1,6 +1,6 @@
 """Rigid bodies as walkers: a crate that hops, a ball, a wheel. One limb of one part, whose sole is the whole mesh.
 
-    positions and faces, matrices over time ---gait_from_solid---> Gait
+positions and faces, matrices over time ---gait_from_solid---> Gait
 """
 
 import numpy as np
@@ -32,11 +32,23 @@ def gait_from_solid(time, matrix, vertices, triangles, *, mass, name="Body", fra
     middle, _ = centre(vertices, triangles)
     points = outermost(vertices)
     return Gait(
-        time=time, com=(at + turn @ middle)[None], mass=[mass],
-        pose=np.concatenate([at, rotation.quaternion(turn)], axis=1)[None], limb_walker=[0], part_limb=[0],
-        soles=[Sole(vertices, triangles)], point=points, point_part=np.zeros(len(points)),
-        point_role=np.full(len(points), HEEL), limb_name=[name], part_name=["body"], walker_name=[name],
-        frame_rate=frame_rate, frame_start=frame_start, warnings=warnings).check()
+        time=time,
+        com=(at + turn @ middle)[None],
+        mass=[mass],
+        pose=np.concatenate([at, rotation.quaternion(turn)], axis=1)[None],
+        limb_walker=[0],
+        part_limb=[0],
+        soles=[Sole(vertices, triangles)],
+        point=points,
+        point_part=np.zeros(len(points)),
+        point_role=np.full(len(points), HEEL),
+        limb_name=[name],
+        part_name=["body"],
+        walker_name=[name],
+        frame_rate=frame_rate,
+        frame_start=frame_start,
+        warnings=warnings,
+    ).check()
 
 
 def centre(vertices, triangles):

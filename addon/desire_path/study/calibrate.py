@@ -61,8 +61,10 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     try:
         from scipy import optimize
     except ImportError:
-        raise DesirePathError("Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
-                              "or pip install scipy.") from None
+        raise DesirePathError(
+            "Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
+            "or pip install scipy."
+        ) from None
     told = {}
     for count, cover, days in rows:
         if not days:
@@ -80,8 +82,12 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     missed = np.zeros(len(wanted))  # what the model leaves out [points]
     for _ in range(rounds):
         strength, spread = _solved(optimize, bent, wanted - missed)
-        found = replace(kind, strength=strength * kind.degrade_rate, spread=spread,
-                        recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * trampling.DAY))
+        found = replace(
+            kind,
+            strength=strength * kind.degrade_rate,
+            spread=spread,
+            recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * trampling.DAY),
+        )
         reached = lanes.cover(found)
         before, missed = missed, reached - _model(bent, strength, spread)
         if abs(missed - before).max() < NEAR:
@@ -108,6 +114,7 @@ class _Lanes:
             share[seed] = done
             if self.progress:
                 self.progress((base + sum(share.values()) / len(share)) / self.all)
+
         with ThreadPoolExecutor(len(self.seeds)) as workers:
             return list(workers.map(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds))
 
@@ -118,14 +125,21 @@ class _Lanes:
         def walk(seed, told):
             sim, marks = trampling.trodden(tough, self.passes[-1], **{**trampling.USUAL, **self.options, "seed": seed})
             bends = sim.plants_shape(0)[0] - 2
-            return trampling.read_at(sim, [marks[n - 1] for n in self.passes], marks[-1], told,
-                                lambda: _most(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate)
+            return trampling.read_at(
+                sim,
+                [marks[n - 1] for n in self.passes],
+                marks[-1],
+                told,
+                lambda: _most(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate,
+            )
+
         return [np.concatenate(each) for each in zip(*self._each(walk))]
 
     def cover(self, kind):
         """Mean cover of the lanes after each count [per cent]."""
-        rows = self._each(lambda seed, told: trampling.measure(kind, passes=self.passes, seed=seed, progress=told,
-                                                          **self.options))
+        rows = self._each(
+            lambda seed, told: trampling.measure(kind, passes=self.passes, seed=seed, progress=told, **self.options)
+        )
         return np.mean([[share for _, share in row] for row in rows], axis=0)
 
 
@@ -137,8 +151,9 @@ def _most(lost, bends):
 def _model(bent, strength, spread):
     """Cover after each count [per cent] where reserves are strength exp(spread z) seconds of bending: the chance that
     a reserve outlasts its stem's bending, TRAIL (6) and (7), over all bends."""
-    return np.array([100.0 * share_below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean()
-                     for each in bent])
+    return np.array(
+        [100.0 * share_below((math.log(strength) - np.log(np.maximum(each, 1e-9))) / spread).mean() for each in bent]
+    )
 
 
 def _solved(optimize, bent, wanted):
@@ -147,10 +162,12 @@ def _solved(optimize, bent, wanted):
 
     def error(x):
         return float((abs(_model(bent, math.exp(x[0]), x[1]) - wanted) ** WORST).mean() ** (1.0 / WORST))
+
     bounds = [tuple(map(math.log, STRENGTH)), SPREAD]
     first = optimize.brute(error, bounds, Ns=24, finish=None)
-    best = optimize.minimize(error, first, method="Nelder-Mead", bounds=bounds,
-                             options={"xatol": 1e-4, "fatol": 1e-4, "maxiter": 400})
+    best = optimize.minimize(
+        error, first, method="Nelder-Mead", bounds=bounds, options={"xatol": 1e-4, "fatol": 1e-4, "maxiter": 400}
+    )
     return float(math.exp(best.x[0])), float(best.x[1])
 
 
@@ -163,11 +180,14 @@ def _regrowth(optimize, kind, reached, later):
 
     def error(rate, share):
         grown = replace(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
-        return sum(abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover) ** WORST
-                   for alpha, cover, days in known) ** (1.0 / WORST)
+        return sum(
+            abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover) ** WORST
+            for alpha, cover, days in known
+        ) ** (1.0 / WORST)
 
     def best(share):
         return optimize.minimize_scalar(lambda rate: error(rate, share), bounds=(0.0, 50.0), method="bounded")
+
     shares = np.linspace(0.0, 1.0, 101) if len(known) > 2 else [0.0]
     found = min(((best(share), share) for share in shares), key=lambda each: each[0].fun)
     return float(found[0].x) / YEAR, float(found[1])

@@ -30,8 +30,16 @@ ENOUGH = 400  # plants that tell a lane's cover to a point or so
 DENSER = 2.0  # a lane with fewer may be planted so many times as densely as the kind is
 EVEN = 1.2207440846057596 ** -np.arange(1.0, 4.0)  # steps that fill a cube evenly, x^4 = x + 1
 DAY = 86400.0  # [s]
-USUAL = {"length": 5.0, "width": 0.5, "mass": 75.0, "seed": 0, "soil": "soil", "cell_size": 0.02, "frame_rate": 60.0,
-         "density": None}
+USUAL = {
+    "length": 5.0,
+    "width": 0.5,
+    "mass": 75.0,
+    "seed": 0,
+    "soil": "soil",
+    "cell_size": 0.02,
+    "frame_rate": 60.0,
+    "density": None,
+}
 
 
 def walk(mass=75.0):
@@ -39,8 +47,22 @@ def walk(mass=75.0):
     return replace(Gait.load(WALK), mass=[mass]).check()
 
 
-def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, rest_days=0.0, soil="soil",
-            cell_size=0.02, frame_rate=60.0, density=None, threads=0, progress=None):
+def measure(
+    kind,
+    *,
+    length=5.0,
+    width=0.5,
+    passes=PASSES,
+    mass=75.0,
+    seed=0,
+    rest_days=0.0,
+    soil="soil",
+    cell_size=0.02,
+    frame_rate=60.0,
+    density=None,
+    threads=0,
+    progress=None,
+):
     """[(passes, cover [per cent]), ..] of a lane of one kind, rising.
 
     length, width [m]; mass of the walkers [kg]; seed: of the plants and of the walkers' scatter. rest_days: days
@@ -48,16 +70,30 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
     kind's own, or up to twice as many if they would be few to measure by. progress: called with 0..1.
     """
     kind, passes = as_kind(kind), _counts(passes)
-    for name, value, low, high in (("length", length, 0.5, 1000.0), ("width", width, 0.1, 100.0),
-                                   ("mass", mass, 1.0, 1000.0), ("rest", rest_days, 0.0, 1e6)):
+    for name, value, low, high in (
+        ("length", length, 0.5, 1000.0),
+        ("width", width, 0.1, 100.0),
+        ("mass", mass, 1.0, 1000.0),
+        ("rest", rest_days, 0.0, 1e6),
+    ):
         if not low <= value <= high:
             raise DesirePathError(f"A {name} of {value:g} cannot be used for a lane: choose {low:g} to {high:g}.")
     stand = _density(kind, length, width, density)
     if not 0.0 < stand * length * width <= MOST_PLANTS:
-        raise DesirePathError(f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that "
-                              f"makes up to {MOST_PLANTS} plants.")
-    lane = dict(length=length, width=width, mass=mass, seed=seed, soil=soil, cell_size=cell_size,
-                frame_rate=frame_rate, density=density)
+        raise DesirePathError(
+            f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that "
+            f"makes up to {MOST_PLANTS} plants."
+        )
+    lane = dict(
+        length=length,
+        width=width,
+        mass=mass,
+        seed=seed,
+        soil=soil,
+        cell_size=cell_size,
+        frame_rate=frame_rate,
+        density=density,
+    )
     if not rest_days:
         sim, marks = trodden(kind, passes[-1], threads=threads, **lane)
         return list(zip(passes, read_at(sim, [marks[n - 1] for n in passes], marks[-1], progress)))
@@ -68,6 +104,7 @@ def measure(kind, *, length=5.0, width=0.5, passes=PASSES, mass=75.0, seed=0, re
             shares[count] = share
             if progress:
                 progress(sum(n * done for n, done in shares.items()) / sum(passes))
+
         sim, marks = trodden(kind, count, threads=1, **lane)
         read_at(sim, marks[-1:], marks[-1], told)
         sim.rest_plants(rest_days * DAY)
@@ -84,8 +121,9 @@ def trodden(kind, passes, *, length, width, mass, seed, soil, cell_size, frame_r
     if frame_rate != person.frame_rate:
         person = replace(person.resample(frame_rate), frame_rate=frame_rate)
     gait = person.along(ends, passes, lateral=SCATTER * width, seed=seed)
-    sim = Simulation(Ground.flat(), soil, cell_size, plants=planted(kind, length, width, seed, density),
-                     threads=threads)
+    sim = Simulation(
+        Ground.flat(), soil, cell_size, plants=planted(kind, length, width, seed, density), threads=threads
+    )
     sim.load(gait, walker.loads(gait))
     return sim, [int(cut) for cut in gait.cut] + [len(gait.time) - 1]
 
@@ -152,8 +190,12 @@ def read(path):
             row = told["passes"], told["cover"], told.get("days", 0.0)
         except (KeyError, ValueError):
             raise DesirePathError(f"Line {number} of {path} is not in numbers: mend it.") from None
-        if not (1 <= row[0] <= MOST_PASSES and row[0] == int(row[0]) and 0.0 <= row[1] <= 100.0 and 0.0 <= row[2] < math.inf):
-            raise DesirePathError(f"Line {number} of {path} cannot be: passes are whole numbers from 1 on, cover is "
-                                  "0 to 100 per cent, days are 0 or more.")
+        if not (
+            1 <= row[0] <= MOST_PASSES and row[0] == int(row[0]) and 0.0 <= row[1] <= 100.0 and 0.0 <= row[2] < math.inf
+        ):
+            raise DesirePathError(
+                f"Line {number} of {path} cannot be: passes are whole numbers from 1 on, cover is "
+                "0 to 100 per cent, days are 0 or more."
+            )
         found.append((int(row[0]), *row[1:]))
     return found
