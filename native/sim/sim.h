@@ -18,8 +18,8 @@ typedef struct DpSim DpSim;
 
 typedef struct DpSimOptions
 {
-    DpContactLaw law;          // how a sole presses            design 6.2
-    DpHeapLaw    heap_law;     // how displaced soil is laid    design 6.3
+    DpContactLaw law;          // how a sole presses            MODEL 6.2
+    DpHeapLaw    heap_law;     // how displaced soil is laid    MODEL 6.3
     double       rim_width;    // `paper` heaps [m] > 0
     double       tolerance;    // slopes rest within gamma_r + this [rad] > 0
     int          most_sweeps;  // sweeps of one settling, baking: large [-] > 0

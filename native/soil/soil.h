@@ -25,7 +25,7 @@ void                         dp_soil_scratch_destroy(DpSoilScratch* scratch);
 
 typedef enum DpContactLaw
 {
-    DP_CONTACT_SOLE = 0,    // a rigid sole on springs, one sink for the limb (ours; design 6.2)
+    DP_CONTACT_SOLE = 0,    // a rigid sole on springs, one sink for the limb (ours; MODEL 6.2)
     DP_CONTACT_UNIFORM = 1  // one stress for all touched cells, as in the papers
 } DpContactLaw;
 
@@ -68,7 +68,7 @@ double dp_soil_anisotropy(DpVec3 push, double threshold);
 
 typedef enum DpHeapLaw
 {
-    DP_HEAP_REST = 0,  // laid at once in its resting shape (ours; design 6.3)
+    DP_HEAP_REST = 0,  // laid at once in its resting shape (ours; MODEL 6.3)
     DP_HEAP_PAPER = 1  // laid on a rim of fixed width, to be relaxed, TRAIL (12)
 } DpHeapLaw;
 

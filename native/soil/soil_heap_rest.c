@@ -1,8 +1,6 @@
-// soil/soil_heap_rest.c - displaced soil laid at once in the shape in which it rests. Ours;
-// design 6.3.
+// soil/soil_heap_rest.c - displaced soil laid at once in the shape in which it rests. Ours; MODEL 6.3
 //
-//   cones on the border cells, T sqrt(omega) high --(upper envelope)--> fill --> T until volume
-//   fits
+//   cones on the border cells, T sqrt(omega) high --(upper envelope)--> fill --> T until volume fits
 //
 // A straight heap against a wall with cross-section A is a triangle of height sqrt(2 A tan
 // gamma_r), so a border cell with share omega carries a cone of height T sqrt(omega) over its firm

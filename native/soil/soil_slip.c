@@ -1,4 +1,4 @@
-// soil/soil_slip.c - a sole gives way along the ground before it is carried.
+// soil/soil_slip.c - a sole gives way along the ground before it is carried. MODEL 6.5
 //
 // Departures
 //   The papers' feet stay where they land. TRAIL Fig. 12 has longer prints downhill: there the soles

@@ -1,10 +1,10 @@
 // walker/foot_accel.c - how the ground accelerates a body, low-passed by how often it steps.
 //
 // Departures
-//   Design 4.3 low-passes a_com at three step frequencies. Up and down that is kept: the force
-//   rises and falls twice a step. Over the ground it changes less often, forward once a step
-//   (brake, drive) and sideways once in two, so that two step frequencies hold it, and what lies
-//   above is the recording's noise, which the zero-moment point would take for steps.
+//   MODEL 4.3: upward a_com is low-passed at three step frequencies, since the force rises and falls
+//   twice a step. Over the ground it changes less often, forward once a step (brake, drive) and
+//   sideways once in two, so that two step frequencies hold it, and what lies above is the
+//   recording's noise, which the zero-moment point would take for steps.
 //   test_foot_force.c, level_noise_is_not_a_step.
 #include <math.h>
 

@@ -1,4 +1,4 @@
-// walker/foot_force.c - how hard every part presses. TRAIL (3), SOFT22 (3)-(8), design 4.3.
+// walker/foot_force.c - how hard every part presses. TRAIL (3), SOFT22 (3)-(8), MODEL 4.3.
 //
 //   touching ---ramps---> s_i ---zero-moment point---> a_i ---m (g - a_com)---> force of each limb
 //                                                                    \--same rule--> of each part
@@ -9,7 +9,7 @@
 //   jump_weighs_right.
 //   SOFT22 (5): the denominator is |p_R - p_L|^2; see dp_foot_share.
 //   TRAIL (3): v(t0 - dt) does not depend on the frame rate; see foot_landing.c.
-//   Design 4.3, step 2: mu is whole only while feet change or the force leans along the line between
+//   MODEL 4.3, step 2: mu is whole only while feet change or the force leans along the line between
 //   them, and none at rest; see doubtful(). tests/core/test_trials.py, squats.
 #include <math.h>
 

@@ -1,4 +1,4 @@
-// walker/foot_load.c - which limbs and points of a walker carry it, and how surely. Design 4.3.
+// walker/foot_load.c - which limbs and points of a walker carry it, and how surely. MODEL 4.3
 #include "walker/foot_load.h"
 
 #include <math.h>

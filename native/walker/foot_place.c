@@ -1,4 +1,4 @@
-// walker/foot_place.c - feet recorded on a floor, put on a slope. TRAIL (1) (2), design 4.1
+// walker/foot_place.c - feet recorded on a floor, put on a slope. TRAIL (1) (2), MODEL 4.1
 //
 //   q_kin ---clearance of its tip: w---> towards the slope (1) ---steep: heel up (2)---> set down
 //

@@ -1,9 +1,9 @@
-// walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5),
-// design 4.3.
+// walker/foot_share.c - who carries how much: ramps and the zero-moment point. SOFT22 (5), MODEL 4.3
 //
 // Departures
-//   Design 4.3 eases ramps in and out. With contacts timed by where the ground stops a foot and
-//   lets it go (foot_edge.c) weight goes over evenly: a heel is stiff and takes its load at once.
+//   SOFT22 (4): as printed weight has no time in which it goes from foot to foot. Ramps are even, not
+//   eased: contacts are timed by where the ground stops a foot and lets it go (foot_edge.c), and a
+//   heel is stiff and takes its load at once. test_foot_force.c, ramps_ease_from_foot_to_foot.
 #include <math.h>
 
 #include "base/assert.h"

@@ -1,11 +1,11 @@
-// walker/gait_resample.c - a recording at another rate. Design 3.
+// walker/gait_resample.c - a recording at another rate. MODEL 3.2
 //
 // Positions follow a cubic through their neighbours, and so do rotations, in the turn from the
 // sample before.
 //
 // Departures
-//   Design 3 slerps rotations. From frame to frame that changes a foot's spin at frames only, and
-//   with 24 of them in a second its ball is lifted hardest at a frame, not when it leaves the ground.
+//   MODEL 3.2: a slerp changes a foot's spin at frames only, and with 24 of them in a second its ball
+//   is lifted hardest at a frame, not when it leaves the ground.
 //   test_gait_resample.c, turns_without_a_jerk_at_frames.
 #include <math.h>
 

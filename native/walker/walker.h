@@ -1,7 +1,7 @@
 // walker/walker.h - from what a walker did to the forces its limbs put on the ground.
 //
 //   gait_resample ---Gait at one rate---> foot_contact ---touching---> foot_force
-//   design 3                              TRAIL (4)                    TRAIL (3), SOFT22 (3)-(8)
+//   MODEL 3.2                             TRAIL (4)                    TRAIL (3), SOFT22 (3)-(8)
 //
 //   foot_place: a Gait of the floor ---> a Gait of the slope, before all that. TRAIL (1) (2)
 //
@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "base/types.h"
 
-// ---- design 3: a recording at another rate ---------------------------------------------------
+// ---- MODEL 3.2: a recording at another rate -------------------------------------------------
 
 // How many samples a recording from first to last [s] has at `rate` [1/s]: every k / rate that
 // fits.
@@ -91,7 +91,7 @@ DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpConta
 
 typedef enum DpLoadModel
 {
-    DP_LOAD_INERTIA = 0,  // Newton on the recorded centre of mass (ours; design 4.3)
+    DP_LOAD_INERTIA = 0,  // Newton on the recorded centre of mass (ours; MODEL 4.3)
     DP_LOAD_IMPULSE = 1   // weight shares and a landing impulse over tau, as in the papers
 } DpLoadModel;
 
@@ -103,7 +103,7 @@ typedef struct DpLoadOptions
                                 //                                                 [s] > 0 (K, T)
     bool half_sine;             // `impulse`: spread J as a half-sine, else evenly [-]
 
-    // `inertia`, design 4.3
+    // `inertia`, MODEL 4.3
     double cutoff_share;   // low-pass of a_com in step frequencies               [-]  > 0
     double cutoff_low;     // and its bounds                                      [Hz] > 0
     double cutoff_high;    //                                                     [Hz] >= cutoff_low

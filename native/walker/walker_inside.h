@@ -111,7 +111,7 @@ DpVec3 dp_walker_landing_velocity(const DpGait* gait, const DpLanding* landing,
                                   const uint8_t* limb_on, int limbs, double rate, int t);
 
 // How much of the weight each of `count` supports carries: ramps first, corrected by the
-// zero-moment point where the supports are far apart. Design 4.3.
+// zero-moment point where the supports are far apart. MODEL 4.3.
 // @param share   in: s_i of the ramps, sum 1; out: a_i >= 0, sum 1  [-] (count)
 // @param at      centres of contact, horizontal                     [m] (count)
 // @param target  where the supports' mean should be                 [m]
@@ -120,7 +120,7 @@ DpVec3 dp_walker_landing_velocity(const DpGait* gait, const DpLanding* landing,
 void dp_walker_share(double* share, const DpVec3* at, int count, DpVec3 target, double mu,
                      double support_span);
 
-// Ramps of supports that touch and let go. Design 4.3, step 1.
+// Ramps of supports that touch and let go. MODEL 4.3, step 1.
 // @param touching  (count, times)
 // @param rolls     points of one foot: weight rolls evenly for as long as both are down
 // @param weight    out: 0 in the air, easing to 1 on the ground (count, times)

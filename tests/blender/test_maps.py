@@ -1,4 +1,4 @@
-"""The maps of a bake as Blender's own image: layers by name, and the bits of the grid (oracle 14)."""
+"""The maps of a bake as Blender's own image: layers by name, and the bits of the grid, MODEL 11.14."""
 
 import bpy
 import numpy as np

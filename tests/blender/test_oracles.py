@@ -1,4 +1,4 @@
-"""How deep, how much, whatever the frame rate: oracles 1, 2, 3, 7 and 11 of the pressed ground, from an
+"""How deep, how much, whatever the frame rate: MODEL 11.1-11.3, 11.7 and 11.11, of the pressed ground, from an
 armature's keys to the mesh that plays. What is expected is reckoned here, not taken from a bake."""
 
 import csv
@@ -19,7 +19,7 @@ def within(found, wanted, share):
 
 
 def depth(mass, soil, area=LENGTH * WIDTH):
-    """Oracle 1: c = m g L0 / (E A) [m]."""
+    """MODEL 11.1: c = m g L0 / (E A) [m]."""
     return mass * stands.GRAVITY * soil.layer_depth / (soil.young_modulus * area)
 
 

@@ -1,4 +1,4 @@
-"""What a print looks like, however the scene stands and the work is cut: oracles 4, 5 and 6 of the pressed
+"""What a print looks like, however the scene stands and the work is cut: MODEL 11.4-11.6, of the pressed
 ground, from an armature's keys to the mesh that plays."""
 
 import math

@@ -344,7 +344,7 @@ def test_feet_go_down_into_their_prints(folder):
     assert abs(json.loads(settings.summary)["deepest_m"] / deep - 1.0) < 0.1
 
 
-# ---- oracle 13, TRAIL Fig. 12 ---------------------------------------------------------------------------
+# ---- MODEL 11.13, TRAIL Fig. 12 -------------------------------------------------------------------------
 
 
 def prints(folder, steep, aside, *, character):

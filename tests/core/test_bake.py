@@ -471,7 +471,7 @@ def test_a_write_that_fails_in_the_middle_loses_nothing(tmp_path):
 
 
 def test_another_program_reads_the_same_bits(tmp_path):
-    """Oracle 14."""
+    """MODEL 11.14"""
     baked(tmp_path)
     final = maps.read(tmp_path / "maps_final.exr").planes
     for name, plane in final.items():

@@ -1,4 +1,4 @@
-"""Lanes of plants that are trodden, and kinds that are found from what is left of them. Design 7, oracle 10."""
+"""Lanes of plants that are trodden, and kinds that are found from what is left of them. MODEL 7.7, 11.10"""
 
 import math
 import os
@@ -30,7 +30,7 @@ def side_by_side(*lanes):
         return [np.array([cover for _, cover in rows]) for rows in told]
 
 
-# ---- oracle 10: the longest tests there are --------------------------------------------------------------
+# ---- MODEL 11.10: the longest tests there are ------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")

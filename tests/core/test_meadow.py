@@ -1,4 +1,4 @@
-"""Plants on the ground that is walked on: Simulation and Bake with plants. TRAIL (5)-(9), design 7 and 8."""
+"""Plants on the ground that is walked on: Simulation and Bake with plants. TRAIL (5)-(9), MODEL 7 and MODEL 8"""
 
 import struct
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What must hold of the ground whoever walks on it: design 11, oracles 1 to 7 and 11."""
+"""What must hold of the ground whoever walks on it: MODEL 11.1-11.7, 11.11"""
 
 import math
 from dataclasses import replace
@@ -276,7 +276,7 @@ def test_a_foot_s_volume_does_not_depend_on_the_cell():
 
 
 def falling_sphere(mass=50.0, height=2.5, radius=0.15):
-    """A sphere dropped from `height`, sampled until 0.5 s after it lands (oracle 11)."""
+    """A sphere dropped from `height`, sampled until 0.5 s after it lands, MODEL 11.11"""
     rate = 240.0
     fall = math.sqrt(2 * height / G)
     time = np.arange(int((fall + 0.5) * rate) + 1) / rate

@@ -1,4 +1,4 @@
-"""Feet on slopes: against a literal twin, and prints up, down and across a hill. TRAIL (1) (2), oracle 13."""
+"""Feet on slopes: against a literal twin, and prints up, down and across a hill. TRAIL (1) (2), MODEL 11.13"""
 
 import math
 from dataclasses import replace
@@ -221,7 +221,7 @@ def test_what_cannot_be_is_a_sentence(words, arguments):
         place.place_feet(cmu(), **arguments)
 
 
-# ---- oracle 13, TRAIL Fig. 12 -------------------------------------------------------------------------
+# ---- MODEL 11.13, TRAIL Fig. 12 -----------------------------------------------------------------------
 
 
 def tracks(steep, turned):

@@ -1,4 +1,4 @@
-"""Rigid bodies: what they weigh on, where they touch, and what they press. Oracle 1."""
+"""Rigid bodies: what they weigh on, where they touch, and what they press. MODEL 11.1"""
 
 import numpy as np
 import pytest

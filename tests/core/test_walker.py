@@ -159,7 +159,7 @@ def test_impulse_is_trail_3(seed):
 
 
 def test_sphere_from_two_and_a_half_metres():
-    """Oracle 11: 50 kg, tau 0.2 s: 2241 N at impact."""
+    """MODEL 11.11: 50 kg, tau 0.2 s: 2241 N at impact."""
     peaks = []
     for rate in (60.0, 120.0, 240.0, 24.0):
         time = np.arange(int(2 * rate)) / rate
@@ -195,7 +195,7 @@ def errors(name, model="inertia", gait=None, window=None, **more):
 
 @pytest.mark.parametrize("name", plates.TRIALS)
 def test_forces_hold_up_against_plates(name):
-    """Oracle 12."""
+    """MODEL 11.12"""
     found = errors(name)
     print(
         f"{name}: RMSE {found.rmse[0]:.3f} {found.rmse[1]:.3f} body weights, r {found.r[0]:.3f} {found.r[1]:.3f}, "

@@ -37,6 +37,10 @@ def tree(tmp_path):
     put("tests/native/soil/test_soil_press.c", "// TRAIL (10)\n")
     put("tests/reference/soil.py", "depth = 1  # TRAIL (10)\n")
     put("addon/desire_path/ground/soil.py", "depth = 1  # TRAIL (10)\n")
+    put("native/model.md", "# The model\n\n## 6 The soil\n\n### 6.2 Pressed\n\nTRAIL (9) (10).\n\n### 6.10 Last\n")
+    put("native/README.md", "TRAIL (9), MODEL 6.2\n")
+    put("native/soil/soil_slip.c", "// MODEL 6, MODEL 6.2\nint h = 3;  // MODEL 6.2, 3 cells\n")
+    put("tests/core/test_slip.py", "# MODEL 6.2-6.4 and 6.10\n")
     return tmp_path
 
 
@@ -50,6 +54,7 @@ def test_where_finds_what_is_there(tree):
     assert "addon/desire_path/ground/soil.py:1" in found["python"] and "py_soil.c:1" in found["python"]
     assert "tests/native/soil/test_soil_press.c:1" in found["tested"]
     assert "tests/reference/soil.py:1" in found["twin"]
+    assert "native/model.md:7" in found["model"] and found["model"].count("native/") == 1
 
 
 @pytest.mark.parametrize(
@@ -63,6 +68,14 @@ def test_where_finds_what_is_there(tree):
         (("soft22", "10"), "soil_press.c:4"),
         (("4.2.1",), "soil_press.c:4"),
         (("TRAIL", "4.2.1"), "soil_press.c:4"),
+        (("MODEL", "6.2"), "model.md:5"),
+        (("model", "6.2"), "soil_slip.c:1"),
+        (("MODEL", "6.2"), "test_slip.py:1"),
+        (("MODEL", "6.2"), "soil_slip.c:2"),
+        (("MODEL", "6"), "model.md:3"),
+        (("MODEL", 6), "soil_slip.c:1"),
+        (("MODEL", "6.3"), "test_slip.py:1"),
+        (("MODEL", "6.10"), "test_slip.py:1"),
     ],
 )
 def test_where_understands_ranges_papers_and_sections(tree, words, line):
@@ -89,6 +102,11 @@ def test_where_without_words_is_a_table(tree):
         "TRAIL (14)",
         "TRAIL 4.2.1",
         "SOFT22 (10)",
+        "MODEL 6",
+        "MODEL 6.2",
+        "MODEL 6.3",
+        "MODEL 6.4",
+        "MODEL 6.10",
     ]
     assert "soil/soil_press.c:3" in lines[2]
 
@@ -97,6 +115,7 @@ def test_where_without_words_is_a_table(tree):
 def test_every_equation_is_on_the_line_that_computes_it(number):
     told = run("where", number).stdout
     assert re.search(r"\n  computed: .*\n    native/\w+/\w+\.c:\d+ ", told), told
+    assert re.search(r"\n  model: .*\n    native/model\.md:\d+ ", told), told
 
 
 def test_rooms_hold(tmp_path):

@@ -80,7 +80,7 @@ def slide(h, cell, rest_angle, step, passes):
             return
 
 
-# ---- ours: how a sole is carried, design 6.2 ----------------------------------------------------
+# ---- ours: how a sole is carried, MODEL 6.2 -----------------------------------------------------
 
 RIGID = 0.95  # share of L0 that can be pressed
 STIFFER = 100.0  # how much harder the ground is below it
@@ -177,7 +177,7 @@ def compress(patch, bottom, cover, load, dt, law="sole"):
     return touched, firm, loose, displaced, sink
 
 
-# ---- ours: how heaps are laid, design 6.3 -------------------------------------------------------
+# ---- ours: how heaps are laid, MODEL 6.3 --------------------------------------------------------
 
 
 def rings(touched, most):
@@ -300,7 +300,7 @@ def accumulate_rest(patch, ring, cover, foot, volume, threshold, slope):
     return high
 
 
-# ---- ours: how they come to rest, design 6.4 ----------------------------------------------------
+# ---- ours: how they come to rest, MODEL 6.4 -----------------------------------------------------
 
 
 def sweep(patch, touched=None, tolerance=1e-5):

@@ -1,4 +1,4 @@
-"""Slow literal twins of the walker: TRAIL (3) (4), SOFT22 (3)-(8), design 4.2 and 4.3.
+"""Slow literal twins of the walker: TRAIL (3) (4), SOFT22 (3)-(8), MODEL 4.2 and 4.3.
 
 For limbs of one part with one contact point each; everything is spelled out over plain arrays.
 """
@@ -92,7 +92,7 @@ def resting_height(height, speeds):
 
 
 def touches(height, speeds, com_speed, clearance, heel, dropping):
-    """One point's contact by hysteresis. TRAIL (4), design 4.2"""
+    """One point's contact by hysteresis. TRAIL (4), MODEL 4.2"""
     on, state, rested = [], False, False
     for h, v, v_com, drop in zip(height, speeds, com_speed, dropping):
         d = h - clearance
@@ -163,7 +163,7 @@ def stances(on):
 
 
 def ramps_of_two(on, rate):
-    """W_i of two limbs. Design 4.3, step 1"""
+    """W_i of two limbs. MODEL 4.3, step 1"""
     count = on.shape[1]
     weight = np.zeros(on.shape)
     for i in (0, 1):
@@ -192,7 +192,7 @@ def ramps_of_two(on, rate):
 
 
 def share_of_two(s, a_star, length, mu, reach=0.3):
-    """The first limb's share. Design 4.3, step 2, closed form"""
+    """The first limb's share. MODEL 4.3, step 2, closed form"""
     q, lam = s * (1 - s), length**2 / (length**2 + reach**2)
     return min(max((mu * s + 2 * lam * q * a_star) / (mu + 2 * lam * q), 0.0), 1.0)
 

@@ -1,4 +1,4 @@
-"""slopes.py - how much loose soil lies steeper than it stays. Oracle 5 of the design."""
+"""slopes.py - how much loose soil lies steeper than it stays. MODEL 11.5"""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Plants, design 7 and 9: kinds, as data in SI units that can be saved, changed and shared, and where they stand.
+"""Plants, MODEL 7.1 and 9.2: kinds, as data in SI units that can be saved, changed and shared, and where they stand.
 
 lawn = Planting(KINDS["lawn"], seed=3)                       # wherever the walk goes, 300 plants a m^2
 meadow = Planting("meadow", weight=grid, rectangle=(0, 0, 8, 5))   # thinned by an image over 8 x 5 m

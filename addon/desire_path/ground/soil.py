@@ -1,4 +1,4 @@
-"""Kinds of ground, design 9: presets for looks, from the papers' tables, in SI units."""
+"""Kinds of ground, MODEL 9.1: presets for looks, from the papers' tables, in SI units."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From a recording to the forces its feet put on the ground. TRAIL (3) (4), design 4.2 and 4.3."""
+"""From a recording to the forces its feet put on the ground. TRAIL (3) (4), MODEL 4.2 and 4.3."""
 
 import csv
 import os

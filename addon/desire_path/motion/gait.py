@@ -1,4 +1,4 @@
-"""The recording of what the walkers did: everything after it runs without Blender. Design 3.
+"""The recording of what the walkers did: everything after it runs without Blender. MODEL 3.1
 
 Arrays carry the names, units and shapes of DpGait in native/base/types.h: W walkers own L limbs,
 L limbs own P parts, P parts own K contact points, all over T times.

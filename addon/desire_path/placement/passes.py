@@ -1,4 +1,4 @@
-"""A clip's cycle carried along a path, pass after pass: what makes a trail. Design 7.
+"""A clip's cycle carried along a path, pass after pass: what makes a trail. MODEL 3.6
 
 Every limb moves with the place it stands on. While it touches, that place is still, so a foot is set down on
 the curve as it was in the clip and does not slide, in bends too; in the air it is led to the next place.

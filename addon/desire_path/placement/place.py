@@ -1,4 +1,4 @@
-"""Feet put on the ground they walk over, and the walker carried there. TRAIL (1) (2), design 4.1
+"""Feet put on the ground they walk over, and the walker carried there. TRAIL (1) (2), MODEL 4.1
 
 Gait of a level floor --carry: feet and body rise with the ground--> --tilt: (1), (2)--> Gait of the hill
 """

@@ -1,4 +1,4 @@
-"""Feet let down into the prints they press, and the body with them. Design 4.4
+"""Feet let down into the prints they press, and the body with them. MODEL 4.4
 
 Gait, its loads, the pressed ground over time ---depth under each limb---> eased in the air ---> Gait in its prints
 """

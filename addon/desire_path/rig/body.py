@@ -1,4 +1,4 @@
-"""From bones that moved to a Gait: mass centre, contact parts, soles, contact points. Design 3.
+"""From bones that moved to a Gait: mass centre, contact parts, soles, contact points. MODEL 3.5
 
 Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
 """

@@ -1,4 +1,4 @@
-"""From measured cover to a kind of plant: which reserves, and how different ones, wear as the table says. Design 7.
+"""From measured cover to a kind of plant: which reserves, and how different ones, wear as the table says. MODEL 7.7
 
     lane of stems that cannot break ---how long each is bent---> model of cover ---SciPy---> strength, spread
                          ^                                                                      |

@@ -1,4 +1,4 @@
-"""The lane experiment: how much of a stand is left where people walk to and fro. Cole 1995, design 7.
+"""The lane experiment: how much of a stand is left where people walk to and fro. Cole 1995, MODEL 7.7
 
 A lane is planted, trodden so many times from end to end, and its cover is read: the mean over its plants of
 the share that is not broken, alpha of TRAIL (7). With days of rest every count is a lane of its own, which

@@ -1,4 +1,4 @@
-// how much of the ground is held. TRAIL (7), TRAIL (8), oracle 9 of the design
+// how much of the ground is held. TRAIL (7), TRAIL (8), MODEL 11.9
 #include "lawn.h"
 
 #define N 20

@@ -1,4 +1,4 @@
-// what bending costs. TRAIL (6), oracle 8 of the design
+// what bending costs. TRAIL (6), MODEL 11.8
 #include "lawn.h"
 
 #define DEG (PI / 180.0)

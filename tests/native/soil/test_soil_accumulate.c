@@ -258,7 +258,7 @@ TEST(no_border)
     ground_free(&ground);
 }
 
-// oracle 4, to the bit: a print and its mirror, a quarter turn; an even push
+// MODEL 11.4, to the bit: a print and its mirror, a quarter turn; an even push
 TEST(mirrored_to_the_bit)
 {
     enum

@@ -28,7 +28,7 @@ static DpPressed stand(Ground* ground, BoxSole sole, double newton, DpContactLaw
 
 static const BoxSole shoe = {.length = 0.275, .width = 0.10};
 
-// oracle 1: c = m g L0/(E A): 75 kg on 0.0275 m^2, 0.35 MPa
+// MODEL 11.1: c = m g L0/(E A): 75 kg on 0.0275 m^2, 0.35 MPa
 TEST(flat_sole_is_trail_10)
 {
     for (int law = 0; law < 2; ++law) {
@@ -79,11 +79,11 @@ TEST(proportional)
         CHECK_CLOSE(depth[1], 2.0 * depth[0], 1e-5);  // the load
         CHECK_CLOSE(depth[2], 2.0 * depth[0], 1e-5);  // the layer
         CHECK_CLOSE(depth[3], 0.5 * depth[0], 1e-5);  // the stiffness
-        CHECK_CLOSE(depth[4], 2.0 * depth[0], 0.01);  // half the area, twice the depth: oracle 7
+        CHECK_CLOSE(depth[4], 2.0 * depth[0], 0.01);  // half the area, twice the depth: MODEL 11.7
     }
 }
 
-// oracle 2
+// MODEL 11.2
 TEST(frame_rate_does_not_matter)
 {
     double       volume[3];
@@ -218,7 +218,7 @@ TEST(first_touch_is_finite)
     ground_free(&ground);
 }
 
-// oracle 6: cells of 4, 2, 1 cm and a sole that lies anywhere
+// MODEL 11.6: cells of 4, 2, 1 cm and a sole that lies anywhere
 TEST(cells_do_not_matter)
 {
     const BoxSole sole = {.x = 0.0137, .y = -0.0071, .length = 0.28, .width = 0.10, .heading = 0.4};
@@ -269,7 +269,7 @@ TEST(nothing_to_press)
     ground_free(&ground);
 }
 
-// oracle 4: mirrored and turned input gives the same bits, mirrored and turned
+// MODEL 11.4: mirrored and turned input gives the same bits, mirrored and turned
 TEST(mirrored_to_the_bit)
 {
     enum

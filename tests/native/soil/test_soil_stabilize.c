@@ -1,4 +1,4 @@
-// tests of soil_stabilize.c, and of the three steps together: TRAIL (14)-(16), oracles 3-7, 11
+// tests of soil_stabilize.c, and of the three steps together: TRAIL (14)-(16), MODEL 11.3-11.7, 11.11
 #include "check.h"
 #include "ground.h"
 
@@ -241,7 +241,7 @@ TEST(mirrored_to_the_bit)
     for (int m = 0; m < 3; ++m) ground_free(&g[m]);
 }
 
-// oracle 3 over overlapping prints, oracle 5 at the end
+// MODEL 11.3 over overlapping prints, MODEL 11.5 at the end
 TEST(ledger_of_many_prints)
 {
     for (int law = 0; law < 2; ++law) {
@@ -266,7 +266,7 @@ TEST(ledger_of_many_prints)
     }
 }
 
-// oracle 6: cells of 4, 2, 1 cm
+// MODEL 11.6: cells of 4, 2, 1 cm
 TEST(cells_do_not_matter)
 {
     double volume[3], rim[3];
@@ -285,7 +285,7 @@ TEST(cells_do_not_matter)
     }
 }
 
-// oracle 11, SOFT22 Fig. 7: depth up with load, down with E, unchanged by nu; rim up with nu
+// MODEL 11.11, SOFT22 Fig. 7: depth up with load, down with E, unchanged by nu; rim up with nu
 TEST(trends_of_soft22)
 {
     double depth[4], rim[4];

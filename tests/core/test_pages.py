@@ -1,0 +1,95 @@
+"""What the pages for newcomers say is there: sections that code refers to, tests that hold what must hold, paths."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+MODEL = ROOT / "native" / "model.md"
+TEXTS = {".c", ".h", ".py", ".md", ".toml", ""}
+EXAMPLES = {"test_pages.py", "test_where.py"}  # what these name is made up
+TEST = re.compile(r"\b(test_\w+\.(?:c|py)),\s*(?://\s*|#\s*)?(\w+)")
+
+
+def kept():
+    """Files of the project, as git knows them; all there are where it knows none."""
+    told = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    if told.returncode:
+        return [path for path in ROOT.rglob("*") if path.is_file() and "build" not in path.parts]
+    return [ROOT / name for name in told.stdout.split("\0") if name and (ROOT / name).is_file()]
+
+
+def texts(*places):
+    for path in kept():
+        if path.suffix in TEXTS and path.relative_to(ROOT).parts[0] in places and path.name not in EXAMPLES:
+            yield path, path.read_text(encoding="utf-8", errors="replace")
+
+
+def references(text):
+    """Sections of the model that a text names: '11.1-11.3, 11.7 and 11.11' are five."""
+    for run in re.findall(r"\bMODEL ((?:(?:\s|,|-|and\b)*\d+(?:\.\d+)+)+|\d+\b)", text):
+        yield from re.findall(r"\d+(?:\.\d+)*", run)
+
+
+def headings():
+    return set(re.findall(r"^#+ (\d+(?:\.\d+)*) ", MODEL.read_text(encoding="utf-8"), re.MULTILINE))
+
+
+def test_every_reference_to_the_model_leads_to_a_heading():
+    known, count = headings(), 0
+    for path, text in texts("native", "addon", "tests", "scripts", "README.md"):
+        for section in references(text):
+            count += 1
+            assert section in known, f"{path.relative_to(ROOT)}: MODEL {section} is no section of native/model.md"
+        lost = re.search(r"\b[Dd]esign,? \d|\b[Oo]racles? \d", text)
+        assert not lost, f"{path.relative_to(ROOT)}: '{lost[0]}' leads nowhere; say MODEL and a section"
+    assert count > 40
+
+
+def test_references_are_understood():
+    told = (
+        "MODEL 11.1-11.3, 11.7 and 11.11 of it. MODEL 7 and MODEL 8.\n(ours; MODEL 6.2) MODEL 4.3, step 2: DP_MODEL 5"
+    )
+    assert list(references(told)) == ["11.1", "11.3", "11.7", "11.11", "7", "8", "6.2", "4.3"]
+
+
+def test_sections_are_numbered_in_their_order():
+    numbers = [
+        [int(digit) for digit in found.split(".")]
+        for found in re.findall(r"^##+ (\d+(?:\.\d+)*) ", MODEL.read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert numbers == sorted(numbers) and len(numbers) == len({tuple(number) for number in numbers})
+
+
+def test_departures_and_oracles_name_tests_that_are_there():
+    """'test_soil_compress.c, over_an_edge': a file somewhere below tests/, and a name in it."""
+    files, count = {}, 0
+    for path in kept():
+        if path.name.startswith("test_"):
+            files[path.name] = files.get(path.name, "") + path.read_text(encoding="utf-8")
+    for path, text in texts("native", "addon"):
+        for file, name in TEST.findall(text):
+            count += 1
+            assert file in files, f"{path.relative_to(ROOT)} names {file}, which is not there"
+            held = re.search(rf"TEST\({name}\)|def (?:test_)?{name}\(|\b{name}\b", files[file])
+            assert held, f"{path.relative_to(ROOT)} names {name}, which {file} has not"
+    assert count > 60
+
+
+def test_every_oracle_is_held_by_a_test():
+    text = MODEL.read_text(encoding="utf-8")
+    for oracle in re.split(r"^### 11\.", text, flags=re.MULTILINE)[1:]:
+        assert TEST.search(oracle), f"MODEL 11.{oracle.splitlines()[0]} names no test"
+
+
+@pytest.mark.parametrize("page", ["native/model.md"])
+def test_paths_on_the_pages_are_there(page):
+    for path in re.findall(r"`((?:native|addon|tests|scripts|\.github)/[\w./-]+)`", (ROOT / page).read_text("utf-8")):
+        assert (ROOT / path).exists(), f"{page} names {path}, which is not there"
