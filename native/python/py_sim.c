@@ -31,7 +31,7 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     if (!PyArg_ParseTupleAndKeywords(
             args, kwargs, "O!Od|(dd)iididi:Simulation", words, &PyTuple_Type, &ground_tuple,
             &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
-            &options.most_sweeps, &options.normal_radius, &options.workers))
+            &options.max_sweeps, &options.normal_radius, &options.workers))
         return NULL;
     if (law < 0 || law > 1 || heap < 0 || heap > 1)
         return PyErr_Format(PyExc_ValueError, "law, heap: expected 0 or 1 each, got %d and %d", law,
@@ -217,7 +217,7 @@ static PyObject* simulation_reach(Simulation* self, PyObject* unused)
     (void)unused;
     long reach[4];
     if (!dp_py_enter(self)) return NULL;
-    dp_sim_reach(self->sim, reach);
+    dp_sim_bounds(self->sim, reach);
     self->busy = false;
     return Py_BuildValue("(llll)", reach[0], reach[1], reach[2], reach[3]);
 }

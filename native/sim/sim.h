@@ -18,13 +18,13 @@ typedef struct DpSim DpSim;
 
 typedef struct DpSimOptions
 {
-    DpContactLaw law;          // how a sole presses            MODEL 6.2
-    DpHeapLaw    heap_law;     // how displaced soil is laid    MODEL 6.3
-    double       rim_width;    // `paper` heaps [m] > 0
-    double       tolerance;    // slopes rest within gamma_r + this [rad] > 0
-    int          most_sweeps;  // sweeps of one settling, baking: large [-] > 0
-    double normal_radius;      // the rest ground is smoothed over this for N and placement [m] > 0
-    int    workers;            // threads, >= 1
+    DpContactLaw law;         // how a sole presses            MODEL 6.2
+    DpHeapLaw    heap_law;    // how displaced soil is laid    MODEL 6.3
+    double       rim_width;   // `paper` heaps [m] > 0
+    double       tolerance;   // slopes rest within gamma_r + this [rad] > 0
+    int          max_sweeps;  // sweeps of one settling, baking: large [-] > 0
+    double normal_radius;     // the rest ground is smoothed over this for N and placement [m] > 0
+    int    workers;           // threads, >= 1
 } DpSimOptions;
 
 DpSimOptions dp_sim_options_default(void);
@@ -90,7 +90,7 @@ DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
 
 // Cells the loaded recording can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
 // empty (i0 >= i1) when nothing touches.
-void dp_sim_reach(const DpSim* sim, long reach[4]);
+void dp_sim_bounds(const DpSim* sim, long bounds[4]);
 
 // Step over samples up to but not including `sample` (0..T). Steps already taken are not repeated.
 // One that fails leaves its step half made: what can be done then is to load anew or to destroy.

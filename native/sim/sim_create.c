@@ -12,7 +12,7 @@ DpSimOptions dp_sim_options_default(void)
         .heap_law = DP_HEAP_REST,
         .rim_width = 0.04,
         .tolerance = 0.1 * 3.14159265358979323846 / 180.0,
-        .most_sweeps = 100000,
+        .max_sweeps = 100000,
         .normal_radius = 0.25,
         .workers = 1,
     };
@@ -24,7 +24,7 @@ static bool options_hold(const DpSimOptions* o)
     return (o->law == DP_CONTACT_SOLE || o->law == DP_CONTACT_UNIFORM) &&
            (o->heap_law == DP_HEAP_REST || o->heap_law == DP_HEAP_PAPER) &&
            isfinite(o->rim_width) && o->rim_width > 0.0 && o->tolerance > 0.0 &&
-           o->tolerance < 1.0 && o->most_sweeps > 0 && isfinite(o->normal_radius) &&
+           o->tolerance < 1.0 && o->max_sweeps > 0 && isfinite(o->normal_radius) &&
            o->normal_radius > 0.0 && o->workers >= 1 && o->workers <= 64;
 }
 
@@ -41,21 +41,21 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
     sim->origin_x = origin[0];
     sim->origin_y = origin[1];
     sim->samples = dp_imprint_samples(sim->cell);
-    sim->bench_count = options->workers;
-    sim->bench = dp_alloc((size_t)sim->bench_count, sizeof *sim->bench);
-    bool whole = sim->bench != NULL;
-    for (int b = 0; whole && b < sim->bench_count; ++b) {
-        Bench* bench = &sim->bench[b];
-        bench->loan = dp_lease_create();
-        bench->imprint_scratch = dp_imprint_scratch_create();
-        bench->soil_scratch = dp_soil_scratch_create();
-        whole = bench->loan && bench->imprint_scratch && bench->soil_scratch;
+    sim->worker_count = options->workers;
+    sim->scratch = dp_alloc((size_t)sim->worker_count, sizeof *sim->scratch);
+    bool complete = sim->scratch != NULL;
+    for (int b = 0; complete && b < sim->worker_count; ++b) {
+        WorkerScratch* scratch = &sim->scratch[b];
+        scratch->lease = dp_lease_create();
+        scratch->imprint_scratch = dp_imprint_scratch_create();
+        scratch->soil_scratch = dp_soil_scratch_create();
+        complete = scratch->lease && scratch->imprint_scratch && scratch->soil_scratch;
     }
-    for (int n = 0; whole && n < AHEAD_MOST; ++n) {
-        sim->ahead.loan[n] = dp_lease_create();
-        whole = sim->ahead.loan[n] != NULL;
+    for (int n = 0; complete && n < MAX_SPECULATED; ++n) {
+        sim->speculation.lease[n] = dp_lease_create();
+        complete = sim->speculation.lease[n] != NULL;
     }
-    if (!whole) {
+    if (!complete) {
         dp_sim_destroy(sim);
         return DP_NO_MEMORY;
     }
@@ -65,46 +65,47 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
 
 static void drop_recording(DpSim* sim)
 {
-    dp_meadow_drop(sim);
-    sim->ahead.planned = false, sim->ahead.count = 0;
+    dp_stage_drop(sim);
+    sim->speculation.planned = false, sim->speculation.count = 0;
     for (int l = 0; sim->limb && l < sim->gait.limbs; ++l) dp_free(sim->limb[l].met);
-    void* const blocks[] = {sim->time,  sim->pose,        sim->mass,           sim->sole,
-                            sim->force, sim->limb,        sim->sole_vertex,    sim->sole_triangle,
-                            sim->group, sim->order,       sim->pressure_point, sim->touching,
-                            sim->start, sim->part_of_limb};
+    void* const blocks[] = {sim->time,  sim->pose,         sim->mass,           sim->sole,
+                            sim->force, sim->limb,         sim->sole_vertex,    sim->sole_triangle,
+                            sim->group, sim->order,        sim->pressure_point, sim->touching,
+                            sim->start, sim->part_of_limb, sim->number,         sim->span};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
     for (int l = 0; sim->pressing && l < sim->gait.limbs; ++l) dp_free(sim->pressing[l].value);
     dp_free(sim->pressing);
     sim->pressing = NULL;
     sim->time = sim->pose = sim->mass = sim->force = sim->pressure_point = NULL;
     sim->sole = NULL, sim->limb = NULL, sim->sole_vertex = NULL, sim->sole_triangle = NULL;
-    sim->group = sim->order = sim->start = sim->part_of_limb = NULL, sim->touching = NULL;
+    sim->span = NULL, sim->group = sim->order = sim->number = sim->start = sim->part_of_limb = NULL,
+    sim->touching = NULL;
     sim->gait = (DpGait){0};
-    for (int b = 0; b < sim->bench_count; ++b) {
-        dp_free(sim->bench[b].sole);
-        dp_free(sim->bench[b].pose);
-        sim->bench[b].sole = NULL, sim->bench[b].pose = NULL;
+    for (int b = 0; b < sim->worker_count; ++b) {
+        dp_free(sim->scratch[b].sole);
+        dp_free(sim->scratch[b].pose);
+        sim->scratch[b].sole = NULL, sim->scratch[b].pose = NULL;
     }
 }
 
 void dp_sim_destroy(DpSim* sim)
 {
     if (!sim) return;
-    if (sim->bench) drop_recording(sim);
-    dp_laid_destroy(sim->meadow.laid);
-    dp_lean_destroy(sim->meadow.lean);
-    for (int b = 0; sim->bench && b < sim->bench_count; ++b) {
-        Bench* bench = &sim->bench[b];
-        dp_lease_destroy(bench->loan);
-        dp_imprint_scratch_destroy(bench->imprint_scratch);
-        dp_soil_scratch_destroy(bench->soil_scratch);
-        dp_free(bench->imprint.bottom);
-        dp_free(bench->imprint.cover);
-        dp_free(bench->imprint.ring);
-        dp_free(bench->met);
+    if (sim->scratch) drop_recording(sim);
+    dp_laid_destroy(sim->stage.laid);
+    dp_lean_destroy(sim->stage.lean);
+    for (int b = 0; sim->scratch && b < sim->worker_count; ++b) {
+        WorkerScratch* scratch = &sim->scratch[b];
+        dp_lease_destroy(scratch->lease);
+        dp_imprint_scratch_destroy(scratch->imprint_scratch);
+        dp_soil_scratch_destroy(scratch->soil_scratch);
+        dp_free(scratch->imprint.bottom);
+        dp_free(scratch->imprint.cover);
+        dp_free(scratch->imprint.ring);
+        dp_free(scratch->met);
     }
-    for (int n = 0; n < AHEAD_MOST; ++n) dp_lease_destroy(sim->ahead.loan[n]);
-    dp_free(sim->bench);
+    for (int n = 0; n < MAX_SPECULATED; ++n) dp_lease_destroy(sim->speculation.lease[n]);
+    dp_free(sim->scratch);
     dp_free(sim);
 }
 
@@ -188,15 +189,17 @@ static DpStatus make_limbs(DpSim* sim, const DpGait* gait)
     sim->part_of_limb = dp_alloc(parts, sizeof *sim->part_of_limb);
     sim->group = dp_alloc(limbs, sizeof *sim->group);
     sim->order = dp_alloc(limbs, sizeof *sim->order);
+    sim->number = dp_alloc(limbs, sizeof *sim->number);
+    sim->span = dp_alloc(limbs, sizeof *sim->span);
     sim->start = dp_alloc(limbs + 1, sizeof *sim->start);
-    bool whole =
-        sim->limb && sim->pressing && sim->part_of_limb && sim->group && sim->order && sim->start;
-    for (int b = 0; b < sim->bench_count; ++b) {
-        sim->bench[b].sole = dp_alloc(parts, sizeof(DpMesh));
-        sim->bench[b].pose = dp_alloc(parts, sizeof(DpPose));
-        whole = whole && sim->bench[b].sole && sim->bench[b].pose;
+    bool complete = sim->limb && sim->pressing && sim->part_of_limb && sim->group && sim->order &&
+                    sim->start && sim->number && sim->span;
+    for (int b = 0; b < sim->worker_count; ++b) {
+        sim->scratch[b].sole = dp_alloc(parts, sizeof(DpMesh));
+        sim->scratch[b].pose = dp_alloc(parts, sizeof(DpPose));
+        complete = complete && sim->scratch[b].sole && sim->scratch[b].pose;
     }
-    if (!whole) return DP_NO_MEMORY;
+    if (!complete) return DP_NO_MEMORY;
     int* next = sim->part_of_limb;
     for (int l = 0; l < gait->limbs; ++l) {
         Limb* limb = &sim->limb[l];
@@ -214,7 +217,7 @@ static void lower(DpSim* sim, size_t samples)
 {
     size_t first = 0;
     while (first < samples && !sim->touching[first]) ++first;
-    if (first < samples && !sim->meadow.plants)
+    if (first < samples && !sim->stage.plants)
         dp_terrain_move_datum(sim->terrain, sim->pose[7 * first + 2]);
     const double base = dp_terrain_datum(sim->terrain);
     for (size_t k = 0; k < samples; ++k) {
@@ -234,7 +237,7 @@ DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, co
     drop_recording(sim);
     DpStatus status = copy_soles(sim, gait);
     if (status == DP_OK) status = make_limbs(sim, gait);
-    if (status == DP_OK) status = dp_meadow_fit(sim, gait->parts, gait->limbs);
+    if (status == DP_OK) status = dp_stage_fit(sim, gait->parts, gait->limbs);
     sim->time = copy(gait->time, (size_t)gait->times, sizeof *sim->time);
     sim->pose = copy(gait->pose, 7 * samples, sizeof *sim->pose);
     sim->mass = copy(gait->mass, (size_t)gait->walkers, sizeof *sim->mass);

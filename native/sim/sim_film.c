@@ -9,7 +9,7 @@
 #include "sim/sim_inside.h"
 
 #define TILE_CELLS (DP_TILE * DP_TILE)
-#define MOST_TILES (1 << 22)  // of one film
+#define MAX_TILES (1 << 22)  // of one film
 
 struct DpFilm
 {
@@ -190,8 +190,8 @@ DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path)
 
 static bool are_tiles(long first, int count)
 {
-    const long most = LONG_MAX / DP_TILE;
-    return count > 0 && count <= MOST_TILES && first >= -most && first <= most &&
+    const long far = LONG_MAX / DP_TILE;
+    return count > 0 && count <= MAX_TILES && first >= -far && first <= far &&
            dp_terrain_has(first * DP_TILE, 0, (long)count * DP_TILE, 1);
 }
 
@@ -199,7 +199,7 @@ static bool are_known(const DpSim* sim, const DpFilmOptions* options)
 {
     if (!are_tiles(options->tile_x, options->tiles_x) ||
         !are_tiles(options->tile_y, options->tiles_y) ||
-        options->tiles_x > MOST_TILES / options->tiles_y || options->fields < 1 ||
+        options->tiles_x > MAX_TILES / options->tiles_y || options->fields < 1 ||
         options->fields > DP_FILM_FIELDS)
         return false;
     for (int f = 0; f < options->fields; ++f) {

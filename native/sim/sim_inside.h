@@ -36,6 +36,13 @@ typedef struct Limb
     bool   off_ground;                  // pressed where there is no ground
 } Limb;
 
+// Columns of a limb's patch, for finding limbs that meet.
+typedef struct LimbSpan
+{
+    long i0, i1;
+    int  limb;
+} LimbSpan;
+
 // What a limb's soles press with at the end of a step.
 typedef struct Pressing
 {
@@ -47,37 +54,37 @@ typedef struct Pressing
 } Pressing;
 
 // What one thread needs for itself.
-typedef struct Bench
+typedef struct WorkerScratch
 {
-    DpLease*          loan;
+    DpLease*          lease;
     DpImprintScratch* imprint_scratch;
     DpSoilScratch*    soil_scratch;
     DpImprint         imprint;
     size_t            imprint_cells;  // room in the imprint's grids
     float*            met;            // likewise
-    DpMesh*           sole;           // of the limb at hand (most parts of a limb)
+    DpMesh*           sole;           // of the limb at hand (as many as any limb has parts)
     DpPose*           pose;
     DpStatus          status;
-} Bench;
+} WorkerScratch;
 
 // A part between two samples, and its underside at the end.
-typedef struct Shadow
+typedef struct SweptSole
 {
-    int       sample;    // from this sample to the next; -1 = none
-    DpPose    pose;      // at the end
-    DpBox     from, to;  // [m]
-    DpVec3    way;       // of its middle [m]
-    bool      jumps;     // was put elsewhere: nothing lies between
-    double    low;       // its lowest [m]
-    double    ground;    // rest height below it, NaN where there is none [m]
-    bool      cast;      // the underside is known
-    Cells     at;        // of its grids
-    DpImprint imprint;   // its own grids
-    size_t    room;      // cells of each
-} Shadow;
+    int       sample;        // from this sample to the next; -1 = none
+    DpPose    pose;          // at the end
+    DpBox     from, to;      // [m]
+    DpVec3    displacement;  // of its middle [m]
+    bool      jumps;         // was put elsewhere: nothing lies between
+    double    low;           // its lowest [m]
+    double    ground;        // rest height below it, NaN where there is none [m]
+    bool      cast;          // the underside is known
+    Cells     at;            // of its grids
+    DpImprint imprint;       // its own grids
+    size_t    room;          // cells of each
+} SweptSole;
 
 // Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
-typedef struct Meadow
+typedef struct PlantStage
 {
     DpPlants* plants;
     DpLean*   lean;
@@ -85,29 +92,29 @@ typedef struct Meadow
     double    extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording
-    Shadow*          shadow;        // of this step and the next (2, parts)
+    SweptSole*       swept;         // of this step and the next (2, parts)
     DpPlantCollider* sole;          // of parts near the ground (parts)
 
     DpPlantGround* ground;  // around limbs near the ground (limbs)
     float**        height;
     size_t*        height_room;
     int            soles, grounds;  // of this step
-} Meadow;
+} PlantStage;
 
-#define AHEAD_MOST 4  // limbs; where more press, they keep all cores busy by themselves
+#define MAX_SPECULATED 4  // limbs; where more press, they keep all cores busy by themselves
 
-// The next step's soil, worked out on loans while plants move. It counts unless they broke
-// something the loans hold: then the limbs are as they were planned, and press in their turn.
-typedef struct Ahead
+// The next step's soil, worked out on leases while plants move. It counts unless they broke
+// something the leases hold: then the limbs are as they were planned, and press in their turn.
+typedef struct Speculation
 {
     bool         planned;  // limbs and groups are those of the next step
     int          count;    // limbs at work, 0 = none
-    Limb*        limb[AHEAD_MOST];
-    Limb         was[AHEAD_MOST];
-    DpSoilPatch* patch[AHEAD_MOST];
-    DpStatus     status[AHEAD_MOST];
-    DpLease*     loan[AHEAD_MOST];
-} Ahead;
+    Limb*        limb[MAX_SPECULATED];
+    Limb         was[MAX_SPECULATED];
+    DpSoilPatch* patch[MAX_SPECULATED];
+    DpStatus     status[MAX_SPECULATED];
+    DpLease*     lease[MAX_SPECULATED];
+} Speculation;
 
 struct DpSim
 {
@@ -132,15 +139,17 @@ struct DpSim
     Pressing* pressing;  // of every limb
     int       next;      // first interval not yet stepped: from sample `next` to `next + 1`
 
-    Bench* bench;  // one per worker (options.workers)
-    int    bench_count;
-    int*   group;  // limbs in groups that touch each other: group k holds order[start[k]..]
-    int*   order;
-    int*   start;
-    int    groups;
+    WorkerScratch* scratch;  // one per worker (options.workers)
+    int            worker_count;
+    int*           group;  // limbs in groups that touch each other: group k holds order[start[k]..]
+    int*           number;  // of the group of each root
+    int*           order;
+    int*           start;
+    int            groups;
+    LimbSpan*      span;
 
-    Ahead       ahead;
-    Meadow      meadow;
+    Speculation speculation;
+    PlantStage  stage;
     DpSimReport report;
 };
 
@@ -172,36 +181,40 @@ DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double
 Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
 
-// cells whose centres may lie in a box [m]
-Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
+// sim_cells.c: cells whose centres may lie in a box [m]; the ground asks again for its cover within
+// one; the surface where no limb is near, as plants ask for it (context: the terrain)
+Cells  dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
+void   dp_sim_cover_anew(DpSim* sim, double x0, double y0, double x1, double y1);
+double dp_sim_surface(const void* terrain, double x, double y);
 
-// sim_shadow.c: a part's way from `sample` to the next; its underside. Ahead of its step, if plants
-// can meet it.
-Shadow*  dp_shadow_way(DpSim* sim, int part, int sample);
-DpStatus dp_shadow_cast(DpSim* sim, Shadow* shadow, int part, DpImprintScratch* scratch);
-void     dp_shadow_ahead(DpSim* sim, int part, int sample, DpImprintScratch* scratch);
+// sim_sweep.c: a part's path from `sample` to the next; its underside; both before its step comes, if
+// plants can meet it.
+SweptSole* dp_sweep_path(DpSim* sim, int part, int sample);
+DpStatus   dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch* scratch);
+void       dp_sweep_ahead(DpSim* sim, int part, int sample, DpImprintScratch* scratch);
 
 // sim_plants.c: room for a recording's soles; what plants do in a step, after the soil
-DpStatus dp_meadow_fit(DpSim* sim, int parts, int limbs);
-void     dp_meadow_drop(DpSim* sim);
-DpStatus dp_meadow_settled(DpSim* sim, Limb* limb);
-DpStatus dp_meadow_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
-double   dp_meadow_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
+DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs);
+void     dp_stage_drop(DpSim* sim);
+DpStatus dp_stage_settled(DpSim* sim, Limb* limb);
+DpStatus dp_stage_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
+double   dp_stage_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
 
-// sim_step.c: what every limb does in a step, and room for it on the terrain
+// sim_plan.c: what every limb does in a step, and room for it on the terrain
 DpStatus dp_step_plan(DpSim* sim, int sample);
 
-// sim_ahead.c: plan the step from `sample` on, and lend its patches; how many limbs can press ahead
-DpStatus dp_ahead_open(DpSim* sim, int sample, int* limbs);
-void     dp_ahead_press(DpSim* sim, int sample, int index, Bench* bench);  // one of them
+// sim_speculate.c: plan the step from `sample` on, and lend its patches; how many limbs can press ahead
+DpStatus dp_speculate_open(DpSim* sim, int sample, int* limbs);
+void dp_speculate_press(DpSim* sim, int sample, int index, WorkerScratch* scratch);  // one of them
 // Cover has changed within x0..x1, y0..y1 [m]: what was lent there does not count.
-void dp_ahead_worn(DpSim* sim, double x0, double y0, double x1, double y1);
-bool dp_ahead_take(DpSim* sim);  // lay it down; false: the step has still to be made
+void dp_speculate_worn(DpSim* sim, double x0, double y0, double x1, double y1);
+bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still to be made
 
 // sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody presses
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
 void     dp_pressing_clear(DpSim* sim);
 
 // sim_press.c: one limb's step on its patch, and its settling
-DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench);
-DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench);
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
+                       WorkerScratch* scratch);
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch);

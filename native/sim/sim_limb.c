@@ -4,7 +4,7 @@
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
-#define MOST_SUBSTEPS 64
+#define MAX_SUBSTEPS 64
 #define PROBED 96         // vertices of a sole looked at to tell how fast it slides
 #define LOADED_BAND 0.02  // [m] above the lowest of them: may be loaded
 
@@ -128,18 +128,19 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
                 if (pass == 0)
                     lowest = fmin(lowest, from.z);
                 else if (from.z < lowest + LOADED_BAND) {
-                    const DpVec3 way = dp_sub(dp_place(b, point), from);
-                    farthest = fmax(farthest, hypot(way.x, way.y));
+                    const DpVec3 displacement = dp_sub(dp_place(b, point), from);
+                    farthest = fmax(farthest, hypot(displacement.x, displacement.y));
                 }
             }
         }
     }
     if (limb->part_count == 1) {
         const DpMesh* sole = &sim->sole[limb->part[0]];
-        const DpVec3  way = dp_sub(lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 1.0)),
-                                   lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));
-        farthest = fmax(farthest, dp_length(way));
+        const DpVec3  rolled =
+            dp_sub(lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 1.0)),
+                   lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));
+        farthest = fmax(farthest, dp_length(rolled));
     }
     const double steps = ceil(farthest / (0.5 * sim->cell));
-    return (int)dp_clamp(steps, 1.0, MOST_SUBSTEPS);
+    return (int)dp_clamp(steps, 1.0, MAX_SUBSTEPS);
 }

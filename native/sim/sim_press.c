@@ -12,23 +12,23 @@
 #define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
 
-// Room for the imprint of a patch in the bench's grids.
-static DpStatus fit_imprint(Bench* bench, const DpSoilPatch* patch)
+// Room for the imprint of a patch in the scratch's grids.
+static DpStatus fit_imprint(WorkerScratch* scratch, const DpSoilPatch* patch)
 {
     const size_t cells = (size_t)patch->row * (size_t)patch->ny;
-    if (cells > bench->imprint_cells) {
-        dp_free(bench->imprint.bottom);
-        dp_free(bench->imprint.cover);
-        dp_free(bench->imprint.ring);
-        dp_free(bench->met);
-        bench->imprint.bottom = dp_alloc(cells, sizeof(float));
-        bench->imprint.cover = dp_alloc(cells, sizeof(float));
-        bench->imprint.ring = dp_alloc(cells, sizeof(int32_t));
-        bench->met = dp_alloc(cells, sizeof(float));
-        bench->imprint_cells = cells;
-        if (!bench->imprint.bottom || !bench->imprint.cover || !bench->imprint.ring ||
-            !bench->met) {
-            bench->imprint_cells = 0;
+    if (cells > scratch->imprint_cells) {
+        dp_free(scratch->imprint.bottom);
+        dp_free(scratch->imprint.cover);
+        dp_free(scratch->imprint.ring);
+        dp_free(scratch->met);
+        scratch->imprint.bottom = dp_alloc(cells, sizeof(float));
+        scratch->imprint.cover = dp_alloc(cells, sizeof(float));
+        scratch->imprint.ring = dp_alloc(cells, sizeof(int32_t));
+        scratch->met = dp_alloc(cells, sizeof(float));
+        scratch->imprint_cells = cells;
+        if (!scratch->imprint.bottom || !scratch->imprint.cover || !scratch->imprint.ring ||
+            !scratch->met) {
+            scratch->imprint_cells = 0;
             return DP_NO_MEMORY;
         }
     }
@@ -36,13 +36,13 @@ static DpStatus fit_imprint(Bench* bench, const DpSoilPatch* patch)
 }
 
 // the ground as the limb's stance met it, in the patch's rows
-static const float* met_on(const DpSoilPatch* patch, const Limb* limb, Bench* bench)
+static const float* met_on(const DpSoilPatch* patch, const Limb* limb, WorkerScratch* scratch)
 {
     if (!limb->met) return NULL;
     const size_t nx = (size_t)patch->nx;
     for (size_t j = 0; j < (size_t)patch->ny; ++j)
-        memcpy(bench->met + j * (size_t)patch->row, limb->met + j * nx, nx * sizeof(float));
-    return bench->met;
+        memcpy(scratch->met + j * (size_t)patch->row, limb->met + j * nx, nx * sizeof(float));
+    return scratch->met;
 }
 
 // The soil under a point of the patch; the first soil where the point lies outside.
@@ -65,19 +65,19 @@ static void slip(Limb* limb, const DpSoil* soil, const DpFootForce* foot, double
     const double along = dp_length(push);
     const double wanted = dp_soil_slip(soil, along, weight);
     if (!(wanted > 0.0)) return;
-    const DpVec3 way = dp_scale(push, 1.0 / along);
-    const double held = fmax(dp_dot(limb->sheared, way), 0.0);
+    const DpVec3 direction = dp_scale(push, 1.0 / along);
+    const double held = fmax(dp_dot(limb->sheared, direction), 0.0);
     if (!(wanted > held)) return;
     const double bears = fmin(weight / body, 1.0);
     const double more = (wanted - held) * -expm1(-bears * dt / (double)soil->settle_time);
-    const DpVec3 slipped = dp_add(limb->slip, dp_scale(way, more));
-    limb->sheared = dp_scale(way, held + more);
+    const DpVec3 slipped = dp_add(limb->slip, dp_scale(direction, more));
+    limb->sheared = dp_scale(direction, held + more);
     if (dp_length(slipped) <= DP_MAX_SLIP) limb->slip = slipped;
 }
 
 // One sub-step: the sole as it stands at fraction w of the interval presses for dt.
-static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, int sample,
-                      double w, double dt)
+static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                      int sample, double w, double dt)
 {
     DpFootForce foot = dp_limb_force(sim, limb, sample, w);
     if (foot.force.z >= 0.0) return DP_OK;
@@ -87,19 +87,20 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
     slip(limb, soil_under(patch, foot.point), &foot, sim->mass[limb->walker] * DP_GRAVITY, dt);
     foot.point = dp_add(foot.point, limb->slip);
     for (int p = 0; p < limb->part_count; ++p) {
-        bench->sole[p] = sim->sole[limb->part[p]];
-        bench->pose[p] = dp_limb_pose(sim, limb->part[p], sample, w);
-        bench->pose[p].at = dp_add(bench->pose[p].at, limb->slip);
+        scratch->sole[p] = sim->sole[limb->part[p]];
+        scratch->pose[p] = dp_limb_pose(sim, limb->part[p], sample, w);
+        scratch->pose[p].at = dp_add(scratch->pose[p].at, limb->slip);
     }
-    DpStatus status = dp_imprint_foot(&bench->imprint, patch, bench->sole, bench->pose,
-                                      limb->part_count, sim->samples, bench->imprint_scratch);
+    DpStatus status = dp_imprint_foot(&scratch->imprint, patch, scratch->sole, scratch->pose,
+                                      limb->part_count, sim->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
     DpPressed pressed;
-    status = dp_soil_compress(patch, &bench->imprint, &foot, sim->options.law, dt, &pressed);
+    status = dp_soil_compress(patch, &scratch->imprint, &foot, sim->options.law, dt, &pressed);
     if (status != DP_OK) return status;
     if (pressed.area <= 0.0) {
-        limb->off_ground = bench->imprint.i0 < bench->imprint.i1;  // not if no cell saw the sole
+        limb->off_ground =
+            scratch->imprint.i0 < scratch->imprint.i1;  // not if no cell saw the sole
         return DP_OK;
     }
     limb->sink = pressed.sink;
@@ -114,43 +115,45 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, Bench* bench, 
     const DpHeapOptions heap = {
         sim->options.heap_law, sim->options.rim_width,
         soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight};
-    dp_imprint_rings(&bench->imprint, patch, BORDER_RINGS);
-    status = dp_soil_accumulate(patch, &bench->imprint, &foot, volume, &heap, &limb->heap_height,
-                                bench->soil_scratch);
+    dp_imprint_rings(&scratch->imprint, patch, BORDER_RINGS);
+    status = dp_soil_accumulate(patch, &scratch->imprint, &foot, volume, &heap, &limb->heap_height,
+                                scratch->soil_scratch);
     const bool laid = status == DP_OK;
     limb->unlaid = laid ? 0.0 : volume;  // no border cell in reach: it waits for one
     if (laid) limb->laid += volume;
     return status == DP_NO_GROUND ? DP_OK : status;
 }
 
-DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, Bench* bench)
+DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
+                       WorkerScratch* scratch)
 {
     if (dp_limb_held(sim, limb, sample)) return DP_OK;
-    DpStatus status = fit_imprint(bench, patch);
+    DpStatus status = fit_imprint(scratch, patch);
     if (status != DP_OK) return status;
 
     Pressing*    pressing = &sim->pressing[limb - sim->limb];
     const int    substeps = dp_limb_substeps(sim, limb, sample);
     const double dt = (sim->time[sample + 1] - sim->time[sample]) / substeps;
-    bench->imprint.i0 = bench->imprint.i1 = 0;
-    bench->imprint.met = met_on(patch, limb, bench);
+    scratch->imprint.i0 = scratch->imprint.i1 = 0;
+    scratch->imprint.met = met_on(patch, limb, scratch);
     for (int u = 0; u < substeps && status == DP_OK; ++u) {
         status = dp_pressing_open(pressing, limb, patch);
         if (status == DP_OK)
-            status = press(sim, limb, patch, bench, sample, (u + 0.5) / substeps, dt);
+            status = press(sim, limb, patch, scratch, sample, (u + 0.5) / substeps, dt);
     }
     if (status != DP_OK) return status;
 
     DpSettled  settled;
-    const bool stands_here = bench->imprint.i0 < bench->imprint.i1;
+    const bool stands_here = scratch->imprint.i0 < scratch->imprint.i1;
     if (stands_here)
-        pressing->at = (Cells){pressing->i0 + bench->imprint.i0, pressing->i0 + bench->imprint.i1,
-                               pressing->j0 + bench->imprint.j0, pressing->j0 + bench->imprint.j1};
+        pressing->at =
+            (Cells){pressing->i0 + scratch->imprint.i0, pressing->i0 + scratch->imprint.i1,
+                    pressing->j0 + scratch->imprint.j0, pressing->j0 + scratch->imprint.j1};
     const bool rests = sim->options.heap_law == DP_HEAP_PAPER;
-    const int  most = rests || sim->options.most_sweeps < SLIDING_SWEEPS ? sim->options.most_sweeps
-                                                                         : SLIDING_SWEEPS;
-    status = dp_soil_stabilize(patch, stands_here ? &bench->imprint : NULL, NULL,
-                               sim->options.tolerance, most, bench->soil_scratch, &settled);
+    const int  sweeps = rests || sim->options.max_sweeps < SLIDING_SWEEPS ? sim->options.max_sweeps
+                                                                          : SLIDING_SWEEPS;
+    status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
+                               sim->options.tolerance, sweeps, scratch->soil_scratch, &settled);
     if (status != DP_OK) return status;
     limb->spills = settled.at_edge;
     limb->trodden = dp_cells_join(limb->trodden, limb->patch);
@@ -158,7 +161,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch, B
 }
 
 // Let the rim slide that the sole held, in ever larger patches until nothing wants to leave.
-DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench)
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch)
 {
     Cells at = limb->trodden;
     if (dp_cells_empty(at)) return DP_OK;
@@ -167,13 +170,13 @@ DpStatus dp_limb_settle(DpSim* sim, Limb* limb, Bench* bench)
     for (;;) {
         DpSoilPatch* patch = NULL;
         DpStatus     status =
-            dp_terrain_acquire(sim->terrain, bench->loan, at.i0, at.i1, at.j0, at.j1, &patch);
+            dp_terrain_acquire(sim->terrain, scratch->lease, at.i0, at.i1, at.j0, at.j1, &patch);
         if (status != DP_OK) return status;
         DpSettled settled;
         status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance,
-                                   sim->options.most_sweeps, bench->soil_scratch, &settled);
+                                   sim->options.max_sweeps, scratch->soil_scratch, &settled);
         if (status != DP_OK) return status;
-        dp_terrain_commit(sim->terrain, bench->loan, settled.i0, settled.i1, settled.j0,
+        dp_terrain_commit(sim->terrain, scratch->lease, settled.i0, settled.i1, settled.j0,
                           settled.j1);
         if (!settled.at_edge) return DP_OK;
         at = (Cells){at.i0 - SETTLE_GROWTH, at.i1 + SETTLE_GROWTH, at.j0 - SETTLE_GROWTH,

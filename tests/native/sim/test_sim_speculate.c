@@ -60,18 +60,18 @@ TEST(a_step_ahead_is_taken_or_dropped)
     DpSim* sim = world.sim;
     for (int drops = 1; drops >= 0; --drops) {
         int limbs = 0;
-        CHECK(dp_ahead_open(sim, 12, &limbs) == DP_OK);
+        CHECK(dp_speculate_open(sim, 12, &limbs) == DP_OK);
         CHECK(limbs == 1);
-        const Limb planned = *sim->ahead.limb[0];
-        Limb*      limb = sim->ahead.limb[0];
-        dp_ahead_press(sim, 12, 0, &sim->bench[0]);
-        CHECK(limb->firm > 0.0 && sim->ahead.status[0] == DP_OK);
-        dp_ahead_worn(sim, 50.0, 50.0, 51.0, 51.0);  // far away
-        CHECK(sim->ahead.count == 1);
-        if (drops) dp_ahead_worn(sim, -1.0, -1.0, 2.0, 2.0);
+        const Limb planned = *sim->speculation.limb[0];
+        Limb*      limb = sim->speculation.limb[0];
+        dp_speculate_press(sim, 12, 0, &sim->scratch[0]);
+        CHECK(limb->firm > 0.0 && sim->speculation.status[0] == DP_OK);
+        dp_speculate_worn(sim, 50.0, 50.0, 51.0, 51.0);  // far away
+        CHECK(sim->speculation.count == 1);
+        if (drops) dp_speculate_worn(sim, -1.0, -1.0, 2.0, 2.0);
         CHECK((limb->firm > 0.0) == !drops);
         CHECK(!drops || memcmp(&planned, limb, sizeof planned) == 0);
-        CHECK(dp_ahead_take(sim) == !drops);
+        CHECK(dp_speculate_take(sim) == !drops);
         if (drops) limb->stands = true;
     }
     world_drop(&world);

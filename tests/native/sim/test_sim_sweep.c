@@ -15,13 +15,13 @@ TEST(cast_ahead_is_cast_in_turn)
     }
     for (int sample = 0; sample + 1 < s.gait.times; ++sample)
         for (int part = 0; part < s.gait.parts; ++part) {
-            DpImprintScratch* scratch = world[0].sim->bench[0].imprint_scratch;
-            dp_shadow_ahead(world[0].sim, part, sample, scratch);  // knows where the part was
-            Shadow* ahead = dp_shadow_way(world[0].sim, part, sample);
+            DpImprintScratch* scratch = world[0].sim->scratch[0].imprint_scratch;
+            dp_sweep_ahead(world[0].sim, part, sample, scratch);  // knows where the part was
+            SweptSole* ahead = dp_sweep_path(world[0].sim, part, sample);
             if (!ahead->cast) continue;
-            Shadow* turn = dp_shadow_way(world[1].sim, part, sample);
+            SweptSole* turn = dp_sweep_path(world[1].sim, part, sample);
             turn->sample = -1;  // and this one asks anew
-            CHECK(dp_shadow_cast(world[1].sim, turn, part, scratch) == DP_OK);
+            CHECK(dp_sweep_cast(world[1].sim, turn, part, scratch) == DP_OK);
             const size_t cells =
                 (size_t)((ahead->at.i1 - ahead->at.i0) * (ahead->at.j1 - ahead->at.j0));
             CHECK(memcmp(&ahead->at, &turn->at, sizeof ahead->at) == 0);
@@ -46,10 +46,10 @@ TEST(high_soles_wait_and_jumps_sweep_nothing)
     }
     CHECK(world_make(&world, &kind, -0.5, -0.5, 1.5, 0.1, 0.01, 1) == DP_OK);
     CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
-    dp_shadow_ahead(world.sim, 0, 4, world.sim->bench[0].imprint_scratch);
-    const Shadow* high = dp_shadow_way(world.sim, 0, 4);
+    dp_sweep_ahead(world.sim, 0, 4, world.sim->scratch[0].imprint_scratch);
+    const SweptSole* high = dp_sweep_path(world.sim, 0, 4);
     CHECK(high->jumps && !high->cast);
-    CHECK(dp_length(high->way) <= 0.0);
+    CHECK(dp_length(high->displacement) <= 0.0);
     CHECK_NEAR(high->from.z0, high->to.z0, 1e-12);
     world_drop(&world);
     stride_drop(&s);

@@ -1,0 +1,26 @@
+// sim/sim_cells.c - world boxes as cells, and what is asked of the ground's cells for the plants.
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+Cells dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1)
+{
+    const double far = 1e9;
+    const Cells  cells = {(long)dp_clamp(floor((x0 - sim->origin_x) / sim->cell - 0.5), -far, far),
+                          (long)dp_clamp(ceil((x1 - sim->origin_x) / sim->cell + 0.5), -far, far),
+                          (long)dp_clamp(floor((y0 - sim->origin_y) / sim->cell - 0.5), -far, far),
+                          (long)dp_clamp(ceil((y1 - sim->origin_y) / sim->cell + 0.5), -far, far)};
+    return cells;
+}
+
+// the ground asks again for its cover within a box [m]
+void dp_sim_cover_anew(DpSim* sim, double x0, double y0, double x1, double y1)
+{
+    const Cells at = dp_sim_cells(sim, x0, y0, x1, y1);
+    dp_terrain_refresh_cover(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+}
+
+// where no limb is near, plants still stand and lie on the ground
+double dp_sim_surface(const void* terrain, double x, double y)
+{
+    return dp_terrain_surface_at(terrain, x, y);
+}

@@ -1,0 +1,168 @@
+// sim/sim_plan.c - what every limb does in a step, on which cells, and which limbs meet.
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
+#define SPILL_GROWTH \
+    1.5               // .. so many times more, after a step whose loose soil wanted to go farther
+#define HEAP_SPARE 4  // cells beyond the foot of the heap
+
+// how far soles may slip on any of the soils [m]
+static double slips(const DpSim* sim)
+{
+    for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+        if (dp_terrain_soils(sim->terrain)[s].shear_modulus > 0.0f) return DP_MAX_SLIP;
+    return 0.0;
+}
+
+// What a limb does in the interval from `sample` to the next, and on which cells.
+static void plan_limb(DpSim* sim, Limb* limb, int sample)
+{
+    const bool now = dp_limb_touches(sim, limb, sample);
+    const bool then = dp_limb_touches(sim, limb, sample + 1);
+    const bool presses = now || then;
+    limb->lifts = limb->stands && !presses;
+    limb->active = presses || limb->lifts;
+    const bool spilled = limb->spills;
+    limb->spills = limb->off_ground = false;
+    limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
+    if (presses && !limb->stands) {
+        limb->heap_height = 0.0;
+        limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
+        limb->margin = HEAP_MARGIN;
+        limb->trodden = limb->met_at = (Cells){0, 0, 0, 0};
+        ++sim->report.contacts;
+    }
+    limb->stands = presses;
+    if (presses) {
+        double slope = INFINITY;  // the flattest heap reaches farthest
+        for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+            slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
+        const bool   paper = sim->options.heap_law == DP_HEAP_PAPER;
+        const double rim = paper ? sim->options.rim_width : 0.0;
+        const double spread = fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->cell;
+        if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
+        limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, spread) + slips(sim));
+    } else {
+        limb->patch = limb->trodden;
+    }
+}
+
+static int root(const int* group, int l)
+{
+    while (group[l] != l) l = group[l];
+    return l;
+}
+
+static int by_first_column(const void* a, const void* b)
+{
+    const LimbSpan *x = a, *y = b;
+    return (x->i0 > y->i0) - (x->i0 < y->i0);
+}
+
+// Active limbs whose patches meet get one root, the lowest of their numbers: in the order of their
+// first columns each is held against those that begin before it ends.
+static void join_limbs(DpSim* sim)
+{
+    int count = 0;
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        sim->group[l] = l;
+        if (!sim->limb[l].active) continue;
+        const Cells at = sim->limb[l].patch;
+        sim->span[count++] = (LimbSpan){at.i0, at.i1, l};
+    }
+    qsort(sim->span, (size_t)count, sizeof *sim->span, by_first_column);
+    for (int a = 0; a < count; ++a) {
+        const LimbSpan one = sim->span[a];
+        for (int b = a + 1; b < count && sim->span[b].i0 < one.i1; ++b) {
+            const LimbSpan other = sim->span[b];
+            if (!dp_cells_meet(sim->limb[one.limb].patch, sim->limb[other.limb].patch)) continue;
+            const int ra = root(sim->group, one.limb), rb = root(sim->group, other.limb);
+            sim->group[ra > rb ? ra : rb] = ra > rb ? rb : ra;
+        }
+    }
+}
+
+// Limbs that meet get one group: start[k] .. start[k + 1] are the places of group k in `order`.
+static int make_groups(DpSim* sim)
+{
+    const int limbs = sim->gait.limbs;
+    int       groups = 0;
+    join_limbs(sim);
+    for (int l = 0; l < limbs; ++l) {
+        if (!sim->limb[l].active) continue;
+        if (sim->group[l] == l) sim->start[groups] = 0, sim->number[l] = groups++;
+        ++sim->start[sim->number[root(sim->group, l)]];
+    }
+    int placed = 0;
+    for (int k = 0; k <= groups; ++k) {
+        const int members = k < groups ? sim->start[k] : 0;
+        sim->start[k] = placed;
+        placed += members;
+    }
+    for (int l = 0; l < limbs; ++l)  // moves every start to the next group's
+        if (sim->limb[l].active) sim->order[sim->start[sim->number[root(sim->group, l)]]++] = l;
+    for (int k = groups; k > 0; --k) sim->start[k] = sim->start[k - 1];
+    sim->start[0] = 0;
+    return groups;
+}
+
+// Remember the ground under a patch as this stance met it: what the stance has covered all along is
+// known, the rest is met now.
+static DpStatus meet(DpSim* sim, Limb* limb)
+{
+    const Cells  at = limb->patch, was = limb->met_at;
+    const int    nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    float* const met = dp_alloc((size_t)nx * (size_t)ny, sizeof *met);
+    if (!met) return DP_NO_MEMORY;
+    const DpStatus status =
+        dp_terrain_read(sim->terrain, DP_FIELD_HEIGHT_CHANGE, at.i0, at.j0, nx, ny, met);
+    const long i0 = at.i0 > was.i0 ? at.i0 : was.i0, i1 = at.i1 < was.i1 ? at.i1 : was.i1;
+    for (long j = at.j0; limb->met && j < at.j1; ++j)
+        for (long i = i0; i < i1 && j >= was.j0 && j < was.j1; ++i)
+            met[(j - at.j0) * nx + (i - at.i0)] =
+                limb->met[(j - was.j0) * (was.i1 - was.i0) + (i - was.i0)];
+    dp_free(limb->met);
+    limb->met = met;
+    limb->met_at = at;
+    return status;
+}
+
+// what every limb does in a step, and room for it on the terrain
+DpStatus dp_step_plan(DpSim* sim, int sample)
+{
+    sim->groups = 0;
+    dp_pressing_clear(sim);
+    bool any = false;
+    for (int l = 0; l < sim->gait.limbs; ++l) {
+        plan_limb(sim, &sim->limb[l], sample);
+        any = any || sim->limb[l].active;
+    }
+    if (any) sim->groups = make_groups(sim);
+    for (int l = 0; any && l < sim->gait.limbs; ++l) {
+        Limb* limb = &sim->limb[l];
+        if (!limb->active || dp_cells_empty(limb->patch)) continue;
+        DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
+                                           limb->patch.j0, limb->patch.j1);
+        if (status == DP_OK && sim->options.law == DP_CONTACT_UNIFORM && !limb->lifts)
+            status = meet(sim, limb);
+        if (status != DP_OK) return status;
+    }
+    return DP_OK;
+}
+
+void dp_sim_bounds(const DpSim* sim, long bounds[4])
+{
+    Cells        cells = {0, 0, 0, 0};
+    const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
+    const double margin = 3 * fmax(HEAP_MARGIN, rim) + slips(sim) + dp_stage_margin(sim);
+    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
+        for (int k = 0; k + 1 < sim->gait.times; ++k)
+            if (dp_limb_touches(sim, &sim->limb[l], k) ||
+                dp_limb_touches(sim, &sim->limb[l], k + 1))
+                cells = dp_cells_join(cells, dp_limb_cells(sim, &sim->limb[l], k, margin));
+    bounds[0] = cells.i0, bounds[1] = cells.i1, bounds[2] = cells.j0, bounds[3] = cells.j1;
+}
