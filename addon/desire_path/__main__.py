@@ -6,21 +6,21 @@ import argparse
 import os
 import sys
 
-from .files import atomic_file
-from .loads import plot, walker
-from .motion import jumps
-from .study import calibrate, trampling
-from .placement import path as paths
 from .bake.bake import FILMS, Bake
+from .bake.output import check_idle
 from .bounds import ADVICE, Limits
 from .errors import DesirePathError
-from .motion.gait import Gait
-from .placement.place import place_feet
-from .loads.report import sentences, summary, write_contacts
-from .bake.output import check_idle
+from .files import atomic_file
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
 from .ground.soil import SOILS
+from .loads import plot, walker
+from .loads.report import sentences, summary, write_contacts
+from .motion import jumps
+from .motion.gait import Gait
+from .placement import path as paths
+from .placement.place import place_feet
+from .study import calibrate, trampling
 from .version import VERSION
 
 

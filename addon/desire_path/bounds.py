@@ -13,8 +13,8 @@ import os
 import shutil
 from dataclasses import dataclass, fields
 
-from .files import disk
 from .errors import DesirePathError
+from .files import disk
 
 MOST_PIXELS = 1 << 27  # of one frame
 SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
@@ -108,7 +108,7 @@ def _free(name, folder):
 
 
 def frame_bytes(cells, pressed, lean):
-    """Bytes of an average frame's files. pressed: cells of all prints together; lean: with a second picture of grass."""
+    """Bytes of an average frame's files. pressed: cells of all prints; lean: with a second picture of grass."""
     return (2.0 if lean else 1.0) * (REST_BYTES * cells + 0.5 * PRINT_BYTES * min(pressed, cells))
 
 

@@ -13,9 +13,9 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
+from desire_path.ground.plants import KINDS  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.study import trampling  # noqa: E402
-from desire_path.ground.plants import KINDS  # noqa: E402
 
 
 def main():

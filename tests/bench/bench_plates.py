@@ -15,8 +15,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from desire_path.loads import walker  # noqa: E402
 from scenes import plates, trials  # noqa: E402
+
+from desire_path.loads import walker  # noqa: E402
 
 SEEN = (
     ("as it is", {}, lambda g: g),

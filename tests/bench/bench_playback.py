@@ -18,8 +18,9 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
-from desire_path.blender import axes, compat, playback  # noqa: E402
 from scenes import exr, meshes  # noqa: E402
+
+from desire_path.blender import compat, playback  # noqa: E402
 
 CELL, COUNT = 0.01, 24
 

@@ -13,9 +13,10 @@ import bpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
+from scenes import mannequin, people  # noqa: E402
+
 import desire_path  # noqa: E402
 from desire_path.blender import sample  # noqa: E402
-from scenes import mannequin, people  # noqa: E402
 
 WALK = ROOT / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"
 SCALE = 0.056444  # m per unit of the clip

@@ -54,6 +54,7 @@ def run(test):
 
 def main():
     import bpy
+
     import desire_path
 
     sys.modules.setdefault("run", sys.modules["__main__"])

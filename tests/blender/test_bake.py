@@ -10,15 +10,15 @@ import time
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake, output
-from desire_path.ground import maps, sim
-from desire_path.blender import compat, op_bake, op_forces, playback
-from desire_path.motion.gait import Gait
-from desire_path.ground.soil import SOILS
 from scenes import meshes, people
 from test_playback import fresh, shown
 from test_sample import ids
+
+from desire_path.bake import bake, output
+from desire_path.blender import compat, op_bake, op_forces, playback
+from desire_path.ground import maps, sim
+from desire_path.ground.soil import SOILS
+from desire_path.motion.gait import Gait
 
 
 def scene(folder=None, cell=0.02, frames=30, height=None, spacing=None, size=(1.2, 2.6)):
@@ -520,7 +520,7 @@ def test_user_frame_and_selection_stay(folder):
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert bpy.context.scene.frame_current_final == 5.25
     assert bpy.context.object == ground
-    assert {each for each in ids() - known} == {("node_groups", "Desire Path Ground")}
+    assert set(ids() - known) == {("node_groups", "Desire Path Ground")}
 
 
 def test_rig_on_the_grounds_surface(folder):

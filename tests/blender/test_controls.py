@@ -2,14 +2,15 @@
 
 import bpy
 import numpy as np
-
-from desire_path.loads import walker
-from desire_path.placement import place
-from desire_path.blender import compat, controls, ground as ground_of, op_place, posing, sample
-from desire_path.ground.sim import Simulation
 from scenes import meshes, people, rigified
 from test_place import ASIDE, UP, check_placed, heads, hill, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused
+
+from desire_path.blender import compat, controls, op_place, posing, sample
+from desire_path.blender import ground as ground_of
+from desire_path.ground.sim import Simulation
+from desire_path.loads import walker
+from desire_path.placement import place
 
 SIDES = "LR"
 
@@ -245,7 +246,7 @@ def test_what_holds_led_feet_is_a_sentence():
     pose["go.L"].lock_location = pose["go.L"].lock_rotation = (True, True, True)
     unchanged("'thigh.L'", "Copy Transforms", "Bake Action")  # nothing leads it that may be moved
     pose["go.L"].lock_location = pose["go.L"].lock_rotation = (False, False, False)
-    driver = pose["go.R"].driver_add("location", 2)
+    pose["go.R"].driver_add("location", 2)
     unchanged("'thigh.R'", "Bake Action")
     pose["go.R"].driver_remove("location", 2)
     limit = pose["mch-goal.R"].constraints.new("LIMIT_LOCATION")

@@ -4,11 +4,11 @@ import json
 
 import bpy
 import numpy as np
+from scenes import meshes, people
 
 import desire_path
-from desire_path.loads import report, walker
 from desire_path.blender import force_graph, moves, op_forces, sample
-from scenes import meshes, people
+from desire_path.loads import report, walker
 
 operator = bpy.ops.object
 

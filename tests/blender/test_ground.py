@@ -2,12 +2,12 @@
 
 import bpy
 import numpy as np
-
-from desire_path.blender import compat, ground, playback
-from desire_path.ground.sim import Simulation
 from scenes import meshes
 from test_playback import frames, index, play
 from test_sample import ids, refused
+
+from desire_path.blender import compat, ground, playback
+from desire_path.ground.sim import Simulation
 
 
 def read(obj, cell=0.02, **more):

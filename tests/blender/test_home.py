@@ -6,12 +6,12 @@ import stat
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake
-from desire_path.blender import compat, home, playback, trash
 from scenes import meshes
 from test_bake import PLAYS, refused, scene
 from test_playback import fresh, shown
+
+from desire_path.bake import bake
+from desire_path.blender import compat, home, playback, trash
 
 
 def saved(path, **more):

@@ -2,9 +2,9 @@
 
 import bpy
 import numpy as np
+from test_bake import scene
 
 from desire_path.ground import maps
-from test_bake import scene
 
 
 def opened(path):

@@ -4,14 +4,14 @@ import json
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake
-from desire_path.ground import maps
-from desire_path.blender import compat, moves, posing, sample, stems
 from scenes import meshes, people
 from test_bake import scene as strip
 from test_playback import shown
 from test_trails import meadow
+
+from desire_path.bake import bake
+from desire_path.blender import compat, moves, posing, sample, stems
+from desire_path.ground import maps
 
 SHOT = (200, 230)  # the scene's range
 

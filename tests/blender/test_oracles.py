@@ -6,9 +6,9 @@ import math
 
 import bpy
 import numpy as np
+from scenes import gaits, meshes, stands
 
 from desire_path.ground.soil import SOILS
-from scenes import gaits, meshes, stands
 
 LENGTH, WIDTH = 0.25, 0.11  # of the sole that is stood on: 0.0275 m^2
 LAWS = ("sole", "uniform")

@@ -6,10 +6,10 @@ import math
 import bpy
 import mathutils
 import numpy as np
+from scenes import gaits, meshes, slopes, stands
 
 from desire_path.bake import bake
 from desire_path.ground.soil import SOILS
-from scenes import gaits, meshes, slopes, stands
 
 SECONDS, JUMP = 1.5, 1.2  # the dance ends, and leaves the ground [s]
 CELL = 1.0 / 64.0  # mirrored and turned without rounding [m]

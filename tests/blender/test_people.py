@@ -7,14 +7,14 @@ import pathlib
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake
-from desire_path.ground import maps, sim
-from desire_path.loads import walker
-from desire_path.blender import clock, moves, sample
-from desire_path.motion.gait import Gait
 from scenes import meshes, people
 from test_playback import shown
+
+from desire_path.bake import bake
+from desire_path.blender import clock, moves, sample
+from desire_path.ground import maps, sim
+from desire_path.loads import walker
+from desire_path.motion.gait import Gait
 
 CMU = 2.54 / 0.45 / 100.0  # metres in a unit of the mocap clips
 

@@ -6,15 +6,16 @@ import pathlib
 import bpy
 import numpy as np
 from mathutils import Matrix
+from scenes import meshes, people
+from test_rig import add_bones, beast, refused
 
+from desire_path.blender import compat, moves, op_place, posing, sample
+from desire_path.blender import ground as ground_of
 from desire_path.ground import maps
+from desire_path.ground.sim import Simulation
 from desire_path.loads import walker
 from desire_path.motion import rotation
 from desire_path.placement import place
-from desire_path.blender import compat, ground as ground_of, moves, op_place, posing, sample
-from desire_path.ground.sim import Simulation
-from scenes import meshes, people
-from test_rig import add_bones, beast, refused
 
 WALKS = pathlib.Path(__file__).resolve().parents[1] / "scenes" / "walks"
 operator = bpy.ops.object
@@ -257,7 +258,7 @@ def test_what_holds_bones_is_a_sentence():
     limit.target, limit.subtarget = obj, "neck"
     refused(operator.desire_path_place_feet, "'shin.R'", "Copy Rotation", "Bake Action")
     limit.mute = True
-    driver = pose["thigh.L"].driver_add("rotation_euler", 0)
+    pose["thigh.L"].driver_add("rotation_euler", 0)
     refused(operator.desire_path_place_feet, "'thigh.L'", "driver")
     pose["thigh.L"].driver_remove("rotation_euler", 0)
     pose["foot.L"].lock_rotation = (True, True, True)

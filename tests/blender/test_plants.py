@@ -7,14 +7,13 @@ import zlib
 
 import bpy
 import numpy as np
-
-
-from desire_path.blender import axes, compat, grass, playback, plants
-from desire_path.ground.plants import KINDS
 from scenes import exr, meshes
 from test_bake import refused, state
 from test_playback import corners, fresh
 from test_sample import ids
+
+from desire_path.blender import axes, compat, grass, plants, playback
+from desire_path.ground.plants import KINDS
 
 NX, NY, CELL = 96, 64, 0.02
 KEEP = ("node_groups", "images", "objects", "meshes", "scenes", "collections", "materials")
@@ -577,17 +576,17 @@ def test_images_at_rest_change_nothing(folder):
     play(ground, images(folder, trail, lean))
     _, real, told = grown(each.grass, 1)
     assert len(real) > 10000
-    shape = {number: obj for number, obj in enumerate(grass.scattered(each.grass.modifiers[0].node_group).objects)}
+    shape = dict(enumerate(grass.scattered(each.grass.modifiers[0].node_group).objects))
     graph = bpy.context.evaluated_depsgraph_get()
     bpy.context.scene.frame_set(0)
     graph = bpy.context.evaluated_depsgraph_get()
     wanted = []
     for instance in graph.object_instances:
-        if instance.is_instance and instance.parent is not None and instance.parent.original == each.grass:
-            if not _is_real(instance.object.data):
-                local = compat.positions(instance.object.data)
-                matrix = np.array(instance.matrix_world)
-                wanted.append(local @ matrix[:3, :3].T + matrix[:3, 3])
+        mine = instance.is_instance and instance.parent is not None and instance.parent.original == each.grass
+        if mine and not _is_real(instance.object.data):
+            local = compat.positions(instance.object.data)
+            matrix = np.array(instance.matrix_world)
+            wanted.append(local @ matrix[:3, :3].T + matrix[:3, 3])
     wanted = np.concatenate(wanted)
     assert len(shape) == 8 and len(wanted) == len(real)
     order, other = (np.lexsort(np.round(a[:, :2], 3).T) for a in (wanted, real))

@@ -7,9 +7,9 @@ import types
 
 import bpy
 import numpy as np
+from scenes import exr, meshes
 
 from desire_path.blender import axes, compat, playback
-from scenes import exr, meshes
 
 NX, NY, CELL = 48, 40, 0.02
 

@@ -5,12 +5,12 @@ import json
 import bpy
 import numpy as np
 from mathutils import Matrix
-
-from desire_path.blender import op_forces, posing, sample
 from scenes import meshes
 from test_bake import scene as strip
 from test_place import hill, operator, people, scene_of
 from test_playback import shown
+
+from desire_path.blender import op_forces, posing, sample
 
 LAST = 30
 

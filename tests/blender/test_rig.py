@@ -4,11 +4,11 @@ import json
 
 import bpy
 import numpy as np
+from scenes import beasts, meshes, people
 
 import desire_path
 from desire_path.blender import panels, sample
 from desire_path.errors import DesirePathError
-from scenes import beasts, meshes, people
 
 operator = bpy.ops.object
 

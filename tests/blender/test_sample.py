@@ -4,11 +4,11 @@ import math
 
 import bpy
 import numpy as np
+from scenes import meshes, people
 
-from desire_path.rig import rigs
 from desire_path.blender import axes, moves, sample
 from desire_path.errors import DesirePathError
-from scenes import meshes, people
+from desire_path.rig import rigs
 
 FRAMES = (1, 24)
 
@@ -124,8 +124,7 @@ def test_unit_scale_and_object_scale():
     scene.unit_settings.scale_length = 1.0
     scaled = people.walk(people.biped("Scaled", 0.01), size=0.01)
     scaled.scale = (100.0, 100.0, 100.0)
-    scaled.animation_data.action  # the location is keyed in the object's parent space, in metres
-    for curve in curves(scaled):
+    for curve in curves(scaled):  # the location is keyed in the object's parent space, in metres
         if curve.data_path == "location":
             for key in curve.keyframe_points:
                 key.co[1] *= 100.0

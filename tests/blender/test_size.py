@@ -1,13 +1,12 @@
 """Sizes that cannot be are asked about first, small creatures step as people do, and a held pose is no step."""
 
 import bpy
-import numpy as np
-
-from desire_path.blender import sample
-from desire_path.errors import DesirePathError
 from scenes import meshes, people
 from test_people import CMU, ground_under, walk_over
 from test_playback import shown
+
+from desire_path.blender import sample
+from desire_path.errors import DesirePathError
 
 WALK = "cmu_12_01_walk.bvh"
 

@@ -5,11 +5,11 @@ import math
 
 import bpy
 import numpy as np
-
-from desire_path.blender import op_walkers, sample
 from scenes import meshes, people
 from test_bake import refused
 from test_playback import shown
+
+from desire_path.blender import op_walkers, sample
 
 RATE = 24
 

@@ -2,11 +2,11 @@
 
 import bpy
 import numpy as np
-
-from desire_path.blender import compat, playback, stack
 from scenes import meshes, people
 from test_ground import mesh_of, read
 from test_sample import ids
+
+from desire_path.blender import compat, playback, stack
 
 operator = bpy.ops.object
 

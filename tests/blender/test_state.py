@@ -5,15 +5,15 @@ import shutil
 
 import bpy
 import numpy as np
-
-import desire_path
-from desire_path.bake import output
-from desire_path.blender import axes, compat, home, op_bake, playback
 from scenes import meshes, people
 from test_bake import refused, scene
 from test_home import files, opened, saved
 from test_playback import shown
 from test_sample import ids
+
+import desire_path
+from desire_path.bake import output
+from desire_path.blender import axes, compat, home, op_bake, playback
 
 
 def keys(obj):

@@ -4,13 +4,13 @@ import json
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake
-from desire_path.ground import sim
-from desire_path.blender import op_forces, op_place, playback
 from scenes import meshes, people
 from test_bake import refused
 from test_playback import shown
+
+from desire_path.bake import bake
+from desire_path.blender import op_forces, op_place, playback
+from desire_path.ground import sim
 
 CELL = 0.02
 
@@ -268,7 +268,8 @@ def test_forces_and_places_are_those_of_the_whole_ground(folder):
 
 
 def test_feet_go_down_into_the_prints_of_both(folder):
-    north, south = tile(folder, "north", -1.2, 0.6), tile(folder, "south", -3.2, -1.2)
+    north = tile(folder, "north", -1.2, 0.6)
+    tile(folder, "south", -3.2, -1.2)
     obj = walker(north)
     bake_it(north)
     _, placed, _ = op_place.read(bpy.context.scene, obj, north, list(range(1, 51)), True)

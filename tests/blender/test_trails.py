@@ -5,16 +5,16 @@ import struct
 
 import bpy
 import numpy as np
-
-from desire_path.bake import bake
-from desire_path.ground import maps
-from desire_path.blender import compat, op_bake, playback, plants, stems, way
-from desire_path.errors import DesirePathError
-from desire_path.ground.plants import KINDS
 from scenes import meshes
 from test_bake import refused, scene, state
 from test_plants import everything, grown, picture, roots
 from test_playback import fresh
+
+from desire_path.bake import bake
+from desire_path.blender import compat, op_bake, plants, playback, stems, way
+from desire_path.errors import DesirePathError
+from desire_path.ground import maps
+from desire_path.ground.plants import KINDS
 
 
 def meadow(folder, kind="carex", **more):

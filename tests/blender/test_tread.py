@@ -3,12 +3,12 @@
 import bpy
 import mathutils
 import numpy as np
+from scenes import meshes, people
 
 from desire_path.bake import bake
-from desire_path.ground import maps
 from desire_path.blender import sample
 from desire_path.errors import DesirePathError
-from scenes import meshes, people
+from desire_path.ground import maps
 
 operator = bpy.ops.object
 LUGS = 5  # bars across the sole, a bar and a gap of 3 cm each

@@ -2,10 +2,10 @@
 
 import bpy
 import numpy as np
-
-from desire_path.blender import compat, playback
 from scenes import meshes
 from test_stack import raised, scatter, strip, tree_of, trodden
+
+from desire_path.blender import compat, playback
 
 LAST = 30
 

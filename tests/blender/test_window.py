@@ -6,7 +6,6 @@ import subprocess
 import time
 
 import bpy
-
 from run import Skip
 
 SCRIPT = pathlib.Path(__file__).resolve().parent / "window.py"

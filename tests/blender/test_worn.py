@@ -2,12 +2,12 @@
 
 import bpy
 import numpy as np
-
-from desire_path.rig import rigs
-from desire_path.blender import axes, compat, playback, sample, worn
 from scenes import meshes, people
 from test_sample import ids, shoe
 from test_stack import tree_of
+
+from desire_path.blender import axes, compat, playback, sample, worn
+from desire_path.rig import rigs
 
 LAST = 30
 

@@ -14,10 +14,11 @@ bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 
 desire_path.register()
-from desire_path.bake import bake  # noqa: E402
-from desire_path.ground import sim  # noqa: E402
-from desire_path.blender import op_bake, op_forces, playback, state  # noqa: E402
 from scenes import meshes, people  # noqa: E402
+
+from desire_path.bake import bake  # noqa: E402
+from desire_path.blender import op_bake, op_forces, playback, state  # noqa: E402
+from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
 write_frame = sim.Film.write_frame

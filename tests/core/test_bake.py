@@ -12,12 +12,11 @@ import numpy as np
 import pytest
 
 from desire_path.bake import bake as bakes
-from desire_path.ground import maps
 from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.motion.gait import Gait, Sole
+from desire_path.ground import maps
 from desire_path.ground.sim import Ground, Simulation
-
+from desire_path.motion.gait import Gait, Sole
 from tests.scenes import gaits
 
 REPO = Path(__file__).resolve().parents[2]

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import beasts
 
+from desire_path.errors import DesirePathError
 from desire_path.loads import walker
 from desire_path.rig import body, mass, rigs
-from desire_path.errors import DesirePathError
-from scenes import beasts
 
 
 def gait(bones, motion, rig=None, kilograms=60.0):

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from desire_path.errors import DesirePathError
 from desire_path.loads import walker
 from desire_path.motion import rotation
+from desire_path.motion.gait import BALL, HEEL, TIP, Sole
 from desire_path.rig import body, rigs, sole
 from desire_path.rig.body import Motion, Skeleton, Skin
-from desire_path.errors import DesirePathError
-from desire_path.motion.gait import BALL, HEEL, TIP, Sole
 
 NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
 PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
@@ -54,8 +54,8 @@ def person(toes=True, scale=1.0, turn=np.eye(3), roll=0.0):
 
 def about_x(angle):
     c, s = np.cos(angle), np.sin(angle)
-    o, l = np.zeros_like(c), np.ones_like(c)
-    return np.moveaxis(np.array([[l, o, o], [o, c, -s], [o, s, c]]), -1, 0)
+    o, e = np.zeros_like(c), np.ones_like(c)
+    return np.moveaxis(np.array([[e, o, o], [o, c, -s], [o, s, c]]), -1, 0)
 
 
 def walk(skeleton, turn=np.eye(3), scale=1.0, toes_bend=True, count=240, rate=120.0, facing=0.0):
@@ -546,7 +546,7 @@ def test_a_heel_bone_is_where_the_sole_ends(behind):
     motion = walk(bones)
     plain = gait(bones, motion)
     names, parents = list(bones.names), list(bones.parents)
-    rest, length, matrix = list(bones.rest), list(bones.length), motion.matrix
+    rest, length = list(bones.rest), list(bones.length)
     for side, x in (("L", 1), ("R", -1)):
         head = joints(x)[2] * (1, 1, 0) + [-0.03 * x, behind, 0.0]
         heel = np.eye(4)

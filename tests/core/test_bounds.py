@@ -12,16 +12,15 @@ import numpy as np
 import pytest
 
 from desire_path import bounds
-from desire_path.files import disk
-from desire_path.loads import walker
 from desire_path.bake.bake import Bake, read_index
 from desire_path.bounds import Limits
 from desire_path.errors import DesirePathError
-from desire_path.motion.gait import Gait
-from desire_path.study.trampling import WALK
+from desire_path.files import disk
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import Ground, Simulation
-
+from desire_path.loads import walker
+from desire_path.motion.gait import Gait
+from desire_path.study.trampling import WALK
 from tests.core.test_bake import baked, sentence, standing
 
 REPO = Path(__file__).resolve().parents[2]

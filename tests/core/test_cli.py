@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from desire_path.ground import maps
-
 from tests.core.test_bake import standing
 
 REPO = Path(__file__).resolve().parents[2]
@@ -104,7 +103,7 @@ def test_loads_are_a_table(tmp_path, walk):
     assert done.returncode == 0, done.stderr
     with open(tmp_path / "loads.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert list(rows[0]) == "time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(",")
+    assert list(rows[0]) == ["time", "walker", "limb", "part", "touching", "fx", "fy", "fz", "px", "py", "pz"]
     stands = [float(row["fz"]) for row in rows if 0.3 < float(row["time"]) < 1.2]
     assert np.mean(stands) == pytest.approx(-75 * 9.81, rel=0.02)
 

@@ -7,7 +7,6 @@ import pytest
 
 from desire_path import _native
 from desire_path.ground.sim import Ground, Simulation
-
 from tests.scenes import gaits
 
 

@@ -5,7 +5,6 @@ import pytest
 
 from desire_path.ground import maps
 from desire_path.ground.sim import TILE, Ground, Simulation
-
 from tests.scenes import gaits
 
 

@@ -5,16 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import bvh, trials
+from test_size import scaled
 
+from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
 from desire_path.motion import freeze, size, stays
+from desire_path.motion.gait import Gait
 from desire_path.placement import place
 from desire_path.rig import body
 from desire_path.rig.body import Motion
-from desire_path.motion.gait import Gait
-from desire_path.ground.sim import Ground, Simulation
-from scenes import bvh, trials
-from test_size import scaled
 
 CELL = 0.02
 RATE = 30.0

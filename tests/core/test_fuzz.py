@@ -6,9 +6,8 @@ import time
 
 import pytest
 
-from desire_path.study import trampling
 from desire_path.errors import DesirePathError
-
+from desire_path.study import trampling
 from tests.fuzz import mutate, parsers
 
 

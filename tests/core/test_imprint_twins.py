@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from desire_path import _native
-
 from tests.reference import imprint as slow
 
 

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import bvh
 
+from desire_path.bake.bake import Bake
+from desire_path.ground.sim import Ground
 from desire_path.loads import walker
 from desire_path.motion import jumps
-from desire_path.rig import body
-from desire_path.bake.bake import Bake
 from desire_path.motion.gait import Gait
-from desire_path.ground.sim import Ground
-from scenes import bvh
+from desire_path.rig import body
 
 CLIPS = ("cmu_02_03_run", "cmu_02_04_jump", "cmu_12_01_walk")
 SCALE = 0.056444

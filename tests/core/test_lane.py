@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path.study import calibrate, trampling
 from desire_path.errors import DesirePathError
 from desire_path.ground.plants import KINDS, Kind, share_below, vigour_at
+from desire_path.study import calibrate, trampling
 
 REPO = Path(__file__).resolve().parents[2]
 COLE = REPO / "tests" / "scenes" / "lanes" / "cole.csv"

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from desire_path import _native
-from desire_path.ground import maps
 from desire_path.errors import DesirePathError
+from desire_path.ground import maps
 
 
 @pytest.fixture

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path.rig import body, mass, rigs
 from desire_path.errors import DesirePathError
-
+from desire_path.rig import body, mass, rigs
 from tests.core.test_body import person
 
 

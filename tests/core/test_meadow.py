@@ -5,14 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import gaits
 
-from desire_path.ground import maps
 from desire_path.bake.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
+from desire_path.ground import maps
 from desire_path.ground.plants import KINDS, PAPER, Planting
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS
-from scenes import gaits
 
 TOUGH = KINDS["lawn"]
 FIELDS = ("compression", "heap", "pressure_time", "plant_strength", "young_modulus")

@@ -98,4 +98,4 @@ def test_what_never_was_is_not_found():
     code, told = run(HOME.parent, "import desire_path.runner")
     assert code == 1 and "No module named 'desire_path.runner'" in told
     with pytest.raises(AttributeError, match="runner"):
-        desire_path.runner
+        desire_path.runner  # noqa: B018

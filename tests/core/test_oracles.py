@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path.loads import walker
-from desire_path.motion.gait import Gait
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS, Soil
-
+from desire_path.loads import walker
+from desire_path.motion.gait import Gait
 from tests.scenes import gaits, slopes
 
 G = 9.81

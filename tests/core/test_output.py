@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 
 from desire_path.bake import output
+from desire_path.bake.bake import Bake, free, read_index
+from desire_path.bake.output import NAMES, Output
+from desire_path.errors import DesirePathError
 from desire_path.files import atomic_file, disk
 from desire_path.ground import maps
-from desire_path.bake.bake import Bake, free, read_index
-from desire_path.errors import DesirePathError
-from desire_path.bake.output import NAMES, Output
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import Ground
-
 from tests.core.test_bake import baked, content, sentence, standing
 
 REPO = Path(__file__).resolve().parents[2]
@@ -80,7 +79,7 @@ out.release()
 
 
 def killed_after(steps, folder, can):
-    """Publish in a process that dies at its step number `steps`, on a disk that can so much; whether it came to that."""
+    """Publish in a process that dies at its step number `steps`, on a disk that can so much; True: it came to that."""
     script = DYING.format(addon=str(REPO / "addon"), steps=steps, can=can, folder=str(folder))
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode in (0, -signal.SIGKILL), done.stderr
@@ -413,9 +412,9 @@ def test_a_table_never_replaces_what_is_no_file(tmp_path, kind):
     else:
         path.mkdir()
     before = os.lstat(path)
-    with pytest.raises(DesirePathError, match=f"which is a {kind.split()[-1]}") as error:
-        with atomic_file.file(path, "The table", "w") as stream:
-            stream.write("new")
+    match = f"which is a {kind.split()[-1]}"
+    with pytest.raises(DesirePathError, match=match) as error, atomic_file.file(path, "The table", "w") as stream:
+        stream.write("new")
     sentence(error)
     assert os.lstat(path).st_mode == before.st_mode and os.lstat(path).st_ino == before.st_ino
     assert target.exists() == (kind == "link") and (kind != "link" or target.read_text() == "precious")
@@ -452,9 +451,9 @@ def test_names_may_be_long_and_folders_missing(tmp_path):
         stream.write("1")
     assert long.read_text() == "1"
     for wrong in (tmp_path / "none" / "x.csv", f"{tmp_path}/a\0b.csv"):
-        with pytest.raises(DesirePathError, match="cannot be written") as error:
-            with atomic_file.file(wrong, "The table", "w"):
-                pass
+        refused = pytest.raises(DesirePathError, match="cannot be written")
+        with refused as error, atomic_file.file(wrong, "The table", "w"):
+            pass
         sentence(error)
     with pytest.raises(DesirePathError, match="cannot be made"):
         baked(f"{tmp_path}/a\0b")

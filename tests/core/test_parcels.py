@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from desire_path.ground import parcels
 from desire_path.errors import DesirePathError
+from desire_path.ground import parcels
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS
-
 from tests.scenes import gaits
 
 CELL = 0.02
@@ -48,7 +47,7 @@ def seam(n=4000):
 def test_no_place_is_lost_between_two_that_meet(turn):
     two = [Parcel(mesh(-1, -1, 1, 0), name="south"), Parcel(mesh(-1, 0, 1, 1, step=0.08, turn=turn), name="north")]
     ground, soils = parcels.sewn(two, CELL)
-    assert [soil for soil in soils] == [SOILS["dry-sand"]]
+    assert list(soils) == [SOILS["dry-sand"]]
     at = seam()
     alone = np.isfinite(parcels.heights(two, at)).any(axis=0)
     height = Simulation(ground, cell_size=CELL).rest_height(at)

@@ -9,19 +9,19 @@ from pathlib import Path as File
 
 import numpy as np
 import pytest
+from scenes import bvh, ship_walk
 
-from desire_path.ground import maps
-from desire_path.loads import walker
-from desire_path.placement import cycle, passes, path
-from desire_path.rig import body
-from desire_path.study import trampling
 from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.motion.gait import HEEL, Gait
-from desire_path.placement.path import Path
+from desire_path.ground import maps
 from desire_path.ground.plants import KINDS
 from desire_path.ground.sim import Ground, Simulation
-from scenes import bvh, ship_walk
+from desire_path.loads import walker
+from desire_path.motion.gait import HEEL, Gait
+from desire_path.placement import cycle, passes, path
+from desire_path.placement.path import Path
+from desire_path.rig import body
+from desire_path.study import trampling
 
 REPO = File(__file__).resolve().parents[2]
 WALK = REPO / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"
@@ -374,7 +374,7 @@ def test_a_frame_may_be_a_pass(walk, tmp_path):
     assert second.notes["time"] == pytest.approx(gait.time[gait.cut[-1]] - gait.time[0], abs=1.1)
 
     every = Bake(gait, Ground.flat(), "mud", tmp_path / "frames", cell_size=0.02, threads=1, film="frames")
-    for progress in every.run():
+    for _ in every.run():
         pass
     last = read_index(tmp_path / "frames")
     assert last.frames == int((gait.time[-1] - gait.time[0]) * 60 + 1e-6) + 1

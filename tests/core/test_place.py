@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from desire_path.loads import walker
-from desire_path.placement import place
-from desire_path.rig import body
-from desire_path.errors import DesirePathError
-from desire_path.motion.gait import BALL, HEEL, TIP, Gait, Sole
-from desire_path.ground.sim import Ground, Simulation
 from reference import place as twin
 from scenes import beasts, bvh
+
+from desire_path.errors import DesirePathError
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.loads import walker
+from desire_path.motion.gait import BALL, HEEL, TIP, Gait, Sole
+from desire_path.placement import place
+from desire_path.rig import body
 
 WALK = Path(__file__).resolve().parents[1] / "scenes" / "walks" / "cmu_12_01_walk.bvh"
 SOLE = Sole([[-0.1, -0.05, 0], [0.1, -0.05, 0], [0.1, 0.05, 0], [-0.1, 0.05, 0]], [[0, 1, 2], [0, 2, 3]])

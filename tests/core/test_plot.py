@@ -8,7 +8,6 @@ import pytest
 
 from desire_path.loads import plot, walker
 from desire_path.motion.gait import Gait
-
 from tests.core.test_bake import standing
 from tests.core.test_body import gait, person, walk
 from tests.core.test_cli import REPO, run

@@ -13,15 +13,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from desire_path.files import npz
-from desire_path.placement import path
-from desire_path.study import trampling
 from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
-from desire_path.motion.gait import Gait
+from desire_path.files import npz
 from desire_path.ground.plants import Kind
 from desire_path.ground.sim import Ground
-
+from desire_path.motion.gait import Gait
+from desire_path.placement import path
+from desire_path.study import trampling
 from tests.core.test_bake import baked, content, sentence, standing
 
 REPO = Path(__file__).resolve().parents[2]

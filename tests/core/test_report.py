@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import trials
 
 from desire_path.loads import report, walker
 from desire_path.rig import body
-from scenes import trials
 from tests.core.test_cli import REPO
 from tests.core.test_place import cmu
 from tests.core.test_walker import two_feet

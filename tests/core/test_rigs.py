@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from desire_path.errors import DesirePathError
 from desire_path.rig import rigs
 from desire_path.rig.body import Skeleton
-from desire_path.errors import DesirePathError
 
 # where joints of a standing person are: (across, behind, up) [m], left side
 PLACES = {
@@ -30,7 +30,7 @@ def skeleton(bones):
     names = [b[0] for b in bones]
     rest = np.tile(np.eye(4), (len(bones), 1, 1))
     length = np.zeros(len(bones))
-    for k, (name, parent, head, tail, side) in enumerate(bones):
+    for k, (_, _, head, tail, side) in enumerate(bones):
         flip = np.array([-1.0 if side > 0 else 1.0, 1, 1])
         head = np.array(PLACES[head] if isinstance(head, str) else head, float) * flip
         tail = np.array(PLACES[tail] if isinstance(tail, str) else tail, float) * flip

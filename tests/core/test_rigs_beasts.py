@@ -5,7 +5,6 @@ import pytest
 
 from desire_path.rig import body, rig_names, rigs
 from desire_path.rig.body import Motion, Skeleton
-
 from tests.core import test_rigs
 from tests.core.test_rigs import person, skeleton
 

@@ -5,13 +5,12 @@ import json
 import numpy as np
 import pytest
 
-from desire_path.ground import maps
 from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
+from desire_path.ground import maps
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import TILE, Ground
-
 from tests.core.test_parcels import hill, tile
 from tests.scenes import gaits
 
@@ -199,7 +198,7 @@ def test_a_stopped_bake_of_two_goes_on_in_both(tmp_path):
             break
     stopped.close()
     index = read_index(tmp_path / "stopped" / "west")
-    assert 0 < index.frames and not index.complete
+    assert index.frames > 0 and not index.complete
     run(walk(), parcels(tmp_path / "stopped"))
     for name in ("west", "east"):
         one, other = (read_index(tmp_path / kind / name) for kind in ("whole", "stopped"))

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from desire_path import Bake, Ground, read_index
-from desire_path.loads import walker
-from desire_path.placement import place, settle_feet
 from desire_path.errors import DesirePathError
 from desire_path.ground.sim import Simulation
+from desire_path.loads import walker
+from desire_path.placement import place, settle_feet
 from tests.core.test_place import cmu, plane
 
 

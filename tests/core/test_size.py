@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import beasts, bvh, trials
 
 from desire_path.loads import walker
 from desire_path.motion import size
+from desire_path.motion.gait import Gait
 from desire_path.rig import body
 from desire_path.rig.body import Motion, Skeleton
-from desire_path.motion.gait import Gait
-from scenes import beasts, bvh, trials
 
 
 def scaled(skeleton, motion, by):

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import gaits
 
 from desire_path import Ground, Simulation, Soil
 from desire_path.ground.soil import SOILS
-from scenes import gaits
 
 CELL = 0.002
 SAND = Soil(layer_depth=0.3, young_modulus=2e6, settle_time=0.02, poisson_ratio=0.0, rest_angle=math.radians(32.0))

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import beasts
 
+from desire_path.ground.sim import Ground, Simulation
 from desire_path.motion import rotation
 from desire_path.rig import body, rigs, slope
 from desire_path.rig.body import Motion
 from desire_path.rig.foot import FootShape
-from desire_path.ground.sim import Ground, Simulation
-from scenes import beasts
 from tests.core.test_body import person, walk
 from tests.core.test_place import plane
 

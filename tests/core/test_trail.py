@@ -5,11 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from desire_path.ground import maps
 from desire_path.bake.bake import Bake
 from desire_path.errors import DesirePathError
+from desire_path.ground import maps
 from desire_path.ground.sim import Ground, Simulation
-
 from tests.core.test_bake import standing
 from tests.core.test_cli import run
 from tests.scenes import gaits
@@ -48,7 +47,7 @@ def hill(hole=True):
 @pytest.mark.parametrize("ground", [Ground.flat(0.25), hill()], ids=["flat", "hill"])
 def test_two_walks_in_turn_are_one_walk_and_then_the_other_on_its_map(tmp_path, ground):
     first, second = gaits.strides(1.4), gaits.strides(1.4, y=0.06, shift=0.3)
-    for gait, loads in (first, second):
+    for gait, _ in (first, second):
         gait.pose[:, :, 2] += float(np.nanmax(ground.native[1])) if ground.name == "heights" else 0.25
     whole = walked(walked(Simulation(ground, "mud", CELL), first), second)
     path = left(walked(Simulation(ground, "mud", CELL), first), tmp_path / "a.exr", ground.name)

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from desire_path.rig import sole, sole_mesh
 from desire_path.errors import DesirePathError
+from desire_path.rig import sole, sole_mesh
 from desire_path.rig.sole_mesh import Tread
-
 from tests.core.test_body import boots, flat_sample, gait, person, places, walk
 
 FACES = np.array(

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import bvh, plates, trials
 
 from desire_path.bake import bake
+from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
 from desire_path.rig import body
-from desire_path.ground.sim import Ground, Simulation
-from scenes import bvh, plates, trials
 
 
 def loads_of(trial):

@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from desire_path import _native
-from desire_path.loads import walker
-from desire_path.motion import size
-from desire_path.rig import body
-from desire_path.errors import DesirePathError
-from desire_path.motion.gait import Gait, Sole
-from desire_path.ground.sim import Ground, Simulation
-from desire_path.ground.soil import Soil
 from reference import walker as twin
 from scenes import bvh, gaits, plates
+
+from desire_path import _native
+from desire_path.errors import DesirePathError
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import Soil
+from desire_path.loads import walker
+from desire_path.motion import size
+from desire_path.motion.gait import Gait, Sole
+from desire_path.rig import body
 
 SOLE = Sole([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]], [[0, 2, 1]])
 

@@ -30,14 +30,14 @@ for folder in (ROOT, ROOT / "addon"):
         sys.path.insert(0, str(folder))
 
 from desire_path.bake import folder as bake_folder  # noqa: E402
-from desire_path.ground import maps  # noqa: E402
-from desire_path.placement import path  # noqa: E402
-from desire_path.study import trampling  # noqa: E402
 from desire_path.bake.bake import Bake  # noqa: E402
 from desire_path.errors import DesirePathError  # noqa: E402
-from desire_path.motion.gait import Gait  # noqa: E402
+from desire_path.ground import maps  # noqa: E402
 from desire_path.ground.plants import KINDS, Kind  # noqa: E402
 from desire_path.ground.sim import Ground, Simulation  # noqa: E402
+from desire_path.motion.gait import Gait  # noqa: E402
+from desire_path.placement import path  # noqa: E402
+from desire_path.study import trampling  # noqa: E402
 from tests.fuzz import mutate  # noqa: E402
 from tests.scenes import gaits  # noqa: E402
 
@@ -120,7 +120,7 @@ def picture(place):
     grid = np.linspace(0, 1, 35, dtype=np.float32).reshape(5, 7)
     notes = {"cell": 0.1, "originX": 1.0, "originY": -2.0, "parameters": '{"ground": "flat"}'}
     for names in (("height",), ("rest", "compression", "heap", "pressure_time", "plant_strength")):
-        maps.write(place / "good.exr", {name: grid for name in names}, notes)
+        maps.write(place / "good.exr", dict.fromkeys(names, grid), notes)
         made.append((place / "good.exr").read_bytes())
 
     def read():

@@ -24,8 +24,9 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path[:0] = [str(ROOT / "addon"), str(HERE)]
 
-from desire_path import Gait, _native, maps, walker  # noqa: E402
 from worlds import worlds  # noqa: E402
+
+from desire_path import Gait, _native, maps, walker  # noqa: E402
 
 EXPECTED = HERE / "expected.json"
 WORKERS = (1, 2, 5)

@@ -71,7 +71,7 @@ def walk(
     shift=0.0,
     turn=0.0,
 ):
-    """Two feet, each one limb of two parts (heel and toe), that walk `length` [m] from `start` along `way`, of length 1.
+    """Two feet, each one limb of a heel and a toe, that walk `length` [m] from `start` along the unit vector `way`.
 
     height: (x, y) -> z of the ground [m]. push: ahead and aside, shares of the weight.
     """

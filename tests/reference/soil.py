@@ -50,7 +50,7 @@ def border_shares(cells, point, force, normal, threshold):
 
 
 def slide(h, cell, rest_angle, step, passes):
-    """TRAIL (14)-(16) on loose ground, but h_step leaves a cell once, not once for each neighbour (no volume is lost)."""
+    """TRAIL (14)-(16) on loose ground, but h_step leaves a cell once, not for each neighbour: no volume is lost."""
     ny, nx = h.shape
     for _ in range(passes):
         moved = False

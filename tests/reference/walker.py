@@ -123,7 +123,7 @@ def arrives(on, height, clearance, rise, rate):
 
 
 def leaves(on, lift, rate):
-    """A point that lets go did so when it was lifted and sped up hardest (lift), up to 0.1 s before and half that after."""
+    """A point that lets go did so when it was lifted and sped up hardest (lift), 0.1 s before to half that after."""
     on, t, reach = list(on), 1, int(0.1 * rate)
     while t < len(on):
         if on[t - 1] and not on[t]:

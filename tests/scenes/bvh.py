@@ -56,11 +56,11 @@ def _parse(text):
 
 def _about(axis, degrees):
     angle = np.radians(degrees)
-    c, s, o, l = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
+    c, s, o, e = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
     rows = {
-        "X": [[l, o, o], [o, c, -s], [o, s, c]],
-        "Y": [[c, o, s], [o, l, o], [-s, o, c]],
-        "Z": [[c, -s, o], [s, c, o], [o, o, l]],
+        "X": [[e, o, o], [o, c, -s], [o, s, c]],
+        "Y": [[c, o, s], [o, e, o], [-s, o, c]],
+        "Z": [[c, -s, o], [s, c, o], [o, o, e]],
     }[axis]
     return np.moveaxis(np.array(rows), -1, 0)
 

@@ -147,7 +147,7 @@ def import_walk():
     from io_anim_bvh import import_bvh
 
     # Blender 3.4 with Python 3.11: the importer opens files in a mode that is gone
-    import_bvh.open = lambda path, mode="r", *a, **k: builtins.open(path, mode.replace("U", "") or "r", *a, **k)
+    import_bvh.open = lambda path, mode="r", *a, **k: builtins.open(path, mode.replace("U", "") or "r", *a, **k)  # noqa: SIM115
     bpy.ops.import_anim.bvh(
         filepath=WALK, global_scale=UNIT, use_fps_scale=True, update_scene_fps=False, update_scene_duration=False
     )

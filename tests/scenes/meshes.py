@@ -1,5 +1,7 @@
 """meshes.py - grounds and other meshes built by arrays."""
 
+import contextlib
+
 import bpy
 import numpy as np
 
@@ -25,10 +27,8 @@ def grid(nx, ny, spacing, x0=0.0, y0=0.0, height=None, name="Ground"):
     mesh.vertices.foreach_set("co", co.ravel())
     mesh.loops.foreach_set("vertex_index", quads.ravel())
     mesh.polygons.foreach_set("loop_start", np.arange(0, quads.size, 4, dtype=np.int32))
-    try:
+    with contextlib.suppress(Exception):  # later Blenders read it off loop_start
         mesh.polygons.foreach_set("loop_total", np.full(len(quads), 4, np.int32))
-    except Exception:
-        pass  # later Blenders read it off loop_start
     mesh.update(calc_edges=True)
     return link(bpy.data.objects.new(name, mesh))
 

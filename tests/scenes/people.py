@@ -80,7 +80,7 @@ def bvh(path, **options):
         except ImportError:
             continue
         # Debian's 3.4 opens files with a mode its Python no longer knows
-        module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r", *a, **k)
+        module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r", *a, **k)  # noqa: SIM115
     addon("io_anim_bvh", "import_anim", "bvh")
     before = set(bpy.data.objects)
     bpy.ops.import_anim.bvh(

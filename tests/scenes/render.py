@@ -6,7 +6,8 @@
     blender -b demo.blend --python-exit-code 1 -P render.py -- frames FOLDER WIDTH HEIGHT SAMPLES N
     blender -b meadow.blend --python-exit-code 1 -P render.py -- view PATH WIDTH HEIGHT SAMPLES FRAME
 
-`view` looks through the file's own camera; `prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames N, N .. of the film.
+`view` looks through the file's own camera; `prints` makes FOLDER/sand.png, snow.png and mud.png, `frames` frames
+N, N .. of the film.
 """
 
 import os

@@ -13,9 +13,9 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 
+from desire_path.motion.gait import Gait  # noqa: E402
 from desire_path.placement import cycle  # noqa: E402
 from desire_path.rig import body  # noqa: E402
-from desire_path.motion.gait import Gait  # noqa: E402
 from scenes import bvh  # noqa: E402
 
 CLIP = ROOT / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"

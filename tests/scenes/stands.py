@@ -13,9 +13,10 @@ import bpy
 import mathutils
 import numpy as np
 
-from desire_path.ground import maps
 from desire_path.blender import compat, playback
+from desire_path.ground import maps
 from desire_path.ground.soil import SOILS
+
 from . import gaits, meshes
 
 ASIDE = 0.15  # the left foot stands here on rest pose's x, the right one opposite [m]

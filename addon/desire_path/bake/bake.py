@@ -27,21 +27,20 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from .. import _native, bounds
-from ..ground import plant_mesh
-from ..loads import walker
-from ..motion import jumps, size
-from ..ground import parcels as fields
 from ..bounds import Limits
 from ..errors import DesirePathError
-from .folder import FORMAT
-from .folder import FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
-from .output import Output
+from ..ground import parcels as fields
+from ..ground import plant_mesh
 from ..ground.parcels import Parcel
-from ..placement.passes import turns_of
-from ..motion.rotation import turned
-from .share import Share
 from ..ground.sim import LOAD_MODELS, TILE, Ground, Simulation, check_cell
+from ..loads import walker
+from ..motion import jumps, size
+from ..motion.rotation import turned
+from ..placement.passes import turns_of
 from ..version import VERSION
+from .folder import FORMAT, FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
+from .output import Output
+from .share import Share
 
 SAMPLE_RATE = 120.0  # at least so many steps a second, more for small creatures (size.hurry) [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
@@ -71,8 +70,8 @@ class Bake:
     """One bake: make it, run it, read its report.
 
     gait: Gait; ground: Ground; soils as for Simulation; folder: where the files go.
-    ground may be a list of Parcels, as the tiles of a terrain, which are pressed as one: each has its own soils, folder,
-    plants and owner then, those named here are not asked for, and `shares` tells which were trodden.
+    ground may be a list of Parcels, as the tiles of a terrain, which are pressed as one: each has its own soils,
+    folder, plants and owner then, those named here are not asked for, and `shares` tells which were trodden.
     cell_size [m]; frame_start, frame_end: scene frames to write, default: the whole recording.
     load_model: "inertia" or "impulse"; law, heap, rim_width, threads, plants: as for Simulation.
     plant_mesh: write the plants themselves as a mesh and its point cache, for close-ups.
@@ -139,7 +138,8 @@ class Bake:
             )
         if self.frame_start > last or self.frame_end < gait.frame_start:
             raise DesirePathError(
-                f"The recording holds frames {gait.frame_start} to {last} and none of {self.frame_start} to {self.frame_end}: choose frames among them."
+                f"The recording holds frames {gait.frame_start} to {last} and none of {self.frame_start} to "
+                f"{self.frame_end}: choose frames among them."
             )
         self.load_model = load_model
         self.resume = resume
@@ -303,7 +303,8 @@ class Bake:
             yield from self._run()
         except OSError as problem:
             raise DesirePathError(
-                f"{_plain(problem)}. What was baked before is still there; make room or choose another folder, then bake again."
+                f"{_plain(problem)}. What was baked before is still there; make room or choose another folder, "
+                "then bake again."
             ) from None
         except MemoryError:
             raise DesirePathError("There is not enough memory: choose a larger cell size or fewer frames.") from None
@@ -324,7 +325,8 @@ class Bake:
             area[part] = np.prod(np.ptp(turned(lowest, sole.vertices.astype(float))[:, :2], axis=0))
             if size[1] * size[2] > MOST_SOLE * self.cell_size**2:
                 raise DesirePathError(
-                    f"The sole of bone {self.gait.bone(part)} is {size[2]:.1f} m long, too large for cells of {self.cell_size:g} m: check the walker's scale or choose a larger cell size."
+                    f"The sole of bone {self.gait.bone(part)} is {size[2]:.1f} m long, too large for cells of "
+                    f"{self.cell_size:g} m: check the walker's scale or choose a larger cell size."
                 )
         step = self.cell_size / min(max(round(self.cell_size / SOLE_STEP), 1), 4)  # as the core samples soles
         self.lost = []
@@ -338,10 +340,12 @@ class Bake:
             if lost and len(lost) == len(largest):
                 least = max(math.sqrt(area[lost].max()) / 8, 0.0005)
                 raise DesirePathError(
-                    f"The feet of {name} are lost between cells of {self.cell_size:g} m: choose a cell size of {least:.1g} m or so, or check the walker's scale."
+                    f"The feet of {name} are lost between cells of {self.cell_size:g} m: choose a cell size of "
+                    f"{least:.1g} m or so, or check the walker's scale."
                 )
             self.lost += [
-                f"The sole of bone {self.gait.bone(part)} is lost between cells of {self.cell_size:g} m and leaves no print: choose smaller cells."
+                f"The sole of bone {self.gait.bone(part)} is lost between cells of {self.cell_size:g} m and leaves no "
+                "print: choose smaller cells."
                 for part in lost
             ]
 

@@ -12,8 +12,8 @@ import os
 import struct
 from dataclasses import dataclass, field
 
-from ..files import atomic_file, disk
 from ..errors import DesirePathError
+from ..files import atomic_file, disk
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files

@@ -34,8 +34,8 @@ import os
 import time
 from pathlib import Path
 
-from ..files import atomic_file, disk
 from ..errors import DesirePathError
+from ..files import atomic_file, disk
 
 FRAMES = (
     "trail_*.exr",

@@ -14,13 +14,13 @@ from functools import cached_property
 
 import numpy as np
 
+from ..errors import DesirePathError
 from ..files import atomic_file
 from ..ground import maps, plant_mesh
-from ..errors import DesirePathError
-from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
-from .output import Output
 from ..ground.sim import TILE
 from ..version import VERSION
+from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
+from .output import Output
 
 MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit

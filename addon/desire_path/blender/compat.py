@@ -147,7 +147,7 @@ def node_objects(modifier):
             getattr(getattr(inputs, name, None), "value", None) for name in dir(inputs) if name.startswith("Socket")
         ]
     else:
-        given = [modifier[name] for name in modifier.keys()]
+        given = [modifier[name] for name in modifier.keys()]  # noqa: SIM118  (a modifier is no dict)
     trees = [modifier.node_group]
     for tree in trees:
         for node in tree.nodes:

@@ -6,10 +6,10 @@ Bones as they are seen + a Gait and where it should be --Plan--> a move of each 
 import bpy
 import numpy as np
 
+from ..errors import DesirePathError
 from ..motion import rotation
 from ..placement import place
 from ..rig import leg
-from ..errors import DesirePathError
 from . import axes, clock, controls, posing
 
 EASE = 0.15  # hips come down over this before and after they must [s]
@@ -140,7 +140,7 @@ class Plan:
         level = np.tile(np.eye(3), (len(centre), 1, 1))
         self.body = posing.turned(level if lean is None else lean, centre, placed.com[0] / self.bones.scale)
         down = np.zeros(len(centre))
-        for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
+        for limb, foot in enumerate(self.feet):
             if not (self.hangs(foot) or foot.foot in self.leads and foot.thigh and foot.shank):
                 continue
             goal = _at(self._foot_move(limb, gait, placed), self.heads(foot.foot))

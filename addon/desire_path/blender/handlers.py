@@ -13,7 +13,6 @@ from bpy.app.handlers import persistent
 from ..errors import DesirePathError
 from . import ground, home, op_forces, op_plants, overrides, playback, show, state, trash, watch
 
-
 _unsaved = False  # whether the file that is being saved never was before
 
 

@@ -9,8 +9,8 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from ..rig import sole
 from ..errors import DesirePathError
+from ..rig import sole
 from . import axes, ground, plants, reach, sample, way
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
@@ -20,7 +20,7 @@ def taken(scene, company, folders, **more):
     """Take them in steps, between which others may work; returns the Bake and the Surface of each ground it presses, by
     name.
 
-    company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for the Bake
+    company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for Bake
     """
     from ..bake.bake import Bake  # the core is loaded when it is first needed
     from ..ground.parcels import Parcel
@@ -122,8 +122,8 @@ def marks(obj, company, made, found):
         gait.point_role,
         gait.cut,
     ]
-    for sole in gait.soles:
-        walk += [sole.vertices, sole.triangles]
+    for each in gait.soles:
+        walk += [each.vertices, each.triangles]
     plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground

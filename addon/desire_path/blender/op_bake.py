@@ -13,9 +13,9 @@ from contextlib import closing
 
 import bpy
 
+from ..bake.output import check_idle
 from ..bounds import Limits
 from ..errors import DesirePathError
-from ..bake.output import check_idle
 from . import home, inputs, moves, op_plants, reach, sample, trash, way
 from .home import folder  # noqa: F401  (where others look for it)
 from .op_walkers import AsksFirst, Refusal, absent, active, sentence, walkers

@@ -75,8 +75,8 @@ class Reading:
 
 def read(scene, armature):
     """A Reading of what an armature does now."""
-    from ..loads import walker
     from ..ground.soil import SOILS
+    from ..loads import walker
 
     settings = armature.desire_path
     land = settings.ground

@@ -14,9 +14,9 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
+from ..errors import DesirePathError
 from ..placement import place
 from ..rig import slope
-from ..errors import DesirePathError
 from . import axes, compat, controls, footing, home, moves, playback, posing, reach, sample
 from .op_walkers import Refusal, active
 

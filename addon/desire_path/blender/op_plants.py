@@ -1,7 +1,7 @@
 """op_plants.py - plants are put on a ground and taken off it."""
 
 import functools
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
@@ -46,10 +46,8 @@ def _replant(name):
     obj = bpy.data.objects.get(name)
     if obj is None or not obj.desire_path.is_ground or obj.mode == "EDIT":
         return
-    try:
+    with suppress(DesirePathError):  # half typed; the next bake or Update says what is wrong
         refresh(bpy.context.scene, obj)
-    except DesirePathError:
-        pass  # half typed; the next bake or Update says what is wrong
 
 
 def refresh(scene, obj):

@@ -3,10 +3,9 @@
 import bpy
 from bpy.props import IntProperty, StringProperty
 
-from ..rig import rigs
 from ..errors import DesirePathError
-from . import axes, moves, playback, plants, props, sample, worn
-
+from ..rig import rigs
+from . import axes, moves, plants, playback, props, sample, worn
 
 WALKERS = {"ARMATURE", "MESH"}
 
@@ -220,8 +219,12 @@ class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
 
 
 class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
-    """Let the active armature leave prints, by the feet found in it, or the active mesh, as a rigid body; joins it to the ground"""
+    """Let the active armature or mesh leave prints"""
 
+    bl_description = (
+        "Let the active armature leave prints, by the feet found in it, or the active mesh, as a rigid body; joins it "
+        "to the ground"
+    )
     bl_idname = "object.desire_path_walker_add"
     bl_label = "Add Walker"
     bl_options = {"REGISTER", "UNDO"}

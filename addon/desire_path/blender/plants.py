@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..ground import tuft
 from ..errors import DesirePathError
+from ..ground import tuft
 from . import axes, compat, grass, ground, picture, playback, sample, stack
 
 MOST = 1_000_000  # plants of one planting that are shown

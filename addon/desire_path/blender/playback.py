@@ -123,7 +123,7 @@ def stacked(obj):
             for name in STACKED
             if hasattr(each, name) and not compat.is_keyed(obj.animation_data, of + name)
         }
-        shown = any([values.pop(name, False) for name in ("show_viewport", "show_render")])
+        shown = any(values.pop(name, False) for name in ("show_viewport", "show_render"))
         out.append(f"{each.name} {each.type} {shown} {tree.name if tree is not None else ''} {list(values.values())}")
     return "; ".join(out)
 
@@ -227,10 +227,7 @@ class Wiring:
         for name, value in (settings or {}).items():
             setattr(node, name, value)
         for name, value in inputs.items():
-            if name.startswith("_"):
-                target = node.inputs[int(name[1:])]
-            else:
-                target = compat.socket(node.inputs, name)
+            target = node.inputs[int(name[1:])] if name.startswith("_") else compat.socket(node.inputs, name)
             if target is None:
                 continue  # this Blender's node has no such input
             if isinstance(value, bpy.types.NodeSocket):

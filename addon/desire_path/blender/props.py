@@ -239,7 +239,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     # plain Python: Blender reads properties of its own while it saves and loads overrides, when nobody may look around
     @property
     def bake_state(self):
-        """What has become of the bake, NONE, FRESH, OUTDATED, PARTIAL or MISSING: found anew whenever it is asked for."""
+        """What has become of the bake, NONE, FRESH, OUTDATED, PARTIAL or MISSING: found anew whenever asked for."""
         from . import state
 
         return state.ask(self.id_data).state

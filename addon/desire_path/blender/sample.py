@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..rig import body, mass, rigs, solid
 from ..errors import DesirePathError
-from ..rig.foot import FootShape
 from ..motion.gait import Gait
+from ..rig import body, mass, rigs, solid
+from ..rig.foot import FootShape
 from . import axes, clock, compat, playback, ride
 from .private import evaluated, looked_at, private_scene
 from .worn import skin, tread

@@ -2,10 +2,8 @@
 
 import os
 
-import bpy
-
 from ..errors import DesirePathError
-from . import cover, ground, home, playback, plants, stems, trash
+from . import cover, ground, home, plants, playback, stems, trash
 from .home import folder
 
 

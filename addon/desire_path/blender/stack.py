@@ -80,8 +80,8 @@ def find(scene, obj, frame):
         realise,
         not realise and any(k < before for k in scatters),
         tuple(
-            f"The particles '{each.name}' of '{obj.name}' come before '{stack[last].name}' among its modifiers and do not "
-            "follow the prints: move them below it."
+            f"The particles '{each.name}' of '{obj.name}' come before '{stack[last].name}' among its modifiers and "
+            "do not follow the prints: move them below it."
             for each in above
         ),
     )

@@ -9,9 +9,9 @@ import os
 import bpy
 import numpy as np
 
+from ..errors import DesirePathError
 from ..files import npz
 from ..ground import tuft
-from ..errors import DesirePathError
 from . import clock, compat, grass, playback, tufts
 
 MODIFIER, BLADES = "Desire Path Plants", "Desire Path Blades"

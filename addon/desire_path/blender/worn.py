@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..rig import body
 from ..errors import DesirePathError
+from ..rig import body
 from ..rig.sole_mesh import Tread
 from . import axes, clock, compat, playback, stack
 from .private import evaluated, private_scene

@@ -11,8 +11,8 @@ import os
 import stat
 import tempfile
 
-from . import disk
 from ..errors import DesirePathError
+from . import disk
 
 KINDS = (
     (stat.S_ISLNK, "link"),

@@ -4,8 +4,8 @@ import csv
 import io
 import os
 
-from . import atomic_file
 from ..errors import DesirePathError
+from . import atomic_file
 
 MOST = 1 << 25  # bytes of a table
 

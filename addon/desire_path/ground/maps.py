@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _native
-from ..files import atomic_file
 from ..errors import DesirePathError
+from ..files import atomic_file
 
 
 class Map(NamedTuple):

@@ -15,9 +15,9 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import DesirePathError
+from ..loads.walker import point_places
 from .plants import as_plantings
 from .sim import Ground, Simulation, as_soils
-from ..loads.walker import point_places
 
 RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
 APART = 0.25  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
@@ -218,7 +218,7 @@ def _rim(triangles):
 
 
 def _hem(vertices, triangles, rim, wide):
-    """((new vertices, number of the old one at each), triangles) of strips along rim edges, `wide` [m], level across."""
+    """((new vertices, number of the old one at each), triangles) of strips along rim edges, `wide` [m], level."""
     face, side = np.nonzero(rim)
     a, b, c = (triangles[face, (side + k) % 3] for k in range(3))
     along = (vertices[b] - vertices[a])[:, :2]

@@ -16,8 +16,8 @@ import struct
 
 import numpy as np
 
-from ..files import atomic_file
 from ..errors import DesirePathError
+from ..files import atomic_file
 from .plants import KINDS
 
 _HELD = 1  # rows in the ground

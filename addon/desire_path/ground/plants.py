@@ -12,14 +12,13 @@ import functools
 import json
 import math
 from dataclasses import asdict, dataclass, fields
-from pathlib import Path
 
 import numpy as np
 
 from .. import _native
-from ..files import atomic_file
 from ..bounds import PLANT_BYTES, Limits
 from ..errors import DesirePathError
+from ..files import atomic_file
 
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
@@ -152,9 +151,9 @@ def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *,
     )
 
 
-# As printed in TRAIL Table 1, with its phi_max of 70 and 50 degrees: a boot folds stems of pieces 15 mm long farther than
-# that, so that one pass over a lane leaves 62 and 59 per cent of it and 25 leave 3 and 1, where measured lanes keep 86.
-# For looks, and to compare with.
+# As printed in TRAIL Table 1, with its phi_max of 70 and 50 degrees: a boot folds stems of pieces 15 mm long farther
+# than that, so that one pass over a lane leaves 62 and 59 per cent of it and 25 leave 3 and 1, where measured lanes
+# keep 86. For looks, and to compare with.
 PAPER = {"carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10), "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08)}
 
 # Wear of carex follows `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex`, from the cover of Cole's

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import _native
-from . import maps, trail
 from ..bounds import Limits
 from ..errors import DesirePathError
+from ..version import VERSION
+from . import maps, trail
 from .plants import as_plantings, seed_of
 from .soil import SOILS, Soil
-from ..version import VERSION
 
 TILE = 64  # cells along one side of a tile of ground and of a playback frame
 
@@ -459,8 +459,8 @@ class Film:
         self._core = core
 
     def open_maps(self, names, notes):
-        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too, and notes
-        (name, text or number)."""
+        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
+        and notes (name, text or number)."""
         fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
         shown = (maps.PICTURE, fields[names[0]])
         self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))

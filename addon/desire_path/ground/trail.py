@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import maps
 from ..errors import DesirePathError
+from . import maps
 
 LEFT = ("compression", "heap", "pressure_time")  # of a trail, beside the height before it
 HEIGHTS = ("height", "Z", "V", "Y")  # what a height may be called

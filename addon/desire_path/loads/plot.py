@@ -7,8 +7,8 @@ import os
 
 import numpy as np
 
-from ..files import atomic_file
 from ..errors import DesirePathError
+from ..files import atomic_file
 from .walker import GRAVITY
 
 KINDS = (".png", ".pdf", ".svg")

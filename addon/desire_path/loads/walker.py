@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..files import atomic_file
-from ..motion import freeze, jumps, size as sizes
 from ..errors import DesirePathError
+from ..files import atomic_file
+from ..motion import freeze, jumps
+from ..motion import size as sizes
 
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
 PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carries and takes no print
@@ -613,7 +614,7 @@ def write_loads(path, gait, loads):
     number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
     with atomic_file.file(path, "The table of loads", "w", newline="", encoding="utf-8") as stream:
         table = csv.writer(stream, lineterminator="\n")
-        table.writerow("time,walker,limb,part,touching,fx,fy,fz,px,py,pz".split(","))
+        table.writerow(["time", "walker", "limb", "part", "touching", "fx", "fy", "fz", "px", "py", "pz"])
         names = [
             (gait.walker_name[gait.limb_walker[limb]], gait.limb_name[limb], part)
             for limb, part in zip(gait.part_limb, gait.part_name)

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import size as sizes, stays
+from . import size as sizes
+from . import stays
 
 SAME = 2e-6  # a pose that is held moves no more than this from one sample to the next, in legs of a person [m]
 STRAY = 1e-4  # and no more than this in all [m]

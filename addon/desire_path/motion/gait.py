@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..files import atomic_file, npz
 from ..bounds import Limits
 from ..errors import DesirePathError
+from ..files import atomic_file, npz
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
 AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]

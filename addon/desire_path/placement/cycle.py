@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..loads import walker
-from ..motion import rotation, size as sizes
 from ..errors import DesirePathError
+from ..loads import walker
+from ..motion import rotation
+from ..motion import size as sizes
 
 RATE = 120.0  # cycles are found at this rate or a finer one [1/s]
 IN_PLACE = 0.25  # feet that slide back faster while they are low belong to a clip in place [m/s]

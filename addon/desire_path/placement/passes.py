@@ -10,13 +10,13 @@ from statistics import NormalDist
 
 import numpy as np
 
+from ..errors import DesirePathError
+from ..ground.sim import Ground, Simulation
 from ..motion import rotation
+from ..motion.gait import AWAY, Gait
 from . import place as placing
 from .cycle import find
-from ..errors import DesirePathError
-from ..motion.gait import AWAY, Gait
 from .path import Path
-from ..ground.sim import Ground, Simulation
 
 RATE = 60.0  # at least so many samples a second [1/s]
 MOST_SAMPLES = 20_000_000  # of all parts together

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..files import table
 from ..errors import DesirePathError
+from ..files import table
 
 ROUNDING = 0.3  # corners are rounded over about this length [m]
 STEP = 0.01  # distance of the curve's samples, where the path is not too long [m]

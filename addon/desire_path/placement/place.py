@@ -8,10 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..loads import walker as walks
-from ..motion import rotation, size as sizes, stays
-from ..rig import leg
 from ..errors import DesirePathError
+from ..loads import walker as walks
+from ..motion import rotation, stays
+from ..motion import size as sizes
+from ..rig import leg
 
 REACH = 0.20  # d_max: feet this high over the ground are as recorded [m]
 TOE_SLOPE = math.radians(15.0)  # theta_0: up steeper slopes the heels stay up [rad]

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..motion import rotation
 from ..errors import DesirePathError
 from ..loads.plot import foot_loads
+from ..motion import rotation
 
 PRESSED = 1e-3  # ground pressed less than this is not under a sole [m]
 FIRM = 0.25  # cells a sole covers in part are pressed less than this share of what is usual under it [-]

@@ -3,15 +3,16 @@
 Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..motion import freeze, jumps, rotation, size as sizes, stays
-from . import foot as feet_of, rigs, slope
 from ..errors import DesirePathError
+from ..motion import freeze, jumps, rotation, stays
+from ..motion import size as sizes
 from ..motion.gait import Gait
-
+from . import foot as feet_of
+from . import rigs, slope
 
 LEAST_SPAN = 0.005  # of a walker's joints [m]
 LEG_OF_TOP = 0.55  # hips over the ankles in shares of the highest joint's height over them; Winter, figure 4.1

@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..motion import rotation, size as sizes, stays
-from . import rig_names, sole, sole_mesh as treads
 from ..errors import DesirePathError
+from ..motion import rotation, stays
+from ..motion import size as sizes
 from ..motion.gait import BALL, HEEL, TIP, Sole
+from . import rig_names, sole
+from . import sole_mesh as treads
 
 HEEL_BEHIND = 0.17  # the heel lies this share of ankle-to-tip behind the ankle, on the ground
 HEEL_FAR = 0.6  # a heel bone farther behind than this share of ankle-to-tip is none

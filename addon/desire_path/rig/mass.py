@@ -6,8 +6,8 @@ mesh of the rest pose --volume of each bone--> segments, mass of anything else
 
 import numpy as np
 
-from ..motion import rotation
 from ..errors import DesirePathError
+from ..motion import rotation
 from .rigs import Segment
 
 # Winter, Biomechanics and Motor Control of Human Movement, 4th ed., figure 4.1: hip joint at 0.530 of
@@ -105,10 +105,10 @@ def sentence(name, mass, height):
 
 
 def odd_size(name, height, kilograms=None, chosen=True):
-    """(a sentence about one with two legs who is of no person's size, can that not be?); None where all is well.
+    """(a sentence about one with two legs who is of no person's size, can that not be?), None where all is well.
 
-    kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large. chosen: is it
-    somebody's choice? What nobody chose refuses no creature of a possible size.
+    kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large. chosen:
+    is it somebody's choice? What nobody chose refuses no creature of a possible size.
     """
     if PEOPLE[0] <= height <= PEOPLE[1]:
         return None
@@ -128,7 +128,7 @@ def odd_size(name, height, kilograms=None, chosen=True):
         return f"{size}: if that is not meant, {seems}.", False
     if not chosen and CREATURES[0] <= height <= CREATURES[1]:
         return (
-            f"{size} and weighs {kilograms:.3g} kg, since nobody gave it another mass: give it the mass of its size, or, "
-            f"if that size is not meant, {seems}."
+            f"{size} and weighs {kilograms:.3g} kg, since nobody gave it another mass: give it the mass of its size, "
+            f"or, if that size is not meant, {seems}."
         ), False
     return f"{size} and weighs {kilograms:.3g} kg, which cannot be: {seems}, or give it the mass of its size.", True

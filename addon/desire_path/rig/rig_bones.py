@@ -112,7 +112,7 @@ def _legs_by_name(bones, side, place, foot):
 
 def legs_by_structure(bones, foot):
     """Thigh and shank from the two bones above a foot, where they are long enough for legs."""
-    above = [b for b in bones.chain(foot)[1:]]
+    above = list(bones.chain(foot)[1:])
     shank = thigh = -1
     for b in above:
         if bones.apart(b, foot) > 0.12 * bones.size:

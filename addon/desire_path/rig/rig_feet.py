@@ -21,9 +21,9 @@ def _foot_of(bones, foot, place):
     side = bones.read[foot].side
     ankle = bones.find(("ankle",), side, place)
     ball = -1
-    if ankle >= 0 and ankle != foot and bones.under(foot, ankle):
-        if bones.read[ankle].layer <= bones.read[foot].layer:
-            foot, ball = ankle, foot  # SMPL: its left_foot is the ball of the foot
+    over = ankle >= 0 and ankle != foot and bones.under(foot, ankle)
+    if over and bones.read[ankle].layer <= bones.read[foot].layer:
+        foot, ball = ankle, foot  # SMPL: its left_foot is the ball of the foot
     layer = bones.read[foot].layer
     near = max(bones.size * 0.2, 1e-6)
     under = lambda b: bones.under(b, foot)

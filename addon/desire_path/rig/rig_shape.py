@@ -28,7 +28,8 @@ def by_structure(bones):
         if best[1]:
             _, pairs, chains, up, across = best
             left = _left(bones, chains, pairs, up, across)
-            number = lambda k: f" {k + 1}" if len(pairs) > 1 else ""
+            several = len(pairs) > 1
+            number = lambda k, several=several: f" {k + 1}" if several else ""
             return [
                 Found(word + number(k), b, chains[b], -1)
                 for k, pair in enumerate(pairs)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..motion import rotation, size as sizes
+from ..motion import rotation
+from ..motion import size as sizes
 from . import leg
 
 RADIUS = 0.25  # the ground is smoothed over this, about a grown person's foot [m]
@@ -102,7 +103,7 @@ def _stand(land, feet, time, up_rest):
 
 
 def _under(land, ankle, radius):
-    """The ground under an ankle over time (T, 3), smoothed over a radius [m], None where there is none or it is level."""
+    """The ground under an ankle over time (T, 3), smoothed over a radius [m]; None: there is none or it is level."""
     height = land.rest_height(ankle[:, :2])
     known = np.isfinite(height)
     if not known.any():

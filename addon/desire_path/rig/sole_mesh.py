@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import sole
 from ..errors import DesirePathError
 from ..motion.gait import Sole
+from . import sole
 
 LIKELY = (0.5, 2.5)  # a sole is this many times as long as its foot; else something is scaled wrongly
 ASIDE = 0.2  # one that lies at a foot has its middle this near to the ankle's line, in foot lengths
@@ -54,9 +54,9 @@ def lay(tread, feet, up, ahead):
         length = tip - heel
         under = min(high[0], tip) - max(low[0], heel)  # how much of the foot it lies under
         aside = abs(0.5 * (low[1] + high[1]))
-        if under > 0.5 * length and aside < ASIDE * length and -length < low[2] < 0.0:
-            if best is None or aside < best[0]:
-                best = (aside, to_foot, left)
+        fits = under > 0.5 * length and aside < ASIDE * length and -length < low[2] < 0.0
+        if fits and (best is None or aside < best[0]):
+            best = (aside, to_foot, left)
     heel, tip = feet[0][1:3]
     if best is not None:
         _, to_foot, left = best

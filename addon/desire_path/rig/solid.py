@@ -5,8 +5,8 @@ positions and faces, matrices over time ---gait_from_solid---> Gait
 
 import numpy as np
 
-from ..motion import rotation
 from ..errors import DesirePathError
+from ..motion import rotation
 from ..motion.gait import HEEL, Gait, Sole
 
 ROUND = np.radians(5.0)  # whatever rolls about an axis of its own touches with a point every so often [rad]

@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import _native
-from . import trampling
 from ..errors import DesirePathError
 from ..ground.plants import YEAR, as_kind, share_below
+from . import trampling
 
 TOUGH = 1e6  # a reserve that does not end
 SEEDS = (101, 102)  # of the lanes that are fitted to; use others to judge a fit

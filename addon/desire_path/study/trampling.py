@@ -14,12 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files import atomic_file, table
-from ..loads import walker
 from ..errors import DesirePathError
-from ..motion.gait import Gait
+from ..files import atomic_file, table
 from ..ground.plants import MOST_PLANTS, Planting, as_kind, vigour_at
 from ..ground.sim import Ground, Simulation
+from ..loads import walker
+from ..motion.gait import Gait
 
 WALK = Path(__file__).parents[1] / "walks" / "walk.npz"
 PASSES = (25, 75, 200, 500)  # counts of Cole's lanes
