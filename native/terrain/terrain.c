@@ -1,17 +1,13 @@
-// Tiles: a hash finds them, a sorted list fixes the order of sums and visits.
+// A terrain: the ground as it was given, its soils, and what is asked of all of it.
 #include "terrain/terrain.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/assert.h"
-#include "base/parallel.h"
 #include "terrain/terrain_inside.h"
 
-#define DATUM_STEP 16.0               // [m]: floats over the base are good to half a micrometre
-#define MAX_TILES_AT_ONCE (1L << 16)  // 4.5 GB: nobody means that
+#define DATUM_STEP 16.0  // [m]: floats over the datum are good to half a micrometre
 
 static bool is_soil(const DpSoil* soil)
 {
@@ -109,167 +105,6 @@ const DpSoil* dp_terrain_soils(const DpTerrain* terrain)
 size_t dp_terrain_tile_count(const DpTerrain* terrain)
 {
     return terrain->tiles;
-}
-
-// ---- finding and making tiles -----------------------------------------------------------------
-
-static size_t first_slot(long tx, long ty, size_t slots)
-{
-    uint64_t mixed = (uint64_t)tx * 0x9e3779b97f4a7c15u + (uint64_t)ty * 0xc2b2ae3d27d4eb4fu;
-    mixed ^= mixed >> 29;
-    mixed *= 0xbf58476d1ce4e5b9u;
-    mixed ^= mixed >> 32;
-    return (size_t)mixed & (slots - 1);
-}
-
-// where the tile is, or the empty slot where it belongs
-static Tile** find_slot(Tile** slot, size_t slots, long tx, long ty)
-{
-    size_t at = first_slot(tx, ty, slots);
-    while (slot[at] && (slot[at]->tx != tx || slot[at]->ty != ty)) at = (at + 1) & (slots - 1);
-    return &slot[at];
-}
-
-Tile* dp_tile_find(const DpTerrain* terrain, long tx, long ty)
-{
-    return terrain->slots ? *find_slot(terrain->slot, terrain->slots, tx, ty) : NULL;
-}
-
-TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty)
-{
-    const TileGrid grid = {terrain->origin_x, terrain->origin_y, terrain->cell,
-                           terrain->datum,    tx * DP_TILE,      ty * DP_TILE};
-    return grid;
-}
-
-// room for `more` tiles in the lists and the hash; without memory all stays as it was
-static bool make_room(DpTerrain* terrain, size_t more)
-{
-    const size_t wanted = terrain->tiles + more;
-    if (wanted > terrain->room) {
-        const size_t room = wanted + wanted / 2 + 16;
-        Tile**       sorted = dp_realloc(terrain->sorted, room, sizeof *sorted);
-        if (!sorted) return false;
-        terrain->sorted = sorted;
-        Tile** marked = dp_realloc(terrain->marked, room, sizeof *marked);
-        if (!marked) return false;
-        terrain->marked = marked;
-        terrain->room = room;
-    }
-    if (2 * wanted > terrain->slots) {
-        size_t slots = terrain->slots ? terrain->slots : 64;
-        while (slots < 2 * wanted) slots *= 2;
-        Tile** slot = dp_alloc(slots, sizeof *slot);
-        if (!slot) return false;
-        for (size_t t = 0; t < terrain->tiles; ++t) {
-            Tile* tile = terrain->sorted[t];
-            *find_slot(slot, slots, tile->tx, tile->ty) = tile;
-        }
-        dp_free(terrain->slot);
-        terrain->slot = slot;
-        terrain->slots = slots;
-    }
-    return true;
-}
-
-static bool comes_before(const Tile* a, const Tile* b)
-{
-    return a->ty != b->ty ? a->ty < b->ty : a->tx < b->tx;
-}
-
-// two sorted lists become one, from the back
-static void merge(Tile** sorted, size_t count, Tile* const* fresh, size_t more)
-{
-    size_t to = count + more;
-    while (more > 0) {
-        const bool old = count > 0 && comes_before(fresh[more - 1], sorted[count - 1]);
-        sorted[--to] = old ? sorted[--count] : fresh[--more];
-    }
-}
-
-typedef struct Filling
-{
-    const DpTerrain* terrain;
-    Tile**           tile;
-} Filling;
-
-static void fill_tile(void* context, int index, int worker)
-{
-    const Filling*   filling = context;
-    const DpTerrain* terrain = filling->terrain;
-    Tile*            tile = filling->tile[index];
-    const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
-    (void)worker;
-    dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
-    if (terrain->cover) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
-}
-
-DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1)
-{
-    if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
-    const long tx0 = tile_of(i0), tx1 = tile_of(i1 - 1), ty0 = tile_of(j0), ty1 = tile_of(j1 - 1);
-    if (tx1 - tx0 >= MAX_TILES_AT_ONCE || ty1 - ty0 >= MAX_TILES_AT_ONCE ||
-        (tx1 - tx0 + 1) * (ty1 - ty0 + 1) > MAX_TILES_AT_ONCE)
-        return DP_NO_MEMORY;
-
-    size_t missing = 0;
-    for (long ty = ty0; ty <= ty1; ++ty)
-        for (long tx = tx0; tx <= tx1; ++tx) missing += !dp_tile_find(terrain, tx, ty);
-    if (missing == 0) return DP_OK;
-
-    const size_t size = sizeof(Tile) + (terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0);
-    Tile**       fresh = dp_alloc(missing, sizeof *fresh);
-    size_t       created = 0;
-    bool         enough = fresh && make_room(terrain, missing);
-    for (long ty = ty0; ty <= ty1 && enough; ++ty)
-        for (long tx = tx0; tx <= tx1 && enough; ++tx) {
-            if (dp_tile_find(terrain, tx, ty)) continue;
-            Tile* tile = dp_alloc(1, size);
-            enough = tile != NULL;
-            if (!enough) continue;
-            tile->tx = tx, tile->ty = ty;
-            fresh[created++] = tile;
-        }
-    if (!enough) {
-        for (size_t t = 0; t < created; ++t) dp_free(fresh[t]);
-        dp_free(fresh);
-        return DP_NO_MEMORY;
-    }
-
-    Filling filling = {terrain, fresh};
-    dp_parallel_for((int)missing, terrain->workers, fill_tile, &filling);
-    for (size_t t = 0; t < missing; ++t)
-        *find_slot(terrain->slot, terrain->slots, fresh[t]->tx, fresh[t]->ty) = fresh[t];
-    merge(terrain->sorted, terrain->tiles, fresh, missing);
-    terrain->tiles += missing;
-    dp_free(fresh);
-    return DP_OK;
-}
-
-// ---- what changed, and how much ---------------------------------------------------------------
-
-static int by_row(const void* a, const void* b)
-{
-    const Tile* const one = *(Tile* const*)a;
-    const Tile* const two = *(Tile* const*)b;
-    return comes_before(one, two) ? -1 : comes_before(two, one) ? 1 : 0;
-}
-
-void dp_tile_mark(DpTerrain* terrain, Tile* tile)
-{
-    if (atomic_exchange(&tile->changed, 1) == 0)
-        terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
-}
-
-void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context)
-{
-    const size_t count = atomic_load(&terrain->marks);
-    if (count == 0) return;
-    qsort(terrain->marked, count, sizeof(Tile*), by_row);
-    for (size_t t = 0; t < count; ++t) atomic_store(&terrain->marked[t]->changed, 0);
-    atomic_store(&terrain->marks, 0);
-    for (size_t t = 0; t < count; ++t)
-        visit(context, terrain->marked[t]->tx, terrain->marked[t]->ty);
 }
 
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest)

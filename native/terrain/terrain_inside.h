@@ -12,7 +12,7 @@
 #define MAX_CELL_INDEX (1L << 30)
 #endif
 
-// ---- ground, terrain_source.c and terrain_mesh.c ------------------------------------------------
+// ---- the ground before any walker: terrain_source.c, _kinds.c, _mesh.c, _bins.c ----------------
 
 #define MAX_GRIDS 16  // of bins: 2^15 bins along a side of the finest, one bin in the coarsest
 
@@ -80,6 +80,9 @@ void     dp_mesh_destroy(MeshGround* mesh);
 double   dp_mesh_at(const Source* source, double x, double y, uint8_t* kind);
 void     dp_mesh_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind);
 
+// Copy the weights of the kinds: `weights` numbers of each.
+DpStatus dp_source_copy_weights(Source* source, const DpGround* ground, size_t weights);
+
 // Heaviest of the kinds, the first of equals; kind k weighs sum of share[n] *
 // kind_weight[k][of[n]].
 uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const double* share);
@@ -89,7 +92,7 @@ static inline double cell_at(double origin, double cell, long index)
     return origin + ((double)index + 0.5) * cell;
 }
 
-// ---- tiles, terrain.c -------------------------------------------------------------------------
+// ---- tiles: terrain_tiles.c --------------------------------------------------------------------
 
 typedef struct Tile
 {
@@ -122,7 +125,7 @@ struct DpTerrain
     atomic_size_t marks;
 };
 
-// terrain_cover.c: strength and E_v of all of a tile, (2, TILE_CELLS)
+// strength and E_v of all of a tile, (2, TILE_CELLS)
 void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant);
 
 // let the next dp_terrain_changed tell of a tile

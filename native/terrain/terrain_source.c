@@ -52,22 +52,6 @@ static DpStatus copy_heights(Source* source, const DpGround* ground)
     return DP_OK;
 }
 
-static DpStatus copy_weights(Source* source, const DpGround* ground, size_t weights)
-{
-    if (ground->kind_count == 0) return DP_OK;
-    if (!ground->kind_weight || weights == 0) return DP_BAD_ARGUMENT;  // flat ground is not painted
-    const size_t count = (size_t)ground->kind_count * weights;
-    for (size_t n = 0; n < count; ++n)
-        if (!(ground->kind_weight[n] >= 0.0f) || isinf(ground->kind_weight[n]))
-            return DP_BAD_ARGUMENT;
-    source->kind_weight = dp_alloc(count, sizeof(float));
-    if (!source->kind_weight) return DP_NO_MEMORY;
-    memcpy(source->kind_weight, ground->kind_weight, count * sizeof(float));
-    source->kind_count = ground->kind_count;
-    source->weights = weights;
-    return DP_OK;
-}
-
 DpStatus dp_source_create(Source* source, const DpGround* ground, int workers)
 {
     DpStatus status = DP_OK;
@@ -95,7 +79,7 @@ DpStatus dp_source_create(Source* source, const DpGround* ground, int workers)
         default:
             return DP_BAD_ARGUMENT;
     }
-    if (status == DP_OK) status = copy_weights(source, ground, weights);
+    if (status == DP_OK) status = dp_source_copy_weights(source, ground, weights);
     if (status != DP_OK) dp_source_destroy(source);
     return status;
 }
@@ -106,22 +90,6 @@ void dp_source_destroy(Source* source)
     dp_free(source->kind_weight);
     dp_mesh_destroy(&source->mesh);
     memset(source, 0, sizeof *source);
-}
-
-uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const double* share)
-{
-    int    best = 0;
-    double heaviest = -1.0;
-    for (int k = 0; k < source->kind_count; ++k) {
-        const float* weight = source->kind_weight + (size_t)k * source->weights;
-        double       sum = 0.0;
-        for (int n = 0; n < count; ++n) sum += share[n] * (double)weight[of[n]];
-        if (sum > heaviest) {
-            heaviest = sum;
-            best = k;
-        }
-    }
-    return (uint8_t)best;
 }
 
 // position along one axis in samples -> the sample before it and how far beyond it; false outside
