@@ -3,72 +3,33 @@
 //   force --(balance)--> sink of the sole --> target of each column --(rate)--> pressed now
 //
 // Departures
-//   TRAIL (10): one stress for all touched cells is `uniform`. `sole` makes every column a spring
-//   of
+//   TRAIL (10): one stress for all touched cells is `uniform`. `sole` makes every column a spring of
 //     stiffness E/L0 under a rigid sole; a flat sole on even ground gives (10) exactly.
 //     test_soil_compress.c, flat_sole_is_trail_10.
-//   SOFT22 (11): as printed a column stops one step short of dL or overshoots it; here the last
-//   step
-//     is cut to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
+//   SOFT22 (11): as printed a column stops one step short of dL or overshoots it; here the last step is cut
+//     to what is left, so the print does not depend on the frame rate. test_soil_compress.c,
 //     frame_rate_does_not_matter.
 //   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
-//   What of a sole stands over no ground carries its share, as if the ground went on: the rest of the
-//     sole does not get it. test_soil_compress.c, over_an_edge.
-//   `uniform` touches the ground as the contact met it, not its own print and rim: else the area, and
-//     with it the depth, would depend on nu (SOFT22 Fig. 7). test_soil_compress.c, met_ground_counts.
-//   A cell that the sole covers by the share a is pressed by a times its column, so that volume
-//     and stress do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
+//   What of a sole stands over no ground carries its share, as if the ground went on: the rest of the sole
+//     does not get it. test_soil_compress.c, over_an_edge.
+//   `uniform` touches the ground as the contact met it, not its own print and rim: else the area, and with
+//     it the depth, would depend on nu (SOFT22 Fig. 7). test_soil_compress.c, met_ground_counts.
+//   A cell that the sole covers by the share a is pressed by a times its column, so that volume and stress
+//     do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
+#include "base/wide.h"  // first: it says how loops may be widened
+
 #include <string.h>
 
-#include "base/wide.h"  // first: it says how loops may be widened
 #include "base/vec.h"
-#include "soil/soil_inside.h"
+#include "soil/soil_columns.h"
 
-#define LANES 32             // columns worked on at once
-#define CHUNKS 40            // .. that are kept ready: a sole of up to 1280 cells is read only once
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
-#define NOWHERE SIZE_MAX
 #define MAX_ROUNDS 100
 #define FLOOR_CELLS 4.0   // least contact area: so many cells
 #define FLOOR_SHARE 0.05  // .. or this share of the sole
 #define PRESS_GRID \
     ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
-
-// Columns of ground under the sole, and of what would be ground; lanes that hold none have share and spring 0.
-typedef struct Columns
-{
-    double gap[LANES];      // g = h0 - underside of the sole, before it sinks     [m]
-    double pressed[LANES];  // e = compression - heap as the sole met them         [m]
-    double rigid[LANES];    // 0.95 L0                                             [m]
-    double share[LANES];    // a                                                   [-]
-    double spring[LANES];   // a E/L0 cell^2                                       [N/m]
-    size_t cell[LANES];     // where in the patch; NOWHERE = beyond the ground
-    int    count;           // lanes in use
-} Columns;
-
-// The ground under a sole as it would go on where there is none: the mean of what there is, level with it.
-typedef struct Beyond
-{
-    double base_height, met;  // at (i, j) [m]
-    double i, j;              // [cells]
-    double slope_i, slope_j;  // [m per cell]
-    double stiffness, depth;  // E/L0 [Pa/m], L0 [m]
-    bool   is_there;          // some of the sole has ground
-} Beyond;
-
-// The columns of a sole, as many at a time as there is room for.
-typedef struct Sole
-{
-    const DpSoilPatch* patch;
-    const DpImprint*   imprint;
-    Beyond             beyond;
-    int                i, j;      // where to read on
-    int                filled;    // chunks that hold columns
-    bool               complete;  // all of the sole is held: no need to read again
-    bool               shown;     // .. and was handed out in this round
-    Columns            chunk[CHUNKS];
-} Sole;
 
 // What the sole can be balanced on.
 typedef struct Balance
@@ -88,132 +49,6 @@ typedef struct Answer
     double slope;  // of force over s [N/m]
     double area;   // of the columns that carry [m^2]
 } Answer;
-
-// how far below h0 the ground stood when the sole met it
-static double met_at(const DpSoilPatch* patch, const DpImprint* imprint, size_t p)
-{
-    if (imprint->met) return -(double)imprint->met[p];
-    return (double)patch->compression[p] - (double)patch->heap[p];
-}
-
-static void put_column(Columns* columns, const Sole* sole, size_t p)
-{
-    const DpSoilPatch* patch = sole->patch;
-    const Beyond*      beyond = &sole->beyond;
-    const int          k = columns->count++;
-    const bool         ground = soil_is_ground(patch->base_height[p]);
-    double             depth = beyond->depth, met = beyond->met, stiffness = beyond->stiffness;
-    double base_height = beyond->base_height + beyond->slope_i * ((double)sole->i - beyond->i) +
-                         beyond->slope_j * ((double)sole->j - beyond->j);
-    if (ground) {
-        depth = (double)patch->soils[patch->kind[p]].layer_depth;
-        stiffness = (double)patch->modulus[p] / depth;
-        met = met_at(patch, sole->imprint, p);
-        base_height = (double)patch->base_height[p];
-    }
-    columns->gap[k] = base_height - (double)sole->imprint->bottom[p];
-    columns->pressed[k] = met;
-    columns->rigid[k] = SOIL_RIGID * depth;
-    columns->share[k] = (double)sole->imprint->cover[p];
-    columns->spring[k] = columns->share[k] * (stiffness * (patch->cell * patch->cell));
-    columns->cell[k] = ground ? p : NOWHERE;
-}
-
-static void fill_up(Columns* columns)
-{
-    for (int k = columns->count; k < LANES; ++k) {
-        columns->gap[k] = columns->pressed[k] = 0.0;
-        columns->share[k] = columns->spring[k] = 0.0;
-        columns->rigid[k] = 1.0;
-    }
-}
-
-static void from_the_start(Sole* sole)
-{
-    sole->shown = false;
-    if (sole->complete) return;
-    sole->i = sole->imprint->i0;
-    sole->j = sole->imprint->j0;
-}
-
-// the next chunk with room for a column; NULL when all are full
-static Columns* with_room(Sole* sole)
-{
-    if (sole->filled > 0 && sole->chunk[sole->filled - 1].count < LANES)
-        return &sole->chunk[sole->filled - 1];
-    if (sole->filled == CHUNKS) return NULL;
-    sole->chunk[sole->filled].count = 0;
-    return &sole->chunk[sole->filled++];
-}
-
-// read columns from where the last reading stopped; true when the sole's end is reached
-static bool read_columns(Sole* sole)
-{
-    const DpImprint* imprint = sole->imprint;
-    for (; sole->j < imprint->j1; ++sole->j, sole->i = imprint->i0)
-        for (; sole->i < imprint->i1; ++sole->i) {
-            const size_t p = soil_at(sole->patch, sole->i, sole->j);
-            if (!(imprint->cover[p] > 0.0f)) continue;
-            Columns* columns = with_room(sole);
-            if (!columns) return false;
-            put_column(columns, sole, p);
-        }
-    return true;
-}
-
-static void look_beyond(Sole* sole, DpVec3 normal)
-{
-    const DpSoilPatch* patch = sole->patch;
-    const DpImprint*   imprint = sole->imprint;
-    Beyond             sum = {0};
-    double             share = 0.0;
-    bool               needed = false;
-    for (int j = imprint->j0; j < imprint->j1; ++j)
-        for (int i = imprint->i0; i < imprint->i1; ++i) {
-            const size_t p = soil_at(patch, i, j);
-            const double a = (double)imprint->cover[p];
-            if (!(a > 0.0)) continue;
-            if (!soil_is_ground(patch->base_height[p])) {
-                needed = true;
-                continue;
-            }
-            const double depth = (double)patch->soils[patch->kind[p]].layer_depth;
-            share += a;
-            sum.base_height += a * (double)patch->base_height[p];
-            sum.met += a * met_at(patch, imprint, p);
-            sum.i += a * i, sum.j += a * j;
-            sum.stiffness += a * ((double)patch->modulus[p] / depth);
-            sum.depth += a * depth;
-        }
-    sole->beyond = (Beyond){.is_there = share > 0.0};
-    if (!needed || !sole->beyond.is_there) return;
-    const double level = normal.z > 0.0 ? patch->cell / normal.z : 0.0;
-    sole->beyond = (Beyond){.base_height = sum.base_height / share,
-                            .met = sum.met / share,
-                            .i = sum.i / share,
-                            .j = sum.j / share,
-                            .slope_i = -normal.x * level,
-                            .slope_j = -normal.y * level,
-                            .stiffness = sum.stiffness / share,
-                            .depth = sum.depth / share,
-                            .is_there = true};
-}
-
-// have the next columns at hand; false when all have been handed out since from_the_start()
-static bool next_columns(Sole* sole)
-{
-    if (sole->complete) {
-        const bool more = !sole->shown && sole->filled > 0;
-        sole->shown = true;
-        return more;
-    }
-    const bool first = sole->i == sole->imprint->i0 && sole->j == sole->imprint->j0;
-    sole->filled = 0;
-    const bool end = read_columns(sole);
-    sole->complete = sole->shown = first && end;
-    if (sole->filled > 0) fill_up(&sole->chunk[sole->filled - 1]);
-    return sole->filled > 0;
-}
 
 // Length by which a column's spring is pressed when its target lies t below h0: t itself, more when it
 // meets the rigid ground.
@@ -243,7 +78,7 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
 static Answer answer(Sole* sole, const Balance* balance, double s)
 {
     double force[LANES] = {0}, slope[LANES] = {0}, share[LANES] = {0};
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             push_back(&sole->chunk[c], balance, s, force, slope, share);
     Answer sum = {0};
@@ -304,7 +139,7 @@ static bool weigh(Balance* balance, Sole* sole, double load)
 {
     double stiffest[LANES] = {0}, highest[LANES];
     for (int k = 0; k < LANES; ++k) highest[k] = -INFINITY;
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c) find_max(&sole->chunk[c], stiffest, highest);
     for (int k = 1; k < LANES; ++k) {
         stiffest[0] = soil_max(stiffest[0], stiffest[k]);
@@ -313,7 +148,7 @@ static bool weigh(Balance* balance, Sole* sole, double load)
     if (!(stiffest[0] > 0.0 && isfinite(stiffest[0]) && isfinite(highest[0]))) return false;
     const double slope_grid = soil_grid(RIGID_STIFFER * stiffest[0]);
     double       share[LANES] = {0}, springs[LANES] = {0}, hanging[LANES] = {0};
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             add_up(&sole->chunk[c], highest[0], slope_grid, share, springs, hanging);
     for (int k = 1; k < LANES; ++k) {
@@ -337,7 +172,7 @@ static double sink_of(Sole* sole, Balance* balance, Answer* found)
 {
     const double load = balance->load;
     double       max_sink = INFINITY;
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             max_sink = soil_min(max_sink, lone_sink(&sole->chunk[c], load));
     balance->force_grid = soil_grid(load);
@@ -409,7 +244,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
     }
     pressed->sink = s;
     pressed->area = found.area;
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c) {
             const Columns* columns = &sole->chunk[c];
             for (int k = 0; k < columns->count; ++k) {
@@ -439,12 +274,12 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
 {
     const double share_grid = ldexp(1.5, 52 - 30);
     double       highest = -INFINITY, area = 0.0, stress = 0.0;
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k)
                 highest = soil_max(highest, overlap(&sole->chunk[c], k));
 
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k) {
                 if (overlap(&sole->chunk[c], k) < highest - TOUCH_GAP) continue;
@@ -455,7 +290,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
     area *= patch->cell * patch->cell;
     stress = balance->load / soil_max(area, min_area(sole, balance));  // SOFT22 (9)
 
-    for (from_the_start(sole); next_columns(sole);)
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             for (int k = 0; k < sole->chunk[c].count; ++k) {
                 const Columns* columns = &sole->chunk[c];
@@ -485,10 +320,7 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
         for (int i = 0; i < patch->nx; ++i) ring[i] = DP_RING_FAR;
     }
     Sole sole;
-    sole.patch = patch;
-    sole.imprint = imprint;
-    sole.complete = false;
-    look_beyond(&sole, foot->normal);
+    dp_columns_begin(&sole, patch, imprint, foot->normal);
     Balance balance = {0};
     if (load <= 0.0 || !sole.beyond.is_there || !weigh(&balance, &sole, load)) return DP_OK;
 

@@ -2,39 +2,32 @@
 //
 //   slopes to 8 neighbours --(first stencil)--> share given away --(second stencil)--> new heaps
 //
-// A sweep never depends on the order of its cells: the first stencil only reads heights, the second
-// only adds up what the first one decided. Opposite neighbours are added in pairs, so a mirrored
-// or turned print stays mirrored or turned to the bit.
+// A sweep never depends on the order of its cells: the first stencil only reads heights, the second only
+// adds up what the first one decided (soil_slide_rows.c).
 //
 // Departures
-//   TRAIL (14): eight neighbours on the grid (diagonals at sqrt(2) cells), not the next ring
-//   outward, so
-//     soil also slides back into a print that the foot has left. test_soil_stabilize.c,
-//     comes_to_rest.
-//   TRAIL (15)(16): as printed h_step leaves a cell once but arrives once per neighbour, and ring
-//   by
-//     ring the result depends on the order. Here a cell gives each lower neighbour a share of its
-//     own excess over gamma_r. test_soil_stabilize.c, keeps_volume.
-//   A cell gives only while it stands steeper than gamma_r + half the tolerance: then it gives what
-//   is
-//     above gamma_r itself. Without that, slopes that are at rest creep on for as long as another
-//     part of the print slides. test_soil_stabilize.c, comes_to_rest.
-//   An excess counts as less than one neighbour while it is smaller than a tenth of the tolerance:
-//     heaps laid at rest stand at gamma_r to the last bit, and what rounding does there must not
-//     decide among how many a cell shares. test_soil_stabilize.c, rounding_does_not_matter.
-//   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets
-//     stand over one cell counts as at rest wherever it lies: soil that creeps down a steep wall of
-//     firm ground would otherwise never be done. test_soil_stabilize.c, comes_to_rest.
+//   TRAIL (14): eight neighbours on the grid (diagonals at sqrt(2) cells), not the next ring outward, so
+//     soil also slides back into a print that the foot has left. test_soil_stabilize.c, comes_to_rest.
+//   TRAIL (15)(16): as printed h_step leaves a cell once but arrives once per neighbour, and ring by ring
+//     the result depends on the order. Here a cell gives each lower neighbour a share of its own excess over
+//     gamma_r. test_soil_stabilize.c, keeps_volume.
+//   A cell gives only while it stands steeper than gamma_r + half the tolerance: then it gives what is above
+//     gamma_r itself. Without that, slopes that are at rest creep on for as long as another part of the
+//     print slides. test_soil_stabilize.c, comes_to_rest.
+//   An excess counts as less than one neighbour while it is smaller than a tenth of the tolerance: heaps laid
+//     at rest stand at gamma_r to the last bit, and what rounding does there must not decide among how many a
+//     cell shares. test_soil_stabilize.c, rounding_does_not_matter.
+//   Only the heap moves, never firm ground. A film thinner than a tenth of what the tolerance lets stand over
+//     one cell counts as at rest wherever it lies: soil that creeps down a steep wall of firm ground would
+//     otherwise never be done. test_soil_stabilize.c, comes_to_rest.
+#include "base/wide.h"  // first: it says how loops may be widened
+
 #include <string.h>
 
-#include "base/wide.h"  // first: it says how loops may be widened
 #include "base/alloc.h"
-#include "soil/soil_inside.h"
+#include "soil/soil_slide.h"
 
-#define FRAME 3        // cells around the window that only stand as walls
-#define BARRIER 1e30f  // height of what soil cannot go to
-#define ROOT2 1.41421356f
-#define HOLD 0.25f      // share of the tolerance below which a cell gives nothing; twice that: all
+#define FRAME 3         // cells around the window that only stand as walls
 #define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
 typedef struct Box
@@ -87,131 +80,7 @@ static bool holds(Box outer, Box inner)
            inner.j1 <= outer.j1;
 }
 
-// ---- the two stencils ------------------------------------------------------------------------
-
-static inline float above_zero(float x)
-{
-    return x > 0.0f ? x : 0.0f;
-}
-
-static inline float at_most_one(float x)
-{
-    return x < 1.0f ? x : 1.0f;
-}
-
-// What one row wants, as bits.
-#define ROW_MOVES 1     // a cell gives something
-#define ROW_RESTLESS 2  // .. and one must: it stands steeper than gamma_r + tolerance
-
-// first stencil: what each cell of a row gives away, TRAIL (14) (15)
-DP_CLONES
-static int decide_row(float* restrict share, float* restrict give, const float* restrict h,
-                      const float* restrict heap, const float* restrict fall,
-                      const float* restrict slack, ptrdiff_t row, int count, float film)
-{
-    const float one = 1.0f / film;  // an excess as large as a film counts as one neighbour
-    int         moves = 0, restless = 0;
-    for (int i = 0; i < count; ++i) {
-        const float* c = h + i;
-        const float  at = *c, straight = fall[i], diagonal = fall[i] * ROOT2;
-        const float  e = above_zero((at - c[1]) - straight);  // TRAIL (14)
-        const float  w = above_zero((at - c[-1]) - straight);
-        const float  n = above_zero((at - c[row]) - straight);
-        const float  s = above_zero((at - c[-row]) - straight);
-        const float  ne = above_zero((at - c[row + 1]) - diagonal);
-        const float  sw = above_zero((at - c[-row - 1]) - diagonal);
-        const float  nw = above_zero((at - c[row - 1]) - diagonal);
-        const float  se = above_zero((at - c[-row + 1]) - diagonal);
-        const float  sides = (e + w) + (n + s), corners = (ne + sw) + (nw + se);
-        const float  by_sides = (at_most_one(e * one) + at_most_one(w * one)) +
-                               (at_most_one(n * one) + at_most_one(s * one));
-        const float by_corners = (at_most_one(ne * one) + at_most_one(sw * one)) +
-                                 (at_most_one(nw * one) + at_most_one(se * one));
-        const float sum = sides + corners, part = 1.0f / ((by_sides + by_corners) + 1.0f);
-        const float has = heap[i] / (sum * part + 1e-35f);
-        const float ew = e > w ? e : w, ns = n > s ? n : s;
-        const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
-        const float steep = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
-        const float over = steep > across ? steep : across, hold = HOLD * slack[i];
-        const float eager = at_most_one(above_zero(over - hold) / (hold + 1e-35f));
-        const float a =
-            at_most_one(has) * part * (eager * at_most_one(heap[i] * one));  // TRAIL (15)
-        share[i] = a;
-        give[i] = a * sum;
-        restless |= (heap[i] > film ? over : 0.0f) > slack[i] ? 1 : 0;
-        moves |= a * sum > 0.0f ? 1 : 0;
-    }
-    return (moves ? ROW_MOVES : 0) | (restless ? ROW_RESTLESS : 0);
-}
-
-// what cell h[k] gives to the cell at height `at`
-static inline float comes(const float* h, const float* share, const float* fall, ptrdiff_t k,
-                          float at, float far)
-{
-    return share[k] * above_zero((h[k] - at) - fall[k] * far);
-}
-
-// second stencil: each cell of a row takes what its neighbours give, TRAIL (16)
-DP_CLONES
-static void take_row(double* restrict sum, const float* restrict give, const float* restrict h,
-                     const float* restrict share, const float* restrict fall, ptrdiff_t row,
-                     int count)
-{
-    for (int i = 0; i < count; ++i) {
-        const float *H = h + i, *a = share + i, *f = fall + i;
-        const float  at = *H;
-        const float  sides = (comes(H, a, f, 1, at, 1.0f) + comes(H, a, f, -1, at, 1.0f)) +
-                            (comes(H, a, f, row, at, 1.0f) + comes(H, a, f, -row, at, 1.0f));
-        const float edges =
-            (comes(H, a, f, row + 1, at, ROOT2) + comes(H, a, f, -row - 1, at, ROOT2)) +
-            (comes(H, a, f, row - 1, at, ROOT2) + comes(H, a, f, -row + 1, at, ROOT2));
-        const double left = sum[i] - (double)give[i];
-        sum[i] = (left > 0.0 ? left : 0.0) + (double)(sides + edges);  // TRAIL (16)
-    }
-}
-
-DP_CLONES
-static void raise_row(float* restrict height, float* restrict heap, const float* restrict firm,
-                      const double* restrict sum, int count)
-{
-    for (int i = 0; i < count; ++i) {
-        heap[i] = (float)sum[i];
-        height[i] = firm[i] + heap[i];
-    }
-}
-
 // ---- window ----------------------------------------------------------------------------------
-
-// A row of a window as it is read; what no soil can go to stays a barrier without any.
-typedef struct Row
-{
-    float * firm, *height, *heap, *fall, *slack;
-    double* sum;
-} Row;
-
-DP_CLONES
-static void fill_row(const Row* to, const float* restrict base_height,
-                     const float* restrict compression, const float* restrict loose,
-                     const float* restrict rest_slope, const int32_t* restrict ring, int count,
-                     double cell, double level, double tan_slack)
-{
-    float* restrict firm = to->firm, * restrict height = to->height, * restrict heap = to->heap;
-    float* restrict fall = to->fall, * restrict slack = to->slack;
-    double* restrict sum = to->sum;
-    for (int i = 0; i < count; ++i) {
-        const int    open = (base_height[i] == base_height[i]) & (ring[i] != 0);
-        const double slope = (double)rest_slope[i];
-        const float  ground = (float)((double)base_height[i] - (double)compression[i] - level);
-        const float  lies = open ? loose[i] : 0.0f;
-        firm[i] = open ? ground : BARRIER;
-        sum[i] = (double)lies;
-        heap[i] = lies;
-        height[i] = open ? ground + lies : BARRIER;
-        fall[i] = open ? (float)(slope * cell) : 0.0f;
-        // tan(gamma + slack) - tan(gamma), from its first order: a little stricter
-        slack[i] = open ? (float)(tan_slack * (1.0 + slope * slope) * cell) : 0.0f;
-    }
-}
 
 // `sole` tells where one stands (0), as imprint->ring does
 static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, int j,
@@ -220,9 +89,9 @@ static void read_row(const Window* window, const DpSoilPatch* patch, const int32
     const size_t p = soil_at(patch, window->box.i0, j), w = cell_of(window, window->box.i0, j);
     const Row    row = {window->firm + w, window->height + w, window->heap + w,
                         window->fall + w, window->slack + w,  window->sum + w};
-    fill_row(&row, patch->base_height + p, patch->compression + p, patch->heap + p,
-             patch->rest_slope + p, sole, window->box.i1 - window->box.i0, patch->cell, level,
-             tan_slack);
+    dp_slide_fill(&row, patch->base_height + p, patch->compression + p, patch->heap + p,
+                  patch->rest_slope + p, sole, window->box.i1 - window->box.i0, patch->cell, level,
+                  tan_slack);
 }
 
 static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
@@ -278,8 +147,8 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
         const int    count = old.box.i1 - old.box.i0;
         memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j),
                (size_t)count * sizeof(double));
-        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at,
-                  count);
+        dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
+                       count);
     }
     dp_free(kept);
     if (!open) *window = old;
@@ -351,9 +220,9 @@ static Box decide(const Window* window, Box look, float film, bool* restless)
             continue;
         }
         const int count = look.i1 - look.i0;
-        const int wish = decide_row(window->share + at, window->give + at, window->height + at,
-                                    window->heap + at, window->fall + at, window->slack + at,
-                                    (ptrdiff_t)window->row, count, film);
+        const int wish = dp_slide_decide(window->share + at, window->give + at, window->height + at,
+                                         window->heap + at, window->fall + at, window->slack + at,
+                                         (ptrdiff_t)window->row, count, film);
         memset(window->share + at - 2, 0, 2 * sizeof(float));
         memset(window->give + at - 2, 0, 2 * sizeof(float));
         memset(window->share + at + count, 0, 2 * sizeof(float));
@@ -378,13 +247,13 @@ static void take(const Window* window, Box change)
     const int count = change.i1 - change.i0;
     for (int j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
-        take_row(window->sum + at, window->give + at, window->height + at, window->share + at,
-                 window->fall + at, (ptrdiff_t)window->row, count);
+        dp_slide_take(window->sum + at, window->give + at, window->height + at, window->share + at,
+                      window->fall + at, (ptrdiff_t)window->row, count);
     }
     for (int j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
-        raise_row(window->height + at, window->heap + at, window->firm + at, window->sum + at,
-                  count);
+        dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
+                       count);
     }
 }
 

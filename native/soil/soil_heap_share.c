@@ -1,0 +1,26 @@
+// soil/soil_heap_share.c - how much of what is pushed aside each border cell asks for. TRAIL (11), (12).
+//
+// Departures
+//   TRAIL (11)(12): where the push leaves no border cell ahead (a sole at the edge of the ground), all
+//     border cells share alike; as printed the sum would be zero. test_soil_accumulate.c, nobody_ahead.
+//   Shares are rounded to 2^-30, so that a mirrored foot gets mirrored shares even where its mirrored
+//     coordinates differ in their last bits.
+#include "soil/soil_heaps.h"
+
+// max(F_par . u, 0)/|F_par|, u the unit vector from the point of force to the cell
+static double ahead_of(const HeapShares* shares, int i, int j)
+{
+    const double x = (double)i - shares->from_x, y = (double)j - shares->from_y;
+    const double far = sqrt(x * x + y * y);
+    if (!(far > 0.0)) return 0.0;
+    return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
+}
+
+double dp_soil_heap_share(const HeapShares* shares, int i, int j)
+{
+    const double coarse = ldexp(1.5, 52 - 30);
+    if (shares->even) return 1.0;
+    const double share =
+        shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    return soil_on_grid(share, coarse);
+}

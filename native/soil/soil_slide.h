@@ -1,0 +1,37 @@
+// soil/soil_slide.h - the two stencils of soil that slides, and how a row of cells is read for them.
+#pragma once
+#include "soil/soil_inside.h"
+
+#define BARRIER 1e30f  // height of what soil cannot go to
+
+// What one row wants, as bits.
+#define ROW_MOVES 1     // a cell gives something
+#define ROW_RESTLESS 2  // .. and one must: it stands steeper than gamma_r + tolerance
+
+// A row of a window as it is read; what no soil can go to stays a barrier without any.
+typedef struct Row
+{
+    float * firm, *height, *heap, *fall, *slack;
+    double* sum;
+} Row;
+
+// First stencil: what each cell of a row gives away, TRAIL (14) (15); returns ROW_ bits.
+// @param film  an excess as large counts as one neighbour [m]
+int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
+                    const float* restrict heap, const float* restrict fall,
+                    const float* restrict slack, ptrdiff_t row, int count, float film);
+
+// Second stencil: each cell of a row takes what its neighbours give, TRAIL (16).
+void dp_slide_take(double* restrict sum, const float* restrict give, const float* restrict h,
+                   const float* restrict share, const float* restrict fall, ptrdiff_t row,
+                   int count);
+
+// Heaps and heights of a row as their sums say.
+void dp_slide_raise(float* restrict height, float* restrict heap, const float* restrict firm,
+                    const double* restrict sum, int count);
+
+// Read a row of a patch; `ring` tells where a sole stands (0).
+void dp_slide_fill(const Row* to, const float* restrict base_height,
+                   const float* restrict compression, const float* restrict loose,
+                   const float* restrict rest_slope, const int32_t* restrict ring, int count,
+                   double cell, double level, double tan_slack);
