@@ -18,6 +18,7 @@
 #include "imprint/imprint.h"
 #include "soil/soil.h"
 #include "plants/plants.h"
+#include "grass/grass.h"
 #include "terrain/terrain.h"
 #include "maps/maps.h"
 #include "sim/sim.h"

@@ -108,7 +108,7 @@ static bool fill_bins(PlantStand* stand, const Roots* roots)
 {
     const int     n = stand->count;
     const double* box = roots->box;
-    stand->bin = fmax((double)stand->kind.reach, sqrt(roots->area / (4.0 * n + 16.0)));
+    stand->bin = fmax((double)stand->kind.root_radius, sqrt(roots->area / (4.0 * n + 16.0)));
     stand->bin = fmax(stand->bin, fmax(box[2] - box[0], box[3] - box[1]) / 4096.0);
     stand->bx0 = box[0], stand->by0 = box[1];
     stand->bnx = (int)((box[2] - box[0]) / stand->bin) + 1;

@@ -41,7 +41,8 @@ static bool bins_around(const PlantStand* stand, double x0, double x1, double y,
 // wide: kernels reach so many times as far
 static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, double wide)
 {
-    const double reach = wide * (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
+    const double reach = wide * (double)stand->kind.root_radius,
+                 modulus = (double)stand->kind.modulus;
     const double full = (double)stand->kind.full_density * PI * reach * reach / 3.0;  // K_ref
     int          range[4];
     if (!bins_around(stand, x, x, y, reach, range)) return;
@@ -109,7 +110,7 @@ static void add_plant(Row* row, int a, int b, double first, double cell, double 
 
 static void add_stand(Row* row, const PlantStand* stand, double x0, double y, double cell, int n)
 {
-    const double reach = (double)stand->kind.reach, modulus = (double)stand->kind.modulus;
+    const double reach = (double)stand->kind.root_radius, modulus = (double)stand->kind.modulus;
     const double weight = 3.0 / ((double)stand->kind.full_density * PI * reach * reach);  // 1/K_ref
     int          range[4];
     if (!bins_around(stand, x0, x0 + (n - 1) * cell, y, reach, range)) return;
@@ -179,7 +180,8 @@ static double heal_rate(const DpPlantKind* kind)
     return kind->degrade_rate > 0.0f ? fmin(swing, back) : swing;
 }
 
-void dp_plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out)
+void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
+                       const DpPlantStature* out)
 {
     for (int j = 0; j < window->ny; ++j)
         for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {

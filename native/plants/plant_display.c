@@ -1,4 +1,4 @@
-// plants/plant_display.c - stems as they are shown: down for as long as the lean of their cell says.
+// plants/plant_display.c - stems as they are shown: down for as long as the lean at their foot says.
 //
 // A stem that was simulated swings up as soon as nothing holds it, and that is how it wears; what
 // was trodden stays down until its strength is back, and the lean knows how long. Shown is
@@ -9,51 +9,53 @@
 // the lower a stem is, the more is shown of what it does, so that nothing jumps. Shown stems are as
 // long as what they do.
 #include "base/alloc.h"
-#include "plants/plant_lean_inside.h"
+#include "plants/plant_inside.h"
 #include "plants/plant_stem.h"
 
-#define NEARLY 0.85      // under a sole a stem may lie so much less low than the lean
-#define TURNS 0.8        // from this share of it on, what a stem does shows in how it lies
-#define SLIGHT 0.2       // below this it goes over into what the stem does
-#define UNFOLDS 0.8      // how far folds are drawn out once a stem stands up
-#define PASSES 6         // in which a piece finds its place on the ground
-#define LIFT_LEAST 0.3f  // of the radius: lying stems are so high, or up to the whole radius
-#define LIFT_OF 64       // what its chance is called, for the first stem
+#define NEARLY 0.85    // under a sole a stem may lie so much less low than the lean
+#define TURNS 0.8      // from this share of it on, what a stem does shows in how it lies
+#define SLIGHT 0.2     // below this it goes over into what the stem does
+#define UNFOLDS 0.8    // how far folds are drawn out once a stem stands up
+#define PASSES 6       // in which a piece finds its place on the ground
+#define MIN_LIFT 0.3f  // of the radius: lying stems are so high, or up to the whole radius
+#define LIFT_OF 64     // what its chance is called, for the first stem
 
 // What a block's stems looked like when soles laid them.
 typedef struct LaidBlock
 {
-    float*   way[3];  // (pieces of all stems, lanes) [m]
-    float*   share;   // how low it lay of what the lean said (stems, lanes)
-    uint8_t* laid;    // did anything lay it? (stems, lanes)
+    float*   segment[3];  // (pieces of all stems, lanes) [m]
+    float*   share;       // how low it lay of what the lean said (stems, lanes)
+    uint8_t* laid;        // did anything lay it? (stems, lanes)
 } LaidBlock;
 
-struct DpLaid
+struct DpPlantDisplay
 {
     const DpPlants* plants;
-    const DpLean*   lean;
-    LaidBlock***    stand;  // blocks of each stand; NULL = never laid
+    DpStemLeanAt    lean_at;
+    const void*     context;  // of lean_at
+    LaidBlock***    stand;    // blocks of each stand; NULL = never laid
     int             stands;
 };
 
-DpStatus dp_laid_create(DpLaid** laid, const DpPlants* plants, const DpLean* lean)
+DpStatus dp_plant_display_create(DpPlantDisplay** display, const DpPlants* plants,
+                                 DpStemLeanAt lean_at, const void* context)
 {
-    if (!laid || !plants || !lean || lean->plants != plants) return DP_BAD_ARGUMENT;
-    DpLaid* made = dp_alloc(1, sizeof *made);
-    if (!made) return DP_NO_MEMORY;
-    made->plants = plants, made->lean = lean;
-    *laid = made;
+    if (!display || !plants || !lean_at) return DP_BAD_ARGUMENT;
+    DpPlantDisplay* created = dp_alloc(1, sizeof *created);
+    if (!created) return DP_NO_MEMORY;
+    created->plants = plants, created->lean_at = lean_at, created->context = context;
+    *display = created;
     return DP_OK;
 }
 
-void dp_laid_destroy(DpLaid* laid)
+void dp_plant_display_destroy(DpPlantDisplay* display)
 {
-    if (!laid) return;
-    for (int s = 0; s < laid->stands; ++s) {
-        for (int b = 0; b < laid->plants->stand[s].blocks; ++b) dp_free(laid->stand[s][b]);
-        dp_free(laid->stand[s]);
+    if (!display) return;
+    for (int s = 0; s < display->stands; ++s) {
+        for (int b = 0; b < display->plants->stand[s].blocks; ++b) dp_free(display->stand[s][b]);
+        dp_free(display->stand[s]);
     }
-    dp_free(laid->stand), dp_free(laid);
+    dp_free(display->stand), dp_free(display);
 }
 
 // ---- stems -----------------------------------------------------------------------------------
@@ -76,19 +78,19 @@ static Stem stem_of(const PlantStand* stand, const PlantBlock* block, int stem, 
     DpVec3    from = own.foot;
     for (int k = 0; k < own.pieces; ++k) {
         const DpVec3 to = particle_at(stand, block, first + k + 1, l);
-        own.way[k] = dp_sub(to, from), from = to;
+        own.segment[k] = dp_sub(to, from), from = to;
     }
     return own;
 }
 
-// the same of a stem at rest on level ground
-static double rest_high(const PlantStand* stand, int stem)
+// highest point over the foot of a stem in its rest shape on level ground [m]
+static double rest_height(const PlantStand* stand, int stem)
 {
     const int    rows = stand->shape.rows;
     const float* foot = stand->rest + 3 * (stem * rows + 1);
-    float        most = 0.0f;
-    for (int r = 0; r + 1 < rows; ++r) most = fmaxf(most, foot[3 * r + 2] - foot[2]);
-    return (double)most;
+    float        max = 0.0f;
+    for (int r = 0; r + 1 < rows; ++r) max = fmaxf(max, foot[3 * r + 2] - foot[2]);
+    return (double)max;
 }
 
 // ---- what is remembered ------------------------------------------------------------------------
@@ -98,8 +100,8 @@ static Stem recall(const LaidBlock* kept, const Stem* own, int stem, int l)
     Stem out = *own;
     for (int k = 0; k < own->pieces; ++k) {
         const int at = (stem * own->pieces + k) * DP_LANES + l;
-        out.way[k] =
-            dp_vec3((double)kept->way[0][at], (double)kept->way[1][at], (double)kept->way[2][at]);
+        out.segment[k] = dp_vec3((double)kept->segment[0][at], (double)kept->segment[1][at],
+                                 (double)kept->segment[2][at]);
     }
     return out;
 }
@@ -108,40 +110,41 @@ static void keep(LaidBlock* kept, const Stem* shown, int stem, int l, double sha
 {
     for (int k = 0; k < shown->pieces; ++k) {
         const int at = (stem * shown->pieces + k) * DP_LANES + l;
-        kept->way[0][at] = (float)shown->way[k].x, kept->way[1][at] = (float)shown->way[k].y,
-        kept->way[2][at] = (float)shown->way[k].z;
+        kept->segment[0][at] = (float)shown->segment[k].x,
+        kept->segment[1][at] = (float)shown->segment[k].y,
+        kept->segment[2][at] = (float)shown->segment[k].z;
     }
     kept->share[stem * DP_LANES + l] = (float)share;
     kept->laid[stem * DP_LANES + l] = 1;
 }
 
-static LaidBlock* make_block(const DpPlantShape* shape)
+static LaidBlock* create_block(const DpPlantShape* shape)
 {
     const size_t head = (sizeof(LaidBlock) + 15) / 16 * 16;
     const size_t stems = (size_t)shape->stems * DP_LANES;
-    const size_t ways = stems * (size_t)(shape->rows - DP_PLANT_HELD);
-    char*        memory = dp_alloc(1, head + (3 * ways + stems) * sizeof(float) + stems);
+    const size_t segments = stems * (size_t)(shape->rows - DP_PLANT_HELD);
+    char*        memory = dp_alloc(1, head + (3 * segments + stems) * sizeof(float) + stems);
     if (!memory) return NULL;
-    LaidBlock* made = (LaidBlock*)(void*)memory;
+    LaidBlock* block = (LaidBlock*)(void*)memory;
     float*     grid = (float*)(void*)(memory + head);
-    for (int d = 0; d < 3; ++d, grid += ways) made->way[d] = grid;
-    made->share = grid;
-    made->laid = (uint8_t*)(grid + stems);
-    return made;
+    for (int d = 0; d < 3; ++d, grid += segments) block->segment[d] = grid;
+    block->share = grid;
+    block->laid = (uint8_t*)(grid + stems);
+    return block;
 }
 
 // stands that have come since
-static bool know_stands(DpLaid* laid)
+static bool know_stands(DpPlantDisplay* display)
 {
-    const int count = laid->plants->stands;
-    if (count == laid->stands) return true;
-    LaidBlock*** more = dp_realloc(laid->stand, (size_t)count, sizeof *more);
+    const int count = display->plants->stands;
+    if (count == display->stands) return true;
+    LaidBlock*** more = dp_realloc(display->stand, (size_t)count, sizeof *more);
     if (!more) return false;
-    laid->stand = more;
-    for (; laid->stands < count; ++laid->stands) {
-        const size_t blocks = (size_t)laid->plants->stand[laid->stands].blocks;
-        more[laid->stands] = dp_alloc(blocks, sizeof(LaidBlock*));
-        if (!more[laid->stands]) return false;
+    display->stand = more;
+    for (; display->stands < count; ++display->stands) {
+        const size_t blocks = (size_t)display->plants->stand[display->stands].blocks;
+        more[display->stands] = dp_alloc(blocks, sizeof(LaidBlock*));
+        if (!more[display->stands]) return false;
     }
     return true;
 }
@@ -168,7 +171,7 @@ static double low_of(const Stem* stem, double tall)
     return dp_clamp(1.0 - dp_stem_high(stem) / tall, 0.0, 1.0);
 }
 
-static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell, double tall,
+static Look look_at(const Stem* own, const LaidBlock* kept, const DpStemLean* cell, double tall,
                     bool free, int stem, int l)
 {
     const int  at = stem * DP_LANES + l;
@@ -200,23 +203,23 @@ static Look look_at(const Stem* own, const LaidBlock* kept, const LeanStem* cell
     return look;
 }
 
-static LeanStem cell_of(const DpLaid* laid, const PlantBlock* block, const Stem* stem)
+static DpStemLean cell_of(const DpPlantDisplay* display, const PlantBlock* block, const Stem* stem)
 {
-    return dp_lean_stem_at(laid->lean, block->origin[0] + stem->foot.x,
-                           block->origin[1] + stem->foot.y);
+    return display->lean_at(display->context, block->origin[0] + stem->foot.x,
+                            block->origin[1] + stem->foot.y);
 }
 
-static bool step_block(DpLaid* laid, const PlantStand* stand, const PlantBlock* block,
+static bool step_block(DpPlantDisplay* display, const PlantStand* stand, const PlantBlock* block,
                        LaidBlock** kept)
 {
     for (int stem = 0; stem < stand->shape.stems; ++stem) {
-        const double tall = rest_high(stand, stem);
+        const double tall = rest_height(stand, stem);
         for (int l = 0; l < block->count; ++l) {
             const Stem foot = {.foot = particle_at(stand, block, stem * stand->shape.rows + 1, l)};
-            const LeanStem cell = cell_of(laid, block, &foot);
+            const DpStemLean cell = cell_of(display, block, &foot);
             if (!(cell.down > 0.0) && *kept) (*kept)->laid[stem * DP_LANES + l] = 0;
             if (!(cell.down > 0.0) || !(cell.pressed || block->touched_lane[l])) continue;
-            if (!*kept && !(*kept = make_block(&stand->shape))) return false;
+            if (!*kept && !(*kept = create_block(&stand->shape))) return false;
             const Stem own = stem_of(stand, block, stem, l);
             const Look look = look_at(&own, *kept, &cell, tall, false, stem, l);
             if (cell.pressed || look.as_it_is) keep(*kept, &look.shown, stem, l, look.share);
@@ -225,14 +228,15 @@ static bool step_block(DpLaid* laid, const PlantStand* stand, const PlantBlock* 
     return true;
 }
 
-DpStatus dp_laid_step(DpLaid* laid)
+DpStatus dp_plant_display_step(DpPlantDisplay* display)
 {
-    if (!laid) return DP_BAD_ARGUMENT;
-    if (!know_stands(laid)) return DP_NO_MEMORY;
-    for (int s = 0; s < laid->stands; ++s) {
-        const PlantStand* stand = &laid->plants->stand[s];
+    if (!display) return DP_BAD_ARGUMENT;
+    if (!know_stands(display)) return DP_NO_MEMORY;
+    for (int s = 0; s < display->stands; ++s) {
+        const PlantStand* stand = &display->plants->stand[s];
         for (int b = 0; b < stand->blocks; ++b)
-            if (stand->up[b] && !step_block(laid, stand, &stand->block[b], &laid->stand[s][b]))
+            if (stand->up[b] &&
+                !step_block(display, stand, &stand->block[b], &display->stand[s][b]))
                 return DP_NO_MEMORY;
     }
     return DP_OK;
@@ -240,11 +244,11 @@ DpStatus dp_laid_step(DpLaid* laid)
 
 // ---- reading -----------------------------------------------------------------------------------
 
-// which way a stem leans, seen from above
+// whereto a stem leans, seen from above
 static DpVec3 away(const Stem* stem)
 {
     DpVec3 sum = dp_vec3(0, 0, 0);
-    for (int k = 0; k < stem->pieces; ++k) sum = dp_add(sum, stem->way[k]);
+    for (int k = 0; k < stem->pieces; ++k) sum = dp_add(sum, stem->segment[k]);
     sum.z = 0.0;
     return dp_length(sum) > 1e-9 ? dp_unit(sum) : dp_vec3(1, 0, 0);
 }
@@ -257,48 +261,49 @@ static void put_down(const Stem* stem, const PlantBlock* block, const DpPlantGro
     DpVec3 at = dp_add(stem->foot, dp_vec3(block->origin[0], block->origin[1], block->origin[2]));
     double along = 0.0;
     for (int k = 0; k < stem->pieces; ++k, out += 3) {
-        const double length = dp_length(stem->way[k]);
-        DpVec3       to = dp_add(at, stem->way[k]);
+        const double length = dp_length(stem->segment[k]);
+        DpVec3       to = dp_add(at, stem->segment[k]);
         along += length;
         for (int pass = 0; pass < PASSES; ++pass) {
-            const double least =
+            const double lowest =
                 dp_plant_floor_at(block, ground, l, to.x, to.y) + fmin(lift, along);
-            if (to.z >= least) break;
-            to.z = least;
+            if (to.z >= lowest) break;
+            to.z = lowest;
             if (pass + 1 == PASSES) break;
-            DpVec3 way = dp_sub(to, at);
-            if (dp_length(way) < 0.5 * length)  // it stood on its head
-                way = dp_add(way, dp_scale(aside, length));
-            to = dp_add(at, dp_scale(dp_unit(way), length));
+            DpVec3 arm = dp_sub(to, at);
+            if (dp_length(arm) < 0.5 * length)  // it stood on its head
+                arm = dp_add(arm, dp_scale(aside, length));
+            to = dp_add(at, dp_scale(dp_unit(arm), length));
         }
         out[0] = (float)to.x, out[1] = (float)to.y, out[2] = (float)to.z;
         at = to;
     }
 }
 
-DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand_name, int plant,
-                      float* position)
+DpStatus dp_plant_display_read(const DpPlantDisplay* display, const DpPlantGround* ground,
+                               int stand_name, int plant, float* position)
 {
-    if (!laid || !position || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
-    const DpStatus status = dp_plants_read(laid->plants, stand_name, plant, position, NULL, NULL);
+    if (!display || !position || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
+    const DpStatus status =
+        dp_plants_read(display->plants, stand_name, plant, position, NULL, NULL);
     if (status != DP_OK) return status;
-    const PlantStand* stand = &laid->plants->stand[stand_name];
+    const PlantStand* stand = &display->plants->stand[stand_name];
     const int         slot = stand->where[plant], l = slot % DP_LANES, rows = stand->shape.rows;
     const PlantBlock* block = &stand->block[slot / DP_LANES];
     const LaidBlock*  kept =
-        stand_name < laid->stands ? laid->stand[stand_name][slot / DP_LANES] : NULL;
+        stand_name < display->stands ? display->stand[stand_name][slot / DP_LANES] : NULL;
     const uint64_t name = dp_plant_name(block->root[0][l], block->root[1][l]);
     for (int stem = 0; stem < stand->shape.stems; ++stem) {
-        const Stem     foot = {.foot = particle_at(stand, block, stem * rows + 1, l)};
-        const LeanStem cell = cell_of(laid, block, &foot);
+        const Stem       foot = {.foot = particle_at(stand, block, stem * rows + 1, l)};
+        const DpStemLean cell = cell_of(display, block, &foot);
         if (!(cell.down > 0.0)) continue;
         const Stem own = stem_of(stand, block, stem, l);
-        const Look look = look_at(&own, kept, &cell, rest_high(stand, stem),
+        const Look look = look_at(&own, kept, &cell, rest_height(stand, stem),
                                   swings(stand, block, stem, l), stem, l);
         if (look.as_it_is) continue;
         const float chance =
-            (float)dp_plant_hash(laid->plants->seed, name, LIFT_OF + (uint64_t)stem);
-        const float lift = (LIFT_LEAST + (1.0f - LIFT_LEAST) * chance) * stand->kind.radius;
+            (float)dp_plant_hash(display->plants->seed, name, LIFT_OF + (uint64_t)stem);
+        const float lift = (MIN_LIFT + (1.0f - MIN_LIFT) * chance) * stand->kind.radius;
         put_down(&look.shown, block, ground, l, (double)lift,
                  position + 3 * (stem * rows + DP_PLANT_HELD));
     }

@@ -191,11 +191,7 @@ void dp_plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPl
                           int lane);
 // no particle below the ground
 void dp_plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpPlantGround* ground);
-// can all pieces be read? NULL can
-bool dp_plant_ground_ok(const DpPlantGround* ground);
-// surface at a point; NaN off the ground
-double dp_plant_ground_at(const DpPlantGround* ground, double x, double y);
-// the same, or off the ground the plane a plant stands on
+// surface at a point, or off the ground the plane a plant stands on
 double dp_plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, int lane, double x,
                          double y);
 
@@ -213,13 +209,3 @@ void dp_plant_wear_block(const PlantStand* stand, PlantBlock* block, double dt);
 void dp_plant_count_broken(const PlantStand* stand, PlantBlock* block);
 // alpha_veg around a point, as far as plants grow again from
 float dp_plant_cover_around(const DpPlants* plants, float x, float y);
-// One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
-typedef struct PlantStature
-{
-    float* height;  // [m]; NULL = all but `broken` are left out
-    float* rate;    // at which it swings up [1/s]
-    float* heal;    // at which it rises when its strength has to return first [1/s], <= rate
-    float* limp;    // share of height lost from which that is so
-    float* broken;  // share of bends that is broken
-} PlantStature;
-void dp_plant_stature(const DpPlants* plants, const DpPlantWindow* window, const PlantStature* out);

@@ -26,7 +26,7 @@ DpPlantKind dp_plant_kind_default(void)
         .spread = 0.0f,
         .regrow_rate = (float)(1.02 / (365.25 * 86400.0)),
         .seed_share = 0.0f,
-        .reach = 0.15f,
+        .root_radius = 0.15f,
         .full_density = 40.0f,
         .modulus = 10e6f,
     };
@@ -54,8 +54,8 @@ DpStatus dp_plant_kind_check(const DpPlantKind* kind)
                       within(kind->degrade_rate, 0.0, 1e9) &&
                       within(kind->recover_rate, 0.0, 1e9) && within(kind->spread, 0.0, 4.0) &&
                       within(kind->regrow_rate, 0.0, 1e3) && within(kind->seed_share, 0.0, 1.0);
-    const bool roots = within(kind->reach, 1e-3, 100.0) && within(kind->full_density, 1e-6, 1e9) &&
-                       within(kind->modulus, 0.0, 1e12);
+    const bool roots = within(kind->root_radius, 1e-3, 100.0) &&
+                       within(kind->full_density, 1e-6, 1e9) && within(kind->modulus, 0.0, 1e12);
     if (!form || !size || !swing || !wear || !roots) return DP_BAD_ARGUMENT;
     const DpPlantShape shape = dp_plant_shape(kind);
     return shape.rows > DP_PLANT_MAX_ROWS || shape.stems > MAX_STEMS ? DP_BAD_ARGUMENT : DP_OK;

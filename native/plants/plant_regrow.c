@@ -74,7 +74,7 @@ static void rest_block(DpPlants* plants, const PlantStand* stand, PlantBlock* bl
     block->broke = 0;
 }
 
-DpStatus dp_plants_rest(DpPlants* plants, double seconds)
+DpStatus dp_plants_advance_time(DpPlants* plants, double seconds)
 {
     if (!plants || !(seconds >= 0.0) || !(seconds < 1e12)) return DP_BAD_ARGUMENT;
     float* cover = cover_before(plants);

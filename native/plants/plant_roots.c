@@ -67,10 +67,18 @@ double dp_plants_extent(const DpPlants* plants)
     return most;
 }
 
-double dp_plants_reach(const DpPlants* plants)
+double dp_plants_height(const DpPlants* plants)
+{
+    double max = 0.0;
+    for (int s = 0; s < plants->stands; ++s) max = fmax(max, (double)plants->stand[s].kind.height);
+    return max;
+}
+
+double dp_plants_root_radius(const DpPlants* plants)
 {
     double most = 0.0;
-    for (int s = 0; s < plants->stands; ++s) most = fmax(most, (double)plants->stand[s].kind.reach);
+    for (int s = 0; s < plants->stands; ++s)
+        most = fmax(most, (double)plants->stand[s].kind.root_radius);
     return most;
 }
 

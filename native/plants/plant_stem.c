@@ -11,13 +11,13 @@
 
 double dp_stem_high(const Stem* stem)
 {
-    double at = 0.0, most = 0.0;
+    double at = 0.0, max = 0.0;
     for (int k = 0; k < stem->pieces; ++k) {
-        const DpVec3 way = stem->way[k];
-        at += way.z - stem->slope[0] * way.x - stem->slope[1] * way.y;
-        most = at > most ? at : most;
+        const DpVec3 segment = stem->segment[k];
+        at += segment.z - stem->slope[0] * segment.x - stem->slope[1] * segment.y;
+        max = at > max ? at : max;
     }
-    return most;
+    return max;
 }
 
 static DpVec3 between(DpVec3 a, DpVec3 b, double share)
@@ -29,9 +29,10 @@ Stem dp_stem_risen(const Stem* laid, const Stem* own, double share)
 {
     Stem out = *own;
     for (int k = 0; k < own->pieces; ++k) {
-        const DpVec3 up = dp_unit(own->way[k]);
-        const DpVec3 way = between(dp_unit(laid->way[k]), up, share);
-        out.way[k] = dp_scale(dp_length(way) > 1e-6 ? dp_unit(way) : up, dp_length(own->way[k]));
+        const DpVec3 up = dp_unit(own->segment[k]);
+        const DpVec3 segment = between(dp_unit(laid->segment[k]), up, share);
+        out.segment[k] =
+            dp_scale(dp_length(segment) > 1e-6 ? dp_unit(segment) : up, dp_length(own->segment[k]));
     }
     return out;
 }
@@ -45,8 +46,8 @@ Stem dp_stem_bent(const Stem* own, const double lean[2], double share)
     for (int k = 0; k < own->pieces; ++k) {
         const double along = own->pieces > 1 ? (double)k / (own->pieces - 1) : 1.0;
         const double here = pow(share, FOOT_STIFF + (TIP_SLACK - FOOT_STIFF) * along);
-        const DpVec3 way = between(dp_unit(own->way[k]), flat, here);
-        out.way[k] = dp_scale(dp_unit(way), dp_length(own->way[k]));
+        const DpVec3 segment = between(dp_unit(own->segment[k]), flat, here);
+        out.segment[k] = dp_scale(dp_unit(segment), dp_length(own->segment[k]));
     }
     return out;
 }
@@ -62,22 +63,25 @@ Stem dp_stem_unfolded(const Stem* stem, double share)
     Stem         out = *stem;
     DpVec3       sum = dp_vec3(0, 0, 0);
     double       length = 0.0;
-    const double most = dp_stem_high(stem);
+    const double high = dp_stem_high(stem);
     for (int k = 0; k < stem->pieces; ++k) {
-        sum = dp_add(sum, stem->way[k]);
-        length += dp_length(stem->way[k]);
+        sum = dp_add(sum, stem->segment[k]);
+        length += dp_length(stem->segment[k]);
     }
     share *= length > 0.0 ? dp_stem_smooth(0.2, 0.6, dp_length(sum) / length) : 0.0;
     for (int k = 0; k < stem->pieces; ++k) {
-        const DpVec3 way = between(dp_unit(stem->way[k]), dp_unit(sum), share);
-        if (dp_length(way) > 1e-6) out.way[k] = dp_scale(dp_unit(way), dp_length(stem->way[k]));
+        const DpVec3 segment = between(dp_unit(stem->segment[k]), dp_unit(sum), share);
+        if (dp_length(segment) > 1e-6)
+            out.segment[k] = dp_scale(dp_unit(segment), dp_length(stem->segment[k]));
     }
-    for (int pass = 0; pass < FLATTENINGS && dp_stem_high(&out) > most; ++pass) {
-        const double lost = 1.0 - most / dp_stem_high(&out);
+    for (int pass = 0; pass < FLATTENINGS && dp_stem_high(&out) > high; ++pass) {
+        const double lost = 1.0 - high / dp_stem_high(&out);
         for (int k = 0; k < stem->pieces; ++k) {
-            DpVec3 way = out.way[k];
-            way.z -= lost * (way.z - stem->slope[0] * way.x - stem->slope[1] * way.y);
-            if (dp_length(way) > 1e-9) out.way[k] = dp_scale(dp_unit(way), dp_length(stem->way[k]));
+            DpVec3 segment = out.segment[k];
+            segment.z -=
+                lost * (segment.z - stem->slope[0] * segment.x - stem->slope[1] * segment.y);
+            if (dp_length(segment) > 1e-9)
+                out.segment[k] = dp_scale(dp_unit(segment), dp_length(stem->segment[k]));
         }
     }
     return out;
@@ -101,7 +105,7 @@ double dp_stem_bent_by(const Stem* own, const double lean[2], double lost)
 {
     Stem   straight = {.pieces = own->pieces};
     double low = 0.0, top = 1.0;
-    for (int k = 0; k < own->pieces; ++k) straight.way[k].z = 1.0;
+    for (int k = 0; k < own->pieces; ++k) straight.segment[k].z = 1.0;
     for (int k = 0; k < HALVINGS; ++k) {
         const double share = 0.5 * (low + top);
         const Stem   stem = dp_stem_bent(&straight, lean, share);

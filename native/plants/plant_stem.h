@@ -2,12 +2,12 @@
 #pragma once
 #include "base/vec.h"
 
-#define PIECES_MOST 64  // of a stem
+#define DP_STEM_MAX_PIECES 64
 
 // A stem from its foot upward.
 typedef struct Stem
 {
-    DpVec3 foot, way[PIECES_MOST];
+    DpVec3 foot, segment[DP_STEM_MAX_PIECES];
     int    pieces;
     double slope[2];
 } Stem;
@@ -18,7 +18,7 @@ double dp_stem_high(const Stem* stem);
 Stem dp_stem_risen(const Stem* laid, const Stem* own, double share);
 // a share at which that is so high
 double dp_stem_risen_by(const Stem* laid, const Stem* own, double height);
-// `own` bent down to the slope the way of the lean; share 0..1
+// `own` bent down to the slope, to where the lean goes; share 0..1
 Stem dp_stem_bent(const Stem* own, const double lean[2], double share);
 // a share at which a straight stem that is bent loses so much of its height, 0..1
 double dp_stem_bent_by(const Stem* own, const double lean[2], double lost);

@@ -138,7 +138,7 @@ static bool prepare_sides(DpPlants* plants, PlantPush* push, int count)
 }
 
 // one more box where cover may have changed: those that meet become one, and some if there are many
-static void tell_change(DpPlantsTold* told, DpPlantBox box)
+static void tell_change(DpPlantsReport* told, DpPlantBox box)
 {
     for (int k = 0; k < told->changes;) {
         const DpPlantBox at = told->box[k];
@@ -156,7 +156,7 @@ static void tell_change(DpPlantsTold* told, DpPlantBox box)
 }
 
 // what happened, and who may sleep; in the order of the blocks
-static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
+static void tell(DpPlants* plants, int tasks, DpPlantsReport* told)
 {
     for (int t = 0; t < tasks; ++t) {
         PlantStand* stand = plants->task[t].stand;
@@ -166,7 +166,7 @@ static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
         told->broke += block->broke;
         if (block->changed) {
             const float* box = stand->box + 4 * b;
-            const double reach = (double)stand->kind.reach;
+            const double reach = (double)stand->kind.root_radius;
             tell_change(told, (DpPlantBox){(double)box[0] - reach, (double)box[1] - reach,
                                            (double)box[2] + reach, (double)box[3] + reach});
         }
@@ -178,7 +178,7 @@ static void tell(DpPlants* plants, int tasks, DpPlantsTold* told)
 
 DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
-                        DpPlantsTold* told)
+                        DpPlantsReport* told)
 {
     if (!plants || !told || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
     if (!(dt > 0.0 && dt < 1e6) || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;

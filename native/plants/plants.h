@@ -49,7 +49,7 @@ typedef struct DpPlantKind
     float regrow_rate;    // r, TRAIL has none                               [1/s]   >= 0
     float seed_share;     // w, of regrowth from seeds that need no neighbours [-]   0..1
 
-    float reach;         // R, of a plant's roots                           [m]     > 0
+    float root_radius;   // R, as far as its roots hold the soil            [m]     > 0
     float full_density;  // plants from which on the ground is fully covered [1/m^2] > 0
     float modulus;       // E_v0, of soil full of healthy roots, TRAIL (8)  [Pa]    >= 0
 } DpPlantKind;
@@ -83,7 +83,7 @@ int          dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: 
 DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand that is there
 // How far a plant can reach from its root, with its leaves and with its roots; of all stands [m].
 double dp_plants_extent(const DpPlants* plants);
-double dp_plants_reach(const DpPlants* plants);
+double dp_plants_root_radius(const DpPlants* plants);
 
 // Heights of the ground's current surface at cell centres, NaN = no ground: where it may have
 // changed since the last step. Or a function that tells them, called from several threads:
@@ -125,27 +125,27 @@ typedef struct DpPlantBox
 
 // What a step did.
 #define DP_PLANT_BOXES 16
-typedef struct DpPlantsTold
+typedef struct DpPlantsReport
 {
     int        awake;                // plants that were moved
     int        broke;                // bends that broke, and those above them
     int        changes;              // cover may have changed ..
     DpPlantBox box[DP_PLANT_BOXES];  // .. within these: walkers far apart have boxes of their own
-} DpPlantsTold;
+} DpPlantsReport;
 
 // Let plants live for dt seconds: wake those near a collider, solve (5), wear (6), let those at
 // rest sleep. ground may be NULL: roots stay where they are and the ground under a plant is level.
 // The result is the same for any number of workers. dt > 0; no more than 64 sub-steps are taken.
 DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
-                        DpPlantsTold* told);
+                        DpPlantsReport* told);
 
 // Roots follow the ground: every plant asleep within its grids is set on its surface, those awake in
 // their step. Where `rose` says so, no particle stays below it.
 DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground);
 
 // Time passes without walkers [s]: strength comes back linearly, broken stems logistically.
-DpStatus dp_plants_rest(DpPlants* plants, double seconds);
+DpStatus dp_plants_advance_time(DpPlants* plants, double seconds);
 
 // One plant's particles (particles, 3), speeds, bends' strength (bends; < 0 never, 0 = broken).
 // What is NULL is left out. Writing wakes the plant.
@@ -194,51 +194,50 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
                          const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
                          int* count);
 
-// ---- how grass lies, cell by cell -------------------------------------------------------------
+// ---- for grass between the plants ---------------------------------------------------------------
 
-// Plants are sparse, soles have edges: every planted cell that was touched keeps the lean of one
-// stem. It takes memory and time where something touched the grass, and nowhere else.
-typedef struct DpLean DpLean;
+// Of all kinds that stand, the tallest [m]; 0 = nothing grows.
+double dp_plants_height(const DpPlants* plants);
 
-// Cell (i, j) has its centre at origin + (i + 0.5, j + 0.5) cell [m]; plants are borrowed.
-DpStatus dp_lean_create(DpLean** lean, const DpPlants* plants, double cell, double origin_x,
-                        double origin_y);
-void     dp_lean_destroy(DpLean* lean);
+// One stem for each cell of a window, the mean of what grows there; 0 where nothing does.
+typedef struct DpPlantStature
+{
+    float* height;  // [m]; NULL = all but `broken` are left out
+    float* rate;    // at which it swings up [1/s]
+    float* heal;    // at which it rises when its strength has to return first [1/s], <= rate
+    float* limp;    // share of height lost from which that is so
+    float* broken;  // share of bends that is broken
+} DpPlantStature;
+void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
+                       const DpPlantStature* out);
 
-// Make room where soles can meet grass: reads the plants, which a step does not.
-DpStatus dp_lean_ready(DpLean* lean, const DpPlantCollider* colliders, int count);
-
-// dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands
-// up to the share of its stems that is broken. Grass is met where the ground is told. Once it is
-// ready for the same soles, the step may run while the plants move.
-DpStatus dp_lean_step(DpLean* lean, const DpPlantGround* ground, const DpPlantCollider* colliders,
-                      int count, double dt);
-
-// Plants have worn within x0..x1, y0..y1 [m].
-DpStatus dp_lean_worn(DpLean* lean, double x0, double y0, double x1, double y1);
-// Plants have come or grown there: cells that nothing touched yet will see for themselves.
-void dp_lean_grown(DpLean* lean, double x0, double y0, double x1, double y1);
-
-// Cells (ny, nx) from cell (i0, j0) on: (tip - root) / height sideways, |lean| <= 1, and the share
-// of height that is lost, 0..1; 0 where nothing grows or nobody went. NULL is left out.
-void dp_lean_read(const DpLean* lean, long i0, long j0, int nx, int ny, float* lean_x,
-                  float* lean_y, float* crushed);
-
-// Tiles of DP_TILE x DP_TILE cells that changed since the last call, in ascending (ty, tx) order.
-void dp_lean_changed(DpLean* lean, void (*visit)(void* context, long tx, long ty), void* context);
+// Can all pieces of the ground be read? NULL can.
+bool dp_plant_ground_ok(const DpPlantGround* ground);
+// Surface at a point; NaN off the ground.
+double dp_plant_ground_at(const DpPlantGround* ground, double x, double y);
 
 // ---- stems as they are shown ------------------------------------------------------------------
 
-// A stem swings up when its foot has left, and wears by that; what was trodden is shown down for as
-// long as its cell's lean says, as it was laid. Plants and lean are borrowed.
-typedef struct DpLaid DpLaid;
-DpStatus              dp_laid_create(DpLaid** laid, const DpPlants* plants, const DpLean* lean);
-void                  dp_laid_destroy(DpLaid* laid);  // before its plants
+// How the whole stems of a place lie, as grass keeps it; those that are broken lie by themselves.
+typedef struct DpStemLean
+{
+    double down;     // share of height that is lost; 0 = it stands
+    double lean[2];  // which way
+    bool   pressed;  // a sole lies on it
+} DpStemLean;
+typedef DpStemLean (*DpStemLeanAt)(const void* context, double x, double y);
 
-// After each step of plants and lean: how soles laid the stems is remembered.
-DpStatus dp_laid_step(DpLaid* laid);
+// A stem swings up when its foot has left, and wears by that; what was trodden is shown down for as
+// long as the lean at its foot says, as it was laid. Plants and what tells the lean are borrowed.
+typedef struct DpPlantDisplay DpPlantDisplay;
+DpStatus dp_plant_display_create(DpPlantDisplay** display, const DpPlants* plants,
+                                 DpStemLeanAt lean_at, const void* context);
+void     dp_plant_display_destroy(DpPlantDisplay* display);  // before its plants
+
+// After each step of plants and grass: how soles laid the stems is remembered.
+DpStatus dp_plant_display_step(DpPlantDisplay* display);
 
 // One plant's particles (particles, 3) [m], none that was bent below `ground`; NULL = the plane the
 // plant stands on. Where the lean is 0 those of dp_plants_read, to the bit.
-DpStatus dp_laid_read(const DpLaid* laid, const DpPlantGround* ground, int stand, int plant,
-                      float* position);
+DpStatus dp_plant_display_read(const DpPlantDisplay* display, const DpPlantGround* ground,
+                               int stand, int plant, float* position);

@@ -188,8 +188,8 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
     if (out && !fits) dp_door_result(DP_BAD_ARGUMENT, "reading how grass lies");
     if (out && fits && enter(self)) {
         Py_BEGIN_ALLOW_THREADS
-        dp_lean_read(dp_sim_lean(self->sim), i0, j0, (int)shape.n[1], (int)shape.n[0],
-                     axis == 0 ? out : NULL, axis == 1 ? out : NULL, axis == 2 ? out : NULL);
+        dp_grass_read(dp_sim_grass(self->sim), i0, j0, (int)shape.n[1], (int)shape.n[0],
+                      axis == 0 ? out : NULL, axis == 1 ? out : NULL, axis == 2 ? out : NULL);
         Py_END_ALLOW_THREADS
         self->busy = false;
         result = dp_door_result(DP_OK, "");

@@ -5,7 +5,7 @@
 //   plants_regrow(kind, alpha, seconds) -> alpha
 //   plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given) -> count
 //   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None,
-//               colliders, dt, steps, workers) -> dict of DpPlantsTold
+//               colliders, dt, steps, workers) -> dict of DpPlantsReport
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
 //
 // kind: float64 (22) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
@@ -60,7 +60,7 @@ static PyObject* plants_default(PyObject* module, PyObject* none)
     return Py_BuildValue("(iiffffffffffffffffffff)", k.form, k.sheets, k.height, k.width, k.depth,
                          k.spacing, k.radius, k.curl, k.sway, k.across, k.damping, k.strength,
                          k.degrade_angle, k.break_angle, k.degrade_rate, k.recover_rate, k.spread,
-                         k.regrow_rate, k.seed_share, k.reach, k.full_density, k.modulus);
+                         k.regrow_rate, k.seed_share, k.root_radius, k.full_density, k.modulus);
 }
 
 static PyObject* plants_shape(PyObject* module, PyObject* object)
@@ -299,9 +299,9 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
         goto done;
     }
     if (open_state(&stand, position, velocity, strength) < 0) goto done;
-    DpPlantsTold told = {0};
-    DpStatus     status = DP_OK;
-    int          broke = 0;
+    DpPlantsReport told = {0};
+    DpStatus       status = DP_OK;
+    int            broke = 0;
     Py_BEGIN_ALLOW_THREADS
     for (int k = 0; k < steps && status == DP_OK; ++k) {
         status = dp_plants_step(stand.plants, below, stand.collider, stand.colliders, dt, workers,

@@ -8,6 +8,7 @@
 // its sole; a limb that has let go lets its rim come to rest. Limbs whose patches do not overlap are
 // worked on at once; the result is the same for any number of workers.
 #pragma once
+#include "grass/grass.h"
 #include "plants/plants.h"
 #include "sim/sim_film.h"
 #include "soil/soil.h"
@@ -57,7 +58,7 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
                      int* grown);
 
 // How the grass lies on the terrain's cells; NULL on bare ground. It belongs to the simulation.
-DpLean* dp_sim_lean(const DpSim* sim);
+DpGrass* dp_sim_grass(const DpSim* sim);
 
 // What the soles press with at the end of the last step: sigma [Pa] of cells (nx, ny) from (i0, j0)
 // on into out (ny, nx), 0 where nobody presses; and the tiles in which somebody does.

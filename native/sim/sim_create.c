@@ -92,8 +92,8 @@ void dp_sim_destroy(DpSim* sim)
 {
     if (!sim) return;
     if (sim->scratch) drop_recording(sim);
-    dp_laid_destroy(sim->stage.laid);
-    dp_lean_destroy(sim->stage.lean);
+    dp_plant_display_destroy(sim->stage.display);
+    dp_grass_destroy(sim->stage.grass);
     for (int b = 0; sim->scratch && b < sim->worker_count; ++b) {
         WorkerScratch* scratch = &sim->scratch[b];
         dp_lease_destroy(scratch->lease);

@@ -51,8 +51,9 @@ static void fill_tile(const DpFilm* film, int index, float* value)
         if (film->field[f] == DP_FIELD_PRESSURE)
             dp_sim_pressure(sim, tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, cell);
         else
-            dp_lean_read(dp_sim_lean(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
-                         axis == 0 ? cell : NULL, axis == 1 ? cell : NULL, axis == 2 ? cell : NULL);
+            dp_grass_read(dp_sim_grass(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
+                          axis == 0 ? cell : NULL, axis == 1 ? cell : NULL,
+                          axis == 2 ? cell : NULL);
         for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = cell[n];
     }
 }
@@ -118,7 +119,7 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
     const DpStatus status = dp_writer_told(reel->writer, false, failed);
     if (status != DP_OK) return status;
     dp_terrain_changed(sim->terrain, mark_ground, reel);
-    if (dp_sim_lean(sim)) dp_lean_changed(dp_sim_lean(sim), mark_grass, reel);
+    if (dp_sim_grass(sim)) dp_grass_changed(dp_sim_grass(sim), mark_grass, reel);
     if (film->of_soles) dp_sim_soles(sim, mark_sole, film);
     DpTiles* tiles = dp_writer_tiles(reel->writer, film->frames);
     if (!tiles) return DP_NO_MEMORY;
@@ -205,7 +206,7 @@ static bool are_known(const DpSim* sim, const DpFilmOptions* options)
     for (int f = 0; f < options->fields; ++f) {
         const int  field = options->field[f];
         const bool lies = field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3;
-        if (!(lies && dp_sim_lean(sim)) && field != DP_FIELD_PRESSURE &&
+        if (!(lies && dp_sim_grass(sim)) && field != DP_FIELD_PRESSURE &&
             (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE))
             return false;
     }
@@ -222,7 +223,7 @@ static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
     if (status != DP_OK) return status;
     film->changed = dp_alloc((size_t)tiles, 1);
     if (!film->changed) return DP_NO_MEMORY;
-    bool shows = dp_sim_lean(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
+    bool shows = dp_sim_grass(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
     for (int f = 0; f < film->fields; ++f) shows |= film->field[f] == DP_FIELD_BASE_HEIGHT;
     if (shows) {
         Rest rest = {film, DP_OK};

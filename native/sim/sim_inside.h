@@ -86,10 +86,10 @@ typedef struct SweptSole
 // Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
 typedef struct PlantStage
 {
-    DpPlants* plants;
-    DpLean*   lean;
-    DpLaid*   laid;           // NULL: nobody asked for stems as they are shown
-    double    extent, reach;  // of the largest plant, above and below ground [m]
+    DpPlants*       plants;
+    DpGrass*        grass;
+    DpPlantDisplay* display;        // NULL: nobody asked for stems as they are shown
+    double          extent, reach;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording
     SweptSole*       swept;         // of this step and the next (2, parts)

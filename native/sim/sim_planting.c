@@ -11,37 +11,42 @@ static void cover_of(const void* context, double x0, double y0, double cell, int
     dp_plants_cover(context, &window, DP_COVER_FULL, strength, roots);
 }
 
+static DpStemLean lean_at(const void* context, double x, double y)
+{
+    return dp_grass_stem_at(context, x, y);
+}
+
 static void measure(PlantStage* stage)
 {
     stage->extent = dp_plants_extent(stage->plants);
-    stage->reach = dp_plants_reach(stage->plants);
+    stage->reach = dp_plants_root_radius(stage->plants);
 }
 
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
 {
     if (!sim || !plants || sim->stage.plants || sim->limb) return DP_BAD_ARGUMENT;
-    DpLean*  lean = NULL;
-    DpStatus status = dp_lean_create(&lean, plants, sim->cell, sim->origin_x, sim->origin_y);
+    DpGrass* grass = NULL;
+    DpStatus status = dp_grass_create(&grass, plants, sim->cell, sim->origin_x, sim->origin_y);
     if (status == DP_OK) status = dp_terrain_set_cover(sim->terrain, cover_of, plants);
     if (status != DP_OK) {
-        dp_lean_destroy(lean);
+        dp_grass_destroy(grass);
         return status;
     }
-    sim->stage.plants = plants, sim->stage.lean = lean;
+    sim->stage.plants = plants, sim->stage.grass = grass;
     measure(&sim->stage);
     return DP_OK;
 }
 
-DpLean* dp_sim_lean(const DpSim* sim)
+DpGrass* dp_sim_grass(const DpSim* sim)
 {
-    return sim->stage.lean;
+    return sim->stage.grass;
 }
 
 DpStatus dp_sim_lay(DpSim* sim)
 {
     PlantStage* m = &sim->stage;
     if (!m->plants) return DP_BAD_ARGUMENT;
-    return m->laid ? DP_OK : dp_laid_create(&m->laid, m->plants, m->lean);
+    return m->display ? DP_OK : dp_plant_display_create(&m->display, m->plants, lean_at, m->grass);
 }
 
 // from heights over the terrain's base
@@ -58,8 +63,9 @@ DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position)
     const PlantStage* m = &sim->stage;
     if (!m->plants) return DP_BAD_ARGUMENT;
     const DpPlantGround ground = {.cell = sim->cell, .at = dp_sim_surface, .context = sim->terrain};
-    const DpStatus      status = m->laid ? dp_laid_read(m->laid, &ground, stand, plant, position)
-                                         : dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
+    const DpStatus      status = m->display
+                                     ? dp_plant_display_read(m->display, &ground, stand, plant, position)
+                                     : dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
     if (status == DP_OK) in_the_world(sim, stand, position);
     return status;
 }
@@ -78,7 +84,7 @@ static void planted(DpSim* sim, const double box[4])
     measure(&sim->stage);
     const double r = sim->stage.reach;
     dp_sim_cover_anew(sim, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
-    dp_lean_grown(sim->stage.lean, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
+    dp_grass_grown(sim->stage.grass, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
 }
 
 // The root on the rest ground and the slope there; false where there is none.
@@ -137,8 +143,8 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
 DpStatus dp_sim_rest(DpSim* sim, double seconds)
 {
     if (!sim->stage.plants) return DP_OK;
-    const DpStatus status = dp_plants_rest(sim->stage.plants, seconds);
+    const DpStatus status = dp_plants_advance_time(sim->stage.plants, seconds);
     if (status != DP_OK) return status;
     planted(sim, (const double[4]){-1e9, -1e9, 1e9, 1e9});
-    return seconds > 0.0 ? dp_lean_step(sim->stage.lean, NULL, NULL, 0, seconds) : DP_OK;
+    return seconds > 0.0 ? dp_grass_step(sim->stage.grass, NULL, NULL, 0, seconds) : DP_OK;
 }

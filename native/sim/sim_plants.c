@@ -45,8 +45,8 @@ void dp_stage_drop(DpSim* sim)
     dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
         dp_free(m->height_room);
     *m = (PlantStage){.plants = m->plants,
-                      .lean = m->lean,
-                      .laid = m->laid,
+                      .grass = m->grass,
+                      .display = m->display,
                       .extent = m->extent,
                       .reach = m->reach};
 }
@@ -173,7 +173,7 @@ typedef struct Moving
     const DpPlantGround* ground;
     double               dt;
     int                  ahead;  // limbs
-    DpPlantsTold         told;
+    DpPlantsReport       told;
     DpStatus             status[2];
 } Moving;
 
@@ -186,7 +186,7 @@ static void move(void* context, int index, int worker)
         moving->status[0] = dp_plants_step(m->plants, moving->ground, m->sole, m->soles, moving->dt,
                                            sim->worker_count, &moving->told);
     else if (index == 1)
-        moving->status[1] = dp_lean_step(m->lean, moving->ground, m->sole, m->soles, moving->dt);
+        moving->status[1] = dp_grass_step(m->grass, moving->ground, m->sole, m->soles, moving->dt);
     else if (index < 2 + moving->ahead)
         dp_speculate_press(sim, moving->sample + 1, index - 2, &sim->scratch[worker]);
     else
@@ -226,7 +226,7 @@ DpStatus dp_stage_step(DpSim* sim, int sample, bool more)
     const DpPlantGround* ground = m->grounds > 0 ? m->ground : &elsewhere;
     int                  ahead = 0;
     status = dp_plants_follow(m->plants, ground);
-    if (status == DP_OK) status = dp_lean_ready(m->lean, m->sole, m->soles);
+    if (status == DP_OK) status = dp_grass_ready(m->grass, m->sole, m->soles);
     if (status == DP_OK && more && sim->worker_count > 1)
         status = dp_speculate_open(sim, sample + 1, &ahead);
     if (status != DP_OK) return status;
@@ -236,15 +236,15 @@ DpStatus dp_stage_step(DpSim* sim, int sample, bool more)
     dp_parallel_for(2 + ahead + soles_ahead, sim->worker_count, move, &moving);
     for (int k = 0; k < 2; ++k)
         if (moving.status[k] != DP_OK) return moving.status[k];
-    const DpPlantsTold told = moving.told;
+    const DpPlantsReport told = moving.told;
     sim->report.awake = told.awake;
     sim->report.broke += told.broke;
     for (int k = 0; k < told.changes && status == DP_OK; ++k) {
         const DpPlantBox box = told.box[k];
         dp_sim_cover_anew(sim, box.x0, box.y0, box.x1, box.y1);  // TRAIL (9), in the next step
         dp_speculate_worn(sim, box.x0, box.y0, box.x1, box.y1);
-        status = dp_lean_worn(m->lean, box.x0, box.y0, box.x1, box.y1);
+        status = dp_grass_worn(m->grass, box.x0, box.y0, box.x1, box.y1);
     }
-    if (status == DP_OK && m->laid) status = dp_laid_step(m->laid);
+    if (status == DP_OK && m->display) status = dp_plant_display_step(m->display);
     return status;
 }

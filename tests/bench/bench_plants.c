@@ -90,7 +90,7 @@ static void lawn(int frames, int with_boot, const char* name)
     for (int f = 0; f < frames; ++f) {
         if (f % 10 == 0) give_speeds(plants, count);
         const DpPlantCollider c = boot_at(0.4 + 0.01 * (f % 60), 0.8, 0.01, 0.6);
-        DpPlantsTold          told;
+        DpPlantsReport          told;
         const double          start = now();
         dp_plants_step(plants, NULL, &c, with_boot, 1.0 / 60.0, 1, &told);
         t[f] = now() - start;
@@ -224,7 +224,7 @@ static void meadow(int frames)
         const double    x = 5.0 + 0.7 * stride;
         DpPlantCollider c = phase < 0.6 ? boot_at(x, 15.0, 0.0, 0.0)
                                         : boot_at(x + 0.7 * (phase - 0.6) / 0.4, 15.1, 0.06, 3.5);
-        DpPlantsTold    told;
+        DpPlantsReport    told;
         const double    begin = now();
         dp_plants_step(plants, NULL, &c, 1, 1.0 / 60.0, 1, &told);
         t[f] = now() - begin;

@@ -46,7 +46,7 @@ static inline DpPlantCollider sole(float* bottom, double cell, double x, double 
 
 static inline void step(DpPlants* plants, const DpPlantCollider* c, int count, double dt)
 {
-    DpPlantsTold told;
+    DpPlantsReport told;
     CHECK(dp_plants_step(plants, NULL, c, count, dt, 1, &told) == DP_OK);
 }
 

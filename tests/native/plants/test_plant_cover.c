@@ -52,7 +52,7 @@ TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
 TEST(a_thin_stand_covers_less)
 {
     DpPlantKind kind = dp_plant_kind_default();
-    kind.reach = 0.4f, kind.full_density = 100.0f;
+    kind.root_radius = 0.4f, kind.full_density = 100.0f;
     DpPlants* plants = lawn(&kind, 20, 20, 0.1414213562, 1);  // 50 a square metre
     float     strength[N * N];
     double    low, high;

@@ -21,7 +21,7 @@ TEST(limp_stems_lie_still_over_a_rim)
     double*             strength = dp_alloc((size_t)shape.bends, sizeof(double));
     float*              at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
     float*              push = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
-    DpPlantsTold        told = {0};
+    DpPlantsReport      told = {0};
     for (int p = 0; p < shape.particles; ++p)
         push[3 * p] =
             p % shape.rows > 1 ? 0.8f : 0.0f;  // broken at its foot, falls towards the wall
@@ -58,7 +58,7 @@ TEST(stems_stand_upright_on_both_sides_of_an_edge)
         DpPlants*          plants = lawn(&kind, 1, 1, 0.1, 3);
         float*             push = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
         double*            strength = dp_alloc((size_t)shape.bends, sizeof(double));
-        DpPlantsTold       told;
+        DpPlantsReport     told;
         for (int p = 0; p < shape.particles; ++p) push[3 * p] = p % shape.rows > 1 ? 0.01f : 0.0f;
         CHECK(dp_plants_write(plants, 0, 0, NULL, push, NULL) == DP_OK);
         for (int k = 0; k < 600; ++k)
@@ -83,7 +83,7 @@ TEST(what_stands_over_all_ground_asks_for_none)
     const DpPlantGround ground = {.cell = CELL, .at = wall, .context = &asked};
     DpPlants*           plants = lawn(&kind, 2, 2, 0.5, 3);
     float               push[84] = {0};
-    DpPlantsTold        told;
+    DpPlantsReport      told;
     for (int p = 0; p < 28; ++p) push[3 * p] = p % 7 > 1 ? 0.05f : 0.0f;
     for (int k = 0; k < 4; ++k) dp_plants_write(plants, 0, k, NULL, push, NULL);
     CHECK(dp_plants_step(plants, &ground, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);

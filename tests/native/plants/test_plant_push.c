@@ -135,7 +135,7 @@ TEST(roots_follow_the_ground)
     float             height[30 * 30], at[84];
     DpPlantGround     ground = {
             .nx = 30, .ny = 30, .row = 30, .cell = 0.03, .x0 = -0.2, .y0 = -0.2, .height = height};
-    DpPlantsTold told;
+    DpPlantsReport told;
     for (int j = 0; j < 30; ++j)
         for (int i = 0; i < 30; ++i) height[j * 30 + i] = (float)(0.3 * (-0.2 + 0.03 * i) - 0.1);
     CHECK(dp_plants_follow(plants, &ground) == DP_OK);

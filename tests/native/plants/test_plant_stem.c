@@ -14,7 +14,7 @@ static Stem made(double slope)
 static Stem upright(double slope)
 {
     Stem stem = made(slope);
-    for (int k = 0; k < PIECES; ++k) stem.way[k] = dp_vec3(0, 0, 0.02);
+    for (int k = 0; k < PIECES; ++k) stem.segment[k] = dp_vec3(0, 0, 0.02);
     return stem;
 }
 
@@ -23,22 +23,22 @@ static Stem folded(double slope)
 {
     Stem stem = made(slope);
     for (int k = 0; k < PIECES; ++k)
-        stem.way[k] = dp_scale(dp_unit(dp_vec3(0, 1.0, k % 2 ? -0.7 : 0.9)), 0.02);
+        stem.segment[k] = dp_scale(dp_unit(dp_vec3(0, 1.0, k % 2 ? -0.7 : 0.9)), 0.02);
     return stem;
 }
 
 static void check_lengths(const Stem* stem)
 {
-    for (int k = 0; k < PIECES; ++k) CHECK_CLOSE(dp_length(stem->way[k]), 0.02, 1e-9);
+    for (int k = 0; k < PIECES; ++k) CHECK_CLOSE(dp_length(stem->segment[k]), 0.02, 1e-9);
 }
 
 TEST(heights_are_over_the_slope)
 {
     Stem stem = upright(0.5);
     CHECK_CLOSE(dp_stem_high(&stem), 0.12, 1e-12);
-    for (int k = 0; k < PIECES; ++k) stem.way[k] = dp_vec3(0.02, 0.0, 0.01);
+    for (int k = 0; k < PIECES; ++k) stem.segment[k] = dp_vec3(0.02, 0.0, 0.01);
     CHECK_NEAR(dp_stem_high(&stem), 0.0, 1e-12);
-    for (int k = 0; k < PIECES; ++k) stem.way[k] = dp_vec3(0.0, 0.0, k < 3 ? 0.02 : -0.02);
+    for (int k = 0; k < PIECES; ++k) stem.segment[k] = dp_vec3(0.0, 0.0, k < 3 ? 0.02 : -0.02);
     CHECK_CLOSE(dp_stem_high(&stem), 0.06, 1e-12);  // its highest point, not its tip
 }
 
@@ -52,11 +52,11 @@ TEST(a_bent_stem_loses_what_it_is_told_to)
         CHECK_NEAR(dp_stem_high(&stem), (1.0 - lost) * 0.12, 1e-5);
         check_lengths(&stem);
         for (int p = 0; p < PIECES; ++p)
-            CHECK(k == 0 || (stem.way[p].y < 0.0 && !(fabs(stem.way[p].x) > 0.0)));
+            CHECK(k == 0 || (stem.segment[p].y < 0.0 && !(fabs(stem.segment[p].x) > 0.0)));
     }
     const Stem own = upright(0.3), flat = dp_stem_bent(&own, (const double[2]){1.0, 0.0}, 1.0);
     CHECK_NEAR(dp_stem_high(&flat), 0.0, 1e-9);
-    CHECK(flat.way[0].z > 0.005);  // up the slope
+    CHECK(flat.segment[0].z > 0.005);  // up the slope
 }
 
 TEST(a_stem_rises_to_a_height)
@@ -78,13 +78,14 @@ TEST(folds_are_drawn_out_and_nothing_rises)
         CHECK(dp_stem_high(&out) < 1.05 * dp_stem_high(&stem));
         check_lengths(&out);
         for (int p = 0; p + 1 < PIECES; ++p)
-            least = fmin(least, dp_dot(dp_unit(out.way[p]), dp_unit(out.way[p + 1])));
+            least = fmin(least, dp_dot(dp_unit(out.segment[p]), dp_unit(out.segment[p + 1])));
         CHECK(least > 0.98);
         const Stem same = dp_stem_unfolded(&stem, 0.0);
-        for (int p = 0; p < PIECES; ++p) CHECK(dp_length(dp_sub(same.way[p], stem.way[p])) < 1e-12);
+        for (int p = 0; p < PIECES; ++p)
+            CHECK(dp_length(dp_sub(same.segment[p], stem.segment[p])) < 1e-12);
     }
     Stem back = upright(0.0);
-    for (int p = 0; p < PIECES; ++p) back.way[p].z = p < 3 ? 0.02 : -0.02;
+    for (int p = 0; p < PIECES; ++p) back.segment[p].z = p < 3 ? 0.02 : -0.02;
     const Stem out = dp_stem_unfolded(&back, 1.0);  // goes nowhere
     check_lengths(&out);
     CHECK_CLOSE(dp_stem_high(&out), 0.06, 1e-9);

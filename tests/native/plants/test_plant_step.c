@@ -1,14 +1,14 @@
 // who wakes, who sleeps, and the same bits for any number of workers.
 #include "lawn.h"
 
-static void walk(DpPlants* plants, int workers, int frames, DpPlantsTold* sum)
+static void walk(DpPlants* plants, int workers, int frames, DpPlantsReport* sum)
 {
     float bottom[SOLE_SIDE * SOLE_SIDE];
     for (int f = 0; f < frames; ++f) {
         DpPlantCollider c =
             sole(bottom, 0.01, 0.2 + 0.02 * f, 0.4, f % 20 < 12 ? 0.0 : 0.05, 0.28, 0.10, 0.05);
         c.velocity = dp_vec3(1.2, 0, 0);
-        DpPlantsTold told;
+        DpPlantsReport told;
         CHECK(dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, workers, &told) == DP_OK);
         sum->awake = told.awake > sum->awake ? told.awake : sum->awake;
         sum->broke += told.broke;
@@ -23,8 +23,8 @@ TEST(any_number_of_workers_gives_the_same_bits)
     const int workers[3] = {1, 2, 5};
     float*    first = dp_alloc(900, 168 * sizeof(float));
     for (int w = 0; w < 3; ++w) {
-        DpPlants*    plants = lawn(&kind, 60, 15, 0.05, 1);
-        DpPlantsTold sum = {0};
+        DpPlants*      plants = lawn(&kind, 60, 15, 0.05, 1);
+        DpPlantsReport sum = {0};
         walk(plants, workers[w], 60, &sum);
         CHECK(sum.awake > 200 && sum.broke > 0 && sum.changes > 0);
         int differ = 0;
@@ -45,7 +45,7 @@ TEST(the_meadow_sleeps_and_the_walker_wakes_few)
 {
     const DpPlantKind kind = dp_plant_kind_default();
     DpPlants*         plants = lawn(&kind, 100, 100, 0.1, 1);
-    DpPlantsTold      sum = {0}, told = {0};
+    DpPlantsReport    sum = {0}, told = {0};
     const size_t      asleep = dp_bytes_live();
     for (int f = 0; f < 5; ++f)
         CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
@@ -63,7 +63,7 @@ TEST(far_from_the_origin_plants_come_to_rest_too)
     const DpPlantKind kind = dp_plant_kind_default();
     float             root[48], speed[84], at[84], rest[84];
     int               stand = 0;
-    DpPlantsTold      told = {0};
+    DpPlantsReport    told = {0};
     for (int k = 0; k < 16; ++k)
         root[3 * k] = 2000.0f + 0.25f * (float)k, root[3 * k + 1] = -3000.0f,
                  root[3 * k + 2] = 512.0f;
@@ -89,7 +89,7 @@ TEST(what_broke_is_told_and_where)
     int               broke = 0;
     for (int f = 0; f < 120; ++f) {
         const DpPlantCollider c = sole(bottom, 0.01, 2.0, 0.4, 0.0, 0.28, 0.10, 0.0);
-        DpPlantsTold          told;
+        DpPlantsReport        told;
         dp_plants_step(plants, NULL, &c, 1, 1.0 / 60, 1, &told);
         broke += told.broke;
         CHECK(told.changes <= 1);
@@ -116,7 +116,7 @@ TEST(changes_far_apart_have_boxes_of_their_own)
     for (int k = 0; k < 2; ++k)
         c[k] = sole(bottom[k], 0.01, 2.0 + 15.0 * k, 0.4, 0.0, 0.28, 0.10, 0.0);
     for (int f = 0; f < 30; ++f) {
-        DpPlantsTold told;
+        DpPlantsReport told;
         CHECK(dp_plants_step(plants, NULL, c, 2, 1.0 / 60, 1, &told) == DP_OK);
         most = told.changes > most ? told.changes : most;
         for (int k = 0; k < told.changes; ++k) wide = fmax(wide, told.box[k].x1 - told.box[k].x0);
@@ -138,7 +138,7 @@ TEST(many_changes_share_boxes)
     DpPlants*       plants = lawn(&kind, MANY, 2, 3.0, 1);
     float           bottom[SOLE_SIDE * SOLE_SIDE];
     DpPlantCollider c[MANY];
-    DpPlantsTold    told;
+    DpPlantsReport  told;
     int             broken = 0;
     double          alpha[MANY];
     for (int k = 0; k < MANY; ++k)
@@ -183,7 +183,7 @@ TEST(bad_steps_are_refused)
     const DpPlantKind kind = dp_plant_kind_default();
     DpPlants*         plants = lawn(&kind, 3, 3, 0.1, 1);
     float             bottom[SOLE_SIDE * SOLE_SIDE];
-    DpPlantsTold      told;
+    DpPlantsReport    told;
     DpPlantCollider   c = sole(bottom, 0.01, 0.1, 0.1, 0.0, 0.28, 0.1, 0.0);
     CHECK(dp_plants_step(plants, NULL, &c, 1, 0.0, 1, &told) == DP_BAD_ARGUMENT);
     CHECK(dp_plants_step(plants, NULL, &c, 1, NAN, 1, &told) == DP_BAD_ARGUMENT);

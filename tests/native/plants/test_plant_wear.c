@@ -73,14 +73,14 @@ TEST(sleepers_recover_exactly_what_their_time_gives)
     double    strength[20], now[20];
     for (int b = 0; b < 20; ++b) strength[b] = b > 15 ? 0.0 : 0.01 + 0.001 * b;
     dp_plants_write(plants, 0, 0, NULL, NULL, strength);
-    DpPlantsTold told = {0};
-    double       time = 0.0;
+    DpPlantsReport told = {0};
+    double         time = 0.0;
     for (int f = 0; f < 600; ++f) {  // falls asleep on the way
         CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
         time += 1.0 / 60;
     }
     CHECK(told.awake == 0);
-    CHECK(dp_plants_rest(plants, 86400.0) == DP_OK);
+    CHECK(dp_plants_advance_time(plants, 86400.0) == DP_OK);
     time += 86400.0;
     const double rate = (double)kind.recover_rate;
     for (int again = 0; again < 2; ++again) {
@@ -89,7 +89,7 @@ TEST(sleepers_recover_exactly_what_their_time_gives)
             CHECK_NEAR(now[b], b > 15 ? 0.0 : fmin(strength[b] + rate * time, 0.1), 1e-9);
         dp_plants_write(plants, 0, 0, NULL, NULL, NULL);  // waking tells the same
     }
-    dp_plants_rest(plants, 86400.0 * 30);
+    dp_plants_advance_time(plants, 86400.0 * 30);
     dp_plants_read(plants, 0, 0, NULL, NULL, now);
     CHECK_NEAR(now[0], 0.1, 1e-8);
     dp_plants_destroy(plants);
@@ -138,13 +138,13 @@ TEST(regrowth_is_logistic)
     kind.seed_share = 0.0f;
 
     // a stand does it stem by stem
-    kind.reach = 0.3f, kind.full_density = 50.0f;
+    kind.root_radius = 0.3f, kind.full_density = 50.0f;
     DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
     double    before = 0.0, after = 0.0, none[20] = {0};
     for (int k = 0; k < 1600; ++k)
         if (k * 7 % 10 < 6) dp_plants_write(plants, 0, k, NULL, NULL, none);
     for (int k = 0; k < 1600; ++k) before += dp_plants_alpha(plants, 0, k) / 1600;
-    CHECK(dp_plants_rest(plants, year) == DP_OK);
+    CHECK(dp_plants_advance_time(plants, year) == DP_OK);
     for (int k = 0; k < 1600; ++k) after += dp_plants_alpha(plants, 0, k) / 1600;
     CHECK_NEAR(before, 0.4, 1e-9);
     CHECK_NEAR(after, dp_plant_regrow(&kind, before, year), 0.02);
@@ -164,7 +164,7 @@ TEST(bare_ground_grows_again_from_around)
         for (int k = 0; k < 1600; ++k)  // 0.4 m wide, wider than roots reach
             if (!whole || (k % 40 >= 18 && k % 40 < 22))
                 dp_plants_write(plants, 0, k, NULL, NULL, none);
-        CHECK(dp_plants_rest(plants, year) == DP_OK);
+        CHECK(dp_plants_advance_time(plants, year) == DP_OK);
         for (int k = 0; k < 1600; ++k)
             if (k % 40 >= 18 && k % 40 < 22) strip += dp_plants_alpha(plants, 0, k) / 160;
         printf("  after a year %.2f\n", strip);
@@ -178,7 +178,7 @@ TEST(stands_grow_again_side_by_side)
 {
     const double year = 365.25 * 86400, none[20] = {0};
     DpPlantKind  kind = dp_plant_kind_default();
-    kind.regrow_rate = (float)(1.02 / year), kind.reach = 0.3f, kind.full_density = 50.0f;
+    kind.regrow_rate = (float)(1.02 / year), kind.root_radius = 0.3f, kind.full_density = 50.0f;
     DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
     float*    root = dp_alloc(1600, 3 * sizeof(float));
     double    after[2] = {0.0, 0.0};
@@ -189,7 +189,7 @@ TEST(stands_grow_again_side_by_side)
     CHECK(dp_plants_add(plants, &kind, root, NULL, 1600, &stand) == DP_OK);
     for (int k = 0; k < 3200; ++k)
         if (k % 1600 * 7 % 10 < 6) dp_plants_write(plants, k / 1600, k % 1600, NULL, NULL, none);
-    CHECK(dp_plants_rest(plants, year) == DP_OK);
+    CHECK(dp_plants_advance_time(plants, year) == DP_OK);
     for (int k = 0; k < 3200; ++k) after[k / 1600] += dp_plants_alpha(plants, k / 1600, k % 1600);
     CHECK_NEAR(after[0] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);
     CHECK_NEAR(after[1] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);

@@ -94,8 +94,8 @@ TEST(workers_do_not_matter)
         for (size_t f = 0; f < 2; ++f)
             CHECK(dp_terrain_read(world.terrain, field[f], -60, -60, nx, ny,
                                   grid[run] + f * cells) == DP_OK);
-        dp_lean_read(dp_sim_lean(world.sim), -60, -60, nx, ny, grid[run] + 2 * cells,
-                     grid[run] + 3 * cells, grid[run] + 4 * cells);
+        dp_grass_read(dp_sim_grass(world.sim), -60, -60, nx, ny, grid[run] + 2 * cells,
+                      grid[run] + 3 * cells, grid[run] + 4 * cells);
         world_drop(&world);
     }
     float most = 0.0f;
@@ -124,9 +124,9 @@ TEST(feet_that_jump_touch_nothing_between)
     CHECK(walk(&world, &s) == DP_OK);
     CHECK(dp_sim_report(world.sim).awake == 0);
     float lean[3] = {1.0f, 1.0f, 1.0f};
-    dp_lean_read(dp_sim_lean(world.sim), 0, 0, 1, 1, &lean[0], &lean[1], &lean[2]);
+    dp_grass_read(dp_sim_grass(world.sim), 0, 0, 1, 1, &lean[0], &lean[1], &lean[2]);
     CHECK(!(lean[0] > 0.0f) && !(lean[2] > 0.0f));
-    dp_lean_read(dp_sim_lean(world.sim), 500, 0, 1, 1, &lean[0], &lean[1], &lean[2]);
+    dp_grass_read(dp_sim_grass(world.sim), 500, 0, 1, 1, &lean[0], &lean[1], &lean[2]);
     CHECK(!(lean[2] > 0.0f));  // no plants there
     CHECK(dp_terrain_tile_count(world.terrain) < 30);
     world_drop(&world);
@@ -145,7 +145,7 @@ TEST(odd_plants_and_long_steps_stay_numbers)
         CHECK(walk(&world, &s) == DP_OK);
         CHECK(dp_terrain_read(world.terrain, DP_FIELD_PLANT_STRENGTH, -25, -25, 100, 60, grid[0]) ==
               DP_OK);
-        dp_lean_read(dp_sim_lean(world.sim), -25, -25, 100, 60, grid[1], grid[2], grid[3]);
+        dp_grass_read(dp_sim_grass(world.sim), -25, -25, 100, 60, grid[1], grid[2], grid[3]);
         bool good = true;
         for (int k = 0; k < 4 * 100 * 60; ++k)
             good = good && fabsf(grid[k / 6000][k % 6000]) <= 1.0f;
@@ -247,10 +247,10 @@ TEST(rest_grows_what_broke)
     CHECK(world_make(&world, &kind, -0.5, -0.5, 1.6, 0.08, 0.01, 1) == DP_OK);
     CHECK(walk(&world, &s) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_PLANT_STRENGTH, 16, 9, 1, 1, &worn) == DP_OK);
-    dp_lean_read(dp_sim_lean(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[0]);
+    dp_grass_read(dp_sim_grass(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[0]);
     CHECK(dp_sim_rest(world.sim, 50.0 * 365.25 * 86400.0) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_PLANT_STRENGTH, 16, 9, 1, 1, &grown) == DP_OK);
-    dp_lean_read(dp_sim_lean(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[1]);
+    dp_grass_read(dp_sim_grass(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[1]);
     printf("  cover %.2f, after 50 years %.2f; crushed %.2f, %.2f\n", (double)worn, (double)grown,
            (double)crushed[0], (double)crushed[1]);
     CHECK(worn < 0.6f && grown > 0.99f);

@@ -1,4 +1,5 @@
 // Stems as they are shown: down where the lean is, as they are elsewhere, never below the ground.
+#include "grass/grass.h"
 #include "plants/lawn.h"
 
 #define CELL 0.01
@@ -15,12 +16,17 @@ static double slanted(const void* slope, double x, double y)
 
 typedef struct Bed
 {
-    DpPlants*     plants;
-    DpLean*       lean;
-    DpLaid*       laid;
-    double        rise;
-    DpPlantGround ground;
+    DpPlants*       plants;
+    DpGrass*        grass;
+    DpPlantDisplay* display;
+    double          rise;
+    DpPlantGround   ground;
 } Bed;
+
+static DpStemLean lean_at(const void* grass, double x, double y)
+{
+    return dp_grass_stem_at(grass, x, y);
+}
 
 static void make(Bed* bed, const DpPlantKind* kind, double rise)
 {
@@ -37,23 +43,23 @@ static void make(Bed* bed, const DpPlantKind* kind, double rise)
     bed->plants = dp_plants_create(3);
     CHECK(dp_plants_add(bed->plants, kind, root, NULL, SIDE * SIDE, &stand) == DP_OK);
     CHECK(dp_plants_slope(bed->plants, stand, slope) == DP_OK);
-    CHECK(dp_lean_create(&bed->lean, bed->plants, CELL, 0.0, 0.0) == DP_OK);
-    CHECK(dp_laid_create(&bed->laid, bed->plants, bed->lean) == DP_OK);
+    CHECK(dp_grass_create(&bed->grass, bed->plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_plant_display_create(&bed->display, bed->plants, lean_at, bed->grass) == DP_OK);
 }
 
 static void unmake(Bed* bed)
 {
-    dp_laid_destroy(bed->laid);
-    dp_lean_destroy(bed->lean);
+    dp_plant_display_destroy(bed->display);
+    dp_grass_destroy(bed->grass);
     dp_plants_destroy(bed->plants);
 }
 
 static void live(Bed* bed, const DpPlantCollider* foot, int count, double dt)
 {
-    DpPlantsTold told;
+    DpPlantsReport told;
     CHECK(dp_plants_step(bed->plants, &bed->ground, foot, count, dt, 1, &told) == DP_OK);
-    CHECK(dp_lean_step(bed->lean, &bed->ground, foot, count, dt) == DP_OK);
-    CHECK(dp_laid_step(bed->laid) == DP_OK);
+    CHECK(dp_grass_step(bed->grass, &bed->ground, foot, count, dt) == DP_OK);
+    CHECK(dp_plant_display_step(bed->display) == DP_OK);
 }
 
 // a sole of 28 x 10 cm comes down on the origin, stands and is lifted again, along the slope
@@ -94,7 +100,7 @@ static Seen look(const Bed* bed, const DpPlantKind* kind)
     Seen               seen = {0.0, 0.0, 1.0, 9.0, 0.0, 0.0, true};
     int                under = 0;
     for (int k = 0; k < SIDE * SIDE; ++k) {
-        CHECK(dp_laid_read(bed->laid, &bed->ground, 0, k, at) == DP_OK);
+        CHECK(dp_plant_display_read(bed->display, &bed->ground, 0, k, at) == DP_OK);
         CHECK(dp_plants_read(bed->plants, 0, k, own, NULL, NULL) == DP_OK);
         for (int p = 0; p < shape.particles; ++p) {
             const float *a = at + 3 * p, *b = own + 3 * p,
@@ -155,7 +161,7 @@ TEST(they_rise_as_the_lean_does)
         for (int k = 0; k < 12; ++k) live(&bed, NULL, 0, 1.0 / 120);
         const Seen seen = look(&bed, &kind);
         float      crushed;
-        dp_lean_read(bed.lean, 5, 0, 1, 1, NULL, NULL, &crushed);
+        dp_grass_read(bed.grass, 5, 0, 1, 1, NULL, NULL, &crushed);
         if (n >= 5) CHECK_NEAR(seen.down / (double)kind.height, 1.0 - (double)crushed, 0.15);
         if (n >= 10) CHECK(seen.down > was - 1e-3 * (double)kind.height);
         was = seen.down;
@@ -188,7 +194,7 @@ TEST(what_is_let_go_does_not_jump)
             DpPlantCollider foot = sole(bottom, CELL, 0.0, 0.0, high, 0.28, 0.1, 0.0);
             foot.velocity.z = k < 30 ? -1.2 : k < 60 ? 0.0 : 1.2;
             live(&bed, &foot, 1, 1.0 / 120);
-            CHECK(dp_laid_read(bed.laid, &bed.ground, 0, plant, at) == DP_OK);
+            CHECK(dp_plant_display_read(bed.display, &bed.ground, 0, plant, at) == DP_OK);
             CHECK(dp_plants_read(bed.plants, 0, plant, own, NULL, NULL) == DP_OK);
             for (int p = 0; p < many && k > 45; ++p)
                 most = fmax(most, step_of(at, was, p) - step_of(own, own_was, p));
@@ -203,7 +209,7 @@ TEST(limp_stems_lie_as_they_do)
 {
     DpPlantKind kind = dp_plant_kind_default();
     kind.break_angle = kind.degrade_angle;  // what bends breaks
-    kind.reach = 0.03f;
+    kind.root_radius = 0.03f;
     Bed bed;
     make(&bed, &kind, 0.0);
     tread(&bed);
@@ -237,19 +243,17 @@ TEST(bad_arguments_are_refused)
     const DpPlantKind kind = tough();
     Bed               bed;
     float             at[3 * 1024];
-    DpLaid*           laid = NULL;
+    DpPlantDisplay*   display = NULL;
     make(&bed, &kind, 0.0);
-    DpPlants* others = dp_plants_create(1);
-    CHECK(dp_laid_create(NULL, bed.plants, bed.lean) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_create(&laid, NULL, bed.lean) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_create(&laid, others, bed.lean) == DP_BAD_ARGUMENT && !laid);
-    CHECK(dp_laid_step(NULL) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_read(bed.laid, NULL, 0, 0, NULL) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_read(bed.laid, NULL, 1, 0, at) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_read(bed.laid, NULL, 0, SIDE * SIDE, at) == DP_BAD_ARGUMENT);
-    CHECK(dp_laid_read(bed.laid, NULL, 0, 0, at) == DP_OK);
-    dp_laid_destroy(NULL);
-    dp_plants_destroy(others);
+    CHECK(dp_plant_display_create(NULL, bed.plants, lean_at, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_create(&display, NULL, lean_at, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_create(&display, bed.plants, NULL, NULL) == DP_BAD_ARGUMENT && !display);
+    CHECK(dp_plant_display_step(NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_read(bed.display, NULL, 0, 0, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_read(bed.display, NULL, 1, 0, at) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_read(bed.display, NULL, 0, SIDE * SIDE, at) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_display_read(bed.display, NULL, 0, 0, at) == DP_OK);
+    dp_plant_display_destroy(NULL);
     unmake(&bed);
 }
 

@@ -1,5 +1,6 @@
 // A sole in the grass: flat under it, away from it beside, its way where it goes, mirrored when it
 // is.
+#include "grass/grass.h"
 #include "plants/lawn.h"
 
 #define CELL 0.01
@@ -26,14 +27,14 @@ static void print_of(const DpPlantCollider* foot, double height, Field* field)
     DpPlantKind kind = dp_plant_kind_default();
     float       root[3] = {0.0f, 0.0f, 0.0f};
     int         stand;
-    DpLean*     lean;
+    DpGrass*    grass;
     DpPlants*   plants = dp_plants_create(1);
-    kind.height = (float)height, kind.reach = 2.0f;  // one plant grows on all cells
+    kind.height = (float)height, kind.root_radius = 2.0f;  // one plant grows on all cells
     CHECK(dp_plants_add(plants, &kind, root, NULL, 1, &stand) == DP_OK);
-    CHECK(dp_lean_create(&lean, plants, CELL, 0.0, 0.0) == DP_OK);
-    CHECK(dp_lean_step(lean, &ground, foot, 1, 0.01) == DP_OK);
-    dp_lean_read(lean, -N / 2, -N / 2, N, N, field->x, field->y, field->crushed);
-    dp_lean_destroy(lean);
+    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_step(grass, &ground, foot, 1, 0.01) == DP_OK);
+    dp_grass_read(grass, -N / 2, -N / 2, N, N, field->x, field->y, field->crushed);
+    dp_grass_destroy(grass);
     dp_plants_destroy(plants);
 }
 

@@ -1,10 +1,10 @@
-// plants/plant_part.c - a sole in the grass: what it presses flat, and what it parts beside it.
+// grass/grass_press.c - a sole in the grass: what it presses flat, and what it parts beside it.
 #include "base/wide.h"
 
 #include <stdlib.h>
 
 #include "base/alloc.h"
-#include "plants/plant_lean_inside.h"
+#include "grass/grass_inside.h"
 
 #define PARTED 0.5       // of its height: so far from a sole's edge grass leans away
 #define PARTED_MOST 0.4  // [m]
@@ -13,12 +13,12 @@
 #define SLIGHT 0.002     // leaning less than this is standing
 #define MOST_CELLS 4e6   // around one sole
 
-static size_t at_print(const LeanPrint* print, int i, int j)
+static size_t at_print(const GrassPrint* print, int i, int j)
 {
     return (size_t)(j + 1) * (size_t)(print->nx + 2) + (size_t)(i + 1);
 }
 
-static int length2(const LeanPrint* print, size_t p)
+static int length2(const GrassPrint* print, size_t p)
 {
     return print->across[p] * print->across[p] + print->up[p] * print->up[p];
 }
@@ -30,7 +30,7 @@ typedef struct EdgeRow
     const uint8_t* sole;
 } EdgeRow;
 
-static EdgeRow row_at(const LeanPrint* print, int j)
+static EdgeRow row_at(const GrassPrint* print, int j)
 {
     const size_t at = at_print(print, 0, j);
     return (EdgeRow){print->across + at, print->up + at, print->under + at};
@@ -71,7 +71,7 @@ static void look_back(int32_t* restrict across, int32_t* restrict up, const uint
 }
 
 // Offsets to the nearest cell of the other kind: within a row first, then down and up again.
-static void find_edges(const LeanPrint* print)
+static void find_edges(const GrassPrint* print)
 {
     const int    nx = print->nx, ny = print->ny;
     const size_t size = (size_t)(nx + 2) * (size_t)(ny + 2);
@@ -86,8 +86,8 @@ static void find_edges(const LeanPrint* print)
 }
 
 // one stem is pressed: no less than `crushed`, leaning by `size` towards (x, y)
-static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, double size, double x,
-                  double y)
+static void press(DpGrass* grass, GrassTile* tile, int i, int j, double crushed, double size,
+                  double x, double y)
 {
     const size_t p = (size_t)j * DP_TILE + (size_t)i;
     const double lx = (double)tile->lean[0][p], ly = (double)tile->lean[1][p];
@@ -102,21 +102,21 @@ static void press(DpLean* lean, LeanTile* tile, int i, int j, double crushed, do
         tile->changed = true;
     }
     tile->most[p] = fmaxf(tile->most[p], tile->crushed[p]);
-    tile->held[p] = lean->step;
-    dp_lean_may_move(tile, i, j);
+    tile->held[p] = grass->step;
+    dp_grass_may_move(tile, i, j);
 }
 
 // how far a cell lies inside the sole's edge, < 0 outside [cells]
-static double depth_at(const LeanPrint* print, size_t p)
+static double depth_at(const GrassPrint* print, size_t p)
 {
     const double length = sqrt((double)length2(print, p));
     return print->under[p] ? length : -length;
 }
 
-// Height of the ground at a cell's centre: grids mostly have the lean's own cells.
-static double ground_at(const DpLean* lean, const DpPlantGround* ground, long i, long j)
+// Height of the ground at a cell's centre: grids mostly have the grass's own cells.
+static double ground_at(const DpGrass* grass, const DpPlantGround* ground, long i, long j)
 {
-    const double x = lean_centre(lean, 0, i), y = lean_centre(lean, 1, j);
+    const double x = grass_centre(grass, 0, i), y = grass_centre(grass, 1, j);
     if (ground && !ground->at) {
         const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
         const double ci = floor(u + 0.5), cj = floor(v + 0.5);
@@ -130,47 +130,47 @@ static double ground_at(const DpLean* lean, const DpPlantGround* ground, long i,
 }
 
 // a stem beside a sole leans away from its edge, the less the farther it stands
-static void part(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
-                 int pi, int pj, int ti, int tj)
+static void part(DpGrass* grass, const GrassPrint* print, const DpPlantGround* ground,
+                 GrassTile* tile, int pi, int pj, int ti, int tj)
 {
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti;
     const double high = (double)tile->height[t], parted = fmin(PARTED * high, PARTED_MOST);
     const size_t p = at_print(print, pi, pj);
-    const double reach = parted / lean->cell + 0.5;
+    const double reach = parted / grass->cell + 0.5;
     if (!((double)length2(print, p) < reach * reach)) return;
     const double length = sqrt((double)length2(print, p));
-    const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
+    const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
     const double bottom =
         (double)print->bottom[at_print(print, pi + print->across[p], pj + print->up[p])];
-    const double gap = bottom - ground_at(lean, ground, print->i0 + pi, print->j0 + pj);
+    const double gap = bottom - ground_at(grass, ground, print->i0 + pi, print->j0 + pj);
     const double size = dp_clamp(1.0 - gap / high, 0.0, 1.0) * near * near;
     if (size > SLIGHT)
-        press(lean, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -print->across[p],
+        press(grass, tile, ti, tj, 1.0 - sqrt(1.0 - size * size), size, -print->across[p],
               -print->up[p]);
 }
 
 // A stem under a sole is pressed to the height it leaves, towards where the foot goes; near the
 // sole's edge, or under one that does not move, out of its way.
-static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground,
-                    LeanTile* tile, int pi, int pj, int ti, int tj)
+static void flatten(DpGrass* grass, const GrassPrint* print, const DpPlantGround* ground,
+                    GrassTile* tile, int pi, int pj, int ti, int tj)
 {
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti, p = at_print(print, pi, pj);
     const double high = (double)tile->height[t];
     const double gap =
-        (double)print->bottom[p] - ground_at(lean, ground, print->i0 + pi, print->j0 + pj);
+        (double)print->bottom[p] - ground_at(grass, ground, print->i0 + pi, print->j0 + pj);
     const double pressed = dp_clamp(1.0 - gap / high, 0.0, 1.0);
     if (!(pressed > 0.0)) return;                    // the sole is above it; without ground, too
     if (pressed < (double)tile->crushed[t]) return;  // it may rise to the sole
     const double lx = (double)tile->lean[0][t], ly = (double)tile->lean[1][t];
     const double size = sqrt(pressed * (2.0 - pressed));
-    tile->under[t] = lean->step;
+    tile->under[t] = grass->step;
     if (size * size <= lx * lx + ly * ly) {  // it leans so far already, whereto is the same
-        press(lean, tile, ti, tj, pressed, size, 0.0, 0.0);
+        press(grass, tile, ti, tj, pressed, size, 0.0, 0.0);
         return;
     }
     const double length = sqrt((double)length2(print, p)),
                  parted = fmin(PARTED * high, PARTED_MOST);
-    const double near = dp_clamp(1.0 - (length - 0.5) * lean->cell / parted, 0.0, 1.0);
+    const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
     const double own =
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
     const double out = near + (1.0 - near) * (1.0 - own);
@@ -183,51 +183,51 @@ static void flatten(DpLean* lean, const LeanPrint* print, const DpPlantGround* g
     double y = out * oy + (1.0 - near) * print->motion[1];
     if (!(x * x + y * y > 1e-6))
         x = print->across[p], y = print->up[p];  // halfway between two sides: either
-    press(lean, tile, ti, tj, pressed, size, x, y);
+    press(grass, tile, ti, tj, pressed, size, x, y);
 }
 
 // the stem of one cell
-static void meet(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground, LeanTile* tile,
-                 int pi, int pj)
+static void meet(DpGrass* grass, const GrassPrint* print, const DpPlantGround* ground,
+                 GrassTile* tile, int pi, int pj)
 {
     const int ti = (int)(print->i0 + pi - tile->tx * DP_TILE);
     const int tj = (int)(print->j0 + pj - tile->ty * DP_TILE);
     if (!(tile->height[(size_t)tj * DP_TILE + (size_t)ti] > 0.0f)) return;
     if (print->under[at_print(print, pi, pj)])
-        flatten(lean, print, ground, tile, pi, pj, ti, tj);
+        flatten(grass, print, ground, tile, pi, pj, ti, tj);
     else
-        part(lean, print, ground, tile, pi, pj, ti, tj);
+        part(grass, print, ground, tile, pi, pj, ti, tj);
 }
 
-static bool make_room(LeanPrint* print)
+static bool make_room(GrassPrint* print)
 {
     const size_t cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
     if (cells <= print->room) return true;
-    dp_lean_drop_print(print);
+    dp_grass_print_drop(print);
     print->room = cells + cells / 4;
     print->across = dp_alloc(print->room, sizeof(int32_t));
     print->up = dp_alloc(print->room, sizeof(int32_t));
     print->bottom = dp_alloc(print->room, sizeof(float));
     print->under = dp_alloc(print->room, 1);
     if (print->across && print->up && print->bottom && print->under) return true;
-    dp_lean_drop_print(print);
+    dp_grass_print_drop(print);
     return false;
 }
 
-void dp_lean_drop_print(LeanPrint* print)
+void dp_grass_print_drop(GrassPrint* print)
 {
     dp_free(print->across), dp_free(print->up), dp_free(print->bottom), dp_free(print->under);
     print->across = print->up = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
 }
 
-// The sole on the lean's own cells; false if it is nowhere less than `tallest` over the ground.
-static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGround* ground,
+// The sole on the grass's own cells; false if it is nowhere less than `tallest` over the ground.
+static bool lay_out(const DpGrass* grass, const GrassPrint* print, const DpPlantGround* ground,
                     double tallest)
 {
     const DpPlantCollider* c = print->sole;
-    const double           per_cell = lean->cell / c->cell;  // mostly 1
-    const double           u0 = (lean_centre(lean, 0, print->i0) - c->x0) / c->cell + 0.5;
-    const double           v0 = (lean_centre(lean, 1, print->j0) - c->y0) / c->cell + 0.5;
+    const double           per_cell = grass->cell / c->cell;  // mostly 1
+    const double           u0 = (grass_centre(grass, 0, print->i0) - c->x0) / c->cell + 0.5;
+    const double           v0 = (grass_centre(grass, 1, print->j0) - c->y0) / c->cell + 0.5;
     const size_t           cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
     bool                   low = false;
     for (size_t k = 0; k < cells; ++k) print->bottom[k] = INFINITY, print->under[k] = 0;
@@ -245,43 +245,35 @@ static bool lay_out(const DpLean* lean, const LeanPrint* print, const DpPlantGro
             to[i] = from[(size_t)u];
             sole[i] = isfinite(to[i]) ? 1 : 0;
             if (sole[i] && !low)
-                low =
-                    (double)to[i] - ground_at(lean, ground, print->i0 + i, print->j0 + j) < tallest;
+                low = (double)to[i] - ground_at(grass, ground, print->i0 + i, print->j0 + j) <
+                      tallest;
         }
     }
     return low;
 }
 
-static double plants_tallest(const DpPlants* plants)
+static double margin_of(const DpGrass* grass)
 {
-    double most = 0.0;
-    for (int s = 0; s < plants->stands; ++s)
-        most = fmax(most, (double)plants->stand[s].kind.height);
-    return most;
+    return fmin(PARTED * dp_plants_height(grass->plants), PARTED_MOST) + 2.0 * grass->cell;
 }
 
-static double margin_of(const DpLean* lean)
+GrassPrint dp_grass_window(const DpGrass* grass, const DpPlantCollider* c)
 {
-    return fmin(PARTED * plants_tallest(lean->plants), PARTED_MOST) + 2.0 * lean->cell;
-}
-
-LeanPrint dp_lean_window(const DpLean* lean, const DpPlantCollider* c)
-{
-    const double margin = margin_of(lean);
-    LeanPrint    print = {.sole = c};
-    print.i0 = lean_cell(lean, 0, c->x0 - 0.5 * c->cell - margin);
-    print.j0 = lean_cell(lean, 1, c->y0 - 0.5 * c->cell - margin);
-    const long i1 = lean_cell(lean, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
-    const long j1 = lean_cell(lean, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
+    const double margin = margin_of(grass);
+    GrassPrint   print = {.sole = c};
+    print.i0 = grass_cell(grass, 0, c->x0 - 0.5 * c->cell - margin);
+    print.j0 = grass_cell(grass, 1, c->y0 - 0.5 * c->cell - margin);
+    const long i1 = grass_cell(grass, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
+    const long j1 = grass_cell(grass, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
     if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MOST_CELLS) return print;
     print.nx = (int)(i1 - print.i0), print.ny = (int)(j1 - print.j0);
     return print;
 }
 
-DpStatus dp_lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGround* ground,
-                         const DpPlantCollider* c)
+DpStatus dp_grass_look_at(const DpGrass* grass, GrassPrint* print, const DpPlantGround* ground,
+                          const DpPlantCollider* c)
 {
-    const LeanPrint window = dp_lean_window(lean, c);
+    const GrassPrint window = dp_grass_window(grass, c);
     print->sole = c;
     print->i0 = window.i0, print->j0 = window.j0, print->nx = window.nx, print->ny = window.ny;
     if (print->nx < 1) return DP_OK;
@@ -289,29 +281,29 @@ DpStatus dp_lean_look_at(const DpLean* lean, LeanPrint* print, const DpPlantGrou
     print->motion[0] = c->velocity.x / (speed + SLOW),
     print->motion[1] = c->velocity.y / (speed + SLOW);
     const bool room = make_room(print);
-    if (room && lay_out(lean, print, ground, plants_tallest(lean->plants)))
+    if (room && lay_out(grass, print, ground, dp_plants_height(grass->plants)))
         find_edges(print);
     else
         print->nx = print->ny = 0;
     return room ? DP_OK : DP_NO_MEMORY;
 }
 
-DpStatus dp_lean_press_print(DpLean* lean, const LeanPrint* print, const DpPlantGround* ground)
+DpStatus dp_grass_press(DpGrass* grass, const GrassPrint* print, const DpPlantGround* ground)
 {
     const int nx = print->nx, ny = print->ny;
     if (nx < 1 || ny < 1) return DP_OK;
     const double far =
-        (margin_of(lean) - 1.5 * lean->cell) / lean->cell;  // nothing is parted there
-    for (long ty = lean_tile(print->j0); ty <= lean_tile(print->j0 + ny - 1); ++ty)
-        for (long tx = lean_tile(print->i0); tx <= lean_tile(print->i0 + nx - 1); ++tx) {
-            LeanTile* tile = dp_lean_touch(lean, tx, ty);
+        (margin_of(grass) - 1.5 * grass->cell) / grass->cell;  // nothing is parted there
+    for (long ty = grass_tile(print->j0); ty <= grass_tile(print->j0 + ny - 1); ++ty)
+        for (long tx = grass_tile(print->i0); tx <= grass_tile(print->i0 + nx - 1); ++tx) {
+            GrassTile* tile = dp_grass_touch(grass, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             const long from_i = tx * DP_TILE - print->i0, from_j = ty * DP_TILE - print->j0;
             for (int j = from_j > 0 ? (int)from_j : 0; j < ny && j < from_j + DP_TILE; ++j)
                 for (int i = from_i > 0 ? (int)from_i : 0; i < nx && i < from_i + DP_TILE; ++i) {
                     const size_t p = at_print(print, i, j);
                     if (print->under[p] || (double)length2(print, p) < far * far)
-                        meet(lean, print, ground, tile, i, j);
+                        meet(grass, print, ground, tile, i, j);
                 }
         }
     return DP_OK;

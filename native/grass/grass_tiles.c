@@ -1,0 +1,79 @@
+// grass/grass_tiles.c - where the grass keeps its cells, and what grows on them.
+#include <string.h>
+
+#include "base/alloc.h"
+#include "grass/grass_inside.h"
+
+// where a tile is in the list, or where it belongs
+static int place_of(const DpGrass* grass, long tx, long ty)
+{
+    int low = 0, high = grass->tiles;
+    while (low < high) {
+        const int        mid = (low + high) / 2;
+        const GrassTile* at = grass->tile[mid];
+        if (at->ty < ty || (at->ty == ty && at->tx < tx))
+            low = mid + 1;
+        else
+            high = mid;
+    }
+    return low;
+}
+
+GrassTile* dp_grass_find(const DpGrass* grass, long tx, long ty)
+{
+    const int  at = place_of(grass, tx, ty);
+    const bool there = at < grass->tiles && grass->tile[at]->tx == tx && grass->tile[at]->ty == ty;
+    return there ? grass->tile[at] : NULL;
+}
+
+// what grows on cells i0 <= i < i1, j0 <= j < j1 of a tile; its stems' size only the first time
+void dp_grass_grow(const DpGrass* grass, GrassTile* tile, int i0, int i1, int j0, int j1,
+                   bool first)
+{
+    const DpPlantWindow  window = {i1 - i0,
+                                   j1 - j0,
+                                   DP_TILE,
+                                   grass->cell,
+                                   grass_centre(grass, 0, tile->tx * DP_TILE + i0),
+                                   grass_centre(grass, 1, tile->ty * DP_TILE + j0)};
+    const int            at = j0 * DP_TILE + i0;
+    const DpPlantStature stature = {first ? tile->height + at : NULL, tile->rate + at,
+                                    tile->heal + at, tile->limp + at, tile->stays + at};
+    dp_plants_stature(grass->plants, &window, &stature);
+    for (size_t p = 0; first && p < CELLS; ++p) tile->healing = fmaxf(tile->healing, tile->heal[p]);
+}
+
+GrassTile* dp_grass_touch(DpGrass* grass, long tx, long ty)
+{
+    GrassTile* tile = dp_grass_find(grass, tx, ty);
+    if (tile) return tile;
+    if (grass->tiles == grass->room) {
+        const int   room = grass->room ? 2 * grass->room : 16;
+        GrassTile** more = dp_realloc(grass->tile, (size_t)room, sizeof *more);
+        if (!more) return NULL;
+        grass->tile = more, grass->room = room;
+    }
+    tile = dp_alloc(1, sizeof *tile);
+    if (!tile) return NULL;
+    tile->tx = tx, tile->ty = ty;
+    dp_grass_grow(grass, tile, 0, DP_TILE, 0, DP_TILE, true);
+    const int at = place_of(grass, tx, ty);
+    memmove(grass->tile + at + 1, grass->tile + at,
+            (size_t)(grass->tiles - at) * sizeof *grass->tile);
+    grass->tile[at] = tile;
+    ++grass->tiles;
+    return tile;
+}
+
+void dp_grass_widen(GrassBox* box, int i, int j)
+{
+    const bool none = box->i0 >= box->i1;
+    box->i0 = none || i < box->i0 ? i : box->i0, box->i1 = none || i >= box->i1 ? i + 1 : box->i1;
+    box->j0 = none || j < box->j0 ? j : box->j0, box->j1 = none || j >= box->j1 ? j + 1 : box->j1;
+}
+
+void dp_grass_may_move(GrassTile* tile, int i, int j)
+{
+    dp_grass_widen(&tile->moves, i, j);
+    dp_grass_widen(&tile->brisk, i, j);
+}
