@@ -160,8 +160,9 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpDoor        door = {0};
     DpGait        gait = {0};
     DpLoadOptions o = dp_load_options_default();
-    double n[10] = {o.cutoff_share, o.cutoff_low,    o.cutoff_high, o.cutoff_flight, o.cutoff_level,
-                    o.max_overlap, o.ramp_standing, o.ramp_alone,  o.ramp_trust,    o.support_span};
+    double n[13] = {o.cutoff_share, o.cutoff_low,   o.cutoff_high, o.cutoff_flight, o.cutoff_knock,
+                    o.noise_share,  o.cutoff_level, o.max_overlap, o.ramp_standing, o.ramp_alone,
+                    o.ramp_trust,   o.support_span, o.frame_time};
     PyObject* result = NULL;
     double *  out_force = NULL, *out_point = NULL;
     if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
@@ -174,7 +175,7 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpShape shape = {3, {gait.parts, gait.times, 3}};
     if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
     if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
-    if (read_numbers(&door, numbers, "options", n, 10) < 0) goto done;
+    if (read_numbers(&door, numbers, "options", n, 13) < 0) goto done;
     const double* taus = NULL;
     if (settle != Py_None) {
         const size_t count = (size_t)gait.points * (size_t)gait.times;
@@ -195,7 +196,10 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
                         n[6],
                         n[7],
                         n[8],
-                        n[9]};
+                        n[9],
+                        n[10],
+                        n[11],
+                        n[12]};
     if (model != 0 && model != 1) {
         PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
         goto done;

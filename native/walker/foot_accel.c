@@ -121,9 +121,10 @@ DpStatus dp_walker_accelerate(const DpGait* gait, int walker, const uint8_t* lim
     const int times = gait->times;
     double*   line = dp_alloc((size_t)times, sizeof(double));
     double*   scratch = dp_alloc(dp_walker_fly_scratch(times) + 8, sizeof(double));
+    double*   smooth = dp_alloc((size_t)times, sizeof(double));
     uint8_t*  air = dp_alloc((size_t)times, 1);
-    if (!line || !scratch || !air) {
-        dp_free(line), dp_free(scratch), dp_free(air);
+    if (!line || !scratch || !air || !smooth) {
+        dp_free(line), dp_free(scratch), dp_free(air), dp_free(smooth);
         return DP_NO_MEMORY;
     }
     const double step = step_time(limb_on, limbs, times, rate, line);
@@ -135,9 +136,10 @@ DpStatus dp_walker_accelerate(const DpGait* gait, int walker, const uint8_t* lim
     const double steps = options->cutoff_share / step;  // infinite where no step is known
     // what falls is caught by knocks, however seldom it steps
     const double lowest = flies ? options->cutoff_flight : options->cutoff_low;
-    const double up = step > 0.0 ? dp_clamp(steps, lowest, options->cutoff_high)
+    double       up = step > 0.0 ? dp_clamp(steps, lowest, options->cutoff_high)
                       : flies    ? options->cutoff_high
                                  : options->cutoff_low;
+    if (flies) up = dp_walker_sharpest(line, air, times, rate, up, options, smooth, scratch);
     // quick steps may need all of the upper bound over the ground too
     const double level = step > 0.0 ? fmin(options->cutoff_level * fmax(steps, options->cutoff_low),
                                            options->cutoff_high)
@@ -154,6 +156,6 @@ DpStatus dp_walker_accelerate(const DpGait* gait, int walker, const uint8_t* lim
             if (c < 2) velocity[c * times + t] = dp_walker_velocity(line, times, t, rate);
         }
     }
-    dp_free(line), dp_free(scratch), dp_free(air);
+    dp_free(line), dp_free(scratch), dp_free(air), dp_free(smooth);
     return DP_OK;
 }

@@ -32,12 +32,15 @@ DpLoadOptions dp_load_options_default(void)
                                    .cutoff_low = 5.0,
                                    .cutoff_high = 10.0,
                                    .cutoff_flight = 8.0,
+                                   .cutoff_knock = 20.0,
+                                   .noise_share = 2.0,
                                    .cutoff_level = 2.0 / 3.0,
                                    .max_overlap = 0.3,
                                    .ramp_standing = 0.1,
                                    .ramp_alone = 0.03,
                                    .ramp_trust = 0.25,
-                                   .support_span = 0.3};
+                                   .support_span = 0.3,
+                                   .frame_time = 0.0};
     return options;
 }
 
@@ -257,6 +260,7 @@ static bool options_ok(const DpLoadOptions* o)
 {
     return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
            o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_flight > 0.0 &&
+           o->cutoff_knock > 0.0 && o->noise_share > 0.0 && o->frame_time >= 0.0 &&
            o->cutoff_level > 0.0 && o->max_overlap > 0.0 && o->ramp_standing > 0.0 &&
            o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->support_span > 0.0 &&
            (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);

@@ -108,12 +108,15 @@ typedef struct DpLoadOptions
     double cutoff_low;     // and its bounds                                      [Hz] > 0
     double cutoff_high;    //                                                     [Hz] >= cutoff_low
     double cutoff_flight;  // and the lower one of who flies                      [Hz] > 0
+    double cutoff_knock;   // the upper one of a landing whose flight shows no noise [Hz] > 0
+    double noise_share;    // so many times the noise of flights may be smoothed away [-] > 0
     double cutoff_level;   // of a_com over the ground, in shares of that upward  [-]  > 0
     double max_overlap;    // longer overlaps are standing, not a change of feet  [s]  > 0
     double ramp_standing;  // ramp of a limb that joins others that stay          [s]  > 0
     double ramp_alone;     // ramp of a limb that relieves none                   [s]  > 0
     double ramp_trust;     // mu, trust in ramps against the zero-moment point    [-]  >= 0
     double support_span;   // spread at which that point gets half its say        [m]  > 0
+    double frame_time;     // frames lay so far apart before it was resampled     [s]  >= 0
 } DpLoadOptions;
 
 DpLoadOptions dp_load_options_default(void);

@@ -21,6 +21,15 @@ size_t dp_walker_fly_scratch(int count);
 void   dp_walker_sort(double* value, size_t count);
 double dp_walker_median(double* value, size_t count);
 
+// The cut-off with which a body that flies is smoothed: `cutoff`, or more where that would take away
+// more of its stances than the noise its flights show.
+// @param height  of its mass centre [m];  air: where nothing carries it (times)
+// @param smooth, scratch  room for (times) and (dp_walker_fly_scratch(times))
+// @return [Hz] >= cutoff
+double dp_walker_sharpest(const double* height, const uint8_t* air, int times, double rate,
+                          double cutoff, const DpLoadOptions* options, double* smooth,
+                          double* scratch);
+
 // First and second change in time at a sample, from its neighbours; one-sided at the ends.
 double dp_walker_velocity(const double* value, int count, int at, double rate);
 double dp_walker_acceleration(const double* value, int count, int at, double rate);

@@ -47,12 +47,15 @@ OPTIONS = {
     "cutoff_low": 5.0,
     "cutoff_high": 10.0,
     "cutoff_flight": 8.0,
+    "cutoff_knock": 20.0,
+    "noise_share": 2.0,
     "cutoff_level": 2.0 / 3.0,
     "overlap_most": 0.3,
     "ramp_standing": 0.1,
     "ramp_alone": 0.03,
     "ramp_trust": 0.25,
     "reach": 0.3,
+    "frame_time": 0.0,
 }
 
 
@@ -252,6 +255,7 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     touching, clearance = _find_contacts(person, floor, limits, _frames(gait) * np.sqrt(size))
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
+    options = {"frame_time": 1.0 / (_frames(gait) * np.sqrt(size)), **(options or {})}
     tau, taus = settle_time, None
     if callable(tau):
         tau, taus = 1.0, _settles(even, touching, tau) / np.sqrt(size)
