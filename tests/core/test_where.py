@@ -148,6 +148,18 @@ def test_rooms_fall(tmp_path, path, text, words):
     assert told.returncode == 1 and words in told.stderr and path in told.stderr
 
 
+@pytest.mark.parametrize("text, code", [("int stray", 1), ("int dp_own", 0), ("static int stray", 0)])
+def test_names_that_files_share_begin_with_dp(tmp_path, text, code):
+    built = tmp_path / "build" / "plain"
+    built.mkdir(parents=True)
+    (tmp_path / "heap.c").write_text(f"{text}(void) {{ return 1; }}\nint dp_user(void);\n")
+    cc = os.environ.get("CC", "cc")
+    subprocess.run([cc, "-c", "-o", tmp_path / "heap.c.o", tmp_path / "heap.c"], check=True)
+    subprocess.run(["ar", "rc", built / "libdp_soil.a", tmp_path / "heap.c.o"], check=True)
+    told = run("rooms", "--quiet", "--root", tmp_path)
+    assert told.returncode == code and ("heap.c: stray is seen" in told.stderr) == bool(code), told.stderr
+
+
 def test_every_script_helps():
     scripts = sorted(path for path in SCRIPTS.iterdir() if path.is_file())
     assert {"build", "test", "format", "package", "where", "rooms", "bench"} <= {path.name for path in scripts}
