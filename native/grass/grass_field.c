@@ -43,13 +43,13 @@ void dp_grass_destroy(DpGrass* grass)
 // one stem rises by a share `keep` of what is left; is it still on its way?
 static bool rise(GrassTile* tile, size_t p, float keep)
 {
-    const float was = tile->crushed[p], goal = tile->stays[p] * tile->most[p];
+    const float was = tile->crushed[p], goal = tile->stays[p] * tile->deepest[p];
     if (!(was > goal)) return false;
     float now = goal + (was - goal) * keep;
     if (now < goal + AT_REST) now = goal;
     tile->crushed[p] = now;
     for (int d = 0; d < 2; ++d) tile->lean[d][p] *= now / was;
-    if (!(now > 0.0f)) tile->lean[0][p] = tile->lean[1][p] = tile->most[p] = 0.0f;
+    if (!(now > 0.0f)) tile->lean[0][p] = tile->lean[1][p] = tile->deepest[p] = 0.0f;
     tile->changed = true;
     return now > goal;
 }
@@ -199,7 +199,7 @@ void dp_grass_read(const DpGrass* grass, long i0, long j0, int nx, int ny, float
     }
 }
 
-// Of `most`, the share `stays` is that of broken stems, the rest that of whole ones.
+// Of `deepest`, the share `stays` is that of broken stems, the rest that of whole ones.
 DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y)
 {
     const long       i = grass_cell(grass, 0, x), j = grass_cell(grass, 1, y);
@@ -208,7 +208,8 @@ DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y)
     if (!tile) return stem;
     const size_t p = (size_t)(j - tile->ty * DP_TILE) * DP_TILE + (size_t)(i - tile->tx * DP_TILE);
     const double whole = 1.0 - (double)tile->stays[p];
-    const double risen = (double)tile->crushed[p] - (double)tile->stays[p] * (double)tile->most[p];
+    const double risen =
+        (double)tile->crushed[p] - (double)tile->stays[p] * (double)tile->deepest[p];
     stem.down = whole > 0.0 ? dp_clamp(risen / whole, 0.0, 1.0) : 0.0;
     stem.lean[0] = (double)tile->lean[0][p], stem.lean[1] = (double)tile->lean[1][p];
     stem.pressed = tile->under[p] == grass->step && grass->step > 0;

@@ -18,12 +18,12 @@ typedef struct GrassTile
     GrassBox moves;  // what is not at rest
     GrassBox brisk;  // of it what is held or swings, or may: the others wait until they are due
     float    lean[2][CELLS], crushed[CELLS];
-    float    most[CELLS];    // crushed when it was let go
-    float    height[CELLS];  // of the stem, 0 = nothing grows [m]
-    float    rate[CELLS];    // at which it swings up [1/s]
-    float    heal[CELLS];    // at which it rises while its crushed is above `limp` [1/s]
+    float    deepest[CELLS];  // crushed when it was let go
+    float    height[CELLS];   // of the stem, 0 = nothing grows [m]
+    float    rate[CELLS];     // at which it swings up [1/s]
+    float    heal[CELLS];     // at which it rises while its crushed is above `limp` [1/s]
     float    limp[CELLS];
-    float    healing;       // the most of heal [1/s]
+    float    healing;       // largest of heal [1/s]
     double   waited;        // since slow stems rose [s]
     float    stays[CELLS];  // share of stems that is broken
     int32_t  held[CELLS];   // the step in which something held it last

@@ -6,12 +6,12 @@
 #include "base/alloc.h"
 #include "grass/grass_inside.h"
 
-#define PARTED 0.5       // of its height: so far from a sole's edge grass leans away
-#define PARTED_MOST 0.4  // [m]
-#define SLOW 0.1         // a foot this slow has no direction of its own [m/s]
-#define FAR 8000         // cells
-#define SLIGHT 0.002     // leaning less than this is standing
-#define MOST_CELLS 4e6   // around one sole
+#define PARTED 0.5      // of its height: so far from a sole's edge grass leans away
+#define MAX_PARTED 0.4  // [m]
+#define SLOW 0.1        // a foot this slow has no direction of its own [m/s]
+#define FAR 8000        // cells
+#define SLIGHT 0.002    // leaning less than this is standing
+#define MAX_CELLS 4e6   // around one sole
 
 static size_t at_print(const GrassPrint* print, int i, int j)
 {
@@ -59,11 +59,11 @@ static void look_back(int32_t* restrict across, int32_t* restrict up, const uint
         int32_t best_i = across[i], best_j = up[i], best = best_i * best_i + best_j * best_j;
         for (int d = -1; d <= 1; ++d) {
             const int32_t alike = their_sole[i + d] == sole[i] ? 1 : 0;
-            const int32_t way_i = d + alike * their_across[i + d];
-            const int32_t way_j = dj + alike * their_up[i + d];
-            const int32_t far = way_i * way_i + way_j * way_j;
-            best_i = far < best ? way_i : best_i;
-            best_j = far < best ? way_j : best_j;
+            const int32_t to_i = d + alike * their_across[i + d];
+            const int32_t to_j = dj + alike * their_up[i + d];
+            const int32_t far = to_i * to_i + to_j * to_j;
+            best_i = far < best ? to_i : best_i;
+            best_j = far < best ? to_j : best_j;
             best = far < best ? far : best;
         }
         across[i] = best_i, up[i] = best_j;
@@ -101,7 +101,7 @@ static void press(DpGrass* grass, GrassTile* tile, int i, int j, double crushed,
         tile->crushed[p] = (float)crushed;
         tile->changed = true;
     }
-    tile->most[p] = fmaxf(tile->most[p], tile->crushed[p]);
+    tile->deepest[p] = fmaxf(tile->deepest[p], tile->crushed[p]);
     tile->held[p] = grass->step;
     dp_grass_may_move(tile, i, j);
 }
@@ -134,10 +134,10 @@ static void part(DpGrass* grass, const GrassPrint* print, const DpPlantGround* g
                  GrassTile* tile, int pi, int pj, int ti, int tj)
 {
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti;
-    const double high = (double)tile->height[t], parted = fmin(PARTED * high, PARTED_MOST);
+    const double high = (double)tile->height[t], parted = fmin(PARTED * high, MAX_PARTED);
     const size_t p = at_print(print, pi, pj);
-    const double reach = parted / grass->cell + 0.5;
-    if (!((double)length2(print, p) < reach * reach)) return;
+    const double span = parted / grass->cell + 0.5;
+    if (!((double)length2(print, p) < span * span)) return;
     const double length = sqrt((double)length2(print, p));
     const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
     const double bottom =
@@ -168,8 +168,7 @@ static void flatten(DpGrass* grass, const GrassPrint* print, const DpPlantGround
         press(grass, tile, ti, tj, pressed, size, 0.0, 0.0);
         return;
     }
-    const double length = sqrt((double)length2(print, p)),
-                 parted = fmin(PARTED * high, PARTED_MOST);
+    const double length = sqrt((double)length2(print, p)), parted = fmin(PARTED * high, MAX_PARTED);
     const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
     const double own =
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
@@ -254,7 +253,7 @@ static bool lay_out(const DpGrass* grass, const GrassPrint* print, const DpPlant
 
 static double margin_of(const DpGrass* grass)
 {
-    return fmin(PARTED * dp_plants_height(grass->plants), PARTED_MOST) + 2.0 * grass->cell;
+    return fmin(PARTED * dp_plants_height(grass->plants), MAX_PARTED) + 2.0 * grass->cell;
 }
 
 GrassPrint dp_grass_window(const DpGrass* grass, const DpPlantCollider* c)
@@ -265,7 +264,7 @@ GrassPrint dp_grass_window(const DpGrass* grass, const DpPlantCollider* c)
     print.j0 = grass_cell(grass, 1, c->y0 - 0.5 * c->cell - margin);
     const long i1 = grass_cell(grass, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
     const long j1 = grass_cell(grass, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
-    if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MOST_CELLS) return print;
+    if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MAX_CELLS) return print;
     print.nx = (int)(i1 - print.i0), print.ny = (int)(j1 - print.j0);
     return print;
 }

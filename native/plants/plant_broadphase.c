@@ -58,17 +58,17 @@ double dp_plant_span(const PlantStand* stand)
 // how far to a side each plant of a block stands or lies, at most
 static void lies_aside(const PlantStand* stand, const PlantBlock* block, double aside[DP_LANES])
 {
-    float most[DP_LANES];
-    for (int l = 0; l < DP_LANES; ++l) most[l] = block->state ? 0.0f : stand->aside;
+    float max[DP_LANES];
+    for (int l = 0; l < DP_LANES; ++l) max[l] = block->state ? 0.0f : stand->aside;
     for (int p = 0; block->state && p < stand->shape.particles; ++p)
         for (int d = 0; d < 2; ++d) {
             const float* at = block->state->at[d] + p * DP_LANES;
             for (int l = 0; l < DP_LANES; ++l) {
                 const float off = fabsf(at[l] - block->foot[d][l]);
-                most[l] = off > most[l] ? off : most[l];
+                max[l] = off > max[l] ? off : max[l];
             }
         }
-    for (int l = 0; l < DP_LANES; ++l) aside[l] = (double)most[l];
+    for (int l = 0; l < DP_LANES; ++l) aside[l] = (double)max[l];
 }
 
 // mark the plants that a collider can meet, as they are and as far as they move in a step of dt
@@ -76,8 +76,8 @@ void dp_plant_touch(const PlantStand* stand, PlantBlock* block, const PlantPush*
                     double dt)
 {
     const double half = 0.5 * (double)fmaxf(stand->kind.width, stand->kind.depth);
-    const double high = (double)(DP_STRETCH_MOST * stand->kind.height + stand->kind.radius) + 0.01;
-    const double spare = (double)stand->kind.radius + (double)DP_SPEED_MOST * dt + 0.01;
+    const double high = (double)(DP_MAX_STRETCH * stand->kind.height + stand->kind.radius) + 0.01;
+    const double spare = (double)stand->kind.radius + (double)DP_MAX_SPEED * dt + 0.01;
     double       aside[DP_LANES];
     lies_aside(stand, block, aside);
     block->touched = false;
@@ -86,24 +86,24 @@ void dp_plant_touch(const PlantStand* stand, PlantBlock* block, const PlantPush*
         const double z = (double)block->root[2][l];
         const double lift = (double)(fabsf(block->slope[0][l]) + fabsf(block->slope[1][l])) * half;
         const double tall = high + lift;  // outer stems stand higher on a slope
-        const double reach = fmin(dp_plant_span(stand), aside[l] + spare);
+        const double span = fmin(dp_plant_span(stand), aside[l] + spare);
         const double deep = dp_plant_span(stand);
         bool         meets = false;
         for (int k = 0; k < count && l < block->count; ++k)
-            meets = meets ||
-                    (x + reach > push[k].x0 && x - reach < push[k].x1 && y + reach > push[k].y0 &&
-                     y - reach < push[k].y1 && z + tall > push[k].z0 && z - deep < push[k].z1);
+            meets =
+                meets || (x + span > push[k].x0 && x - span < push[k].x1 && y + span > push[k].y0 &&
+                          y - span < push[k].y1 && z + tall > push[k].z0 && z - deep < push[k].z1);
         block->touched_lane[l] = meets;
         block->touched = block->touched || meets;
     }
 }
 
 // can any of the colliders, which may be far apart, meet a block whose roots lie within the box?
-bool dp_plant_meets_any(const float box[4], const PlantPush* push, int count, double reach)
+bool dp_plant_meets_any(const float box[4], const PlantPush* push, int count, double span)
 {
     for (int k = 0; k < count; ++k)
-        if ((double)box[0] < push[k].x1 + reach && (double)box[2] > push[k].x0 - reach &&
-            (double)box[1] < push[k].y1 + reach && (double)box[3] > push[k].y0 - reach)
+        if ((double)box[0] < push[k].x1 + span && (double)box[2] > push[k].x0 - span &&
+            (double)box[1] < push[k].y1 + span && (double)box[3] > push[k].y0 - span)
             return true;
     return false;
 }

@@ -88,13 +88,13 @@ static bool leave_by_side(const PlantProbe* probe, const PlantPush* push, DpVec3
     const DpPlantCollider* c = push->collider;
     const int              i = (int)((p->x - c->x0 + c->velocity.x * probe->left) / c->cell + 0.5);
     const int              j = (int)((p->y - c->y0 + c->velocity.y * probe->left) / c->cell + 0.5);
-    const double           way = side_at(push, i, j) + probe->radius;
-    if (!(way < down)) return false;
+    const double           distance = side_at(push, i, j) + probe->radius;
+    if (!(distance < down)) return false;
     const double gx = side_at(push, i - 1, j) - side_at(push, i + 1, j);
     const double gy = side_at(push, i, j - 1) - side_at(push, i, j + 1);
     const double size = sqrt(gx * gx + gy * gy);
     if (!(size > 0.0)) return false;
-    const DpVec3 aside = {p->x + way * gx / size, p->y + way * gy / size, p->z};
+    const DpVec3 aside = {p->x + distance * gx / size, p->y + distance * gy / size, p->z};
     if (isfinite(dp_plant_sole_over(probe, &aside, NULL))) return false;
     *p = aside;
     return true;

@@ -1,4 +1,4 @@
-// plants/plant_collide.h - what a particle meets in a sub-step, and the way out.
+// plants/plant_collide.h - what a particle meets in a sub-step, and how it comes out.
 #pragma once
 #include "plants/plant_inside.h"
 

@@ -25,27 +25,27 @@ typedef struct Sums
 } Sums;
 
 // the bins that circles about x0..x1, y meet: false if none
-static bool bins_around(const PlantStand* stand, double x0, double x1, double y, double reach,
+static bool bins_around(const PlantStand* stand, double x0, double x1, double y, double radius,
                         int range[4])
 {
-    const double i0 = floor((x0 - reach - stand->bx0) / stand->bin);
-    const double i1 = floor((x1 + reach - stand->bx0) / stand->bin);
-    const double j0 = floor((y - reach - stand->by0) / stand->bin);
-    const double j1 = floor((y + reach - stand->by0) / stand->bin);
+    const double i0 = floor((x0 - radius - stand->bx0) / stand->bin);
+    const double i1 = floor((x1 + radius - stand->bx0) / stand->bin);
+    const double j0 = floor((y - radius - stand->by0) / stand->bin);
+    const double j1 = floor((y + radius - stand->by0) / stand->bin);
     if (i1 < 0.0 || j1 < 0.0 || i0 >= stand->bnx || j0 >= stand->bny) return false;
     range[0] = i0 > 0.0 ? (int)i0 : 0, range[1] = i1 < stand->bnx - 1 ? (int)i1 : stand->bnx - 1;
     range[2] = j0 > 0.0 ? (int)j0 : 0, range[3] = j1 < stand->bny - 1 ? (int)j1 : stand->bny - 1;
     return true;
 }
 
-// wide: kernels reach so many times as far
+// wide: kernels go so many times as far
 static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, double wide)
 {
-    const double reach = wide * (double)stand->kind.root_radius,
+    const double radius = wide * (double)stand->kind.root_radius,
                  modulus = (double)stand->kind.modulus;
-    const double full = (double)stand->kind.full_density * PI * reach * reach / 3.0;  // K_ref
+    const double full = (double)stand->kind.full_density * PI * radius * radius / 3.0;  // K_ref
     int          range[4];
-    if (!bins_around(stand, x, x, y, reach, range)) return;
+    if (!bins_around(stand, x, x, y, radius, range)) return;
     for (int j = range[2]; j <= range[3]; ++j)
         for (int i = range[0]; i <= range[1]; ++i) {
             const int* start = stand->bin_start + (size_t)j * (size_t)stand->bnx + (size_t)i;
@@ -55,8 +55,8 @@ static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, 
                 const double      dx = (double)block->root[0][lane] - x;
                 const double      dy = (double)block->root[1][lane] - y;
                 const double      d2 = dx * dx + dy * dy, alpha = (double)block->alpha[lane];
-                if (d2 >= reach * reach) continue;
-                const double kernel = 1.0 - sqrt(d2) / reach;  // K = 1 - d/R
+                if (d2 >= radius * radius) continue;
+                const double kernel = 1.0 - sqrt(d2) / radius;  // K = 1 - d/R
                 sums->full += kernel / full;
                 sums->whole += kernel * alpha / full;
                 sums->root += kernel * alpha * modulus / full;
@@ -94,10 +94,10 @@ typedef struct Row
 
 // one plant adds to cells a <= i < b, whose centres lie at first + i * cell from it
 DP_CLONES
-static void add_plant(Row* row, int a, int b, double first, double cell, double dy2, double reach,
+static void add_plant(Row* row, int a, int b, double first, double cell, double dy2, double radius,
                       double weight, double alpha, double modulus)
 {
-    const double inverse = 1.0 / reach, whole = weight * alpha, root = whole * modulus;
+    const double inverse = 1.0 / radius, whole = weight * alpha, root = whole * modulus;
     for (int i = a; i < b; ++i) {
         const double dx = first + i * cell;
         const double kernel = 1.0 - sqrt(dx * dx + dy2) * inverse;  // K = 1 - d/R
@@ -110,10 +110,11 @@ static void add_plant(Row* row, int a, int b, double first, double cell, double 
 
 static void add_stand(Row* row, const PlantStand* stand, double x0, double y, double cell, int n)
 {
-    const double reach = (double)stand->kind.root_radius, modulus = (double)stand->kind.modulus;
-    const double weight = 3.0 / ((double)stand->kind.full_density * PI * reach * reach);  // 1/K_ref
-    int          range[4];
-    if (!bins_around(stand, x0, x0 + (n - 1) * cell, y, reach, range)) return;
+    const double radius = (double)stand->kind.root_radius, modulus = (double)stand->kind.modulus;
+    const double weight =
+        3.0 / ((double)stand->kind.full_density * PI * radius * radius);  // 1/K_ref
+    int range[4];
+    if (!bins_around(stand, x0, x0 + (n - 1) * cell, y, radius, range)) return;
     for (int j = range[2]; j <= range[3]; ++j) {
         const int* start = stand->bin_start + (size_t)j * (size_t)stand->bnx;
         for (int k = start[range[0]]; k < start[range[1] + 1]; ++k) {
@@ -121,12 +122,12 @@ static void add_stand(Row* row, const PlantStand* stand, double x0, double y, do
             const PlantBlock* block = &stand->block[slot / DP_LANES];
             const double      first = x0 - (double)block->root[0][lane];
             const double      dy = y - (double)block->root[1][lane], dy2 = dy * dy;
-            if (dy2 >= reach * reach) continue;
-            const double wide = sqrt(reach * reach - dy2);
+            if (dy2 >= radius * radius) continue;
+            const double wide = sqrt(radius * radius - dy2);
             const double a = (-wide - first) / cell, b = (wide - first) / cell + 1.0;
             const int    from = a > 0.0 ? (a < n ? (int)a : n) : 0;
             const int    to = b < n ? (b > 0.0 ? (int)b : 0) : n;
-            add_plant(row, from, to, first, cell, dy2, reach, weight, (double)block->alpha[lane],
+            add_plant(row, from, to, first, cell, dy2, radius, weight, (double)block->alpha[lane],
                       modulus);
         }
     }

@@ -7,10 +7,8 @@
 
 #include "plants/plant_inside.h"
 
-#define LOOKS_MOST \
-    1024  // at cells for one ceiling; where there are more around a plant, it has none
-
-#define STILL 1e-6f  // who moves less sees the same ground [m]
+#define MAX_LOOKS 1024  // at cells, for one ceiling: where more are around a plant, it has none
+#define STILL 1e-6f     // who moves less sees the same ground [m]
 
 static bool piece_ok(const DpPlantGround* g)
 {
@@ -61,21 +59,21 @@ double dp_plant_floor_at(const PlantBlock* block, const DpPlantGround* ground, i
 
 // ---- ceilings --------------------------------------------------------------------------------
 
-// are there too many cells within +-reach?
-static bool is_wide(const DpPlantGround* ground, double reach)
+// are there too many cells within +-span?
+static bool is_wide(const DpPlantGround* ground, double span)
 {
-    const double cells = 2.0 * reach / ground->cell + 1.0;
-    return !(cells * cells <= LOOKS_MOST);
+    const double cells = 2.0 * span / ground->cell + 1.0;
+    return !(cells * cells <= MAX_LOOKS);
 }
 
-// What grids say of the square of +-reach about a root: the highest there; do they hold all of it?
+// What grids say of the square of +-span about a root: the highest there; do they hold all of it?
 typedef struct Square
 {
     float highest;
     bool  any, all;
 } Square;
 
-// the highest of a part of a grid and `most`; what is no number is passed over
+// the highest of a part of a grid and `max`; what is no number is passed over
 DP_CLONES
 static float highest_in(const DpPlantGround* ground, int i0, int i1, int j0, int j1, float most)
 {
@@ -93,16 +91,16 @@ static float highest_in(const DpPlantGround* ground, int i0, int i1, int j0, int
     return most;
 }
 
-static Square look_around(const DpPlantGround* ground, double x, double y, double reach)
+static Square look_around(const DpPlantGround* ground, double x, double y, double span)
 {
     Square square = {-INFINITY, false, false};
-    if (ground && is_wide(ground, reach)) square.highest = INFINITY;
+    if (ground && is_wide(ground, span)) square.highest = INFINITY;
     for (; ground; ground = ground->next) {
         if (ground->at) continue;
-        const double u0 = (x - reach - ground->x0) / ground->cell;
-        const double u1 = (x + reach - ground->x0) / ground->cell;
-        const double v0 = (y - reach - ground->y0) / ground->cell;
-        const double v1 = (y + reach - ground->y0) / ground->cell;
+        const double u0 = (x - span - ground->x0) / ground->cell;
+        const double u1 = (x + span - ground->x0) / ground->cell;
+        const double v0 = (y - span - ground->y0) / ground->cell;
+        const double v1 = (y + span - ground->y0) / ground->cell;
         if (!(u1 >= -0.5 && v1 >= -0.5 && u0 <= ground->nx - 0.5 && v0 <= ground->ny - 0.5))
             continue;
         const int i0 = (int)fmax(u0, 0.0), i1 = (int)fmin(u1 + 1.0, ground->nx - 1.0);
@@ -117,11 +115,11 @@ static Square look_around(const DpPlantGround* ground, double x, double y, doubl
 }
 
 // the highest of ground that is a function, cell by cell; +inf if that takes too long
-static float highest_of(const DpPlantGround* ground, double x, double y, double reach)
+static float highest_of(const DpPlantGround* ground, double x, double y, double span)
 {
     while (ground && !ground->at) ground = ground->next;
-    if (!ground || is_wide(ground, reach)) return INFINITY;
-    const double cells = ceil(reach / ground->cell) + 1.0;
+    if (!ground || is_wide(ground, span)) return INFINITY;
+    const double cells = ceil(span / ground->cell) + 1.0;
     float        highest = -INFINITY;
     for (double j = -cells; j <= cells; ++j)
         for (double i = -cells; i <= cells; ++i)
@@ -193,7 +191,7 @@ void dp_plant_ground_block(const PlantStand* stand, PlantBlock* block, const DpP
             const double own = block->origin[2] + (double)z[k], most = (double)block->ceiling[l];
             double       height = most;  // over all ground: it falls no further in a step
             if (own <= most) {
-                if (!block->told_lane[l] && lies_still(block->state, k)) continue;
+                if (!block->ground_known[l] && lies_still(block->state, k)) continue;
                 const double x = block->origin[0] + (double)block->state->at[0][k];
                 const double y = block->origin[1] + (double)block->state->at[1][k];
                 height = dp_plant_ground_at(ground, x, y);

@@ -10,11 +10,11 @@
 #define DP_LANES 8
 #define DP_PLANT_HELD 2         // rows held by the ground
 #define DP_SUBSTEP (1.0 / 480)  // longest sub-step [s]
-#define DP_SUBSTEPS_MOST 64
+#define DP_MAX_SUBSTEPS 64
 #define DP_PLANT_MAX_ROWS 64
-#define DP_STRETCH_MOST 1.05f  // no stem is longer
-#define DP_NO_FLOOR -1e30f     // not seen yet: the plane a plant stands on
-#define DP_SPEED_MOST 6.0f     // of a particle [m/s]
+#define DP_MAX_STRETCH 1.05f  // no stem is longer
+#define DP_NO_FLOOR -1e30f    // not seen yet: the plane a plant stands on
+#define DP_MAX_SPEED 6.0f     // of a particle [m/s]
 
 // two particles that keep their distance
 typedef struct PlantEdge
@@ -42,19 +42,19 @@ typedef struct PlantBlock
     int         count;  // lanes in use; the others repeat lane 0
     bool        awake, touched, wearing, changed;
     bool        touched_lane[DP_LANES];
-    bool        told_lane[DP_LANES];  // a grid tells of the ground around it: it may have changed
-    int         broke;                // bends, in the last step
-    double      quiet;                // time without motion [s]
-    double      asleep_since;         // [s]
-    double      origin[3];            // of the state's positions, so that floats are small [m]
-    float       root[3][DP_LANES];
-    float       foot[3][DP_LANES];   // root - origin
-    float       turn[2][DP_LANES];   // cos, sin of the heading
-    float       slope[2][DP_LANES];  // of the ground
-    float       ceiling[DP_LANES];   // no ground around is higher; -inf: not known [m]
-    float       alpha[DP_LANES];     // unbroken share
-    double      reserve[DP_LANES];
-    int         plant[DP_LANES];  // number at which it was added
+    bool   ground_known[DP_LANES];  // a grid tells of the ground around it: it may have changed
+    int    broke;                   // bends, in the last step
+    double quiet;                   // time without motion [s]
+    double asleep_since;            // [s]
+    double origin[3];               // of the state's positions, so that floats are small [m]
+    float  root[3][DP_LANES];
+    float  foot[3][DP_LANES];   // root - origin
+    float  turn[2][DP_LANES];   // cos, sin of the heading
+    float  slope[2][DP_LANES];  // of the ground
+    float  ceiling[DP_LANES];   // no ground around is higher; -inf: not known [m]
+    float  alpha[DP_LANES];     // unbroken share
+    double reserve[DP_LANES];
+    int    plant[DP_LANES];  // number at which it was added
 } PlantBlock;
 
 typedef struct PlantStand
@@ -85,8 +85,8 @@ typedef struct PlantStand
 struct DpPlants
 {
     uint64_t    seed;
-    double      now;  // [s]
-    uint64_t    rests;
+    double      now;       // [s]
+    uint64_t    advances;  // times that dp_plants_advance_time was called
     PlantStand* stand;
     int         stands;
     // scratch of a step
@@ -136,7 +136,7 @@ double dp_plant_recovered(const PlantStand* stand, const PlantBlock* block, int 
 
 // ---- plant_broadphase.c
 
-// A collider made ready: the way out to its side.
+// A collider made ready: how far it is to its side.
 typedef struct PlantPush
 {
     const DpPlantCollider* collider;
@@ -166,7 +166,7 @@ void dp_plant_lengths(const PlantStand* stand, const PlantBlock* block, float* l
 // one sub-step. TRAIL (5)
 void dp_plant_substep(const PlantStand* stand, PlantBlock* block, const float* give,
                       const float* length, float* before, const float* soft, double h);
-// no stem longer than DP_STRETCH_MOST
+// no stem longer than DP_MAX_STRETCH
 void dp_plant_shorten(const PlantStand* stand, PlantBlock* block, const float* length);
 // speeds from where particles were; returns the largest squared speed
 float dp_plant_speeds(const PlantStand* stand, PlantBlock* block, const float* before, double h);

@@ -26,10 +26,10 @@ typedef struct Field
 
 static bool has_room(const Field* field, const float* root, double x, double y, double apart)
 {
-    const int reach = (int)ceil(apart / field->cell);
+    const int span = (int)ceil(apart / field->cell);
     const int ci = (int)((x - field->x0) / field->cell), cj = (int)((y - field->y0) / field->cell);
-    for (int j = cj - reach; j <= cj + reach; ++j)
-        for (int i = ci - reach; i <= ci + reach; ++i) {
+    for (int j = cj - span; j <= cj + span; ++j)
+        for (int i = ci - span; i <= ci + span; ++i) {
             if (i < 0 || j < 0 || i >= field->nx || j >= field->ny) continue;
             int k = field->first[(size_t)j * (size_t)field->nx + (size_t)i] - 1;
             for (; k >= 0; k = field->next[k] - 1) {
@@ -51,11 +51,11 @@ static void put(Field* field, int k, double x, double y)
 }
 
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
-                         const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
-                         int* count)
+                         const float* weight, int wx, int wy, uint64_t seed, float* root,
+                         int max_count, int* count)
 {
-    if (!root || !count || most < 1 || *count < 0 || *count > most || !(x1 > x0) || !(y1 > y0) ||
-        !(density > 0.0))
+    if (!root || !count || max_count < 1 || *count < 0 || *count > max_count || !(x1 > x0) ||
+        !(y1 > y0) || !(density > 0.0))
         return DP_BAD_ARGUMENT;
     if (!(fabs(x0) < 1e7 && fabs(y0) < 1e7 && x1 < 1e7 && y1 < 1e7 && density < 1e9))
         return DP_BAD_ARGUMENT;
@@ -69,10 +69,10 @@ DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double dens
     // what is wanted of a fraction of a plant is left to chance
     const int    given = *count;
     const double wanted = floor(area * density * mean + dp_plant_hash(seed, 0, 3));
-    const int    goal = wanted < most - given ? given + (int)wanted : most;
+    const int    goal = wanted < max_count - given ? given + (int)wanted : max_count;
     if (goal == given) return DP_OK;
 
-    Field field = {.x0 = x0, .y0 = y0, .cell = fmax(apart, sqrt(area / (4.0 * most + 64.0)))};
+    Field field = {.x0 = x0, .y0 = y0, .cell = fmax(apart, sqrt(area / (4.0 * max_count + 64.0)))};
     field.cell = fmax(field.cell, fmax(x1 - x0, y1 - y0) / 30000.0);
     field.nx = (int)((x1 - x0) / field.cell) + 1, field.ny = (int)((y1 - y0) / field.cell) + 1;
     field.first = dp_alloc((size_t)field.nx * (size_t)field.ny, sizeof(int));

@@ -13,7 +13,7 @@
 #include "plants/plant_collide.h"
 
 #define ROW_PASSES 4
-#define SWEPT_MOST 16    // soles; where more are near, every particle is looked at
+#define MAX_SWEPT 16     // soles; where more are near, every particle is looked at
 #define LAST_WORD 1.04f  // of the rest length, when a stem is gone through
 
 static DpVec3 world(const PlantBlock* block, double x, double y, double z)
@@ -44,30 +44,30 @@ static void rub(const DpPlantCollider* c, DpVec3* p, DpVec3 before, double pushe
     p->x -= share * slip.x, p->y -= share * slip.y;
 }
 
-// a place no farther than `most` from the particle below, clear of everything
-static DpVec3 settle(const PlantProbe* probe, DpVec3 p, DpVec3 below, double most)
+// a place no farther than `max` from the particle below, clear of everything
+static DpVec3 settle(const PlantProbe* probe, DpVec3 p, DpVec3 below, double max)
 {
     const DpPlantCollider* by = NULL;
     for (int pass = 0; pass < 4; ++pass) {
         const DpVec3 arm = dp_sub(p, below);
         const double length = dp_length(arm);
-        if (length > most) p = dp_add(below, dp_scale(arm, most / length));
+        if (length > max) p = dp_add(below, dp_scale(arm, max / length));
         const DpVec3 was = p;
         dp_plant_clear(probe, &p, &by);
         if (dp_length(dp_sub(p, was)) <= 0.0) return p;
-        if (dp_length(dp_sub(p, below)) <= most * (double)(DP_STRETCH_MOST / LAST_WORD)) return p;
+        if (dp_length(dp_sub(p, below)) <= max * (double)(DP_MAX_STRETCH / LAST_WORD)) return p;
     }
     // halfway, and again: beside the particle below there is room
     for (double share = 0.5; share > 0.01; share *= 0.5) {
         DpVec3 q = dp_add(below, dp_scale(dp_sub(p, below), share));
         dp_plant_clear(probe, &q, &by);
-        if (dp_length(dp_sub(q, below)) <= most) return q;
+        if (dp_length(dp_sub(q, below)) <= max) return q;
     }
     return below;
 }
 
 // one particle out of everything, taken along, near the one below
-static void push_one(const PlantProbe* probe, int k, DpVec3 before, DpVec3 below, double most,
+static void push_one(const PlantProbe* probe, int k, DpVec3 before, DpVec3 below, double max,
                      double h)
 {
     const DpPlantCollider* by = NULL;
@@ -80,13 +80,13 @@ static void push_one(const PlantProbe* probe, int k, DpVec3 before, DpVec3 below
         dp_plant_clear(&down, &p, &by);  // where it was taken to, the sole may be lower
     }
     const DpVec3 arm = dp_sub(p, below);
-    if (dp_dot(arm, arm) > most * most) p = settle(probe, p, below, most);
+    if (dp_dot(arm, arm) > max * max) p = settle(probe, p, below, max);
     put(probe->block, k, p);
 }
 
 // a particle goes with its neighbour in the row when it would be torn from it: the more it leans
 // like that one, the nearer they are
-static bool keep_up(const PlantProbe* probe, int own, int other, double apart, double most)
+static bool keep_up(const PlantProbe* probe, int own, int other, double apart, double max)
 {
     const PlantBlock* block = probe->block;
     const DpVec3      p = get(block, own), to = get(block, other), gap = dp_sub(p, to);
@@ -105,8 +105,8 @@ static bool keep_up(const PlantProbe* probe, int own, int other, double apart, d
     const DpVec3 q = dp_add(dp_scale(p, 1.0 - high), dp_scale(like, high));
     PlantProbe   down = *probe;
     down.only_down = true;
-    put(block, own, settle(&down, q, below, most));
-    return dp_length(dp_sub(get(block, own), to)) > apart * (double)(DP_STRETCH_MOST / LAST_WORD);
+    put(block, own, settle(&down, q, below, max));
+    return dp_length(dp_sub(get(block, own), to)) > apart * (double)(DP_MAX_STRETCH / LAST_WORD);
 }
 
 // rest distance of two particles of a row, where their feet stand
@@ -121,7 +121,7 @@ static double rest_apart(const PlantStand* stand, const PlantBlock* block, int a
 }
 
 // a row of a sheet: from the stem that lies lowest to both sides; true if it is still torn
-static bool keep_row(const PlantStand* stand, const PlantProbe* probe, int first, double most)
+static bool keep_row(const PlantStand* stand, const PlantProbe* probe, int first, double max)
 {
     const int    rows = stand->shape.rows, columns = stand->shape.stems_a_sheet, l = probe->lane;
     const float* z = probe->block->state->at[2];
@@ -139,7 +139,7 @@ static bool keep_row(const PlantStand* stand, const PlantProbe* probe, int first
             const double near = (double)(LAST_WORD * stand->near);
             if (dp_dot(gap, gap) <= near * near) continue;
             const double apart = (double)LAST_WORD * rest_apart(stand, probe->block, own, other, l);
-            torn = keep_up(probe, k, n, apart, most) || torn;
+            torn = keep_up(probe, k, n, apart, max) || torn;
         }
     return torn;
 }
@@ -154,7 +154,7 @@ static bool row_is_torn(const PlantStand* stand, const PlantProbe* probe, int fi
         const DpVec3 gap =
             dp_sub(get(probe->block, a * DP_LANES + l), get(probe->block, b * DP_LANES + l));
         if (limp[a * DP_LANES] + limp[b * DP_LANES] > 0.0f) continue;
-        if (dp_length(gap) > (double)DP_STRETCH_MOST * rest_apart(stand, probe->block, a, b, l))
+        if (dp_length(gap) > (double)DP_MAX_STRETCH * rest_apart(stand, probe->block, a, b, l))
             return true;
     }
     return false;
@@ -225,7 +225,7 @@ static void look_at_row(const PlantStand* stand, const PlantBlock* block, int fi
                         const Swept* swept, int count, const float* low, int32_t* due)
 {
     const int   rows = stand->shape.rows, a_sheet = stand->shape.stems_a_sheet;
-    const float most = LAST_WORD * stand->gap * (1.0f - 1e-5f);
+    const float max = LAST_WORD * stand->gap * (1.0f - 1e-5f);
     const float near = LAST_WORD * stand->near * (1.0f - 1e-5f);
     for (int l = 0; l < DP_LANES; ++l) due[l] = 0;
     for (int c = 0; c < a_sheet; ++c) {
@@ -236,7 +236,7 @@ static void look_at_row(const PlantStand* stand, const PlantBlock* block, int fi
         for (int l = 0; l < DP_LANES; ++l) {
             const float dx = x[l] - x[l - DP_LANES], dy = y[l] - y[l - DP_LANES];
             const float dz = z[l] - z[l - DP_LANES];
-            const int   far = dx * dx + dy * dy + dz * dz > most * most;
+            const int   far = dx * dx + dy * dy + dz * dz > max * max;
             due[l] |= (far | (z[l] <= low[l])) ? bit : 0;
         }
         for (int n = 0; n < count; ++n) {
@@ -262,18 +262,17 @@ static void push_row(const PlantStand* stand, PlantBlock* block, const PlantProb
 {
     const DpPlantShape shape = stand->shape;
     const int          size = shape.particles * DP_LANES, l = probe->lane;
-    const double       most = (double)(LAST_WORD * stand->gap);
+    const double       max = (double)(LAST_WORD * stand->gap);
     for (int c = 0; c < shape.stems_a_sheet; ++c) {
         if (!(due & stem_bit(c))) continue;
         const int    k = (first + c * shape.rows) * DP_LANES + l;
         const DpVec3 old =
             world(block, (double)before[k], (double)before[size + k], (double)before[2 * size + k]);
-        push_one(probe, k, old, get(block, k - DP_LANES), most, h);
+        push_one(probe, k, old, get(block, k - DP_LANES), max, h);
     }
     // who had to go down on the way is the lowest now, and the others follow
     bool torn = true;
-    for (int pass = 0; torn && pass < ROW_PASSES; ++pass)
-        torn = keep_row(stand, probe, first, most);
+    for (int pass = 0; torn && pass < ROW_PASSES; ++pass) torn = keep_row(stand, probe, first, max);
     if (torn) shrink_row(stand, probe, first);
 }
 
@@ -283,12 +282,12 @@ void dp_plant_push_block(const PlantStand* stand, PlantBlock* block, const Plant
 {
     const DpPlantShape shape = stand->shape;
     const bool         last = !(left > 0.5 * h);
-    Swept              swept[SWEPT_MOST];
+    Swept              swept[MAX_SWEPT];
     float              low[DP_LANES];
     int32_t            due[DP_LANES];
-    const bool         few = count <= SWEPT_MOST;
-    const int          ways = few ? sweep_block(stand, block, push, count, swept) : 0;
-    if (few && ways == 0 && !last) return;  // nothing to meet until the ground is asked for
+    const bool         few = count <= MAX_SWEPT;
+    const int          met = few ? sweep_block(stand, block, push, count, swept) : 0;
+    if (few && met == 0 && !last) return;  // nothing to meet until the ground is asked for
     for (int l = 0; l < DP_LANES; ++l) {
         low[l] = !few ? INFINITY : -INFINITY;
         if (few && last) low[l] = (float)((double)block->ceiling[l] - block->origin[2]) + 1e-5f;
@@ -296,7 +295,7 @@ void dp_plant_push_block(const PlantStand* stand, PlantBlock* block, const Plant
     for (int sheet = 0; sheet < shape.stems; sheet += shape.stems_a_sheet)
         for (int r = DP_PLANT_HELD; r < shape.rows; ++r) {
             const int first = sheet * shape.rows + r;
-            look_at_row(stand, block, first, swept, ways, low, due);
+            look_at_row(stand, block, first, swept, met, low, due);
             for (int l = 0; l < block->count; ++l) {
                 if (!due[l] || !block->touched_lane[l]) continue;
                 const PlantProbe probe = {push, count, ground, block, l, (double)stand->kind.radius,
@@ -313,7 +312,7 @@ void dp_plant_hold_block(const PlantStand* stand, PlantBlock* block, const Plant
     for (int l = 0; l < DP_LANES; ++l) {
         const bool known = dp_plant_ground_lane(stand, block, ground, l);
         dp_plant_ask_ceiling(stand, block, ground, l);
-        block->told_lane[l] = known;
+        block->ground_known[l] = known;
         if (!known && !block->touched_lane[l]) continue;  // it stands as it stood
         const PlantProbe probe = {push, count, ground, block, l, 0.0, 0.0, false};
         for (int stem = 0; stem < shape.stems; ++stem) {

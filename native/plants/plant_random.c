@@ -18,11 +18,11 @@ double dp_plant_hash(uint64_t seed, uint64_t a, uint64_t b)
 
 double dp_plant_vigour(uint64_t seed, uint64_t a, uint64_t b)
 {
-    const double most = 8.0, least = 1e-12;
+    const double max = 8.0, min = 1e-12;
     const double t =
-        -log((dp_plant_hash(seed, a, 3 * b) + least) *
-             (dp_plant_hash(seed, a, 3 * b + 1) + least));  // sum of two exponential ones
-    const double z = fmin(fmax(t, 0.0) * t / sqrt(120.0), most);
+        -log((dp_plant_hash(seed, a, 3 * b) + min) *
+             (dp_plant_hash(seed, a, 3 * b + 1) + min));  // sum of two exponential ones
+    const double z = fmin(fmax(t, 0.0) * t / sqrt(120.0), max);
     return dp_plant_hash(seed, a, 3 * b + 2) < 0.5 ? -z : z;
 }
 

@@ -68,7 +68,7 @@ static void rest_block(DpPlants* plants, const PlantStand* stand, PlantBlock* bl
         const double   grown = dp_plant_regrow(&stand->kind, alpha, seconds);
         const double   chance = (grown - alpha) / (1.0 - alpha);
         const uint64_t name = dp_plant_name(block->root[0][l], block->root[1][l]);
-        regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->rests, name);
+        regrow_plant(stand, block, l, chance, plants->seed + 77u * plants->advances, name);
     }
     dp_plant_count_broken(stand, block);
     block->broke = 0;
@@ -80,7 +80,7 @@ DpStatus dp_plants_advance_time(DpPlants* plants, double seconds)
     float* cover = cover_before(plants);
     if (!cover) return DP_NO_MEMORY;
     const float* here = cover;
-    ++plants->rests;
+    ++plants->advances;
     for (int s = 0; s < plants->stands; ++s) {
         PlantStand* stand = &plants->stand[s];
         for (int b = 0; b < stand->blocks; ++b, here += DP_LANES)

@@ -61,10 +61,10 @@ DpStatus dp_plants_follow(DpPlants* plants, const DpPlantGround* ground)
 
 double dp_plants_extent(const DpPlants* plants)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int s = 0; s < plants->stands; ++s)
-        most = fmax(most, (double)plants->stand[s].extent + (double)plants->stand[s].kind.radius);
-    return most;
+        max = fmax(max, (double)plants->stand[s].extent + (double)plants->stand[s].kind.radius);
+    return max;
 }
 
 double dp_plants_height(const DpPlants* plants)
@@ -76,10 +76,10 @@ double dp_plants_height(const DpPlants* plants)
 
 double dp_plants_root_radius(const DpPlants* plants)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int s = 0; s < plants->stands; ++s)
-        most = fmax(most, (double)plants->stand[s].kind.root_radius);
-    return most;
+        max = fmax(max, (double)plants->stand[s].kind.root_radius);
+    return max;
 }
 
 DpStatus dp_plants_slope(DpPlants* plants, int name, const float* slope)

@@ -45,16 +45,16 @@ static void rest_shape(PlantStand* stand)
                 if (far > (double)stand->extent) stand->extent = (float)far;
                 stand->aside = fmaxf(stand->aside, (float)sqrt(x * x + y * y));
                 const double lean = dx != 0.0 || dy != 0.0 ? (double)kind->curl * r : 0.0;
-                const double most = lean < 0.9 * PI ? lean : 0.9 * PI;  // no stem rolls up
-                x += (double)stand->gap * sin(most) * dx;
-                y += (double)stand->gap * sin(most) * dy;
-                z += (double)stand->gap * cos(most);
+                const double angle = lean < 0.9 * PI ? lean : 0.9 * PI;  // no stem rolls up
+                x += (double)stand->gap * sin(angle) * dx;
+                y += (double)stand->gap * sin(angle) * dy;
+                z += (double)stand->gap * cos(angle);
                 if (r > 0 && z < 0.0) z = 0.0;
             }
         }
     // a stem as long as it is may lie down
-    const float reach = kind->height + 0.5f * fmaxf(kind->width, kind->depth);
-    stand->extent = fmaxf(stand->extent, 1.06f * reach);
+    const float span = kind->height + 0.5f * fmaxf(kind->width, kind->depth);
+    stand->extent = fmaxf(stand->extent, 1.06f * span);
     for (int b = 0; b < shape.bends; ++b) {
         const int    stem = b / (shape.rows - 2), row = b % (shape.rows - 2);
         const float* at = stand->rest + 3 * (stem * shape.rows + row);

@@ -144,9 +144,9 @@ DP_CLONES
 static void prepare(const PlantStand* stand, const PlantBlock* block, float* give, double h)
 {
     const float  alpha = (float)(1.0 / ((double)stand->bend_rate * h * h));
-    const double most = 1.0;
+    const double max = 1.0;
     float        inverse[DP_LANES];
-    for (int l = 0; l < DP_LANES; ++l) inverse[l] = (float)(most / block->reserve[l]);
+    for (int l = 0; l < DP_LANES; ++l) inverse[l] = (float)(max / block->reserve[l]);
     const int a_stem = stand->shape.rows - 2;
     for (int b = 0; b < stand->shape.bends; ++b) {
         const int     row = b % a_stem;
@@ -248,15 +248,15 @@ INLINE float shorten_rows(const PlantStand* stand, PlantBlock* block, const floa
             x[b + l] -= back * dx, y[b + l] -= back * dy, z[b + l] -= back * dz;
         }
     }
-    float most = 0.0f;
-    for (int l = 0; l < DP_LANES; ++l) most = longest[l] > most ? longest[l] : most;
-    return most;
+    float max = 0.0f;
+    for (int l = 0; l < DP_LANES; ++l) max = longest[l] > max ? longest[l] : max;
+    return max;
 }
 
 // from the foot upward, no stem is longer than it may be
 INLINE void shorten_stems(const PlantStand* stand, PlantBlock* block)
 {
-    const float most = DP_STRETCH_MOST * stand->gap;
+    const float max = DP_MAX_STRETCH * stand->gap;
     for (int p = 0; p < stand->shape.particles; ++p) {
         if (p % stand->shape.rows < DP_PLANT_HELD) continue;
         float *x = block->state->at[0] + p * DP_LANES, *y = block->state->at[1] + p * DP_LANES;
@@ -265,7 +265,7 @@ INLINE void shorten_stems(const PlantStand* stand, PlantBlock* block)
         {
             const float dx = x[l] - x[l - DP_LANES], dy = y[l] - y[l - DP_LANES];
             const float dz = z[l] - z[l - DP_LANES];
-            const float over = 1.0f - most / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
+            const float over = 1.0f - max / sqrtf(dx * dx + dy * dy + dz * dz + TINY);
             const float back = over > 0.0f ? over : 0.0f;
             x[l] -= back * dx, y[l] -= back * dy, z[l] -= back * dz;
         }
@@ -282,11 +282,11 @@ static void shorten(const PlantStand* stand, PlantBlock* block, const float* len
     for (int pass = 0; pass < LAST_PASSES; ++pass) {
         if (pass > 0 || longest > BEYOND) longest = shorten_rows(stand, block, length, open);
         shorten_stems(stand, block);
-        if (!(longest > DP_STRETCH_MOST)) return;
+        if (!(longest > DP_MAX_STRETCH)) return;
     }
 }
 
-// speeds are what was gone in h; nothing in grass is faster than DP_SPEED_MOST
+// speeds are what was gone in h; nothing in grass is faster than DP_MAX_SPEED
 DP_CLONES
 static float speeds_of(const PlantStand* stand, PlantBlock* block, const float* before, double h)
 {
@@ -303,16 +303,16 @@ static float speeds_of(const PlantStand* stand, PlantBlock* block, const float* 
             LANES
             {
                 float v = rate * (at[l] - was[l]);
-                v = v > DP_SPEED_MOST ? DP_SPEED_MOST : v;
-                v = v < -DP_SPEED_MOST ? -DP_SPEED_MOST : v;
+                v = v > DP_MAX_SPEED ? DP_MAX_SPEED : v;
+                v = v < -DP_MAX_SPEED ? -DP_MAX_SPEED : v;
                 speed[l] = v;
                 fastest[l] = v * v > fastest[l] ? v * v : fastest[l];
             }
         }
     }
-    float most = 0.0f;
-    for (int l = 0; l < DP_LANES; ++l) most = fastest[l] > most ? fastest[l] : most;
-    return most;
+    float max = 0.0f;
+    for (int l = 0; l < DP_LANES; ++l) max = fastest[l] > max ? fastest[l] : max;
+    return max;
 }
 
 // ---- the door of this file: loaders pick the build of static functions only

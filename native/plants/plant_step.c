@@ -1,4 +1,4 @@
-// plants/plant_step.c - one step of the meadow: who wakes, who moves, who may sleep again.
+// plants/plant_step.c - one step of all plants: who wakes, who moves, who may sleep again.
 //
 // Cost follows the walkers: of a sleeping block only the box of its roots is looked at. Blocks do
 // not touch each other, so any number of workers gives the same plants.
@@ -89,13 +89,13 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt
     }
     for (int s = 0; s < plants->stands; ++s) {
         PlantStand* stand = &plants->stand[s];
-        const float reach = 1.0001f * (float)dp_plant_span(stand) + 1e-4f;
-        const float x0 = (float)all.x0 - reach, x1 = (float)all.x1 + reach;
-        const float y0 = (float)all.y0 - reach, y1 = (float)all.y1 + reach;
+        const float span = 1.0001f * (float)dp_plant_span(stand) + 1e-4f;
+        const float x0 = (float)all.x0 - span, x1 = (float)all.x1 + span;
+        const float y0 = (float)all.y0 - span, y1 = (float)all.y1 + span;
         for (int b = 0; b < stand->blocks; ++b) {
             const float* box = stand->box + 4 * b;
             const bool   near = count > 0 && box[0] < x1 && box[2] > x0 && box[1] < y1 &&
-                              box[3] > y0 && dp_plant_meets_any(box, push, count, (double)reach);
+                              box[3] > y0 && dp_plant_meets_any(box, push, count, (double)span);
             if (!near && !stand->up[b]) continue;
             PlantBlock* block = &stand->block[b];
             if (!near)
@@ -138,37 +138,37 @@ static bool prepare_sides(DpPlants* plants, PlantPush* push, int count)
 }
 
 // one more box where cover may have changed: those that meet become one, and some if there are many
-static void tell_change(DpPlantsReport* told, DpPlantBox box)
+static void report_change(DpPlantsReport* report, DpPlantBox box)
 {
-    for (int k = 0; k < told->changes;) {
-        const DpPlantBox at = told->box[k];
+    for (int k = 0; k < report->changes;) {
+        const DpPlantBox at = report->box[k];
         const bool meet = at.x0 <= box.x1 && box.x0 <= at.x1 && at.y0 <= box.y1 && box.y0 <= at.y1;
-        if (!meet && told->changes < DP_PLANT_BOXES) {
+        if (!meet && report->changes < DP_PLANT_BOXES) {
             ++k;
             continue;
         }
         box = (DpPlantBox){fmin(at.x0, box.x0), fmin(at.y0, box.y0), fmax(at.x1, box.x1),
                            fmax(at.y1, box.y1)};
-        told->box[k] = told->box[--told->changes];
+        report->box[k] = report->box[--report->changes];
         k = 0;
     }
-    told->box[told->changes++] = box;
+    report->box[report->changes++] = box;
 }
 
 // what happened, and who may sleep; in the order of the blocks
-static void tell(DpPlants* plants, int tasks, DpPlantsReport* told)
+static void report_step(DpPlants* plants, int tasks, DpPlantsReport* report)
 {
     for (int t = 0; t < tasks; ++t) {
         PlantStand* stand = plants->task[t].stand;
         PlantBlock* block = plants->task[t].block;
         const int   b = (int)(block - stand->block);
-        told->awake += block->count;
-        told->broke += block->broke;
+        report->awake += block->count;
+        report->broke += block->broke;
         if (block->changed) {
             const float* box = stand->box + 4 * b;
-            const double reach = (double)stand->kind.root_radius;
-            tell_change(told, (DpPlantBox){(double)box[0] - reach, (double)box[1] - reach,
-                                           (double)box[2] + reach, (double)box[3] + reach});
+            const double span = (double)stand->kind.root_radius;
+            report_change(report, (DpPlantBox){(double)box[0] - span, (double)box[1] - span,
+                                               (double)box[2] + span, (double)box[3] + span});
         }
         if (block->quiet * (double)stand->kind.sway < QUIET) continue;
         dp_plant_put_to_sleep(plants, stand, block);
@@ -178,13 +178,13 @@ static void tell(DpPlants* plants, int tasks, DpPlantsReport* told)
 
 DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
-                        DpPlantsReport* told)
+                        DpPlantsReport* report)
 {
-    if (!plants || !told || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
+    if (!plants || !report || count < 0 || (count > 0 && !colliders)) return DP_BAD_ARGUMENT;
     if (!(dt > 0.0 && dt < 1e6) || !dp_plant_ground_ok(ground)) return DP_BAD_ARGUMENT;
     for (int k = 0; k < count; ++k)
         if (!dp_plant_collider_ok(&colliders[k])) return DP_BAD_ARGUMENT;
-    memset(told, 0, sizeof *told);
+    memset(report, 0, sizeof *report);
     Step step = {.plants = plants, .ground = ground, .dt = dt};
     step.push = dp_alloc((size_t)count + 1, sizeof(PlantPush));
     if (!step.push) return DP_NO_MEMORY;
@@ -193,7 +193,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
         if (dp_plant_sweep(&step.push[step.pushes], dt)) ++step.pushes;
     }
     const double wanted = ceil(dt / DP_SUBSTEP - 1e-9);
-    step.steps = wanted < 1.0 ? 1 : wanted > DP_SUBSTEPS_MOST ? DP_SUBSTEPS_MOST : (int)wanted;
+    step.steps = wanted < 1.0 ? 1 : wanted > DP_MAX_SUBSTEPS ? DP_MAX_SUBSTEPS : (int)wanted;
 
     const int tasks = call_up(plants, step.push, step.pushes, dt);
     workers = workers < 1 ? 1 : workers > 64 ? 64 : workers;
@@ -210,7 +210,7 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
         room && make_room(&plants->scratch, &plants->scratch_room, step.scratch * (size_t)workers);
     if (room && tasks > 0) dp_parallel_for(tasks, workers, live, &step);
     if (room) plants->now += dt;
-    if (room) tell(plants, tasks, told);
+    if (room) report_step(plants, tasks, report);
     dp_free(step.push);
     return room ? DP_OK : DP_NO_MEMORY;
 }

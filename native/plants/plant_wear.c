@@ -40,9 +40,9 @@ static void wear_bend(const float* const at[3], int p, double wears, double brea
         const double dot = ax * bx + ay * by + az * bz;
         const double size = sqrt((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
         const double was = strength[l];
-        const double worn = was - loss > 0.0 ? was - loss : 0.0;                  // TRAIL (6)
-        const double rested = was + gain < reserve[l] ? was + gain : reserve[l];  // TRAIL (6)
-        double       now = dot <= wears * size && size > 0.0 ? worn : rested;
+        const double worn = was - loss > 0.0 ? was - loss : 0.0;                     // TRAIL (6)
+        const double recovered = was + gain < reserve[l] ? was + gain : reserve[l];  // TRAIL (6)
+        double       now = dot <= wears * size && size > 0.0 ? worn : recovered;
         now = dot < breaks * size ? 0.0 : now;  // TRAIL (6)
         now = limp[l] > 0.0f ? was : now;
         strength[l] = was > 0.0 ? now : 0.0;

@@ -81,7 +81,7 @@ DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* r
 DpStatus     dp_plants_slope(DpPlants* plants, int stand, const float* slope);
 int          dp_plants_count(const DpPlants* plants, int stand);  // stand < 0: of all stands
 DpPlantShape dp_plants_shape(const DpPlants* plants, int stand);  // of a stand that is there
-// How far a plant can reach from its root, with its leaves and with its roots; of all stands [m].
+// How far from its root a plant's leaves and its roots can be, of all stands [m].
 double dp_plants_extent(const DpPlants* plants);
 double dp_plants_root_radius(const DpPlants* plants);
 
@@ -101,8 +101,8 @@ typedef struct DpPlantGround
     bool rose;  // soil has come to rest, and may have risen over what lies there
 } DpPlantGround;
 
-// What pushes plants: the underside of a part, or a capsule when bottom is NULL. Where it stands is
-// told for the end of the step; during the step it moves there with `velocity`.
+// What pushes plants: the underside of a part, or a capsule when bottom is NULL. It stands there at
+// the end of the step; during the step it comes there with `velocity`.
 typedef struct DpPlantCollider
 {
     int          nx, ny, row;
@@ -138,7 +138,7 @@ typedef struct DpPlantsReport
 // The result is the same for any number of workers. dt > 0; no more than 64 sub-steps are taken.
 DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
                         const DpPlantCollider* colliders, int count, double dt, int workers,
-                        DpPlantsReport* told);
+                        DpPlantsReport* report);
 
 // Roots follow the ground: every plant asleep within its grids is set on its surface, those awake in
 // their step. Where `rose` says so, no particle stays below it.
@@ -187,12 +187,12 @@ typedef struct DpPlantWindow
 DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, DpCoverLaw law,
                          float* strength, float* modulus);
 
-// Poisson-disc placement in x0..x1, y0..y1: at most `most` roots (x, y) in `root` (most, 2),
+// Poisson-disc placement in x0..x1, y0..y1: at most `max_count` roots (x, y) in `root` (max_count, 2),
 // *count of them. What `root` holds before, *count roots of the ground around, stays and keeps its
 // distance. weight (wy, wx), 0..1, thins the density over the same rectangle; NULL = 1.
 DpStatus dp_plants_place(double x0, double y0, double x1, double y1, double density,
-                         const float* weight, int wx, int wy, uint64_t seed, float* root, int most,
-                         int* count);
+                         const float* weight, int wx, int wy, uint64_t seed, float* root,
+                         int max_count, int* count);
 
 // ---- for grass between the plants ---------------------------------------------------------------
 
