@@ -4,9 +4,10 @@
     python tests/golden/check.py flat walk  only these worlds
     python tests/golden/check.py --write    renew expected.json
 
-A change that alters results renews the file in the same commit, and that commit says why. Every world is computed by
-1, 2 and 5 workers, under both contact laws and both heap laws; `walk` is a recorded walk whose contacts and forces are
-found by every load model. worlds.py tells what the worlds hold.
+A change that alters results renews the file in the same commit, and that commit says why. Every world is computed
+under both contact laws and both heap laws by one worker, and by 2 or 5. `walk` is a recorded walk whose contacts and
+forces are found by every load model, and which is carried along a path and placed on a slope; `bake` is the same walk
+baked, in one go and broken off, frame by frame and pass by pass. worlds.py tells what the worlds hold.
 """
 
 from __future__ import annotations
@@ -26,13 +27,16 @@ sys.path[:0] = [str(ROOT / "addon"), str(HERE)]
 
 from worlds import worlds  # noqa: E402
 
-from desire_path import Gait, _native, maps, walker  # noqa: E402
+from desire_path import Bake, Gait, Ground, Planting, _native, place_feet  # noqa: E402
+from desire_path.ground import maps  # noqa: E402
+from desire_path.loads import walker  # noqa: E402
 
 EXPECTED = HERE / "expected.json"
-WORKERS = (1, 2, 5)
+WORKERS = (2, 5)
 LAWS, HEAPS = ("sole", "uniform"), ("rest", "paper")
 FIELDS = ("compression", "heap", "pressure_time", "rest", "young_modulus", "soil", "plant_strength", "height_change")
 LEAN = ("lean_x", "lean_y", "crushed")
+WALK = ROOT / "addon/desire_path/walks/walk.npz"
 DIGITS = 9  # of forces that are compared [-]
 
 
@@ -49,7 +53,9 @@ def digest(*arrays):
 
 
 def read_file(path):
+    """Digest of an EXR's planes and notes, but for the version that wrote it."""
     picture = maps.read(path)
+    picture.notes.pop("software", None)
     return digest(
         *(picture.planes[name] for name in sorted(picture.planes)),
         np.array([sorted(picture.planes)]),
@@ -116,8 +122,11 @@ def rounded(array):
 
 def recorded_walk():
     """Digests of contacts and forces of the walk that comes with the product, by every load model."""
-    gait = Gait.load(ROOT / "addon/desire_path/walks/walk.npz")
-    tilted = lambda xy: 0.05 * xy[:, 0] - 0.02 * xy[:, 1]
+    gait = Gait.load(WALK)
+
+    def tilted(xy):
+        return 0.05 * xy[:, 0] - 0.02 * xy[:, 1]
+
     found = {}
     for name, ground in (("flat", None), ("tilted", tilted)):
         touching, clearance = walker.contacts(gait, ground)
@@ -131,7 +140,67 @@ def recorded_walk():
                 "clearance": digest(rounded(loads.clearance)),
                 "warnings": repr(loads.warnings),
             }
+    hill = Ground.heights(np.add.outer(np.zeros(40), 0.01 * np.arange(80)), 0.1, -3.0, -2.0)
+    for name, moved in (("along", lane(gait)), ("placed", place_feet(gait, hill)), ("resampled", gait.resample(50.0))):
+        found[name] = {
+            "time": digest(rounded(moved.time)),
+            "com": digest(rounded(moved.com)),
+            "pose": digest(rounded(moved.pose)),
+            "cut": digest(moved.cut),
+        }
     return found
+
+
+def lane(gait):
+    """Two passes along a bend."""
+    return gait.along([(-1.0, 0.0), (1.0, 0.2), (2.0, 1.0)], 2, lateral=0.1, seed=4, pause=2.0)
+
+
+def baked():
+    """Digests of what bakes write; what workers and a break change is told as a difference."""
+    gait, found, told = Gait.load(WALK), {}, []
+    plants = [Planting("lawn", density=20.0, seed=3)]
+    for name, walk, options in (
+        ("frames", gait, {"frame_start": 20, "frame_end": 40, "soils": "soil", "plants": plants, "plant_mesh": True}),
+        ("passes", lane(gait), {"soils": "snow", "law": "uniform", "heap": "paper", "load_model": "impulse"}),
+    ):
+        by = [baked_files(walk, threads=1, **options), baked_files(walk, threads=2, broken=True, **options)]
+        found[name] = by[0]
+        told += [
+            f"bake, {name}, {file}: broken off and on two cores it is {by[1].get(file)}, else {by[0].get(file)}"
+            for file in sorted(set(by[0]) | set(by[1]))
+            if by[0].get(file) != by[1].get(file)
+        ]
+    return found, told
+
+
+def baked_files(gait, *, broken=False, **options):
+    """Bake, and digest every picture and the plants: {file: 16 letters}, frames as one. broken: off and on again."""
+    with tempfile.TemporaryDirectory() as folder:
+        if broken:
+            steps = Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **options).run()
+            for step in steps:
+                if step.fraction > 0.5:
+                    break
+            steps.close()
+        for _ in Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **options).run():
+            pass
+        files = {str(file.relative_to(folder)): file for file in sorted(Path(folder).rglob("*")) if file.is_file()}
+        found = {
+            name: read_file(file)
+            for name, file in files.items()
+            if file.suffix == ".exr" and not name.startswith("frames")
+        }
+        for kind in ("trail", "lean"):
+            frames = [
+                read_file(file)
+                for name, file in files.items()
+                if name.startswith(f"frames/{kind}_") and file.suffix == ".exr"
+            ]
+            found[f"{kind} frames"] = digest(np.array(frames, "U16"))
+        for name in {"plants.pc2"} & set(files):
+            found[name] = digest(np.frombuffer(files[name].read_bytes(), np.uint8))
+        return found
 
 
 def all_worlds(names=()):
@@ -144,17 +213,19 @@ def all_worlds(names=()):
         for law in LAWS:
             for heap in HEAPS:
                 case = f"{law} {heap}"
-                by = [compute(world, law, heap, threads) for threads in WORKERS]
-                found[name][case] = {"all": digest(np.array([sorted(by[0].items())])), **by[0]}
-                for threads, other in zip(WORKERS[1:], by[1:]):
-                    complaints += [
-                        f"{name}, {case}, {field}: {threads} workers compute {other.get(field)}, one "
-                        f"computes {by[0][field]}"
-                        for field in by[0]
-                        if other.get(field) != by[0][field]
-                    ]
+                many = WORKERS[(law == LAWS[0]) == (heap == HEAPS[0])]
+                alone, other = (compute(world, law, heap, threads) for threads in (1, many))
+                found[name][case] = {"all": digest(np.array([sorted(alone.items())])), **alone}
+                complaints += [
+                    f"{name}, {case}, {field}: {many} workers compute {other.get(field)}, one computes {alone[field]}"
+                    for field in alone
+                    if other.get(field) != alone[field]
+                ]
     if not names or "walk" in names:
         found["walk"] = recorded_walk()
+    if not names or "bake" in names:
+        found["bake"], told = baked()
+        complaints += told
     if not names or "bytes" in names:
         found["bytes"] = {"digest": {"of 1000 bytes": _native.digest(bytes(k % 251 for k in range(1000))).hex()[:32]}}
     return found, complaints
@@ -177,7 +248,7 @@ def compare(expected, found):
 
 def main(words=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("worlds", nargs="*", help="flat, hill, meadow, passes, walk, bytes; default: all")
+    parser.add_argument("worlds", nargs="*", help="flat, hill, meadow, passes, walk, bake, bytes; default: all")
     parser.add_argument("--write", action="store_true", help="renew expected.json")
     chosen = parser.parse_args(words)
     expected = json.loads(EXPECTED.read_text(encoding="utf-8")) if EXPECTED.exists() else {}

@@ -71,7 +71,7 @@ def walk(
     shift=0.0,
     turn=0.0,
 ):
-    """Two feet, each one limb of a heel and a toe, that walk `length` [m] from `start` along the unit vector `way`.
+    """Two feet, each one limb of two parts (heel and toe), that walk `length` [m] from `start` along a unit `way`.
 
     height: (x, y) -> z of the ground [m]. push: ahead and aside, shares of the weight.
     """
@@ -123,7 +123,10 @@ def together(*walks):
     """Several walkers of one length at once."""
     count = min(len(gait.time) for gait, _ in walks)
     cut = [(replace(g, time=g.time[:count], com=g.com[:, :count], pose=g.pose[:, :count]), loads) for g, loads in walks]
-    join = lambda name: np.concatenate([getattr(loads, name)[:, :count] for _, loads in cut])
+
+    def join(name):
+        return np.concatenate([getattr(loads, name)[:, :count] for _, loads in cut])
+
     return Gait.join([g for g, _ in cut]), SimpleNamespace(
         touching=join("touching"), force=join("force"), point=join("point"), warnings=(), held=None
     )
@@ -143,8 +146,12 @@ def _flat():
     both = together(slipping, held)
     both[1].held = np.concatenate([np.zeros(both[1].touching[:4].shape, bool), hold[:, : both[1].touching.shape[1]]])
     soils = {"rest": "dry-sand", "paper": "snow"}
-    make = lambda law, heap, threads: Simulation(Ground.flat(), soils[heap], 0.015, law=law, heap=heap, threads=threads)
-    return World(make, [both], (-64, -64, 192, 128), (-1, -1, 3, 2))
+    cells = {"rest": 0.0075, "paper": 0.015}  # a sole is sampled three and four times along a cell's side
+
+    def make(law, heap, threads):
+        return Simulation(Ground.flat(), soils[heap], cells[heap], law=law, heap=heap, threads=threads)
+
+    return World(make, [both], (-96, -96, 384, 256), (-2, -2, 7, 5))
 
 
 def _hill():
@@ -155,9 +162,10 @@ def _hill():
     weight = np.stack([1.0 - second, second, 1.5 * (x[None, :] > 40.6) + 0.0 * y[:, None]])
     ground = Ground.heights(heights, 0.05, 38.9, -8.0, kind_weight=weight)
     soils = [SOILS["dry-sand"], SOILS["mud"], SOILS["snow"]]
-    make = lambda law, heap, threads: Simulation(
-        ground, soils, 0.02, law=law, heap=heap, threads=threads, origin=(0.005, 0.003)
-    )
+
+    def make(law, heap, threads):
+        return Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads, origin=(0.005, 0.003))
+
     up = walk(1.6, height=slope, start=(39.3, -7.0), push=(0.3, 0.2), sink=0.005)
     return World(make, [up], (1940, -400, 152, 104), (30, -7, 3, 2))
 
@@ -177,10 +185,13 @@ def _meadow():
         ),
         Planting("meadow", density=20.0, seed=9, rectangle=(0.2, -0.3, 1.0, 0.4)),
     ]
-    make = lambda law, heap, threads: Simulation(
-        Ground.flat(3.2), "soft-soil", 0.02, law=law, heap=heap, threads=threads, plants=plants
-    )
-    lifted = lambda x, y: np.full(np.shape(x), 3.2)
+
+    def make(law, heap, threads):
+        return Simulation(Ground.flat(3.2), "soft-soil", 0.02, law=law, heap=heap, threads=threads, plants=plants)
+
+    def lifted(x, y):
+        return np.full(np.shape(x), 3.2)
+
     one, other = walk(0.8, height=lifted), walk(0.6, height=lifted, start=(0.8, 0.05), way=(-1.0, 0.0), shift=0.2)
     return World(make, [one, other], (-64, -64, 192, 128), (-1, -1, 3, 2), rest=3.0e6, shown=True)
 
@@ -201,10 +212,13 @@ def _passes():
     weight = np.stack([0.5 + 0.0 * at[:, 0], (at[:, 1] > 0.02) * 0.75])
     ground = Ground.mesh(at, faces, kind_weight=weight)
     plants = [Planting("moss", density=90.0, seed=2, rectangle=(-0.2, -0.3, 1.2, 0.3))]
-    make = lambda law, heap, threads: Simulation(
-        ground, ["wet-soil", "dry-soil"], 0.02, law=law, heap=heap, threads=threads, plants=plants
-    )
-    over = lambda x, y: 0.03 + 0.05 * (np.asarray(x) + 0.4) / 2.4
+
+    def make(law, heap, threads):
+        return Simulation(ground, ["wet-soil", "dry-soil"], 0.02, law=law, heap=heap, threads=threads, plants=plants)
+
+    def over(x, y):
+        return 0.03 + 0.05 * (np.asarray(x) + 0.4) / 2.4
+
     there = walk(0.9, height=over, start=(0.0, 0.0))
     back = walk(0.9, height=over, start=(1.1, 0.03), way=(-1.0, 0.0), shift=0.1, mass=55.0)
     return World(make, [there, back, there], (-64, -64, 192, 128), (-1, -1, 3, 2), rest=86400.0)
