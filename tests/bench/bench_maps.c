@@ -4,17 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "maps/maps.h"
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+#include "timing.h"
 
 static int compare(const void* a, const void* b)
 {
@@ -61,7 +54,7 @@ static double walk(int tiles, int trail, const char* stem, double* whole, long* 
     static float rgba[DP_TILE * DP_TILE * 4];
     double       took[COUNT];
     DpFrames*    frames;
-    const double start = seconds();
+    const double start = bench_now();
     if (dp_frames_create(&frames, tiles, tiles, RGBA, 4, NULL, 0) != DP_OK) exit(1);
     for (int k = 0; k < trail; ++k) {
         print_tile(rgba, 0.01 * k);
@@ -69,16 +62,16 @@ static double walk(int tiles, int trail, const char* stem, double* whole, long* 
     }
     snprintf(path, sizeof path, "%s.first", stem);
     dp_frames_write(frames, path, 0.0);
-    *whole = seconds() - start;
+    *whole = bench_now() - start;
     unlink(path);
     for (int k = 0; k < COUNT; ++k) {
         print_tile(rgba, 0.1 * k);
         snprintf(path, sizeof path, "%s.%d", stem, k);
-        const double from = seconds();
+        const double from = bench_now();
         dp_frames_set_tile(frames, k % tiles, (k / 4) % tiles, rgba, 0);
         dp_frames_set_tile(frames, (k + 1) % tiles, (k / 4) % tiles, rgba, 0);
         if (dp_frames_write(frames, path, k / 24.0) != DP_OK) exit(1);
-        took[k] = seconds() - from;
+        took[k] = bench_now() - from;
     }
     struct stat about;
     *size = stat(path, &about) == 0 ? (long)about.st_size : -1;
@@ -102,12 +95,13 @@ int main(int count, char** word)
     if (dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 0) != DP_OK) return 1;
     for (int k = 0; k < 100; ++k) {
         print_tile(rgba, 0.1 * k);
-        const double from = seconds();
+        const double from = bench_now();
         dp_frames_set_tile(frames, 0, 0, rgba, 0);
-        took[k] = seconds() - from;
+        took[k] = bench_now() - from;
     }
     dp_frames_destroy(frames);
     printf("one tile packed          %8.3f ms\n", 1e3 * median(took, 100));
+    bench_keep("maps", "one tile packed", median(took, 100));
 
     static const int sides[][2] = {{256, 4}, {1024, 4}, {1024, 40}, {1024, 256}};
     for (int s = 0; s < 4; ++s) {
@@ -117,6 +111,9 @@ int main(int count, char** word)
         printf(
             "%4d^2, %3d tiles walked  %8.3f ms a frame of two tiles, %8.3f ms whole, %ld bytes\n",
             sides[s][0], sides[s][1], 1e3 * frame, 1e3 * whole, size);
+        char what[64];
+        snprintf(what, sizeof what, "%d^2 %d tiles walked: a frame", sides[s][0], sides[s][1]);
+        bench_keep("maps", what, frame);
     }
 
     const int          n = 1024;
@@ -129,13 +126,17 @@ int main(int count, char** word)
             const double r = fabs((i - 512.0) / 100.0);
             grid[j * n + i] = r < 1.0 ? (float)(0.02 * (1.0 - r * r) * sin(0.05 * j)) : 0.0f;
         }
-    double from = seconds();
+    double from = bench_now();
     if (dp_maps_write(path, n, n, channels, 4, NULL, 0) != DP_OK) return 1;
-    printf("four maps of 1024^2      %8.3f ms to write", 1e3 * (seconds() - from));
+    const double wrote = bench_now() - from;
+    printf("four maps of 1024^2      %8.3f ms to write", 1e3 * wrote);
+    bench_keep("maps", "four maps of 1024^2: write", wrote);
     DpMapFile* map;
-    from = seconds();
+    from = bench_now();
     if (dp_maps_read(path, &map) != DP_OK) return 1;
-    printf(", %8.3f ms to read\n", 1e3 * (seconds() - from));
+    const double was_read = bench_now() - from;
+    printf(", %8.3f ms to read\n", 1e3 * was_read);
+    bench_keep("maps", "four maps of 1024^2: read", was_read);
     dp_map_file_destroy(map);
     unlink(path);
     free(grid);

@@ -4,22 +4,16 @@
 //
 // The walker has two feet of two parts and steps 0.7 m in half a second, at 60 frames a second, on
 // soil of 1 cm cells. First on bare ground, then among plants that are all asleep when it comes;
-// then back and forth over a lane of 0.5 m x 5 m with 200 plants, as often as told (500), on two
-// cores.
+// then back and forth over a lane of 0.5 m x 5 m with 200 plants, as often as told (500; 60 for a timing that is
+// kept), on two cores.
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "../native/sim/stride.h"
+#include "timing.h"
 
 #define RATE 60.0
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // by all threads of this process
 static double spent(void)
@@ -90,15 +84,16 @@ static double walk(int plants, const char* name)
     if (plants) plant(&world, plants, -10.0, -17.7, 25.4, 17.7);
     dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point);
     for (int f = 0; f < frames; ++f) {
-        const double start = now();
+        const double start = bench_now();
         dp_sim_run(world.sim, f + 1);
-        sum += t[f] = now() - start;
+        sum += t[f] = bench_now() - start;
         const int awake = dp_sim_report(world.sim).awake;
         most = awake > most ? awake : most;
     }
     qsort(t, (size_t)frames, sizeof *t, by_size);
     printf("%-34s %7.0f us a frame (median %.0f, worst %.0f), at most %d awake\n", name,
            1e6 * sum / frames, 1e6 * t[frames / 2], 1e6 * t[frames - 1], most);
+    bench_keep("meadow", name, sum / frames);
     dp_free(t);
     world_drop(&world);
     stride_drop(&s);
@@ -125,7 +120,7 @@ static void lane(int passes)
     World    world = world_make(2);
     unsigned state = 3;
     plant(&world, 200, 0.0, -0.25, 5.0, 0.25);
-    const double start = now(), worked = spent();
+    const double start = bench_now(), worked = spent();
     for (int k = 0; k < passes; ++k) {
         Stride s = stride_make(1, 7, 75.0, RATE);
         put_on_lane(&s, k % 2 == 1, &state);
@@ -134,17 +129,22 @@ static void lane(int passes)
         dp_sim_settle(world.sim);
         stride_drop(&s);
     }
-    const double took = now() - start;
+    const double took = bench_now() - start;
     printf(
         "a lane, %d plants, %d passes %16.1f s, %.0f ms a pass (%.1f s of work); %ld bends broke\n",
         world.grown, passes, took, 1e3 * took / passes, spent() - worked,
         dp_sim_report(world.sim).broke);
+    char what[64];
+    snprintf(what, sizeof what, "a lane of %d passes: a pass", passes);
+    bench_keep("meadow", what, took / passes);
     world_drop(&world);
 }
 
 int main(int argc, char** argv)
 {
-    const int    passes = argc > 1 && atoi(argv[1]) > 0 ? atoi(argv[1]) : 500;
+    const int    passes = argc > 1 && atoi(argv[1]) > 0 ? atoi(argv[1])
+                          : getenv("BENCH_KEEP")        ? 60
+                                                        : 500;
     const double bare = walk(0, "a walker on bare ground");
     const double grown = walk(100000, "the same among 100,000 plants");
     printf("%-34s %7.0f us a frame\n", "so plants cost", grown - bare);

@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "plants/plants.h"
+#include "timing.h"
 
 #define SIDE 31
 #define ROWS 7
@@ -19,13 +19,6 @@
 #define P (ROWS * STEMS)
 #define PLANTS 200
 #define SUBSTEPS 8
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // a boot of 30 x 10 cm over its window
 static float boot[SIDE * SIDE];
@@ -90,15 +83,16 @@ static void lawn(int frames, int with_boot, const char* name)
     for (int f = 0; f < frames; ++f) {
         if (f % 10 == 0) give_speeds(plants, count);
         const DpPlantCollider c = boot_at(0.4 + 0.01 * (f % 60), 0.8, 0.01, 0.6);
-        DpPlantsReport          told;
-        const double          start = now();
+        DpPlantsReport        told;
+        const double          start = bench_now();
         dp_plants_step(plants, NULL, &c, with_boot, 1.0 / 60.0, 1, &told);
-        t[f] = now() - start;
+        t[f] = bench_now() - start;
         awake = told.awake;
     }
     const double best = (qsort(t, (size_t)frames, sizeof *t, by_size), t[0]);
     printf("%-34s %7.0f us a frame (best %.0f), %d awake\n", name, 1e6 * median(t, frames),
            1e6 * best, awake);
+    bench_keep("plants", name, best);
     dp_free(t);
     dp_plants_destroy(plants);
 }
@@ -197,10 +191,10 @@ static void plain(int frames)
                     p[k].speed[c][d] =
                         c % ROWS < 2 ? 0.0f : (float)(seed >> 8) / 16777216.0f - 0.5f;
                 }
-        const double start = now();
+        const double start = bench_now();
         for (int k = 0; k < PLANTS; ++k)
             for (int s = 0; s < SUBSTEPS; ++s) plain_substep(&p[k], stick, n, 1.0f / 480.0f);
-        t[f] = now() - start;
+        t[f] = bench_now() - start;
     }
     for (int k = 0; k < PLANTS; ++k) sum += p[k].at[P - 1][2];
     const double best = (qsort(t, (size_t)frames, sizeof *t, by_size), t[0]);
@@ -212,9 +206,9 @@ static void plain(int frames)
 static void meadow(int frames)
 {
     int          count = 0, most = 0;
-    const double start = now();
+    const double start = bench_now();
     DpPlants*    plants = stand(100000, 80.0, 35.4, &count);
-    printf("%d plants placed and planted in %.0f ms, %.0f MB\n", count, 1e3 * (now() - start),
+    printf("%d plants placed and planted in %.0f ms, %.0f MB\n", count, 1e3 * (bench_now() - start),
            (double)dp_bytes_live() / 1048576.0);
     double* t = dp_alloc((size_t)frames, sizeof(double));
     for (int f = 0; f < frames; ++f) {
@@ -224,15 +218,16 @@ static void meadow(int frames)
         const double    x = 5.0 + 0.7 * stride;
         DpPlantCollider c = phase < 0.6 ? boot_at(x, 15.0, 0.0, 0.0)
                                         : boot_at(x + 0.7 * (phase - 0.6) / 0.4, 15.1, 0.06, 3.5);
-        DpPlantsReport    told;
-        const double    begin = now();
+        DpPlantsReport  told;
+        const double    begin = bench_now();
         dp_plants_step(plants, NULL, &c, 1, 1.0 / 60.0, 1, &told);
-        t[f] = now() - begin;
+        t[f] = bench_now() - begin;
         most = told.awake > most ? told.awake : most;
     }
     const double worst = (qsort(t, (size_t)frames, sizeof *t, by_size), t[frames - 1]);
     printf("%-34s %7.0f us a frame (worst %.0f), at most %d awake\n", "100,000 plants, one walker",
            1e6 * median(t, frames), 1e6 * worst, most);
+    bench_keep("plants", "100000 plants and one walker", median(t, frames));
     dp_free(t);
     dp_plants_destroy(plants);
 }

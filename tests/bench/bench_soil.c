@@ -14,24 +14,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "imprint/imprint.h"
 #include "soil/soil.h"
+#include "timing.h"
 
 #define FRAMES 36
 #define STANDING 16  // sweeps of a frame while the foot stands, as sim/sim_press.c; then to rest
 #define PI 3.14159265358979323846
 #define TENTH (0.1 * PI / 180.0)
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 typedef struct World
 {
@@ -132,20 +125,20 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
                               -75.0 * DP_GRAVITY * fmin(1.1, 7.0 * fmin(u, 1.0 - u))},
                              {0.2 * (u - 0.4), 0.0, 0.0},
                              {0.0, 0.0, 1.0}};
-        double       t0 = now();
+        double       t0 = bench_now();
         dp_imprint_foot(&w.imprint, &w.patch, &sole, &pose, 1, dp_imprint_samples(cell), rasters);
-        double t1 = now();
+        double t1 = bench_now();
         cost.imprint += t1 - t0;
         DpPressed pressed;
         dp_soil_compress(&w.patch, &w.imprint, &foot, DP_CONTACT_SOLE, 1.0 / 60, &pressed);
-        t0 = now();
+        t0 = bench_now();
         cost.compress += t0 - t1;
         dp_imprint_rings(&w.imprint, &w.patch, rings);
-        t1 = now();
+        t1 = bench_now();
         cost.rings += t1 - t0;
         dp_soil_accumulate(&w.patch, &w.imprint, &foot, pressed.displaced, &options, &height,
                            scratch);
-        t0 = now();
+        t0 = bench_now();
         cost.accumulate += t0 - t1;
         // where soil lies: the sole and what a heap of height T reaches
         const int wide =
@@ -154,10 +147,10 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         if (w.imprint.i1 + wide > reach[1]) reach[1] = w.imprint.i1 + wide;
         if (w.imprint.j0 - wide < reach[2]) reach[2] = w.imprint.j0 - wide;
         if (w.imprint.j1 + wide > reach[3]) reach[3] = w.imprint.j1 + wide;
-        t0 = now();
+        t0 = bench_now();
         DpSettled settled;
         dp_soil_stabilize(&w.patch, &w.imprint, reach, TENTH, STANDING, scratch, &settled);
-        cost.stabilize += now() - t0;
+        cost.stabilize += bench_now() - t0;
         cost.sweeps += settled.sweeps;
         if (settled.i0 < settled.i1) {
             if (settled.i0 < reach[0]) reach[0] = settled.i0;
@@ -167,9 +160,9 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         }
     }
     DpSettled    settled;
-    const double t0 = now();
+    const double t0 = bench_now();
     dp_soil_stabilize(&w.patch, NULL, reach, TENTH, 100000, scratch, &settled);
-    cost.liftoff = now() - t0;
+    cost.liftoff = bench_now() - t0;
     cost.lift_sweeps = settled.sweeps;
     for (int k = 0; k < w.patch.nx * w.patch.ny; ++k) {
         cost.depth = fmax(cost.depth, (double)w.compression[k]);
@@ -238,12 +231,12 @@ static void compare(double degrees)
             float*         next = dp_alloc(61 * 43, 4);
             DpSoilScratch* scratch = dp_soil_scratch_create();
             DpSettled      settled = {0};
-            const double   t0 = now();
+            const double   t0 = bench_now();
             if (m == 0)
                 dp_soil_stabilize(&w.patch, NULL, NULL, 1e-6, SWEEPS, scratch, &settled);
             else
                 for (int k = 0; k < SWEEPS; ++k) plain_sweep(&w, share, next);
-            const double spent = (now() - t0) / (m == 0 ? settled.sweeps : SWEEPS);
+            const double spent = (bench_now() - t0) / (m == 0 ? settled.sweeps : SWEEPS);
             if (m == 0) made = settled.sweeps;
             if (spent < best[m]) best[m] = spent;
             dp_soil_scratch_destroy(scratch);
@@ -254,6 +247,24 @@ static void compare(double degrees)
         "one sweep of 61 x 43 cells, all loose, %2.0f deg: %5.1f us (of %d), plain loop %5.1f us: "
         "%.1f times\n",
         degrees, best[0] * 1e6, made, best[1] * 1e6, best[1] / best[0]);
+}
+
+// the parts of a print that are not too small to tell
+static void keep(int law, double cell, double degrees, const Cost* cost)
+{
+    const struct
+    {
+        const char* name;
+        double      took;
+    } part[] = {{"whole", total(*cost)},        {"imprint", cost->imprint},
+                {"compress", cost->compress},   {"accumulate", cost->accumulate},
+                {"stabilize", cost->stabilize}, {"lift-off", cost->liftoff}};
+    for (size_t k = 0; k < sizeof part / sizeof *part; ++k) {
+        char what[64];
+        snprintf(what, sizeof what, "%s heap %g mm %g deg: %s", law ? "paper" : "rest",
+                 1000.0 * cell, degrees, part[k].name);
+        if (part[k].took > 0.01 * total(*cost)) bench_keep("soil", what, part[k].took / FRAMES);
+    }
 }
 
 int main(int argc, char** argv)
@@ -282,6 +293,7 @@ int main(int argc, char** argv)
                     best.imprint * f, best.rings * f, best.compress * f, best.accumulate * f,
                     best.stabilize * f, best.liftoff * f, best.sweeps, best.lift_sweeps,
                     best.depth * 1000, best.rim * 1000, best.volume * 1000);
+                keep(law, cell, angles[a], &best);
             }
     compare(32.0);
     compare(8.0);

@@ -4,27 +4,20 @@
 //   cmake -S native -B build && cmake --build build --target bench_terrain && build/bench_terrain
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "imprint/imprint.h"
 #include "terrain/terrain.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "timing.h"
 
 #define BEST_OF(best, runs, each, work)                        \
     do {                                                       \
         best = INFINITY;                                       \
         for (int run_ = 0; run_ < (runs); ++run_) {            \
-            const double from_ = now();                        \
+            const double from_ = bench_now();                  \
             for (int each_ = 0; each_ < (each); ++each_) work; \
-            best = fmin(best, (now() - from_) / (each));       \
+            best = fmin(best, (bench_now() - from_) / (each)); \
         }                                                      \
     } while (0)
 
@@ -62,7 +55,7 @@ static void bench_imprint(void)
     DpSoilPatch    patch = {0};
     patch.nx = patch.row = NX, patch.ny = NY, patch.cell = 0.01;
     patch.x0 = -0.315, patch.y0 = -0.235;
-    DpImprint         imprint = {bottom, cover, ring, 0, 0, 0, 0};
+    DpImprint         imprint = {.bottom = bottom, .cover = cover, .ring = ring};
     DpImprintScratch* scratch = dp_imprint_scratch_create();
     const int         sizes[][2] = {{10, 10}, {50, 30}};
     for (int n = 0; n < 2; ++n) {
@@ -74,6 +67,10 @@ static void bench_imprint(void)
                     dp_imprint_foot(&imprint, &patch, &mesh, &pose, 1, samples, scratch));
             printf("imprint  %5d triangles, 1 cm, %d x %d samples  %8.2f us\n", mesh.triangle_count,
                    samples, samples, 1e6 * best);
+            char what[64];
+            snprintf(what, sizeof what, "imprint %d triangles %d samples", mesh.triangle_count,
+                     samples);
+            bench_keep("terrain", what, best);
         }
         dp_free((void*)mesh.vertex);
         dp_free((void*)mesh.triangle);
@@ -84,17 +81,18 @@ static void bench_imprint(void)
         dp_imprint_rings(&imprint, &patch, 12);
     });
     printf("rings    64 x 48 cells, 12 rings                  %8.2f us\n", 1e6 * best);
+    bench_keep("terrain", "rings", best);
     dp_imprint_scratch_destroy(scratch);
 }
 
 static DpTerrain* terrain_on(const DpGround* ground, double* seconds)
 {
-    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f};
+    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f, 0.0f};
     const DpTerrainOptions options = {0.01, 0.0, 0.0, &soil, 1, 1};
     DpTerrain*             terrain = NULL;
-    const double           from = now();
+    const double           from = bench_now();
     if (dp_terrain_create(&terrain, &options, ground) != DP_OK) printf("no terrain\n");
-    *seconds = now() - from;
+    *seconds = bench_now() - from;
     return terrain;
 }
 
@@ -107,10 +105,19 @@ static void bench_windows(void)
     DpSoilPatch*   patch;
     BEST_OF(best, 30, 200, dp_terrain_acquire(terrain, loan, 40, 104, 30, 78, &patch));
     printf("lend     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
+    bench_keep("terrain", "lend", best);
     BEST_OF(best, 30, 200, dp_terrain_commit(terrain, loan, 0, 64, 0, 48));
     printf("give     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
+    bench_keep("terrain", "give back", best);
     dp_lease_destroy(loan);
     dp_terrain_destroy(terrain);
+}
+
+static void keep_mesh(const DpGround* ground, const char* part, double seconds)
+{
+    char what[64];
+    snprintf(what, sizeof what, "mesh of %d: %s", ground->triangle_count, part);
+    bench_keep("terrain", what, seconds);
 }
 
 static void bench_mesh(int side, double size)
@@ -138,11 +145,13 @@ static void bench_mesh(int side, double size)
     printf("mesh     %7d triangles on %g m: built in    %8.1f ms, %.1f bytes a triangle\n",
            ground.triangle_count, size, 1e3 * seconds,
            (double)(dp_bytes_live() - before) / ground.triangle_count);
+    keep_mesh(&ground, "built", seconds);
     const long   middle = (long)(size / 0.02);
     static float cells[512 * 512];
     BEST_OF(best, 3, 1,
             dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, middle, middle, 512, 512, cells));
     printf("         one tile of heights, mean over 512 x 512 %8.1f us\n", 1e6 * best / 64.0);
+    keep_mesh(&ground, "a tile of heights", best / 64.0);
     enum
     {
         POINTS = 4096
@@ -152,8 +161,10 @@ static void bench_mesh(int side, double size)
         xy[2 * n] = 0.5 * size + 0.01 * (n % 64), xy[2 * n + 1] = 0.5 * size + 0.01 * (n / 64);
     BEST_OF(best, 5, 4, dp_terrain_base_height(terrain, POINTS, xy, height));
     printf("         one point                                %8.1f ns\n", 1e9 * best / POINTS);
+    keep_mesh(&ground, "a point", best / POINTS);
     BEST_OF(best, 5, 1000, dp_terrain_normal(terrain, 0.5 * size, 0.5 * size, 0.25));
     printf("         one normal                               %8.2f us\n", 1e6 * best);
+    keep_mesh(&ground, "a normal", best);
     dp_terrain_destroy(terrain);
     dp_free(vertex);
     dp_free(triangle);
