@@ -35,6 +35,10 @@ int      dp_frames_channels(const DpFrames* frames);
 // set from different threads at once; worker (0..63) picks the scratch memory.
 DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* value, int worker);
 
+// Add every file from now on, when it is there, to the list in this file, which is there already: a line
+// with its name, how many bytes it has, and their digest (base/digest.h). Before the first file.
+DpStatus dp_frames_list(DpFrames* frames, const char* path);
+
 // Write the whole picture from the packed tiles. `time` [s] goes into the header.
 DpStatus dp_frames_write(DpFrames* frames, const char* path, double time);
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/alloc.h"
+#include "base/digest.h"
 #include "maps/maps_exr.h"
 
 DpStatus dp_bytes_put(DpBytes* bytes, size_t offset, const void* from, size_t count)
@@ -73,4 +74,35 @@ DpStatus dp_file_save(const char* path, const void* data, size_t size)
     }
     dp_free(part);
     return status;
+}
+
+// ---- lists of files ------------------------------------------------------------------------------
+
+#define LONGEST_LINE 1024
+
+int dp_list_open(const char* path)
+{
+    return open(path, O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+}
+
+DpStatus dp_list_add(int list, const char* path, const void* data, size_t size)
+{
+    const char* slash = strrchr(path, '/');
+    const char* name = slash ? slash + 1 : path;
+    uint64_t    words[DP_DIGEST_WORDS];
+    dp_digest(data, size, words);
+    unsigned char byte[sizeof words];
+    memcpy(byte, words, sizeof words);
+    char line[LONGEST_LINE];
+    int  end = snprintf(line, sizeof line - 2 * sizeof byte - 1, "%s %zu:", name, size);
+    if (end < 0 || (size_t)end >= sizeof line - 2 * sizeof byte - 1) return DP_BAD_ARGUMENT;
+    for (size_t k = 0; k < sizeof byte; ++k, end += 2)
+        snprintf(line + end, sizeof line - (size_t)end, "%02x", byte[k]);
+    line[end++] = '\n';
+    return write_all(list, (const unsigned char*)line, (size_t)end);
+}
+
+void dp_list_close(int list)
+{
+    if (list >= 0) close(list);
 }

@@ -81,6 +81,21 @@ static PyObject* film_write_maps(PyObject* object, PyObject* args)
     return write_file((Film*)object, MAPS, path, time);
 }
 
+static PyObject* film_list_files(PyObject* object, PyObject* args)
+{
+    Film*       self = (Film*)object;
+    const char* path;
+    if (!PyArg_ParseTuple(args, "s:list_files", &path) || !dp_py_enter(self->simulation))
+        return NULL;
+    DpStatus status = DP_OK;
+    Py_BEGIN_ALLOW_THREADS
+    for (int which = TRAIL; which <= LEAN && status == DP_OK; ++which)
+        if (self->film[which]) status = dp_film_list(self->film[which], path);
+    Py_END_ALLOW_THREADS
+    self->simulation->busy = false;
+    return told(status, path);
+}
+
 PyObject* dp_py_flush(PyObject* object, PyObject* unused)
 {
     Simulation* self = (Simulation*)object;
@@ -232,6 +247,8 @@ static PyObject* film_open_maps(PyObject* object, PyObject* args)
 static PyMethodDef methods[] = {
     {"open_maps", film_open_maps, METH_VARARGS,
      "open_maps(((name, field), ..), ((name, str or float), ..)): channels and notes of the maps."},
+    {"list_files", film_list_files, METH_VARARGS,
+     "list_files(path): add each frame's file from now on to this list: name, size, digest."},
     {"write_frame", film_write_frame, METH_VARARGS,
      "write_frame(path or None, time, lean=False): take in the tiles that changed and write the "
      "frame, in the background; tells how those before went."},

@@ -138,6 +138,12 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
     return dp_writer_give(reel->writer, tiles, path, time);
 }
 
+DpStatus dp_film_list(DpFilm* film, const char* path)
+{
+    dp_writer_wait(film->reel->writer);
+    return dp_frames_list(film->frames, path);
+}
+
 DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed)
 {
     pthread_mutex_lock(&film->reel->lock);

@@ -42,6 +42,9 @@ DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path);
 DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film);
 void     dp_film_close(DpFilm* film);  // when what it was given is written
 
+// Add every file of the film to a list, see dp_frames_list; when what it was given is written.
+DpStatus dp_film_list(DpFilm* film, const char* path);
+
 // Take in what changed since the film's last file, to be packed and, unless path is NULL, written as
 // a file of that `time` [s]. Tells first of files that failed before: *failed as dp_reel_told's path.
 DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed);

@@ -248,12 +248,12 @@ class Bake:
                 tiles = self._rectangle(sim, parcel, gait, loads)
                 if tiles is not None:
                     self.shares.append(Share(self, parcel, sim, loads, tiles))
-        if not any(sim.reach()[0] < sim.reach()[1] for sim in sims):
+        if not self.shares:
+            if any(i0 < i1 for i0, i1, _, _ in (sim.reach() for sim in sims)):
+                raise DesirePathError(BESIDE)
             raise DesirePathError(
                 "No foot touches the ground in these frames: check that the walker stands on it and the scale is right."
             )
-        if not self.shares:
-            raise DesirePathError(BESIDE)
         return sims
 
     def _simulation(self, storey):
@@ -407,14 +407,11 @@ class Bake:
                 share.write(number, self.time(frame))
                 if self.map_seconds:
                     share.second(frame)
-                share.sums.look()
             seconds["step"] += stepped - begun
             seconds["write"] += time.perf_counter() - stepped
             yield Progress(frame, number / count)
         for sim in sims:
             sim.flush()
-        for share in self.shares:
-            share.sums.look()
 
     def _end(self, sims, seconds):
         """The last maps and the reports; grounds nobody has pressed are as they were."""

@@ -6,12 +6,12 @@ file holds.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import os
 import struct
 from dataclasses import dataclass, field
 
+from .. import _native
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
@@ -113,37 +113,18 @@ def _is_whole_frame(path):
 # ---- checksums -----------------------------------------------------------------------------------------------
 
 
-class Sums:
-    """Writes the checksum of each frame as soon as its file is there: what a bake that goes on may rely on."""
-
-    def __init__(self, frames, known=()):
-        """known: dict of name -> checksum of frames that are there already"""
-        self._frames, self._waits = frames, []
-        self._file = open(os.path.join(frames, SUMS), "x", encoding="utf-8")  # noqa: SIM115
-        for each in dict(known).items():
-            self._write(*each)
-
-    def add(self, number, lean):
-        """A frame is being written, in the background."""
-        self._waits += [frame_name(number, film) for film in _films(lean)]
-
-    def look(self):
-        """Take those that are there by now; files appear whole."""
-        while self._waits and os.path.exists(os.path.join(self._frames, self._waits[0])):
-            name = self._waits.pop(0)
-            self._write(name, _sum(os.path.join(self._frames, name)))
-
-    def _write(self, name, found):
-        self._file.write(f"{name} {found}\n")
-        self._file.flush()
-
-    def close(self):
-        self._file.close()
+def list_sums(frames, known):
+    """Begin the list of checksums with those of frames that are there already, a dict by name. The core adds each file
+    as soon as it is there (Film.list_files): what a bake that goes on may rely on."""
+    with open(os.path.join(frames, SUMS), "x", encoding="utf-8") as file:
+        file.writelines(f"{name} {found}\n" for name, found in known.items())
 
 
 def _sum(path):
+    """How many bytes a file has, and their digest, as the core lists it."""
     with atomic_file.reader(path) as file:
-        return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+        content = file.read()
+    return f"{len(content)}:{_native.digest(content).hex()}"
 
 
 def frames_sound(frames, lean):

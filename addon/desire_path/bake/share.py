@@ -19,7 +19,7 @@ from ..files import atomic_file
 from ..ground import maps, plant_mesh
 from ..ground.sim import TILE
 from ..version import VERSION
-from .folder import FORMAT, INPUTS, OWNER, Sums, frame_path, frames_sound, told
+from .folder import FORMAT, INPUTS, OWNER, SUMS, frame_path, frames_sound, list_sums, told
 from .output import Output
 
 MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
@@ -34,7 +34,7 @@ class Share:
         self.bake, self.parcel, self.sim, self.loads, self.tiles = bake, parcel, sim, loads, tiles
         self.plants = parcel.plants
         self.out = Output(parcel.folder, parcel.owner)
-        self.films = self.start = self.done = self.sums = self.mesh = None
+        self.films = self.start = self.done = self.mesh = None
         self.report = None
         self.final = None  # the planes of maps_final.exr, when the bake is whole
 
@@ -61,7 +61,7 @@ class Share:
         return any(self.sim.plantings[number] in self.plants for _, number, _ in self.sim.stands)
 
     def _prepare(self):
-        """How many frames of the very same bake are in bake.new already (-1 = none), and the Sums of its frames."""
+        """How many frames of the very same bake are in bake.new already (-1 = none); those to come are listed."""
         out, index = self.out, self.index
         fresh, shown = out.path("frames"), os.path.join(out.folder, "frames")
         done, sound, place = -1, {}, None
@@ -81,8 +81,10 @@ class Share:
             if place == shown:
                 for name in sound:  # what is shown stays until the bake is whole
                     _link(os.path.join(shown, name), os.path.join(fresh, name))
-            atomic_file.write_json(os.path.join(fresh, "index.json"), index, "The index of the frames")
-            self.done, self.sums = done, Sums(fresh, sound)
+            self._write_json(("frames", "index.json"), index, "The index of the frames")
+            list_sums(fresh, sound)
+            self.films.list_files(os.path.join(fresh, SUMS))
+            self.done = done
         except OSError as problem:
             raise DesirePathError(
                 f"The folder {out.folder} cannot be written ({problem.strerror}): choose another one."
@@ -94,8 +96,6 @@ class Share:
         self.films.write_frame(fresh and frame_path(fresh, number), seconds)
         if self.plants:
             self.films.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
-        if fresh:
-            self.sums.add(number, bool(self.plants))
         if self.mesh and number:
             self.mesh.add(self.sim)
 
@@ -129,10 +129,12 @@ class Share:
     def tell(self, report):
         """The bake is whole: write its report and say so in its index."""
         self.report = report
-        atomic_file.write_json(self.out.path("report.json"), report, "The report")
-        atomic_file.write_json(
-            self.out.path("frames", "index.json"), {**self.index, "complete": True}, "The index of the frames"
-        )
+        self._write_json(("report.json",), report, "The report")
+        self._write_json(("frames", "index.json"), {**self.index, "complete": True}, "The index of the frames")
+
+    def _write_json(self, names, data, what):
+        """Below bake.new, all of which Output.ready() syncs at once."""
+        atomic_file.write_json(self.out.path(*names), data, what, sync=False)
 
     def ready(self):
         """The bake is whole, here and soon on every ground."""
@@ -143,7 +145,7 @@ class Share:
         """The bake was stopped: what there is of it is shown, unless a whole bake is."""
         self._close()
         self.report = self.final = None
-        if self.sums is None:
+        if self.done is None:
             return
         if len(self.bake.parcels) == 1 or self.is_pressed():
             self.out.publish_stopped()
@@ -154,8 +156,6 @@ class Share:
         self.out.drop()
 
     def _close(self):
-        if self.sums:
-            self.sums.close()
         if self.mesh:
             self.mesh.close()
 

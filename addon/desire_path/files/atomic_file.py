@@ -66,11 +66,12 @@ def reader(path):
 
 
 @contextlib.contextmanager
-def file(path, what, mode="wb", **more):
+def file(path, what, mode="wb", sync=True, **more):
     """Open a temporary file beside `path` that takes its place when the block ends well.
 
     what: "The recording", for the sentence that says why it could not be written. An earlier file stays as
     it was when anything goes wrong. `more` goes to open().
+    sync: see that it is on the disk; False where disk.sync() will, before anybody relies on it.
     """
     path = os.fspath(path)
     check(path, what)
@@ -81,12 +82,14 @@ def file(path, what, mode="wb", **more):
         with os.fdopen(handle, mode, **more) as stream:
             yield stream
             stream.flush()
-            os.fsync(stream.fileno())
+            if sync:
+                os.fsync(stream.fileno())
         os.chmod(temporary, 0o666 & ~_umask())
         check(path, what)
         os.replace(temporary, path)
         temporary = None
-        disk.sync_one(folder)
+        if sync:
+            disk.sync_one(folder)
     except OSError as problem:
         raise DesirePathError(_sentence(what, path, problem)) from None
     except MemoryError:
@@ -106,8 +109,8 @@ def _sentence(what, path, problem):
     )
 
 
-def write_json(path, data, what):
-    """Write a small file as JSON, whole or not at all."""
-    with file(path, what, "w", encoding="utf-8") as stream:
+def write_json(path, data, what, sync=True):
+    """Write a small file as JSON, whole or not at all; sync: as for file()."""
+    with file(path, what, "w", sync, encoding="utf-8") as stream:
         json.dump(data, stream, indent=1)
         stream.write("\n")

@@ -465,6 +465,11 @@ class Film:
         shown = (maps.PICTURE, fields[names[0]])
         self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
 
+    def list_files(self, path):
+        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it has,
+        and their digest. Before the first frame."""
+        self._core.list_files(str(path))
+
     def write_frame(self, path, time):
         """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
         self._core.write_frame(None if path is None else str(path), float(time))

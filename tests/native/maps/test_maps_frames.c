@@ -1,6 +1,7 @@
 // Frames for playback: what is set is what is read, bit for bit, and only what changed is packed.
 #include "maps/world.h"
 
+#include "base/digest.h"
 #include "base/parallel.h"
 
 #define SIDE DP_TILE
@@ -232,8 +233,39 @@ TEST(no_memory_is_survived)
     dp_frames_destroy(frames);
 }
 
+TEST(files_are_listed_with_what_they_hold)
+{
+    static unsigned char byte[1 << 16];
+    static char          want[1024], line[1024];
+    const char*          list = world_path("list.txt");
+    const char*          path = world_path("frame.exr");
+    DpFrames*            frames;
+    CHECK(dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 0) == DP_OK);
+    CHECK(dp_frames_list(frames, list) == DP_CANNOT_OPEN);  // it is made by whoever wants it
+    fclose(fopen(list, "w"));
+    CHECK(dp_frames_list(frames, list) == DP_OK);
+    CHECK(dp_frames_write(frames, path, 0.0) == DP_OK);
+
+    FILE*        file = fopen(path, "rb");
+    const size_t size = fread(byte, 1, sizeof byte, file);
+    fclose(file);
+    uint64_t words[DP_DIGEST_WORDS];
+    dp_digest(byte, size, words);
+    int end = snprintf(want, sizeof want, "frame.exr %zu:", size);
+    for (size_t k = 0; k < sizeof words; ++k)
+        end += snprintf(want + end, 3, "%02x", ((unsigned char*)words)[k]);
+    file = fopen(list, "r");
+    CHECK(fgets(line, sizeof line, file) && line[end] == '\n');
+    line[end] = 0;
+    CHECK(strcmp(line, want) == 0 && !fgets(line, sizeof line, file));
+    fclose(file);
+    unlink(list), unlink(path);
+    dp_frames_destroy(frames);
+}
+
 int main(void)
 {
+    RUN(files_are_listed_with_what_they_hold);
     RUN(what_is_set_is_what_is_read);
     RUN(untouched_ground_costs_next_to_nothing);
     RUN(the_same_bytes_for_any_number_of_workers);
