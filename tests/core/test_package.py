@@ -97,6 +97,7 @@ def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
         "_native.abi3.so",
         "blender_manifest.toml",
         "LICENSE",
+        "CHANGELOG.md",
         "THIRD-PARTY.md",
         "blender/__init__.py",
     ):

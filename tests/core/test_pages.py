@@ -89,7 +89,22 @@ def test_every_oracle_is_held_by_a_test():
         assert TEST.search(oracle), f"MODEL 11.{oracle.splitlines()[0]} names no test"
 
 
-@pytest.mark.parametrize("page", ["native/model.md"])
+def test_the_changelog_begins_with_what_comes_and_what_is():
+    heads = re.findall(r"^## (.*)", (ROOT / "addon" / "desire_path" / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
+    version = re.search(r'VERSION = "(.*)"', (ROOT / "addon" / "desire_path" / "version.py").read_text("utf-8"))[1]
+    assert heads[:2] == ["Unreleased", version]
+
+
+@pytest.mark.parametrize(
+    "page", ["native/README.md", "native/model.md", ".github/CONTRIBUTING.md", "addon/desire_path/CHANGELOG.md"]
+)
 def test_paths_on_the_pages_are_there(page):
     for path in re.findall(r"`((?:native|addon|tests|scripts|\.github)/[\w./-]+)`", (ROOT / page).read_text("utf-8")):
         assert (ROOT / path).exists(), f"{page} names {path}, which is not there"
+
+
+@pytest.mark.parametrize("page", ["native/README.md", "native/model.md"])
+def test_names_of_the_core_on_the_pages_are_there(page):
+    sources = "".join(text for path, text in texts("native") if path.suffix in {".c", ".h"})
+    for name in re.findall(r"`(dp_\w+|Dp\w+)`", (ROOT / page).read_text("utf-8")):
+        assert re.search(rf"\b{name}\b", sources), f"{page} names {name}, which the core has not"
