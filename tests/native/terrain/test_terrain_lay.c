@@ -59,6 +59,27 @@ TEST(no_ground_stays_no_ground)
     dp_terrain_destroy(terrain);
 }
 
+// each of the three fields alone makes a trail; none makes no tile
+TEST(any_field_alone_is_a_trail)
+{
+    float* const field[] = {compression, heap, pressure_time};
+    for (int which = 0; which < 4; ++which) {
+        const DpGround ground = ground_flat(0.0);
+        DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
+        const DpTrail  trail = {0, 0, 40, 40, compression, heap, pressure_time};
+        for (int f = 0; f < 3; ++f)
+            for (int n = 0; n < 40 * 40; ++n) field[f][n] = f == which && n == 837 ? 0.5f : 0.0f;
+        CHECK(dp_terrain_lay(terrain, &trail) == DP_OK);
+        CHECK(dp_terrain_tile_count(terrain) == (which < 3 ? 1 : 0));
+        for (int f = 0; f < 3; ++f) {
+            CHECK(dp_terrain_read(terrain, (DpField)(DP_FIELD_COMPRESSION + f), 0, 0, 40, 40,
+                                  got) == DP_OK);
+            CHECK(got[837] == (f == which ? 0.5f : 0.0f));
+        }
+        dp_terrain_destroy(terrain);
+    }
+}
+
 TEST(nonsense_is_not_laid)
 {
     const DpGround ground = ground_flat(0.0);
@@ -84,6 +105,7 @@ int main(void)
 {
     RUN(a_trail_reads_as_it_was_left);
     RUN(no_ground_stays_no_ground);
+    RUN(any_field_alone_is_a_trail);
     RUN(nonsense_is_not_laid);
     return check_done();
 }
