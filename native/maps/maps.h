@@ -67,7 +67,7 @@ void dp_writer_wait(DpWriter* writer);
 
 // How things went since the last call; path: where it failed ("" = encoding), valid until the next
 // call to the writer. wait: first wait until all that was given is written.
-DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path);
+DpStatus dp_writer_outcome(DpWriter* writer, bool wait, const char** path);
 
 // ---- maps ------------------------------------------------------------------------------------
 

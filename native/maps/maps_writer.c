@@ -8,8 +8,8 @@
 #include "base/parallel.h"
 #include "maps/maps.h"
 
-#define MOST_WAITING 4  // given and not yet written: more would only take memory
-#define MANY_TILES 16   // changed at once: worth every core
+#define MAX_WAITING 4  // given and not yet written: more would only take memory
+#define MANY_TILES 16  // changed at once: worth every core
 
 struct DpTiles
 {
@@ -35,9 +35,9 @@ struct DpWriter
     int             on_the_way;    // waiting or being written
     int             workers;
     bool            threaded, leave;
-    DpStatus        status;  // of the first failure nobody was told of
+    DpStatus        status;  // of the first failure nobody has heard of
     char*           path;    // and its file
-    char*           told;
+    char*           failed;
 };
 
 // ---- what is given -----------------------------------------------------------------------------
@@ -168,14 +168,14 @@ static void* run(void* context)
 
 DpStatus dp_writer_create(DpWriter** writer, int workers)
 {
-    DpWriter* made = dp_alloc(1, sizeof *made);
-    if (!made) return DP_NO_MEMORY;
-    made->workers = workers < 1 ? 1 : workers;
-    pthread_mutex_init(&made->lock, NULL);
-    pthread_cond_init(&made->given, NULL);
-    pthread_cond_init(&made->written, NULL);
-    made->threaded = pthread_create(&made->thread, NULL, run, made) == 0;
-    *writer = made;
+    DpWriter* created = dp_alloc(1, sizeof *created);
+    if (!created) return DP_NO_MEMORY;
+    created->workers = workers < 1 ? 1 : workers;
+    pthread_mutex_init(&created->lock, NULL);
+    pthread_cond_init(&created->given, NULL);
+    pthread_cond_init(&created->written, NULL);
+    created->threaded = pthread_create(&created->thread, NULL, run, created) == 0;
+    *writer = created;
     return DP_OK;
 }
 
@@ -193,7 +193,7 @@ void dp_writer_destroy(DpWriter* writer)
     free_tiles(writer->first);
     free_tiles(writer->idle);
     dp_free(writer->path);
-    dp_free(writer->told);
+    dp_free(writer->failed);
     dp_free(writer);
 }
 
@@ -201,7 +201,7 @@ DpTiles* dp_writer_tiles(DpWriter* writer, DpFrames* frames)
 {
     const size_t size = (size_t)DP_TILE * DP_TILE * (size_t)dp_frames_channels(frames);
     pthread_mutex_lock(&writer->lock);
-    while (writer->on_the_way >= MOST_WAITING) pthread_cond_wait(&writer->written, &writer->lock);
+    while (writer->on_the_way >= MAX_WAITING) pthread_cond_wait(&writer->written, &writer->lock);
     DpTiles* tiles = writer->idle;
     if (tiles) writer->idle = tiles->next;
     pthread_mutex_unlock(&writer->lock);
@@ -253,18 +253,18 @@ void dp_writer_wait(DpWriter* writer)
     pthread_mutex_unlock(&writer->lock);
 }
 
-DpStatus dp_writer_told(DpWriter* writer, bool wait, const char** path)
+DpStatus dp_writer_outcome(DpWriter* writer, bool wait, const char** path)
 {
     if (wait) dp_writer_wait(writer);
     pthread_mutex_lock(&writer->lock);
     const DpStatus status = writer->status;
     writer->status = DP_OK;
     if (status != DP_OK) {
-        dp_free(writer->told);
-        writer->told = writer->path;
+        dp_free(writer->failed);
+        writer->failed = writer->path;
         writer->path = NULL;
     }
     pthread_mutex_unlock(&writer->lock);
-    *path = status != DP_OK && writer->told ? writer->told : "";
+    *path = status != DP_OK && writer->failed ? writer->failed : "";
     return status;
 }

@@ -1,13 +1,17 @@
 // python/module.c - desire_path._native: a table of contents. Everything is in py_<room>.c.
-#include "python/door.h"
+#include "python/buffers.h"
 
 static int fill(PyObject* module)
 {
     PyMethodDef* const tables[] = {dp_py_walker_methods, dp_py_imprint_methods, dp_py_soil_methods,
-                                   dp_py_plants_methods, dp_py_terrain_methods, dp_py_maps_methods};
+                                   dp_py_plants_methods, dp_py_terrain_methods, dp_py_maps_methods,
+                                   dp_py_base_methods};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t)
         if (PyModule_AddFunctions(module, tables[t]) < 0) return -1;
-    return dp_door_types(module) < 0 ? -1 : dp_py_sim_types(module);
+    int (*const types[])(PyObject*) = {dp_py_block_type, dp_py_sim_type, dp_py_film_type};
+    for (size_t t = 0; t < sizeof types / sizeof *types; ++t)
+        if (types[t](module) < 0) return -1;
+    return 0;
 }
 
 static PyModuleDef_Slot slots[] = {{Py_mod_exec, (void*)fill}, {0, NULL}};

@@ -1,7 +1,7 @@
 // python/py_frames.c - desire_path._native.Film: frames for playback and maps of a rectangle of tiles
 // of a simulation, written in the background while the ground goes on.
 #include "base/alloc.h"
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 enum
 {
@@ -43,9 +43,9 @@ static DpFilmOptions options_of(const Film* self, const DpNote* notes, int note_
 
 // ---- writing -----------------------------------------------------------------------------------
 
-static PyObject* told(DpStatus status, const char* path)
+static PyObject* outcome(DpStatus status, const char* path)
 {
-    return dp_door_result(status, *path ? path : "encoding a frame");
+    return dp_py_result(status, *path ? path : "encoding a frame");
 }
 
 static PyObject* write_file(Film* self, int which, const char* path, double time)
@@ -61,7 +61,7 @@ static PyObject* write_file(Film* self, int which, const char* path, double time
     status = dp_film_write(self->film[which], path, time, &failed);
     Py_END_ALLOW_THREADS
     self->simulation->busy = false;
-    return told(status, failed);
+    return outcome(status, failed);
 }
 
 static PyObject* film_write_frame(PyObject* object, PyObject* args)
@@ -104,49 +104,13 @@ PyObject* dp_py_flush(PyObject* object, PyObject* unused)
     (void)unused;
     if (!dp_py_enter(self)) return NULL;
     Py_BEGIN_ALLOW_THREADS
-    if (self->reel) status = dp_reel_told(self->reel, true, &failed);
+    if (self->reel) status = dp_reel_outcome(self->reel, true, &failed);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return told(status, failed);
+    return outcome(status, failed);
 }
 
 // ---- opening -----------------------------------------------------------------------------------
-
-// A film for playback, with what its channels hold.
-static DpStatus open_playback(Film* self, bool lean, const char* software)
-{
-    static const char* const channel[4] = {"R", "G", "B", "A"};
-    static const int         trail_field[4] = {DP_FIELD_HEIGHT_CHANGE, DP_FIELD_PLANT_STRENGTH,
-                                               DP_FIELD_COMPRESSION, DP_FIELD_PRESSURE_TIME};
-    static const int         lean_field[4] = {DP_FIELD_LEAN, DP_FIELD_LEAN + 1, DP_FIELD_LEAN + 2,
-                                              DP_FIELD_PLANT_STRENGTH};
-    static const char* const trail_names[4] = {"height change [m]", "plant strength [-]",
-                                               "compression [m]", "pressure_time [Pa s]"};
-    static const char* const lean_names[4] = {"lean_x [-]", "lean_y [-]", "crushed [-]",
-                                              "plant strength [-]"};
-    const char* const*       names = lean ? lean_names : trail_names;
-    const DpTerrain*         terrain = self->simulation->terrain;
-    double                   origin[2];
-    dp_terrain_origin(terrain, origin);
-    const double cell = dp_terrain_cell(terrain);
-    const DpNote notes[] = {
-        {"software", software, 0.0},
-        {"cell", NULL, cell},
-        {"originX", NULL, origin[0] + cell * DP_TILE * (double)self->tile_x},
-        {"originY", NULL, origin[1] + cell * DP_TILE * (double)self->tile_y},
-        {"channelR", names[0], 0.0},
-        {"channelG", names[1], 0.0},
-        {"channelB", names[2], 0.0},
-        {"channelA", names[3], 0.0},
-    };
-    DpFilmOptions options = options_of(self, notes, (int)(sizeof notes / sizeof *notes));
-    options.fields = 4;
-    for (int f = 0; f < 4; ++f) {
-        options.field[f] = (lean ? lean_field : trail_field)[f];
-        options.channel[f] = channel[f];
-    }
-    return dp_film_open(self->simulation->reel, &options, &self->film[lean ? LEAN : TRAIL]);
-}
 
 // An empty Film of a simulation, or NULL with an exception.
 static Film* make_film(Simulation* simulation)
@@ -180,20 +144,24 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     if (!simulation->reel)
         status = dp_reel_create(&simulation->reel, simulation->sim, simulation->workers);
-    if (status == DP_OK) status = open_playback(self, false, software);
-    if (status == DP_OK && simulation->plants) status = open_playback(self, true, software);
+    const DpFilmOptions options = options_of(self, NULL, 0);
+    if (status == DP_OK)
+        status = dp_film_open_playback(simulation->reel, &options, DP_PLAY_TRAIL, software,
+                                       &self->film[TRAIL]);
+    if (status == DP_OK && simulation->plants)
+        status = dp_film_open_playback(simulation->reel, &options, DP_PLAY_LEAN, software,
+                                       &self->film[LEAN]);
     Py_END_ALLOW_THREADS
     simulation->busy = false;
     if (status == DP_OK) return (PyObject*)self;
     Py_DECREF((PyObject*)self);
-    return dp_door_result(status, "opening the frames");
+    return dp_py_result(status, "opening the frames");
 }
 
 // Channel names and fields from a tuple of (name, number of the field); 0, or -1 with an exception.
 static int read_fields(const Film* self, PyObject* items, DpFilmOptions* options)
 {
     const Py_ssize_t count = PyTuple_Size(items);
-    const int        last = self->simulation->plants ? DP_FIELD_LEAN + 2 : DP_FIELD_HEIGHT_CHANGE;
     if (count < 1 || count > DP_FILM_FIELDS) {
         PyErr_Format(PyExc_ValueError, "open_maps: expected 1 to %d fields", DP_FILM_FIELDS);
         return -1;
@@ -207,9 +175,7 @@ static int read_fields(const Film* self, PyObject* items, DpFilmOptions* options
             return -1;
         }
         if (!PyArg_ParseTuple(item, "si:open_maps", &options->channel[k], field)) return -1;
-        if (*field != DP_FIELD_PRESSURE &&
-            (*field < 0 || *field > last ||
-             (*field > DP_FIELD_HEIGHT_CHANGE && *field < DP_FIELD_LEAN))) {
+        if (!dp_film_shows(self->simulation->sim, *field)) {
             PyErr_Format(PyExc_ValueError, "open_maps: there is no field %d", *field);
             return -1;
         }
@@ -241,7 +207,7 @@ static PyObject* film_open_maps(PyObject* object, PyObject* args)
     if (status == DP_OK) self->film[MAPS] = fresh;
     self->simulation->busy = false;
     dp_free(notes);
-    return dp_door_result(status, "opening the maps");
+    return dp_py_result(status, "opening the maps");
 }
 
 static PyMethodDef methods[] = {

@@ -1,14 +1,14 @@
 // python/py_ground.c - the ground and its soils as Python gives them.
 #include "base/alloc.h"
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 #include <string.h>
 
 // Soils as rows of six floats in the order of DpSoil.
-DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count)
+DpSoil* dp_py_soils(DpBuffers* buffers, PyObject* object, int* count)
 {
     DpShape shape = {2, {-1, DP_SOIL_NUMBERS}};
-    float*  row = dp_door_open(door, object, "soils", 'f', &shape, false);
+    float*  row = dp_buffers_open(buffers, object, "soils", 'f', &shape, false);
     if (!row) return NULL;
     if (shape.n[0] < 1 || shape.n[0] > 255) {
         PyErr_SetString(PyExc_ValueError, "soils: give 1 to 255 soils");
@@ -31,17 +31,17 @@ DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count)
 }
 
 // The weights of painted soils, (kinds, n); None = all of it is soil 0.
-static bool read_kinds(DpDoor* door, PyObject* object, Py_ssize_t n, DpGround* ground)
+static bool read_kinds(DpBuffers* buffers, PyObject* object, Py_ssize_t n, DpGround* ground)
 {
     if (object == Py_None) return true;
     DpShape shape = {2, {-1, n}};
-    ground->kind_weight = dp_door_open(door, object, "kind_weight", 'f', &shape, false);
+    ground->kind_weight = dp_buffers_open(buffers, object, "kind_weight", 'f', &shape, false);
     ground->kind_count = ground->kind_weight ? (int)shape.n[0] : 0;
     return ground->kind_weight != NULL;
 }
 
 // ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds)
-bool dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
+bool dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground)
 {
     const char* kind = NULL;
     PyObject *  a = NULL, *b = NULL, *kinds = Py_None;
@@ -62,22 +62,22 @@ bool dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
                               &ground->y0, &ground->height, &kinds))
             return false;
         DpShape shape = {2, {-1, -1}};
-        ground->heights = dp_door_open(door, a, "heights", 'f', &shape, false);
+        ground->heights = dp_buffers_open(buffers, a, "heights", 'f', &shape, false);
         if (!ground->heights) return false;
         if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX) {
             PyErr_SetString(PyExc_ValueError, "heights: too many samples");
             return false;
         }
         ground->ny = (int)shape.n[0], ground->nx = (int)shape.n[1];
-        return read_kinds(door, kinds, shape.n[0] * shape.n[1], ground);
+        return read_kinds(buffers, kinds, shape.n[0] * shape.n[1], ground);
     }
     if (strcmp(kind, "mesh") == 0) {
         ground->kind = DP_GROUND_MESH;
         if (!PyArg_ParseTuple(tuple, "sOOO;ground", &kind, &a, &b, &kinds)) return false;
         DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
-        ground->vertex = dp_door_open(door, a, "vertices", 'd', &vertices, false);
+        ground->vertex = dp_buffers_open(buffers, a, "vertices", 'd', &vertices, false);
         if (!ground->vertex) return false;
-        ground->triangle = dp_door_open(door, b, "triangles", 'i', &triangles, false);
+        ground->triangle = dp_buffers_open(buffers, b, "triangles", 'i', &triangles, false);
         if (!ground->triangle) return false;
         if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
             PyErr_SetString(PyExc_ValueError, "ground: too many vertices or triangles");
@@ -85,7 +85,7 @@ bool dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground)
         }
         ground->vertex_count = (int)vertices.n[0];
         ground->triangle_count = (int)triangles.n[0];
-        return read_kinds(door, kinds, vertices.n[0], ground);
+        return read_kinds(buffers, kinds, vertices.n[0], ground);
     }
     PyErr_Format(PyExc_ValueError, "ground: '%s' is not flat, heights or mesh", kind);
     return false;

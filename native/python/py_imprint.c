@@ -1,6 +1,6 @@
 // python/py_imprint.c - the imprint's kernels, one by one, for tests and for the curious.
 #include "imprint/imprint.h"
-#include "python/door.h"
+#include "python/buffers.h"
 
 #define MOST_SOLES 16
 
@@ -11,7 +11,7 @@ static PyObject* no_soles(const char* words)
 }
 
 // soles: a list or tuple of (vertices, triangles)
-static int open_soles(DpDoor* door, PyObject* soles, DpMesh* mesh)
+static int open_soles(DpBuffers* buffers, PyObject* soles, DpMesh* mesh)
 {
     PyObject* items = PySequence_Tuple(soles);
     if (!items) return -1;
@@ -31,9 +31,9 @@ static int open_soles(DpDoor* door, PyObject* soles, DpMesh* mesh)
         }
         DpShape vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
         mesh[s].vertex =
-            dp_door_open(door, PyTuple_GetItem(pair, 0), "vertices", 'f', &vertices, false);
-        mesh[s].triangle = mesh[s].vertex ? dp_door_open(door, PyTuple_GetItem(pair, 1),
-                                                         "triangles", 'i', &triangles, false)
+            dp_buffers_open(buffers, PyTuple_GetItem(pair, 0), "vertices", 'f', &vertices, false);
+        mesh[s].triangle = mesh[s].vertex ? dp_buffers_open(buffers, PyTuple_GetItem(pair, 1),
+                                                            "triangles", 'i', &triangles, false)
                                           : NULL;
         Py_DECREF(pair);
         if (!mesh[s].triangle || vertices.n[0] > INT32_MAX || triangles.n[0] > INT32_MAX) {
@@ -57,25 +57,25 @@ static PyObject* imprint_foot(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "OOdddiOO:imprint_foot", &soles, &poses, &x0, &y0, &cell,
                           &samples, &bottom, &cover))
         return NULL;
-    DpDoor    door = {0};
+    DpBuffers buffers = {0};
     DpMesh    mesh[MOST_SOLES];
     DpPose    pose[MOST_SOLES];
     PyObject* answer = NULL;
-    const int count = open_soles(&door, soles, mesh);
+    const int count = open_soles(&buffers, soles, mesh);
     if (count < 0) goto done;
     DpShape       seven = {2, {count, 7}}, grid = {2, {-1, -1}};
-    const double* at = dp_door_open(&door, poses, "poses", 'd', &seven, false);
+    const double* at = dp_buffers_open(&buffers, poses, "poses", 'd', &seven, false);
     DpImprint     imprint = {0};
     if (!at) goto done;
     for (int s = 0; s < count; ++s, at += 7)
         pose[s] = (DpPose){{at[0], at[1], at[2]}, {at[3], at[4], at[5], at[6]}};
-    imprint.bottom = dp_door_open(&door, bottom, "bottom", 'f', &grid, true);
+    imprint.bottom = dp_buffers_open(&buffers, bottom, "bottom", 'f', &grid, true);
     if (!imprint.bottom) goto done;
-    imprint.cover = dp_door_open(&door, cover, "cover", 'f', &grid, true);
+    imprint.cover = dp_buffers_open(&buffers, cover, "cover", 'f', &grid, true);
     if (!imprint.cover) goto done;
     DpSoilPatch patch = {0};
     if (grid.n[0] > 1 << 20 || grid.n[1] > 1 << 20) {
-        answer = dp_door_result(DP_BAD_ARGUMENT, "pressing a sole");
+        answer = dp_py_result(DP_BAD_ARGUMENT, "pressing a sole");
         goto done;
     }
     patch.ny = (int)grid.n[0];
@@ -90,9 +90,9 @@ static PyObject* imprint_foot(PyObject* module, PyObject* arguments)
     Py_END_ALLOW_THREADS
     answer = status == DP_OK
                  ? Py_BuildValue("(iiii)", imprint.i0, imprint.i1, imprint.j0, imprint.j1)
-                 : dp_door_result(status, "pressing a sole");
+                 : dp_py_result(status, "pressing a sole");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -102,23 +102,23 @@ static PyObject* imprint_rings(PyObject* module, PyObject* arguments)
     PyObject* ring;
     int       rings;
     if (!PyArg_ParseTuple(arguments, "Oi:imprint_rings", &ring, &rings)) return NULL;
-    DpDoor    door = {0};
+    DpBuffers buffers = {0};
     DpShape   grid = {2, {-1, -1}};
     DpImprint imprint = {0};
     PyObject* answer = NULL;
-    imprint.ring = dp_door_open(&door, ring, "ring", 'i', &grid, true);
+    imprint.ring = dp_buffers_open(&buffers, ring, "ring", 'i', &grid, true);
     if (imprint.ring) {
         if (rings < 0 || rings >= DP_RING_FAR || grid.n[0] > 1 << 20 || grid.n[1] > 1 << 20) {
-            answer = dp_door_result(DP_BAD_ARGUMENT, "numbering rings");
+            answer = dp_py_result(DP_BAD_ARGUMENT, "numbering rings");
         } else {
             DpSoilPatch patch = {0};
             patch.ny = (int)grid.n[0];
             patch.nx = patch.row = (int)grid.n[1];
             if (patch.nx > 0 && patch.ny > 0) dp_imprint_rings(&imprint, &patch, rings);
-            answer = dp_door_result(DP_OK, "numbering rings");
+            answer = dp_py_result(DP_OK, "numbering rings");
         }
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 

@@ -4,8 +4,8 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "maps/maps.h"
-#include "python/door.h"
-#include "python/py_sim.h"
+#include "python/buffers.h"
+#include "python/py_inside.h"
 
 // A sequence's items as a tuple that holds them; NULL with a TypeError naming it.
 static PyObject* items_of(PyObject* object, const char* name)
@@ -68,15 +68,15 @@ DpNote* dp_py_notes(PyObject* items)
     return notes;
 }
 
-static int fill_channels(PyObject* names, PyObject* planes, DpDoor* door, DpMapChannel* channels,
-                         DpShape* shape)
+static int fill_channels(PyObject* names, PyObject* planes, DpBuffers* buffers,
+                         DpMapChannel* channels, DpShape* shape)
 {
     const Py_ssize_t count = PyTuple_Size(names);
     for (Py_ssize_t k = 0; k < count; ++k) {
         channels[k].name = text_of(PyTuple_GetItem(names, k), "a plane's name");
         if (!channels[k].name) return -1;
-        channels[k].value =
-            dp_door_open(door, PyTuple_GetItem(planes, k), channels[k].name, 'f', shape, false);
+        channels[k].value = dp_buffers_open(buffers, PyTuple_GetItem(planes, k), channels[k].name,
+                                            'f', shape, false);
         if (!channels[k].value) return -1;
     }
     return 0;
@@ -87,8 +87,8 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
     (void)module;
     PyObject *   path = NULL, *names, *planes, *notes, *done = NULL;
     DpNote*      note = NULL;
-    DpDoor       door = {.count = 0};
-    DpMapChannel channel[DP_DOOR_MOST];
+    DpBuffers    buffers = {.count = 0};
+    DpMapChannel channel[DP_MAX_BUFFERS];
     DpShape      shape = {2, {-1, -1}};
     if (!PyArg_ParseTuple(arguments, "O&OOO:maps_write", PyUnicode_FSConverter, &path, &names,
                           &planes, &notes))
@@ -98,14 +98,14 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
     notes = planes ? items_of(notes, "notes") : NULL;
     if (!notes) goto leave;
     const Py_ssize_t count = PyTuple_Size(names), note_count = PyTuple_Size(notes);
-    if (count < 1 || count > DP_DOOR_MOST || count != PyTuple_Size(planes)) {
-        PyErr_Format(PyExc_ValueError, "expected 1 to %d names and as many planes", DP_DOOR_MOST);
+    if (count < 1 || count > DP_MAX_BUFFERS || count != PyTuple_Size(planes)) {
+        PyErr_Format(PyExc_ValueError, "expected 1 to %d names and as many planes", DP_MAX_BUFFERS);
         goto leave;
     }
     note = dp_py_notes(notes);
-    if (!note || fill_channels(names, planes, &door, channel, &shape)) goto leave;
+    if (!note || fill_channels(names, planes, &buffers, channel, &shape)) goto leave;
     if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX || note_count > INT32_MAX) {
-        dp_door_result(DP_BAD_ARGUMENT, "writing maps");
+        dp_py_result(DP_BAD_ARGUMENT, "writing maps");
         goto leave;
     }
     const char* file = PyBytes_AsString(path);
@@ -114,9 +114,9 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
     status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel, (int)count, note,
                            (int)note_count);
     Py_END_ALLOW_THREADS
-    done = dp_door_result(status, "writing maps");
+    done = dp_py_result(status, "writing maps");
 leave:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     dp_free(note);
     Py_XDECREF(notes);
     Py_XDECREF(planes);
@@ -169,7 +169,7 @@ static PyObject* maps_read(PyObject* module, PyObject* path)
     status = dp_maps_read(file, &map);
     Py_END_ALLOW_THREADS
     Py_DECREF(name);
-    if (status != DP_OK) return dp_door_result(status, "reading maps");
+    if (status != DP_OK) return dp_py_result(status, "reading maps");
 
     const size_t size = (size_t)map->channel_count * (size_t)map->ny * (size_t)map->nx * 4;
     PyObject*    names = names_of(map);
@@ -197,33 +197,34 @@ static PyObject* planes_at(PyObject* module, PyObject* arguments)
         return NULL;
     PyObject* items = items_of(o_planes, "planes");
     if (!items) return NULL;
-    DpDoor           door = {.count = 0};
+    DpBuffers        buffers = {.count = 0};
     DpShape          cells = {2, {-1, -1}}, shape = {2, {-1, 3}};
     PyObject*        done = NULL;
-    const float*     plane[DP_DOOR_MOST];
+    const float*     plane[DP_MAX_BUFFERS];
     const Py_ssize_t count = PyTuple_Size(items);
-    if (count < 1 || count > DP_DOOR_MOST - 3) {
+    if (count < 1 || count > DP_MAX_BUFFERS - 3) {
         PyErr_SetString(PyExc_ValueError, "planes_at: too few or too many planes");
         goto leave;
     }
     for (Py_ssize_t p = 0; p < count; ++p) {
-        plane[p] = dp_door_open(&door, PyTuple_GetItem(items, p), "a plane", 'f', &cells, false);
+        plane[p] =
+            dp_buffers_open(&buffers, PyTuple_GetItem(items, p), "a plane", 'f', &cells, false);
         if (!plane[p]) goto leave;
     }
     if (o_place == Py_None) {
-        points.world = dp_door_open(&door, o_points, "points", 'd', &shape, false);
+        points.world = dp_buffers_open(&buffers, o_points, "points", 'd', &shape, false);
         if (!points.world) goto leave;
     } else {
-        points.local = dp_door_open(&door, o_points, "points", 'f', &shape, false);
+        points.local = dp_buffers_open(&buffers, o_points, "points", 'f', &shape, false);
         if (!points.local) goto leave;
-        points.place = dp_door_open(&door, o_place, "place", 'd', DP_SHAPE2(3, 4), false);
+        points.place = dp_buffers_open(&buffers, o_place, "place", 'd', DP_SHAPE2(3, 4), false);
         if (!points.place) goto leave;
     }
-    float* out = dp_door_open(&door, o_out, "out", 'f', DP_SHAPE2(count, shape.n[0]), true);
+    float* out = dp_buffers_open(&buffers, o_out, "out", 'f', DP_SHAPE2(count, shape.n[0]), true);
     if (!out) goto leave;
     if (cells.n[0] > INT32_MAX || cells.n[1] > INT32_MAX || shape.n[0] > INT32_MAX - 65536 ||
         !(planes.cell > 0.0)) {
-        dp_door_result(DP_BAD_ARGUMENT, "looking at planes");
+        dp_py_result(DP_BAD_ARGUMENT, "looking at planes");
         goto leave;
     }
     planes.nx = (int)cells.n[1], planes.ny = (int)cells.n[0], planes.count = (int)count;
@@ -234,7 +235,7 @@ static PyObject* planes_at(PyObject* module, PyObject* arguments)
     Py_END_ALLOW_THREADS
     done = Py_NewRef(Py_None);
 leave:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     Py_DECREF(items);
     return done;
 }

@@ -1,5 +1,5 @@
 // python/py_place.c - Simulation.place: feet put on the ground the simulation holds. TRAIL (1) (2)
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 #define NUMBERS 5  // reach, toe_slope, foot_radius, body_radius, floor
 
@@ -11,21 +11,21 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     if (!PyArg_ParseTuple(args, "OippOOOO:place", &o_gait, &walker, &flat, &carry, &o_numbers,
                           &o_clearance, &o_pose, &o_com))
         return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpGait    gait = {0};
     PyObject* result = NULL;
-    if (dp_door_gait(&door, o_gait, &gait) < 0) goto done;
+    if (dp_py_gait(&buffers, o_gait, &gait) < 0) goto done;
     const double* number =
-        dp_door_open(&door, o_numbers, "numbers", 'd', DP_SHAPE1(NUMBERS), false);
-    if (!number || dp_door_finite(number, NUMBERS, "numbers") < 0) goto done;
+        dp_buffers_open(&buffers, o_numbers, "numbers", 'd', DP_SHAPE1(NUMBERS), false);
+    if (!number || dp_buffers_finite(number, NUMBERS, "numbers") < 0) goto done;
     const double* clearance =
-        dp_door_open(&door, o_clearance, "clearance", 'd', DP_SHAPE1(gait.points), false);
-    if (!clearance || dp_door_finite(clearance, gait.points, "clearance") < 0) goto done;
+        dp_buffers_open(&buffers, o_clearance, "clearance", 'd', DP_SHAPE1(gait.points), false);
+    if (!clearance || dp_buffers_finite(clearance, gait.points, "clearance") < 0) goto done;
     double* pose =
-        dp_door_open(&door, o_pose, "pose", 'd', DP_SHAPE3(gait.parts, gait.times, 7), true);
+        dp_buffers_open(&buffers, o_pose, "pose", 'd', DP_SHAPE3(gait.parts, gait.times, 7), true);
     if (!pose) goto done;
     double* com =
-        dp_door_open(&door, o_com, "com", 'd', DP_SHAPE3(gait.walkers, gait.times, 3), true);
+        dp_buffers_open(&buffers, o_com, "com", 'd', DP_SHAPE3(gait.walkers, gait.times, 3), true);
     if (!com || !dp_py_enter(self)) goto done;
     const DpPlaceOptions options = {.max_clearance = number[0],
                                     .toe_slope = number[1],
@@ -39,8 +39,8 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     status = dp_sim_place(self->terrain, &gait, walker, &options, clearance, pose, com);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_door_result(status, "placing feet");
+    result = dp_py_result(status, "placing feet");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }

@@ -14,16 +14,16 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 #define KIND_NUMBERS 22
 #define COLLIDERS_MOST 16
 #define MOST_STEPS 1000000  // of one call, which nothing can stop
 
-int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind)
+int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind)
 {
-    const double* v = dp_door_open(door, object, "kind", 'd', DP_SHAPE1(KIND_NUMBERS), false);
-    if (!v || dp_door_finite(v, KIND_NUMBERS, "kind") < 0) return -1;
+    const double* v = dp_buffers_open(buffers, object, "kind", 'd', DP_SHAPE1(KIND_NUMBERS), false);
+    if (!v || dp_buffers_finite(v, KIND_NUMBERS, "kind") < 0) return -1;
     float f[KIND_NUMBERS];
     for (int k = 0; k < KIND_NUMBERS; ++k) f[k] = (float)v[k];
     *kind = (DpPlantKind){v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE,
@@ -66,14 +66,14 @@ static PyObject* plants_default(PyObject* module, PyObject* none)
 static PyObject* plants_shape(PyObject* module, PyObject* object)
 {
     (void)module;
-    DpDoor      door = {0};
+    DpBuffers   buffers = {0};
     DpPlantKind kind;
     PyObject*   answer = NULL;
-    if (dp_py_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&buffers, object, &kind) == 0) {
         const DpPlantShape s = dp_plant_shape(&kind);
         answer = Py_BuildValue("(iiiii)", s.rows, s.stems, s.stems_a_sheet, s.particles, s.bends);
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -82,19 +82,19 @@ static PyObject* plants_wear(PyObject* module, PyObject* arguments)
     (void)module;
     PyObject *  object, *answer = NULL;
     double      reserve, strength, angle, dt;
-    DpDoor      door = {0};
+    DpBuffers   buffers = {0};
     DpPlantKind kind;
     if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle,
                           &dt))
         return NULL;
-    if (dp_py_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&buffers, object, &kind) == 0) {
         if (!(reserve > 0.0) || !(strength >= 0.0) || !isfinite(angle) || !(dt >= 0.0))
             PyErr_SetString(PyExc_ValueError,
                             "reserve, strength, angle, dt: one is out of its range");
         else
             answer = PyFloat_FromDouble(dp_plant_wear(&kind, reserve, strength, angle, dt));
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -103,16 +103,16 @@ static PyObject* plants_regrow(PyObject* module, PyObject* arguments)
     (void)module;
     PyObject *  object, *answer = NULL;
     double      alpha, seconds;
-    DpDoor      door = {0};
+    DpBuffers   buffers = {0};
     DpPlantKind kind;
     if (!PyArg_ParseTuple(arguments, "Odd:plants_regrow", &object, &alpha, &seconds)) return NULL;
-    if (dp_py_kind(&door, object, &kind) == 0) {
+    if (dp_py_kind(&buffers, object, &kind) == 0) {
         if (!(alpha >= 0.0 && alpha <= 1.0) || !(seconds >= 0.0))
             PyErr_SetString(PyExc_ValueError, "alpha must be 0 to 1, seconds 0 or more");
         else
             answer = PyFloat_FromDouble(dp_plant_regrow(&kind, alpha, seconds));
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -122,7 +122,7 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     PyObject *         weights, *roots, *answer = NULL;
     double             x0, y0, x1, y1, density;
     unsigned long long seed;
-    DpDoor             door = {0};
+    DpBuffers          buffers = {0};
     DpShape            grid = {2, {-1, -1}}, list = {2, {-1, 2}};
     const float*       weight = NULL;
     float*             root;
@@ -130,11 +130,12 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "dddddOKO|i:plants_place", &x0, &y0, &x1, &y1, &density,
                           &weights, &seed, &roots, &count))
         return NULL;
-    if (weights != Py_None && !(weight = dp_door_open(&door, weights, "weight", 'f', &grid, false)))
+    if (weights != Py_None &&
+        !(weight = dp_buffers_open(&buffers, weights, "weight", 'f', &grid, false)))
         goto done;
-    if (!(root = dp_door_open(&door, roots, "root", 'f', &list, true))) goto done;
+    if (!(root = dp_buffers_open(&buffers, roots, "root", 'f', &list, true))) goto done;
     if (list.n[0] > INT32_MAX || grid.n[0] > 1 << 20 || grid.n[1] > 1 << 20) {
-        answer = dp_door_result(DP_BAD_ARGUMENT, "placing plants");
+        answer = dp_py_result(DP_BAD_ARGUMENT, "placing plants");
         goto done;
     }
     DpStatus status;
@@ -142,9 +143,9 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     status = dp_plants_place(x0, y0, x1, y1, density, weight, (int)grid.n[1], (int)grid.n[0], seed,
                              root, (int)list.n[0], &count);
     Py_END_ALLOW_THREADS
-    answer = status == DP_OK ? PyLong_FromLong(count) : dp_door_result(status, "placing plants");
+    answer = status == DP_OK ? PyLong_FromLong(count) : dp_py_result(status, "placing plants");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -152,7 +153,7 @@ done:
 
 typedef struct Stand
 {
-    DpDoor          door;
+    DpBuffers       buffers;
     DpPlantKind     kind;
     DpPlantShape    shape;
     DpPlants*       plants;
@@ -167,7 +168,7 @@ typedef struct Stand
 static void close_stand(Stand* stand)
 {
     dp_plants_destroy(stand->plants);
-    dp_door_close(&stand->door);
+    dp_buffers_close(&stand->buffers);
 }
 
 static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyObject* roots,
@@ -175,12 +176,12 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
 {
     DpShape      list = {2, {-1, 3}}, row = {1, {-1}};
     const float *root, *heading = NULL;
-    if (dp_py_kind(&stand->door, kind, &stand->kind) < 0) return -1;
+    if (dp_py_kind(&stand->buffers, kind, &stand->kind) < 0) return -1;
     stand->shape = dp_plant_shape(&stand->kind);
-    if (!(root = dp_door_open(&stand->door, roots, "root", 'f', &list, false))) return -1;
+    if (!(root = dp_buffers_open(&stand->buffers, roots, "root", 'f', &list, false))) return -1;
     row.n[0] = list.n[0];
     if (headings && headings != Py_None &&
-        !(heading = dp_door_open(&stand->door, headings, "heading", 'f', &row, false)))
+        !(heading = dp_buffers_open(&stand->buffers, headings, "heading", 'f', &row, false)))
         return -1;
     int name;
     stand->count = list.n[0] <= 1 << 24 ? (int)list.n[0] : 0;
@@ -189,22 +190,23 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
                                                           heading, stand->count, &name)
                                           : DP_NO_MEMORY;
     if (status == DP_OK) return 0;
-    dp_door_result(status, "planting");
+    dp_py_result(status, "planting");
     return -1;
 }
 
 static int open_state(Stand* stand, PyObject* position, PyObject* velocity, PyObject* strength)
 {
-    DpShape* places = DP_SHAPE3(stand->count, stand->shape.particles, 3);
-    DpShape* bends = DP_SHAPE2(stand->count, stand->shape.bends);
-    DpDoor*  door = &stand->door;
+    DpShape*   places = DP_SHAPE3(stand->count, stand->shape.particles, 3);
+    DpShape*   bends = DP_SHAPE2(stand->count, stand->shape.bends);
+    DpBuffers* buffers = &stand->buffers;
     if (position &&
-        !(stand->position = dp_door_open(door, position, "position", 'f', places, true)))
+        !(stand->position = dp_buffers_open(buffers, position, "position", 'f', places, true)))
         return -1;
     if (velocity &&
-        !(stand->velocity = dp_door_open(door, velocity, "velocity", 'f', places, true)))
+        !(stand->velocity = dp_buffers_open(buffers, velocity, "velocity", 'f', places, true)))
         return -1;
-    if (!(stand->strength = dp_door_open(door, strength, "strength", 'd', bends, true))) return -1;
+    if (!(stand->strength = dp_buffers_open(buffers, strength, "strength", 'd', bends, true)))
+        return -1;
     for (int k = 0; k < stand->count; ++k) {
         const size_t   p = 3 * (size_t)k * (size_t)stand->shape.particles;
         const size_t   b = (size_t)k * (size_t)stand->shape.bends;
@@ -212,7 +214,7 @@ static int open_state(Stand* stand, PyObject* position, PyObject* velocity, PyOb
             dp_plants_write(stand->plants, 0, k, position ? stand->position + p : NULL,
                             velocity ? stand->velocity + p : NULL, stand->strength + b);
         if (status == DP_OK) continue;
-        dp_door_result(status, "position, velocity or strength");
+        dp_py_result(status, "position, velocity or strength");
         return -1;
     }
     return 0;
@@ -228,7 +230,8 @@ static int open_ground(Stand* stand, PyObject* object)
         return -1;
     }
     if (!PyArg_ParseTuple(object, "dddO:ground", &g->x0, &g->y0, &g->cell, &height)) return -1;
-    if (!(g->height = dp_door_open(&stand->door, height, "height", 'f', &grid, false))) return -1;
+    if (!(g->height = dp_buffers_open(&stand->buffers, height, "height", 'f', &grid, false)))
+        return -1;
     g->ny = (int)grid.n[0], g->nx = g->row = (int)grid.n[1];
     return 0;
 }
@@ -252,7 +255,7 @@ static int open_collider(Stand* stand, PyObject* object)
         if (!PyArg_ParseTuple(object, "dddOd(ddd)d:collider", &c->x0, &c->y0, &c->cell, &bottom,
                               &c->thickness, &v->x, &v->y, &v->z, &c->friction))
             return -1;
-        if (!(c->bottom = dp_door_open(&stand->door, bottom, "bottom", 'f', &grid, false)))
+        if (!(c->bottom = dp_buffers_open(&stand->buffers, bottom, "bottom", 'f', &grid, false)))
             return -1;
         c->ny = (int)grid.n[0], c->nx = c->row = (int)grid.n[1];
     }
@@ -295,7 +298,7 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
         goto done;
     const DpPlantGround* below = ground != Py_None ? &stand.ground : NULL;
     if (below && dp_plants_follow(stand.plants, below) != DP_OK) {
-        answer = dp_door_result(DP_BAD_ARGUMENT, "ground");
+        answer = dp_py_result(DP_BAD_ARGUMENT, "ground");
         goto done;
     }
     if (open_state(&stand, position, velocity, strength) < 0) goto done;
@@ -315,7 +318,7 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
                        stand.strength + (size_t)k * (size_t)stand.shape.bends);
     Py_END_ALLOW_THREADS
     answer = status == DP_OK ? Py_BuildValue("{s:i,s:i}", "awake", told.awake, "broke", broke)
-                             : dp_door_result(status, "moving plants");
+                             : dp_py_result(status, "moving plants");
 done:
     close_stand(&stand);
     return answer;
@@ -331,13 +334,13 @@ static PyObject* plants_rest(PyObject* module, PyObject* arguments)
                           &position))
         return NULL;
     if (open_stand(&stand, kind, seed, root, heading) < 0) goto done;
-    float* to = dp_door_open(&stand.door, position, "position", 'f',
-                             DP_SHAPE3(stand.count, stand.shape.particles, 3), true);
+    float* to = dp_buffers_open(&stand.buffers, position, "position", 'f',
+                                DP_SHAPE3(stand.count, stand.shape.particles, 3), true);
     if (!to) goto done;
     for (int k = 0; k < stand.count; ++k)
         dp_plants_read(stand.plants, 0, k, to + 3 * (size_t)k * (size_t)stand.shape.particles, NULL,
                        NULL);
-    answer = dp_door_result(DP_OK, "planting");
+    answer = dp_py_result(DP_OK, "planting");
 done:
     close_stand(&stand);
     return answer;
@@ -359,12 +362,12 @@ static PyObject* plants_cover(PyObject* module, PyObject* arguments)
     float *alpha, *modulus;
     if (open_stand(&stand, kind, 0, root, NULL) < 0 || open_state(&stand, NULL, NULL, strength) < 0)
         goto done;
-    if (!(alpha = dp_door_open(&stand.door, alphas, "alpha", 'f', &grid, true)) ||
-        !(modulus = dp_door_open(&stand.door, moduli, "modulus", 'f', &grid, true)))
+    if (!(alpha = dp_buffers_open(&stand.buffers, alphas, "alpha", 'f', &grid, true)) ||
+        !(modulus = dp_buffers_open(&stand.buffers, moduli, "modulus", 'f', &grid, true)))
         goto done;
     window.ny = (int)grid.n[0], window.nx = window.row = (int)grid.n[1];
-    answer = dp_door_result(dp_plants_cover(stand.plants, &window, (DpCoverLaw)law, alpha, modulus),
-                            "covering ground");
+    answer = dp_py_result(dp_plants_cover(stand.plants, &window, (DpCoverLaw)law, alpha, modulus),
+                          "covering ground");
 done:
     close_stand(&stand);
     return answer;

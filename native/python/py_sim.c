@@ -1,11 +1,9 @@
 // python/py_sim.c - desire_path._native.Simulation: a terrain, what presses it, and its frames.
 #include "base/alloc.h"
-#include "base/digest.h"
 #include "base/parallel.h"
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 #include <math.h>
-#include <string.h>
 
 static void simulation_dealloc(PyObject* object)
 {
@@ -28,10 +26,10 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpSimOptions options = dp_sim_options_default();
     double       cell, origin[2] = {0.0, 0.0};
     int          law = 0, heap = 0;
-    if (!PyArg_ParseTupleAndKeywords(
-            args, kwargs, "O!Od|(dd)iididi:Simulation", words, &PyTuple_Type, &ground_tuple,
-            &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
-            &options.max_sweeps, &options.normal_radius, &options.workers))
+    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!Od|(dd)iididi:Simulation", words,
+                                     &PyTuple_Type, &ground_tuple, &soils_object, &cell, &origin[0],
+                                     &origin[1], &law, &heap, &options.rim_width,
+                                     &options.max_sweeps, &options.normal_radius, &options.workers))
         return NULL;
     if (law < 0 || law > 1 || heap < 0 || heap > 1)
         return PyErr_Format(PyExc_ValueError, "law, heap: expected 0 or 1 each, got %d and %d", law,
@@ -45,12 +43,12 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     if (!self) return NULL;
     self->workers = options.workers;
 
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpGround  ground;
     int       soil_count = 0;
     PyObject* made = NULL;
-    DpSoil*   soils = dp_py_soils(&door, soils_object, &soil_count);
-    if (soils && dp_py_ground(&door, ground_tuple, &ground)) {
+    DpSoil*   soils = dp_py_soils(&buffers, soils_object, &soil_count);
+    if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
         const DpTerrainOptions terrain = {cell,  origin[0],  origin[1],
                                           soils, soil_count, options.workers};
         DpStatus               status;
@@ -58,10 +56,10 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
         if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);
         Py_END_ALLOW_THREADS
-        made = dp_door_result(status, "making the ground");
+        made = dp_py_result(status, "making the ground");
     }
     dp_free(soils);
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     if (!made) {
         Py_DECREF(self);
         return NULL;
@@ -74,22 +72,22 @@ static PyObject* simulation_rest(Simulation* self, PyObject* args)
 {
     PyObject *xy_object, *out_object;
     if (!PyArg_ParseTuple(args, "OO:rest", &xy_object, &out_object)) return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   shape = {2, {-1, 2}};
     PyObject* result = NULL;
-    double*   xy = dp_door_open(&door, xy_object, "xy", 'd', &shape, false);
+    double*   xy = dp_buffers_open(&buffers, xy_object, "xy", 'd', &shape, false);
     double*   out =
-        xy ? dp_door_open(&door, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
+        xy ? dp_buffers_open(&buffers, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
     if (out && shape.n[0] > INT32_MAX)
-        dp_door_result(DP_BAD_ARGUMENT, "asking for heights");
-    else if (out && dp_door_finite(xy, 2 * shape.n[0], "xy") == 0 && dp_py_enter(self)) {
+        dp_py_result(DP_BAD_ARGUMENT, "asking for heights");
+    else if (out && dp_buffers_finite(xy, 2 * shape.n[0], "xy") == 0 && dp_py_enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_terrain_base_height(self->terrain, (int)shape.n[0], xy, out);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_door_result(DP_OK, "");
+        result = dp_py_result(DP_OK, "");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -115,103 +113,6 @@ static PyObject* simulation_bounds(Simulation* self, PyObject* unused)
     return Py_BuildValue("(dddd)", b[0], b[1], b[2], b[3]);
 }
 
-// Cut concatenated sole arrays into one mesh a part.
-static DpMesh* cut_soles(const float* vertex, Py_ssize_t vertices, const int32_t* vertex_count,
-                         const int32_t* triangle, Py_ssize_t triangles,
-                         const int32_t* triangle_count, int parts)
-{
-    DpMesh* sole = dp_alloc((size_t)parts, sizeof *sole);
-    if (!sole) {
-        PyErr_NoMemory();
-        return NULL;
-    }
-    for (int p = 0; p < parts; ++p) {
-        if (vertex_count[p] < 0 || triangle_count[p] < 0 || vertex_count[p] > vertices ||
-            triangle_count[p] > triangles) {
-            PyErr_Format(PyExc_ValueError, "soles: the counts of part %d go past the arrays", p);
-            dp_free(sole);
-            return NULL;
-        }
-        sole[p] = (DpMesh){vertex_count[p], triangle_count[p], vertex, triangle};
-        vertex += 3 * vertex_count[p], vertices -= vertex_count[p];
-        triangle += 3 * triangle_count[p], triangles -= triangle_count[p];
-    }
-    return sole;
-}
-
-static PyObject* simulation_load(Simulation* self, PyObject* args)
-{
-    PyObject *o_time, *o_mass, *o_pose, *o_limb_walker, *o_part_limb, *o_vertex, *o_vertex_count,
-        *o_triangle, *o_triangle_count, *o_touching, *o_force, *o_point;
-    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO:load", &o_time, &o_mass, &o_pose, &o_limb_walker,
-                          &o_part_limb, &o_vertex, &o_vertex_count, &o_triangle, &o_triangle_count,
-                          &o_touching, &o_force, &o_point))
-        return NULL;
-    DpDoor    door = {.count = 0};
-    DpShape   times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
-    DpShape   vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
-    DpMesh*   sole = NULL;
-    PyObject* result = NULL;
-
-    double*  time = dp_door_open(&door, o_time, "time", 'd', &times, false);
-    double*  mass = time ? dp_door_open(&door, o_mass, "mass", 'd', &walkers, false) : NULL;
-    int32_t* limb_walker =
-        mass ? dp_door_open(&door, o_limb_walker, "limb_walker", 'i', &limbs, false) : NULL;
-    int32_t* part_limb =
-        limb_walker ? dp_door_open(&door, o_part_limb, "part_limb", 'i', &parts, false) : NULL;
-    if (!part_limb) goto done;
-    const Py_ssize_t T = times.n[0], P = parts.n[0];
-    if (T > INT32_MAX / 8 || P > 100000 || limbs.n[0] > P || walkers.n[0] > 100000) {
-        PyErr_SetString(PyExc_ValueError, "load: too many samples, parts or walkers");
-        goto done;
-    }
-    double* pose = dp_door_open(&door, o_pose, "pose", 'd', DP_SHAPE3(P, T, 7), false);
-    if (!pose) goto done;
-    float* vertex = dp_door_open(&door, o_vertex, "sole_vertex", 'f', &vertices, false);
-    if (!vertex) goto done;
-    int32_t* vertex_count =
-        dp_door_open(&door, o_vertex_count, "sole_vertex_count", 'i', DP_SHAPE1(P), false);
-    if (!vertex_count) goto done;
-    int32_t* triangle = dp_door_open(&door, o_triangle, "sole_triangle", 'i', &triangles, false);
-    if (!triangle) goto done;
-    int32_t* triangle_count =
-        dp_door_open(&door, o_triangle_count, "sole_triangle_count", 'i', DP_SHAPE1(P), false);
-    if (!triangle_count) goto done;
-    if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
-        PyErr_SetString(PyExc_ValueError, "load: too many vertices or triangles in the soles");
-        goto done;
-    }
-    uint8_t* touching = dp_door_open(&door, o_touching, "touching", 'B', DP_SHAPE2(P, T), false);
-    if (!touching) goto done;
-    double* force = dp_door_open(&door, o_force, "force", 'd', DP_SHAPE3(P, T, 3), false);
-    if (!force) goto done;
-    double* point = dp_door_open(&door, o_point, "point", 'd', DP_SHAPE3(P, T, 3), false);
-    if (!point) goto done;
-    sole = cut_soles(vertex, vertices.n[0], vertex_count, triangle, triangles.n[0], triangle_count,
-                     (int)P);
-    if (!sole || !dp_py_enter(self)) goto done;
-    const DpGait gait = {.times = (int)T,
-                         .walkers = (int)walkers.n[0],
-                         .limbs = (int)limbs.n[0],
-                         .parts = (int)P,
-                         .time = time,
-                         .mass = mass,
-                         .pose = pose,
-                         .limb_walker = limb_walker,
-                         .part_limb = part_limb,
-                         .sole = sole};
-    DpStatus     status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_sim_load(self->sim, &gait, touching, force, point);
-    Py_END_ALLOW_THREADS
-    self->busy = false;
-    result = dp_door_result(status, "loading the recording");
-done:
-    dp_free(sole);
-    dp_door_close(&door);
-    return result;
-}
-
 static PyObject* simulation_reach(Simulation* self, PyObject* unused)
 {
     (void)unused;
@@ -231,7 +132,7 @@ static PyObject* simulation_run(Simulation* self, PyObject* args)
     status = dp_sim_run(self->sim, sample);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return dp_door_result(status, "stepping the ground");
+    return dp_py_result(status, "stepping the ground");
 }
 
 static PyObject* simulation_settle(Simulation* self, PyObject* unused)
@@ -243,7 +144,7 @@ static PyObject* simulation_settle(Simulation* self, PyObject* unused)
     status = dp_sim_settle(self->sim);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return dp_door_result(status, "letting the ground settle");
+    return dp_py_result(status, "letting the ground settle");
 }
 
 static PyObject* simulation_report(Simulation* self, PyObject* unused)
@@ -271,12 +172,12 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   shape = {2, {-1, -1}};
     PyObject* result = NULL;
-    float*    out = dp_door_open(&door, out_object, "out", 'f', &shape, true);
+    float*    out = dp_buffers_open(&buffers, out_object, "out", 'f', &shape, true);
     if (out && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
-        dp_door_result(DP_BAD_ARGUMENT, "reading a map");
+        dp_py_result(DP_BAD_ARGUMENT, "reading a map");
     } else if (out && dp_py_enter(self)) {
         DpStatus status = DP_OK;
         Py_BEGIN_ALLOW_THREADS
@@ -287,9 +188,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
                                      (int)shape.n[0], out);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_door_result(status, "reading a map");
+        result = dp_py_result(status, "reading a map");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -299,15 +200,17 @@ static PyObject* simulation_lay(Simulation* self, PyObject* args)
     DpTrail   trail = {0};
     if (!PyArg_ParseTuple(args, "llOOO:lay", &trail.i0, &trail.j0, &grid[0], &grid[1], &grid[2]))
         return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   shape = {2, {-1, -1}};
     PyObject* result = NULL;
-    trail.compression = dp_door_open(&door, grid[0], "compression", 'f', &shape, false);
-    if (trail.compression) trail.heap = dp_door_open(&door, grid[1], "heap", 'f', &shape, false);
+    trail.compression = dp_buffers_open(&buffers, grid[0], "compression", 'f', &shape, false);
+    if (trail.compression)
+        trail.heap = dp_buffers_open(&buffers, grid[1], "heap", 'f', &shape, false);
     if (trail.heap)
-        trail.pressure_time = dp_door_open(&door, grid[2], "pressure_time", 'f', &shape, false);
+        trail.pressure_time =
+            dp_buffers_open(&buffers, grid[2], "pressure_time", 'f', &shape, false);
     if (trail.pressure_time && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
-        dp_door_result(DP_BAD_ARGUMENT, "laying a trail");
+        dp_py_result(DP_BAD_ARGUMENT, "laying a trail");
     } else if (trail.pressure_time && dp_py_enter(self)) {
         DpStatus status;
         trail.ny = (int)shape.n[0], trail.nx = (int)shape.n[1];
@@ -315,9 +218,9 @@ static PyObject* simulation_lay(Simulation* self, PyObject* args)
         status = dp_terrain_lay(self->terrain, &trail);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_door_result(status, "laying a trail");
+        result = dp_py_result(status, "laying a trail");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -331,7 +234,7 @@ static PyMethodDef methods[] = {
     {"place", dp_py_place, METH_VARARGS,
      "place(gait, walker, flat, carry, numbers (5,) f8, clearance (K,) f8, pose, com): turn a"
      " walker's feet to the rest ground, changing pose and com. TRAIL (1) (2)"},
-    {"load", (PyCFunction)simulation_load, METH_VARARGS,
+    {"load", dp_py_load, METH_VARARGS,
      "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
      " sole_triangle_count, touching, force, point): take an evenly sampled recording with loads."},
     {"reach", (PyCFunction)simulation_reach, METH_NOARGS,
@@ -390,47 +293,11 @@ static PyType_Spec type_spec = {.name = "desire_path._native.Simulation",
                                 .flags = Py_TPFLAGS_DEFAULT,
                                 .slots = type_slots};
 
-static PyObject* digest(PyObject* module, PyObject* object)
-{
-    (void)module;
-    Py_buffer view;
-    uint64_t  words[DP_DIGEST_WORDS];
-    if (PyObject_GetBuffer(object, &view, PyBUF_C_CONTIGUOUS) < 0) return NULL;
-    Py_BEGIN_ALLOW_THREADS
-    dp_digest(view.buf, (size_t)view.len, words);
-    Py_END_ALLOW_THREADS
-    PyBuffer_Release(&view);
-    return PyBytes_FromStringAndSize((const char*)words, sizeof words);
-}
-
-static PyObject* bytes_live(PyObject* module, PyObject* unused)
-{
-    (void)module, (void)unused;
-    return PyLong_FromSize_t(dp_bytes_live());
-}
-
-static PyObject* bytes_peak(PyObject* module, PyObject* unused)
-{
-    (void)module, (void)unused;
-    const size_t peak = dp_bytes_peak();
-    dp_bytes_peak_reset();
-    return PyLong_FromSize_t(peak);
-}
-
-static PyMethodDef memory_methods[] = {
-    {"digest", digest, METH_O,
-     "digest(buffer) -> bytes: 64 of them, which differ when the buffer's bytes do."},
-    {"bytes_live", bytes_live, METH_NOARGS, "bytes_live() -> int: memory the core holds now [B]."},
-    {"bytes_peak", bytes_peak, METH_NOARGS,
-     "bytes_peak() -> int: the most the core held since the last call [B]."},
-    {NULL, NULL, 0, NULL}};
-
-int dp_py_sim_types(PyObject* module)
+int dp_py_sim_type(PyObject* module)
 {
     PyObject* type = PyType_FromModuleAndSpec(module, &type_spec, NULL);
     if (!type) return -1;
     const int added = PyModule_AddObjectRef(module, "Simulation", type);
     Py_DECREF(type);
-    if (added < 0 || dp_py_film_type(module) < 0) return -1;
-    return PyModule_AddFunctions(module, memory_methods);
+    return added;
 }

@@ -13,13 +13,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "python/door.h"
+#include "python/buffers.h"
 #include "soil/soil.h"
 
 // What a call works with; zero it, open it, close it.
 typedef struct Call
 {
-    DpDoor         door;
+    DpBuffers      buffers;
     DpSoilPatch    patch;
     DpImprint      imprint;
     DpFootForce    foot;
@@ -29,7 +29,7 @@ typedef struct Call
 
 static void close_call(Call* call)
 {
-    dp_door_close(&call->door);
+    dp_buffers_close(&call->buffers);
     dp_free(call->soils);
     dp_soil_scratch_destroy(call->scratch);
 }
@@ -37,7 +37,7 @@ static void close_call(Call* call)
 static int open_soils(Call* call, PyObject* object)
 {
     DpShape      shape = {2, {-1, DP_SOIL_NUMBERS}};
-    const float* value = dp_door_open(&call->door, object, "soils", 'f', &shape, false);
+    const float* value = dp_buffers_open(&call->buffers, object, "soils", 'f', &shape, false);
     if (!value) return -1;
     if (shape.n[0] < 1 || shape.n[0] > 255) {
         PyErr_SetString(PyExc_ValueError, "soils: expected 1 to 255 rows");
@@ -83,7 +83,7 @@ static int check_grids(const DpSoilPatch* patch)
 static int open_patch(Call* call, PyObject* object, DpShape* shape)
 {
     DpSoilPatch* patch = &call->patch;
-    DpDoor*      door = &call->door;
+    DpBuffers*   buffers = &call->buffers;
     PyObject *   rest, *compression, *heap, *pressure_time, *modulus, *rest_slope, *kind, *soils;
     if (!PyTuple_Check(object)) {
         PyErr_SetString(PyExc_TypeError, "patch: expected a tuple");
@@ -98,14 +98,16 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
         PyErr_SetString(PyExc_ValueError, "patch: cell must be > 0, x0 and y0 finite");
         return -1;
     }
-    if (!(patch->base_height = dp_door_open(door, rest, "rest", 'f', shape, false)) ||
-        !(patch->compression = dp_door_open(door, compression, "compression", 'f', shape, true)) ||
-        !(patch->heap = dp_door_open(door, heap, "heap", 'f', shape, true)) ||
+    if (!(patch->base_height = dp_buffers_open(buffers, rest, "rest", 'f', shape, false)) ||
+        !(patch->compression =
+              dp_buffers_open(buffers, compression, "compression", 'f', shape, true)) ||
+        !(patch->heap = dp_buffers_open(buffers, heap, "heap", 'f', shape, true)) ||
         !(patch->pressure_time =
-              dp_door_open(door, pressure_time, "pressure_time", 'f', shape, true)) ||
-        !(patch->modulus = dp_door_open(door, modulus, "modulus", 'f', shape, false)) ||
-        !(patch->rest_slope = dp_door_open(door, rest_slope, "rest_slope", 'f', shape, false)) ||
-        !(patch->kind = dp_door_open(door, kind, "kind", 'B', shape, false)))
+              dp_buffers_open(buffers, pressure_time, "pressure_time", 'f', shape, true)) ||
+        !(patch->modulus = dp_buffers_open(buffers, modulus, "modulus", 'f', shape, false)) ||
+        !(patch->rest_slope =
+              dp_buffers_open(buffers, rest_slope, "rest_slope", 'f', shape, false)) ||
+        !(patch->kind = dp_buffers_open(buffers, kind, "kind", 'B', shape, false)))
         return -1;
     if (shape->n[0] < 1 || shape->n[1] < 1 || shape->n[0] > 32768 || shape->n[1] > 32768) {
         PyErr_SetString(PyExc_ValueError, "rest: expected 1 to 32768 cells a side");
@@ -126,9 +128,9 @@ static int open_imprint(Call* call, PyObject* object, DpShape* shape)
         return -1;
     }
     if (!PyArg_ParseTuple(object, "OOO:imprint", &bottom, &cover, &ring)) return -1;
-    if (!(imprint->bottom = dp_door_open(&call->door, bottom, "bottom", 'f', shape, false)) ||
-        !(imprint->cover = dp_door_open(&call->door, cover, "cover", 'f', shape, false)) ||
-        !(imprint->ring = dp_door_open(&call->door, ring, "ring", 'i', shape, true)))
+    if (!(imprint->bottom = dp_buffers_open(&call->buffers, bottom, "bottom", 'f', shape, false)) ||
+        !(imprint->cover = dp_buffers_open(&call->buffers, cover, "cover", 'f', shape, false)) ||
+        !(imprint->ring = dp_buffers_open(&call->buffers, ring, "ring", 'i', shape, true)))
         return -1;
     const int nx = call->patch.nx, ny = call->patch.ny;
     imprint->i0 = nx, imprint->i1 = 0, imprint->j0 = ny, imprint->j1 = 0;
@@ -152,8 +154,8 @@ static int open_imprint(Call* call, PyObject* object, DpShape* shape)
 
 static int open_foot(Call* call, PyObject* object)
 {
-    const double* v = dp_door_open(&call->door, object, "foot", 'd', DP_SHAPE2(3, 3), false);
-    if (!v || dp_door_finite(v, 9, "foot") < 0) return -1;
+    const double* v = dp_buffers_open(&call->buffers, object, "foot", 'd', DP_SHAPE2(3, 3), false);
+    if (!v || dp_buffers_finite(v, 9, "foot") < 0) return -1;
     call->foot = (DpFootForce){{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
     return 0;
 }
@@ -189,7 +191,7 @@ static PyObject* soil_compress(PyObject* module, PyObject* arguments)
         status =
             dp_soil_compress(&call.patch, &call.imprint, &call.foot, (DpContactLaw)law, dt, &p);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK ? dp_door_result(status, "pressing soil")
+        result = status != DP_OK ? dp_py_result(status, "pressing soil")
                                  : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm,
                                                  "loose", p.loose, "displaced", p.displaced, "area",
                                                  p.area, "sink", p.sink, "deepest", p.deepest);
@@ -218,8 +220,7 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
         status = dp_soil_accumulate(&call.patch, &call.imprint, &call.foot, volume, &options,
                                     &height, call.scratch);
         Py_END_ALLOW_THREADS
-        result =
-            status != DP_OK ? dp_door_result(status, "laying soil") : PyFloat_FromDouble(height);
+        result = status != DP_OK ? dp_py_result(status, "laying soil") : PyFloat_FromDouble(height);
     }
     close_call(&call);
     return result;
@@ -252,7 +253,7 @@ static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
                               within == Py_None ? NULL : box, tolerance, most, call.scratch, &s);
         Py_END_ALLOW_THREADS
         result = status != DP_OK
-                     ? dp_door_result(status, "letting soil come to rest")
+                     ? dp_py_result(status, "letting soil come to rest")
                      : Py_BuildValue("{s:i,s:N,s:N,s:(iiii)}", "sweeps", s.sweeps, "at_rest",
                                      PyBool_FromLong(s.at_rest), "at_edge",
                                      PyBool_FromLong(s.at_edge), "changed", s.i0, s.i1, s.j0, s.j1);

@@ -1,7 +1,7 @@
 // python/py_terrain.c - ground meshes: what of them lies near a walk, and their rest heights.
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "python/door.h"
+#include "python/buffers.h"
 #include "soil/soil.h"
 #include "terrain/terrain.h"
 
@@ -11,18 +11,18 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     PyObject *vertices, *triangles, *xy, *height;
     if (!PyArg_ParseTuple(arguments, "OOOO:terrain_rest", &vertices, &triangles, &xy, &height))
         return NULL;
-    DpDoor         door = {0};
+    DpBuffers      buffers = {0};
     PyObject*      answer = NULL;
     DpShape        corners = {2, {-1, 3}}, faces = {2, {-1, 3}}, points = {2, {-1, 2}};
-    const double*  vertex = dp_door_open(&door, vertices, "vertices", 'd', &corners, false);
+    const double*  vertex = dp_buffers_open(&buffers, vertices, "vertices", 'd', &corners, false);
     const int32_t* triangle =
-        vertex ? dp_door_open(&door, triangles, "triangles", 'i', &faces, false) : NULL;
-    const double* at = triangle ? dp_door_open(&door, xy, "xy", 'd', &points, false) : NULL;
+        vertex ? dp_buffers_open(&buffers, triangles, "triangles", 'i', &faces, false) : NULL;
+    const double* at = triangle ? dp_buffers_open(&buffers, xy, "xy", 'd', &points, false) : NULL;
     DpShape       heights = {1, {points.n[0]}};
-    double*       out = at ? dp_door_open(&door, height, "height", 'd', &heights, true) : NULL;
+    double* out = at ? dp_buffers_open(&buffers, height, "height", 'd', &heights, true) : NULL;
     if (!out) goto done;
     if (corners.n[0] > INT32_MAX || faces.n[0] > INT32_MAX || points.n[0] > INT32_MAX) {
-        answer = dp_door_result(DP_BAD_ARGUMENT, "asking for heights");
+        answer = dp_py_result(DP_BAD_ARGUMENT, "asking for heights");
         goto done;
     }
     DpGround ground = {0};
@@ -38,9 +38,9 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     if (status == DP_OK) dp_terrain_base_height(terrain, (int)points.n[0], at, out);
     dp_terrain_destroy(terrain);
     Py_END_ALLOW_THREADS
-    answer = dp_door_result(status, "asking for heights");
+    answer = dp_py_result(status, "asking for heights");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -50,9 +50,9 @@ static PyObject* cut_result(PyObject* module, DpCut* cut)
     PyObject* parts[3] = {NULL, NULL, NULL};
     if (cut->bad < 0) {
         const size_t points = (size_t)cut->point_count, triangles = (size_t)cut->triangle_count;
-        parts[0] = dp_door_block(module, cut->vertex, points * 3 * sizeof *cut->vertex);
-        parts[1] = dp_door_block(module, cut->triangle, triangles * 3 * sizeof *cut->triangle);
-        parts[2] = dp_door_block(module, cut->of, points * sizeof *cut->of);
+        parts[0] = dp_py_block(module, cut->vertex, points * 3 * sizeof *cut->vertex);
+        parts[1] = dp_py_block(module, cut->triangle, triangles * 3 * sizeof *cut->triangle);
+        parts[2] = dp_py_block(module, cut->of, points * sizeof *cut->of);
     } else {
         for (int k = 0; k < 3; ++k) parts[k] = Py_NewRef(Py_None);
     }
@@ -72,27 +72,28 @@ static PyObject* mesh_cut(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "OOOiOO:mesh_cut", &points, &corners, &starts, &sides, &place,
                           &box))
         return NULL;
-    DpDoor         door = {0};
+    DpBuffers      buffers = {0};
     PyObject*      answer = NULL;
     DpShape        point_shape = {2, {-1, 3}}, corner_shape = {1, {-1}}, start_shape = {1, {-1}};
-    const float*   point = dp_door_open(&door, points, "points", 'f', &point_shape, false);
+    const float*   point = dp_buffers_open(&buffers, points, "points", 'f', &point_shape, false);
     const int32_t* corner =
-        point ? dp_door_open(&door, corners, "corners", 'i', &corner_shape, false) : NULL;
+        point ? dp_buffers_open(&buffers, corners, "corners", 'i', &corner_shape, false) : NULL;
     const double* at =
-        corner ? dp_door_open(&door, place, "place", 'd', DP_SHAPE2(3, 4), false) : NULL;
+        corner ? dp_buffers_open(&buffers, place, "place", 'd', DP_SHAPE2(3, 4), false) : NULL;
     const int32_t* start = NULL;
     const double*  around = NULL;
     if (!at ||
         (starts != Py_None &&
-         !(start = dp_door_open(&door, starts, "starts", 'i', &start_shape, false))) ||
-        (box != Py_None && !(around = dp_door_open(&door, box, "box", 'd', DP_SHAPE1(4), false))))
+         !(start = dp_buffers_open(&buffers, starts, "starts", 'i', &start_shape, false))) ||
+        (box != Py_None &&
+         !(around = dp_buffers_open(&buffers, box, "box", 'd', DP_SHAPE1(4), false))))
         goto done;
     const Py_ssize_t faces = start       ? start_shape.n[0] - 1
                              : sides > 0 ? corner_shape.n[0] / sides
                                          : 0;
     if (point_shape.n[0] > INT32_MAX || corner_shape.n[0] > INT32_MAX || faces < 0 ||
         faces > INT32_MAX) {
-        answer = dp_door_result(DP_BAD_ARGUMENT, "cutting a mesh");
+        answer = dp_py_result(DP_BAD_ARGUMENT, "cutting a mesh");
         goto done;
     }
     const DpFaces of = {
@@ -102,9 +103,9 @@ static PyObject* mesh_cut(PyObject* module, PyObject* arguments)
     Py_BEGIN_ALLOW_THREADS
     status = dp_mesh_cut(&of, at, around, dp_parallel_width(), &cut);
     Py_END_ALLOW_THREADS
-    answer = status == DP_OK ? cut_result(module, &cut) : dp_door_result(status, "cutting a mesh");
+    answer = status == DP_OK ? cut_result(module, &cut) : dp_py_result(status, "cutting a mesh");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -113,17 +114,18 @@ static PyObject* are_quads(PyObject* module, PyObject* arguments)
     (void)module;
     PyObject *corners, *corner_edges, *edges;
     if (!PyArg_ParseTuple(arguments, "OOO:are_quads", &corners, &corner_edges, &edges)) return NULL;
-    DpDoor         door = {0};
+    DpBuffers      buffers = {0};
     DpShape        corner_shape = {1, {-1}}, edge_shape = {2, {-1, 2}};
-    const int32_t* corner = dp_door_open(&door, corners, "corners", 'i', &corner_shape, false);
-    const int32_t* corner_edge = corner ? dp_door_open(&door, corner_edges, "corner_edges", 'i',
-                                                       DP_SHAPE1(corner_shape.n[0]), false)
+    const int32_t* corner =
+        dp_buffers_open(&buffers, corners, "corners", 'i', &corner_shape, false);
+    const int32_t* corner_edge = corner ? dp_buffers_open(&buffers, corner_edges, "corner_edges",
+                                                          'i', DP_SHAPE1(corner_shape.n[0]), false)
                                         : NULL;
     const int32_t* edge =
-        corner_edge ? dp_door_open(&door, edges, "edges", 'i', &edge_shape, false) : NULL;
+        corner_edge ? dp_buffers_open(&buffers, edges, "edges", 'i', &edge_shape, false) : NULL;
     PyObject* answer = NULL;
     if (edge && (corner_shape.n[0] > INT32_MAX || edge_shape.n[0] > INT32_MAX)) {
-        dp_door_result(DP_BAD_ARGUMENT, "looking at edges");
+        dp_py_result(DP_BAD_ARGUMENT, "looking at edges");
     } else if (edge) {
         bool quads;
         Py_BEGIN_ALLOW_THREADS
@@ -132,7 +134,7 @@ static PyObject* are_quads(PyObject* module, PyObject* arguments)
         Py_END_ALLOW_THREADS
         answer = PyBool_FromLong(quads);
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 
@@ -144,12 +146,12 @@ static PyObject* are_centres(PyObject* module, PyObject* arguments)
     if (!PyArg_ParseTuple(arguments, "Odddd:are_centres", &vertices, &cell, &origin[0], &origin[1],
                           &most))
         return NULL;
-    DpDoor        door = {0};
+    DpBuffers     buffers = {0};
     DpShape       shape = {2, {-1, 3}};
     PyObject*     answer = NULL;
-    const double* vertex = dp_door_open(&door, vertices, "vertices", 'd', &shape, false);
+    const double* vertex = dp_buffers_open(&buffers, vertices, "vertices", 'd', &shape, false);
     if (vertex && (shape.n[0] > INT32_MAX - 65536 || !(cell > 0.0))) {
-        dp_door_result(DP_BAD_ARGUMENT, "looking for cells");
+        dp_py_result(DP_BAD_ARGUMENT, "looking for cells");
     } else if (vertex) {
         bool all;
         Py_BEGIN_ALLOW_THREADS
@@ -157,7 +159,7 @@ static PyObject* are_centres(PyObject* module, PyObject* arguments)
         Py_END_ALLOW_THREADS
         answer = PyBool_FromLong(all);
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return answer;
 }
 

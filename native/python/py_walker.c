@@ -2,10 +2,10 @@
 // types are checked here, meaning in walker/walker.h.
 #include <math.h>
 
-#include "python/door.h"
+#include "python/buffers.h"
 #include "walker/walker.h"
 
-int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
+int dp_py_gait(DpBuffers* buffers, PyObject* tuple, DpGait* gait)
 {
     if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != 9) {
         PyErr_SetString(PyExc_TypeError,
@@ -17,21 +17,23 @@ int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
     for (int k = 0; k < 9; ++k) item[k] = PyTuple_GetItem(tuple, k);
     DpShape time = {1, {-1}}, mass = {1, {-1}}, limb = {1, {-1}}, part = {1, {-1}},
             point = {1, {-1}};
-    if (!(gait->time = dp_door_open(door, item[0], "time", 'd', &time, false))) return -1;
-    if (!(gait->mass = dp_door_open(door, item[2], "mass", 'd', &mass, false))) return -1;
-    if (!(gait->limb_walker = dp_door_open(door, item[4], "limb_walker", 'i', &limb, false)))
+    if (!(gait->time = dp_buffers_open(buffers, item[0], "time", 'd', &time, false))) return -1;
+    if (!(gait->mass = dp_buffers_open(buffers, item[2], "mass", 'd', &mass, false))) return -1;
+    if (!(gait->limb_walker = dp_buffers_open(buffers, item[4], "limb_walker", 'i', &limb, false)))
         return -1;
-    if (!(gait->part_limb = dp_door_open(door, item[5], "part_limb", 'i', &part, false))) return -1;
-    if (!(gait->point_part = dp_door_open(door, item[7], "point_part", 'i', &point, false)))
+    if (!(gait->part_limb = dp_buffers_open(buffers, item[5], "part_limb", 'i', &part, false)))
+        return -1;
+    if (!(gait->point_part = dp_buffers_open(buffers, item[7], "point_part", 'i', &point, false)))
         return -1;
     const Py_ssize_t T = time.n[0], W = mass.n[0], P = part.n[0], K = point.n[0];
-    if (!(gait->com = dp_door_open(door, item[1], "com", 'd', DP_SHAPE3(W, T, 3), false)))
+    if (!(gait->com = dp_buffers_open(buffers, item[1], "com", 'd', DP_SHAPE3(W, T, 3), false)))
         return -1;
-    if (!(gait->pose = dp_door_open(door, item[3], "pose", 'd', DP_SHAPE3(P, T, 7), false)))
+    if (!(gait->pose = dp_buffers_open(buffers, item[3], "pose", 'd', DP_SHAPE3(P, T, 7), false)))
         return -1;
-    if (!(gait->point = dp_door_open(door, item[6], "point", 'd', DP_SHAPE2(K, 3), false)))
+    if (!(gait->point = dp_buffers_open(buffers, item[6], "point", 'd', DP_SHAPE2(K, 3), false)))
         return -1;
-    if (!(gait->point_role = dp_door_open(door, item[8], "point_role", 'i', DP_SHAPE1(K), false)))
+    if (!(gait->point_role =
+              dp_buffers_open(buffers, item[8], "point_role", 'i', DP_SHAPE1(K), false)))
         return -1;
     if (T > 100000000 || W > 100000 || limb.n[0] > 1000000 || P > 1000000 || K > 1000000) {
         PyErr_SetString(PyExc_ValueError, "gait: too many samples or parts");
@@ -39,11 +41,11 @@ int dp_door_gait(DpDoor* door, PyObject* tuple, DpGait* gait)
     }
     gait->times = (int)T, gait->walkers = (int)W, gait->limbs = (int)limb.n[0];
     gait->parts = (int)P, gait->points = (int)K;
-    if (dp_door_finite(gait->time, T, "time") < 0) return -1;
-    if (dp_door_finite(gait->mass, W, "mass") < 0) return -1;
-    if (dp_door_finite(gait->com, 3 * W * T, "com") < 0) return -1;
-    if (dp_door_finite(gait->pose, 7 * P * T, "pose") < 0) return -1;
-    return dp_door_finite(gait->point, 3 * K, "point");
+    if (dp_buffers_finite(gait->time, T, "time") < 0) return -1;
+    if (dp_buffers_finite(gait->mass, W, "mass") < 0) return -1;
+    if (dp_buffers_finite(gait->com, 3 * W * T, "com") < 0) return -1;
+    if (dp_buffers_finite(gait->pose, 7 * P * T, "pose") < 0) return -1;
+    return dp_buffers_finite(gait->point, 3 * K, "point");
 }
 
 static PyObject* resample_count(PyObject* self, PyObject* args)
@@ -67,43 +69,45 @@ static PyObject* resample(PyObject* self, PyObject* args)
     if (!PyArg_ParseTuple(args, "OOOdOOO", &time, &com, &pose, &rate, &new_time, &new_com,
                           &new_pose))
         return NULL;
-    DpDoor  door = {0};
-    DpGait  gait = {0};
+    DpBuffers buffers = {0};
+    DpGait    gait = {0};
     DpShape times = {1, {-1}}, count = {1, {-1}}, coms = {3, {-1, -1, 3}}, poses = {3, {-1, -1, 7}};
     PyObject* result = NULL;
     double *  out_time, *out_com, *out_pose;
-    if (!(gait.time = dp_door_open(&door, time, "time", 'd', &times, false))) goto done;
+    if (!(gait.time = dp_buffers_open(&buffers, time, "time", 'd', &times, false))) goto done;
     coms.n[1] = poses.n[1] = times.n[0];
-    if (!(gait.com = dp_door_open(&door, com, "com", 'd', &coms, false))) goto done;
-    if (!(gait.pose = dp_door_open(&door, pose, "pose", 'd', &poses, false))) goto done;
-    if (!(out_time = dp_door_open(&door, new_time, "new time", 'd', &count, true))) goto done;
+    if (!(gait.com = dp_buffers_open(&buffers, com, "com", 'd', &coms, false))) goto done;
+    if (!(gait.pose = dp_buffers_open(&buffers, pose, "pose", 'd', &poses, false))) goto done;
+    if (!(out_time = dp_buffers_open(&buffers, new_time, "new time", 'd', &count, true))) goto done;
     const Py_ssize_t n = count.n[0];
-    if (!(out_com = dp_door_open(&door, new_com, "new com", 'd', DP_SHAPE3(coms.n[0], n, 3), true)))
+    if (!(out_com =
+              dp_buffers_open(&buffers, new_com, "new com", 'd', DP_SHAPE3(coms.n[0], n, 3), true)))
         goto done;
-    if (!(out_pose =
-              dp_door_open(&door, new_pose, "new pose", 'd', DP_SHAPE3(poses.n[0], n, 7), true)))
+    if (!(out_pose = dp_buffers_open(&buffers, new_pose, "new pose", 'd',
+                                     DP_SHAPE3(poses.n[0], n, 7), true)))
         goto done;
     if (times.n[0] > 100000000 || n > 100000000) {
         PyErr_SetString(PyExc_ValueError, "resampling: too many samples");
         goto done;
     }
-    if (dp_door_finite(gait.time, times.n[0], "time") < 0) goto done;
+    if (dp_buffers_finite(gait.time, times.n[0], "time") < 0) goto done;
     gait.times = (int)times.n[0], gait.walkers = (int)coms.n[0], gait.parts = (int)poses.n[0];
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
     Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "resampling");
+    result = dp_py_result(status, "resampling");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
 // numbers of a plain struct of doubles, or its defaults where None stands
-static int read_numbers(DpDoor* door, PyObject* object, const char* name, double* number, int count)
+static int read_numbers(DpBuffers* buffers, PyObject* object, const char* name, double* number,
+                        int count)
 {
     if (object == Py_None) return 0;
-    const double* given = dp_door_open(door, object, name, 'd', DP_SHAPE1(count), false);
+    const double* given = dp_buffers_open(buffers, object, name, 'd', DP_SHAPE1(count), false);
     if (!given) return -1;
     for (int k = 0; k < count; ++k) {
         if (!isfinite(given[k]) || given[k] < 0.0) {
@@ -121,30 +125,31 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     PyObject *tuple, *ground, *touching, *clearance, *numbers = Py_None;
     if (!PyArg_ParseTuple(args, "OOOO|O", &tuple, &ground, &touching, &clearance, &numbers))
         return NULL;
-    DpDoor          door = {0};
+    DpBuffers       buffers = {0};
     DpGait          gait = {0};
     DpContactLimits l = dp_contact_limits_default();
     double    n[12] = {l.touch_height,      l.release_height, l.release_height_toe, l.touch_speed,
                        l.touch_speed_share, l.release_speed,  l.slow_speed,         l.shortest,
                        l.point_cutoff,      l.com_cutoff,     l.support_fall,       l.frame_time};
     PyObject* result = NULL;
-    if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
+    if (dp_py_gait(&buffers, tuple, &gait) < 0) goto done;
     const double* below =
-        dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
-    uint8_t* on = below ? dp_door_open(&door, touching, "touching", 'B',
-                                       DP_SHAPE2(gait.parts, gait.times), true)
+        dp_buffers_open(&buffers, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
+    uint8_t* on = below ? dp_buffers_open(&buffers, touching, "touching", 'B',
+                                          DP_SHAPE2(gait.parts, gait.times), true)
                         : NULL;
     double*  rest =
-        on ? dp_door_open(&door, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true) : NULL;
-    if (!rest || read_numbers(&door, numbers, "limits", n, 12) < 0) goto done;
+        on ? dp_buffers_open(&buffers, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true)
+            : NULL;
+    if (!rest || read_numbers(&buffers, numbers, "limits", n, 12) < 0) goto done;
     l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11]};
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_foot_contact(&gait, below, &l, on, rest);
     Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "finding contacts");
+    result = dp_py_result(status, "finding contacts");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -157,7 +162,7 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     if (!PyArg_ParseTuple(args, "OOOidpOO|OO", &tuple, &touching, &ground, &model, &settle_time,
                           &half_sine, &force, &point, &numbers, &settle))
         return NULL;
-    DpDoor        door = {0};
+    DpBuffers     buffers = {0};
     DpGait        gait = {0};
     DpLoadOptions o = dp_load_options_default();
     double n[13] = {o.cutoff_share, o.cutoff_low,   o.cutoff_high, o.cutoff_flight, o.cutoff_knock,
@@ -165,23 +170,23 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
                     o.ramp_trust,   o.support_span, o.frame_time};
     PyObject* result = NULL;
     double *  out_force = NULL, *out_point = NULL;
-    if (dp_door_gait(&door, tuple, &gait) < 0) goto done;
-    const uint8_t* on =
-        dp_door_open(&door, touching, "touching", 'B', DP_SHAPE2(gait.parts, gait.times), false);
+    if (dp_py_gait(&buffers, tuple, &gait) < 0) goto done;
+    const uint8_t* on = dp_buffers_open(&buffers, touching, "touching", 'B',
+                                        DP_SHAPE2(gait.parts, gait.times), false);
     if (!on) goto done;
     const double* below =
-        dp_door_open(&door, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
+        dp_buffers_open(&buffers, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
     if (!below) goto done;
     DpShape shape = {3, {gait.parts, gait.times, 3}};
-    if (!(out_force = dp_door_open(&door, force, "force", 'd', &shape, true))) goto done;
-    if (!(out_point = dp_door_open(&door, point, "point", 'd', &shape, true))) goto done;
-    if (read_numbers(&door, numbers, "options", n, 13) < 0) goto done;
+    if (!(out_force = dp_buffers_open(&buffers, force, "force", 'd', &shape, true))) goto done;
+    if (!(out_point = dp_buffers_open(&buffers, point, "point", 'd', &shape, true))) goto done;
+    if (read_numbers(&buffers, numbers, "options", n, 13) < 0) goto done;
     const double* taus = NULL;
     if (settle != Py_None) {
         const size_t count = (size_t)gait.points * (size_t)gait.times;
-        taus =
-            dp_door_open(&door, settle, "settle", 'd', DP_SHAPE2(gait.points, gait.times), false);
-        if (!taus || dp_door_finite(taus, (Py_ssize_t)count, "settle") < 0) goto done;
+        taus = dp_buffers_open(&buffers, settle, "settle", 'd', DP_SHAPE2(gait.points, gait.times),
+                               false);
+        if (!taus || dp_buffers_finite(taus, (Py_ssize_t)count, "settle") < 0) goto done;
     }
     o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA,
                         settle_time,
@@ -208,9 +213,9 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
     Py_END_ALLOW_THREADS
-    result = dp_door_result(status, "finding loads");
+    result = dp_py_result(status, "finding loads");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 

@@ -116,7 +116,7 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
 {
     DpReel*        reel = film->reel;
     const DpSim*   sim = reel->sim;
-    const DpStatus status = dp_writer_told(reel->writer, false, failed);
+    const DpStatus status = dp_writer_outcome(reel->writer, false, failed);
     if (status != DP_OK) return status;
     dp_terrain_changed(sim->terrain, mark_ground, reel);
     if (dp_sim_grass(sim)) dp_grass_changed(dp_sim_grass(sim), mark_grass, reel);
@@ -156,17 +156,17 @@ DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char**
 
 DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers)
 {
-    DpReel* made = dp_alloc(1, sizeof *made);
-    if (!made) return DP_NO_MEMORY;
-    made->sim = sim;
-    made->workers = workers;
-    const DpStatus status = dp_writer_create(&made->writer, workers);
+    DpReel* created = dp_alloc(1, sizeof *created);
+    if (!created) return DP_NO_MEMORY;
+    created->sim = sim;
+    created->workers = workers;
+    const DpStatus status = dp_writer_create(&created->writer, workers);
     if (status != DP_OK) {
-        dp_free(made);
+        dp_free(created);
         return status;
     }
-    pthread_mutex_init(&made->lock, NULL);
-    *reel = made;
+    pthread_mutex_init(&created->lock, NULL);
+    *reel = created;
     return DP_OK;
 }
 
@@ -190,9 +190,9 @@ void dp_reel_destroy(DpReel* reel)
     dp_free(reel);
 }
 
-DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path)
+DpStatus dp_reel_outcome(DpReel* reel, bool wait, const char** path)
 {
-    return dp_writer_told(reel->writer, wait, path);
+    return dp_writer_outcome(reel->writer, wait, path);
 }
 
 static bool are_tiles(long first, int count)
@@ -202,6 +202,13 @@ static bool are_tiles(long first, int count)
            dp_terrain_has(first * DP_TILE, 0, (long)count * DP_TILE, 1);
 }
 
+bool dp_film_shows(const DpSim* sim, int field)
+{
+    if (field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3) return dp_sim_grass(sim) != NULL;
+    return field == DP_FIELD_PRESSURE ||
+           (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE);
+}
+
 static bool are_known(const DpSim* sim, const DpFilmOptions* options)
 {
     if (!are_tiles(options->tile_x, options->tiles_x) ||
@@ -209,13 +216,8 @@ static bool are_known(const DpSim* sim, const DpFilmOptions* options)
         options->tiles_x > MAX_TILES / options->tiles_y || options->fields < 1 ||
         options->fields > DP_FILM_FIELDS)
         return false;
-    for (int f = 0; f < options->fields; ++f) {
-        const int  field = options->field[f];
-        const bool lies = field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3;
-        if (!(lies && dp_sim_grass(sim)) && field != DP_FIELD_PRESSURE &&
-            (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE))
-            return false;
-    }
+    for (int f = 0; f < options->fields; ++f)
+        if (!dp_film_shows(sim, options->field[f])) return false;
     return true;
 }
 
@@ -242,31 +244,62 @@ static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
 DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
 {
     if (!are_known(reel->sim, options)) return DP_BAD_ARGUMENT;
-    DpFilm* made = dp_alloc(1, sizeof *made);
-    if (!made) return DP_NO_MEMORY;
-    made->reel = reel;
-    made->tile_x = options->tile_x, made->tile_y = options->tile_y;
-    made->tiles_x = options->tiles_x, made->tiles_y = options->tiles_y;
-    made->fields = options->fields;
+    DpFilm* created = dp_alloc(1, sizeof *created);
+    if (!created) return DP_NO_MEMORY;
+    created->reel = reel;
+    created->tile_x = options->tile_x, created->tile_y = options->tile_y;
+    created->tiles_x = options->tiles_x, created->tiles_y = options->tiles_y;
+    created->fields = options->fields;
     for (int f = 0; f < options->fields; ++f) {
-        const int field = made->field[f] = options->field[f];
-        made->of_soles = made->of_soles || field == DP_FIELD_PRESSURE;
-        made->of_grass = made->of_grass || (field >= DP_FIELD_LEAN && field != DP_FIELD_PRESSURE);
-        made->of_ground =
-            made->of_ground || (field < DP_FIELD_LEAN && field != DP_FIELD_PLANT_STRENGTH);
+        const int field = created->field[f] = options->field[f];
+        created->of_soles = created->of_soles || field == DP_FIELD_PRESSURE;
+        created->of_grass =
+            created->of_grass || (field >= DP_FIELD_LEAN && field != DP_FIELD_PRESSURE);
+        created->of_ground =
+            created->of_ground || (field < DP_FIELD_LEAN && field != DP_FIELD_PLANT_STRENGTH);
     }
-    const DpStatus status = begin(made, options);
+    const DpStatus status = begin(created, options);
     if (status != DP_OK) {
-        drop(made);
+        drop(created);
         return status;
     }
-    if (made->of_soles) dp_sim_soles(reel->sim, mark_sole, made);
+    if (created->of_soles) dp_sim_soles(reel->sim, mark_sole, created);
     pthread_mutex_lock(&reel->lock);
-    made->next = reel->first;
-    reel->first = made;
+    created->next = reel->first;
+    reel->first = created;
     pthread_mutex_unlock(&reel->lock);
-    *film = made;
+    *film = created;
     return DP_OK;
+}
+
+DpStatus dp_film_open_playback(DpReel* reel, const DpFilmOptions* options, DpPlayback shows,
+                               const char* software, DpFilm** film)
+{
+    static const char* const channel[4] = {"R", "G", "B", "A"};
+    static const int         field[2][4] = {
+                {DP_FIELD_HEIGHT_CHANGE, DP_FIELD_PLANT_STRENGTH, DP_FIELD_COMPRESSION,
+                 DP_FIELD_PRESSURE_TIME},
+                {DP_FIELD_LEAN, DP_FIELD_LEAN + 1, DP_FIELD_LEAN + 2, DP_FIELD_PLANT_STRENGTH}};
+    static const char* const name[2][4] = {
+        {"height change [m]", "plant strength [-]", "compression [m]", "pressure_time [Pa s]"},
+        {"lean_x [-]", "lean_y [-]", "crushed [-]", "plant strength [-]"}};
+    const DpSim* sim = reel->sim;
+    const double tile = sim->cell * DP_TILE;
+    const DpNote notes[] = {
+        {"software", software, 0.0},
+        {"cell", NULL, sim->cell},
+        {"originX", NULL, sim->origin_x + tile * (double)options->tile_x},
+        {"originY", NULL, sim->origin_y + tile * (double)options->tile_y},
+        {"channelR", name[shows][0], 0.0},
+        {"channelG", name[shows][1], 0.0},
+        {"channelB", name[shows][2], 0.0},
+        {"channelA", name[shows][3], 0.0},
+    };
+    DpFilmOptions all = *options;
+    all.notes = notes, all.note_count = (int)(sizeof notes / sizeof *notes);
+    all.fields = 4;
+    for (int f = 0; f < 4; ++f) all.field[f] = field[shows][f], all.channel[f] = channel[f];
+    return dp_film_open(reel, &all, film);
 }
 
 void dp_film_close(DpFilm* film)

@@ -30,21 +30,33 @@ typedef struct DpFilmOptions
     int           note_count;
 } DpFilmOptions;
 
+// What a file for playback shows, a channel each: R, G, B, A.
+typedef enum DpPlayback
+{
+    DP_PLAY_TRAIL = 0,  // height change, plant strength, compression, pressure_time
+    DP_PLAY_LEAN = 1    // lean_x, lean_y, crushed, plant strength; on planted ground only
+} DpPlayback;
+
 // The simulation is borrowed and must outlive the reel.
 DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers);
 void     dp_reel_destroy(DpReel* reel);  // with its films, when all that was given is written
 
 // How the files of all films went since the last call; path: where it failed ("" = encoding), valid
 // until the next call. wait: first wait until all that was given is written.
-DpStatus dp_reel_told(DpReel* reel, bool wait, const char** path);
+DpStatus dp_reel_outcome(DpReel* reel, bool wait, const char** path);
 
 // Begin a film with the ground as it is now.
 DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film);
-void     dp_film_close(DpFilm* film);  // when what it was given is written
+// The same for playback: of `options` only the tiles are looked at. `software` stands in the header.
+DpStatus dp_film_open_playback(DpReel* reel, const DpFilmOptions* options, DpPlayback shows,
+                               const char* software, DpFilm** film);
+// Can a film show this field on this ground?
+bool dp_film_shows(const DpSim* sim, int field);
+void dp_film_close(DpFilm* film);  // when what it was given is written
 
 // Add every file of the film to a list, see dp_frames_list; when what it was given is written.
 DpStatus dp_film_list(DpFilm* film, const char* path);
 
 // Take in what changed since the film's last file, to be packed and, unless path is NULL, written as
-// a file of that `time` [s]. Tells first of files that failed before: *failed as dp_reel_told's path.
+// a file of that `time` [s]. Tells first of files that failed before: *failed as dp_reel_outcome's path.
 DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed);

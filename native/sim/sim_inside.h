@@ -193,12 +193,16 @@ SweptSole* dp_sweep_path(DpSim* sim, int part, int sample);
 DpStatus   dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch* scratch);
 void       dp_sweep_ahead(DpSim* sim, int part, int sample, DpImprintScratch* scratch);
 
-// sim_plants.c: room for a recording's soles; what plants do in a step, after the soil
+#define DP_STAGE_MARGIN 0.5  // plants are moved no farther beside a sole than this [m]
+
+// sim_planting.c: room for a recording's soles; how far beside a sole plants are changed [m]
 DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs);
 void     dp_stage_drop(DpSim* sim);
+double   dp_stage_margin(const DpSim* sim);
+
+// sim_plants.c: what plants do in a step, after the soil
 DpStatus dp_stage_settled(DpSim* sim, Limb* limb);
 DpStatus dp_stage_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
-double   dp_stage_margin(const DpSim* sim);  // how far beside a sole plants are changed [m]
 
 // sim_plan.c: what every limb does in a step, and room for it on the terrain
 DpStatus dp_step_plan(DpSim* sim, int sample);

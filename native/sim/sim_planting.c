@@ -148,3 +148,40 @@ DpStatus dp_sim_rest(DpSim* sim, double seconds)
     planted(sim, (const double[4]){-1e9, -1e9, 1e9, 1e9});
     return seconds > 0.0 ? dp_grass_step(sim->stage.grass, NULL, NULL, 0, seconds) : DP_OK;
 }
+
+double dp_stage_margin(const DpSim* sim)
+{
+    return fmin(sim->stage.extent + sim->stage.reach, DP_STAGE_MARGIN);
+}
+
+DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs)
+{
+    PlantStage* m = &sim->stage;
+    if (!m->plants) return DP_OK;
+    m->parts = parts, m->limbs = limbs;
+    m->swept = dp_alloc(2 * (size_t)parts, sizeof *m->swept);
+    for (int n = 0; m->swept && n < 2 * parts; ++n) m->swept[n].sample = -1;
+    m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
+    m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
+    m->height = dp_alloc((size_t)limbs, sizeof *m->height);
+    m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
+    const bool made = m->swept && m->sole && m->ground && m->height && m->height_room;
+    return made ? DP_OK : DP_NO_MEMORY;
+}
+
+void dp_stage_drop(DpSim* sim)
+{
+    PlantStage* m = &sim->stage;
+    for (int n = 0; m->swept && n < 2 * m->parts; ++n) {
+        dp_free(m->swept[n].imprint.bottom);
+        dp_free(m->swept[n].imprint.cover);
+    }
+    for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
+    dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
+        dp_free(m->height_room);
+    *m = (PlantStage){.plants = m->plants,
+                      .grass = m->grass,
+                      .display = m->display,
+                      .extent = m->extent,
+                      .reach = m->reach};
+}

@@ -11,45 +11,7 @@
 #define FOOT_HIGH 0.15     // above its sole a foot is at least so high [m]
 #define FRICTION 0.5       // of leaves on a sole [-]
 #define RISE_TIME 0.1      // in which a sole that let go is where it was recorded [s]
-#define MAX_MARGIN 0.5     // beside a sole [m]
 #define SETTLED_MARGIN 16  // cells around trodden ground whose soil came to rest
-
-double dp_stage_margin(const DpSim* sim)
-{
-    return fmin(sim->stage.extent + sim->stage.reach, MAX_MARGIN);
-}
-
-DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs)
-{
-    PlantStage* m = &sim->stage;
-    if (!m->plants) return DP_OK;
-    m->parts = parts, m->limbs = limbs;
-    m->swept = dp_alloc(2 * (size_t)parts, sizeof *m->swept);
-    for (int n = 0; m->swept && n < 2 * parts; ++n) m->swept[n].sample = -1;
-    m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
-    m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
-    m->height = dp_alloc((size_t)limbs, sizeof *m->height);
-    m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
-    const bool made = m->swept && m->sole && m->ground && m->height && m->height_room;
-    return made ? DP_OK : DP_NO_MEMORY;
-}
-
-void dp_stage_drop(DpSim* sim)
-{
-    PlantStage* m = &sim->stage;
-    for (int n = 0; m->swept && n < 2 * m->parts; ++n) {
-        dp_free(m->swept[n].imprint.bottom);
-        dp_free(m->swept[n].imprint.cover);
-    }
-    for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
-    dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
-        dp_free(m->height_room);
-    *m = (PlantStage){.plants = m->plants,
-                      .grass = m->grass,
-                      .display = m->display,
-                      .extent = m->extent,
-                      .reach = m->reach};
-}
 
 static bool make_room(float** grid, size_t* room, size_t cells)
 {
@@ -142,7 +104,7 @@ static bool is_near(const DpSim* sim, const Limb* limb, const SweptSole* swept)
 static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
 {
     PlantStage*  m = &sim->stage;
-    const double was = limb->lowered, margin = fmin(m->extent, MAX_MARGIN);
+    const double was = limb->lowered, margin = fmin(m->extent, DP_STAGE_MARGIN);
     const int    grounds = m->grounds;
     Cells        near = {0, 0, 0, 0};
     limb->lowered = limb->stands ? limb->sink : was * exp(-dt / RISE_TIME);

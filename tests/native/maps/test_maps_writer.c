@@ -32,7 +32,7 @@ static size_t film(bool background, unsigned char* bytes, size_t most)
             if (path) CHECK(dp_frames_write(frames, path, k) == DP_OK);
         }
     }
-    if (writer) CHECK(dp_writer_told(writer, true, &failed) == DP_OK && !*failed);
+    if (writer) CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK && !*failed);
     for (int k = 0; k < 30; ++k) {
         if (k % 3 == 2) continue;
         snprintf(name, sizeof name, "film_%02d.exr", k);
@@ -69,7 +69,7 @@ TEST(a_flood_of_tiles_is_one_file)
     DpTiles* tiles = dp_writer_tiles(writer, frames);
     for (int k = 0; k < 36; ++k) paint(dp_tiles_add(tiles, k % 6, k / 6), k);
     CHECK(dp_writer_give(writer, tiles, path, 0.0) == DP_OK);
-    CHECK(dp_writer_told(writer, true, &failed) == DP_OK);
+    CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK);
     DpMapFile* map = NULL;
     CHECK(dp_maps_read(path, &map) == DP_OK);
     for (int k = 0; map && k < 36; ++k)  // of channel A, the first in the file; its first cell is 3
@@ -96,16 +96,16 @@ TEST(nothing_is_written_after_a_failure_until_it_was_told)
         CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), world_path(name), k) ==
               DP_OK);
     }
-    CHECK(dp_writer_told(writer, true, &failed) == DP_CANNOT_OPEN);
+    CHECK(dp_writer_outcome(writer, true, &failed) == DP_CANNOT_OPEN);
     CHECK(strcmp(failed, bad) == 0);
     for (int k = 0; k < 5; ++k) {
         snprintf(name, sizeof name, "after_%d.exr", k);
         CHECK(access(world_path(name), F_OK) != 0);
     }
-    CHECK(dp_writer_told(writer, true, &failed) == DP_OK && !*failed);  // told once
+    CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK && !*failed);  // told once
     const char* path = world_path("again.exr");
     CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), path, 0.0) == DP_OK);
-    CHECK(dp_writer_told(writer, true, &failed) == DP_OK);
+    CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK);
     CHECK(access(path, F_OK) == 0);
     unlink(path);
     DpTiles* tiles = dp_writer_tiles(writer, frames);

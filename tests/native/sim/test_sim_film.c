@@ -72,11 +72,63 @@ TEST(parts_are_cut_from_the_whole)
     CHECK(is_part(path_of("whole", 1), path_of("left", 1), 0));
     CHECK(is_part(path_of("whole", 1), path_of("right", 1), 1));
     CHECK(dp_film_write(right, NULL, 0.0, &failed) == DP_OK);
-    CHECK(dp_reel_told(reel, true, &failed) == DP_OK && !*failed);
+    CHECK(dp_reel_outcome(reel, true, &failed) == DP_OK && !*failed);
     dp_reel_destroy(reel);
     for (int k = 0; k < 2; ++k) {
         unlink(path_of("left", k)), unlink(path_of("whole", k)), unlink(path_of("right", k));
     }
+    world_drop(&world);
+    stride_drop(&s);
+    CHECK(dp_bytes_live() == 0);
+}
+
+static const char* note_of(const DpMapFile* file, const char* name)
+{
+    for (int n = 0; n < file->note_count; ++n)
+        if (strcmp(file->note_name[n], name) == 0) return file->note_text[n];
+    return "";
+}
+
+// a program without Python writes what a bake plays: channels, notes and tiles are the core's
+TEST(frames_for_playback_are_written_from_c)
+{
+    World       world;
+    Stride      s = stride_make(1, 3, 80.0, STRIDE_RATE);
+    DpPlantKind kind = dp_plant_kind_default();
+    DpReel*     reel = NULL;
+    DpFilm*     film[2] = {NULL, NULL};
+    const char* failed = "";
+    DpMapFile*  file[2] = {NULL, NULL};
+    CHECK(world_make(&world, &kind, 0.0, -0.3, 0.6, 0.1, 0.02, 2) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_reel_create(&reel, world.sim, 2) == DP_OK);
+    const DpFilmOptions tiles = {.tile_x = -1, .tile_y = -1, .tiles_x = 3, .tiles_y = 2};
+    for (int k = 0; k < 2; ++k)
+        CHECK(dp_film_open_playback(reel, &tiles, (DpPlayback)k, "a test", &film[k]) == DP_OK);
+    CHECK(dp_sim_run(world.sim, s.gait.times - 1) == DP_OK);
+    for (int k = 0; k < 2; ++k) {
+        CHECK(dp_film_write(film[k], path_of("play", k), 0.5, &failed) == DP_OK);
+        dp_film_close(film[k]);
+        CHECK(dp_maps_read(path_of("play", k), &file[k]) == DP_OK);
+        unlink(path_of("play", k));
+    }
+    for (int k = 0; k < 2 && file[0] && file[1]; ++k) {
+        CHECK(file[k]->nx == 3 * DP_TILE && file[k]->ny == 2 * DP_TILE);
+        CHECK(file[k]->channel_count == 4 && strcmp(note_of(file[k], "software"), "a test") == 0);
+        CHECK(strcmp(note_of(file[k], "channelG"), k ? "lean_y [-]" : "plant strength [-]") == 0);
+    }
+    for (int c = 0; c < 4 && file[0]; ++c) {  // B: compression
+        if (strcmp(file[0]->channel[c], "B") != 0) continue;
+        float* wanted = dp_alloc((size_t)(6 * DP_TILE * DP_TILE), sizeof *wanted);
+        CHECK(wanted && dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, -DP_TILE, -DP_TILE,
+                                        3 * DP_TILE, 2 * DP_TILE, wanted) == DP_OK);
+        if (wanted)
+            CHECK(memcmp(wanted, file[0]->value + (size_t)(c * 6 * DP_TILE * DP_TILE),
+                         (size_t)(6 * DP_TILE * DP_TILE) * sizeof *wanted) == 0);
+        dp_free(wanted);
+    }
+    for (int k = 0; k < 2; ++k) dp_map_file_destroy(file[k]);
+    dp_reel_destroy(reel);
     world_drop(&world);
     stride_drop(&s);
     CHECK(dp_bytes_live() == 0);
@@ -107,6 +159,7 @@ int main(void)
     snprintf(folder, sizeof folder, "/tmp/desire_path_film_XXXXXX");
     if (!mkdtemp(folder)) return 1;
     RUN(parts_are_cut_from_the_whole);
+    RUN(frames_for_playback_are_written_from_c);
     RUN(what_cannot_be_filmed_is_refused);
     rmdir(folder);
     return check_done();

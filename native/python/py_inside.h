@@ -1,7 +1,6 @@
-// python/py_sim.h - the simulation as Python holds it; for py_sim.c, py_ground.c, py_frames.c
-// and py_meadow.c only.
+// python/py_inside.h - the simulation as Python holds it, and what the files of this room share of it.
 #pragma once
-#include "python/door.h"
+#include "python/buffers.h"
 #include "sim/sim.h"
 
 typedef struct Simulation
@@ -29,13 +28,13 @@ static inline bool dp_py_enter(Simulation* self)
 // py_ground.c: what arrays and tuples say; NULL or false with an exception.
 // Soils are rows of six floats in the order of DpSoil; the caller frees them. A ground is
 // ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds).
-DpSoil* dp_py_soils(DpDoor* door, PyObject* object, int* count);
-bool    dp_py_ground(DpDoor* door, PyObject* tuple, DpGround* ground);
+DpSoil* dp_py_soils(DpBuffers* buffers, PyObject* object, int* count);
+bool    dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
 
 // py_plants.c: 21 numbers of DpPlantKind; 0 or -1 with an exception.
-int dp_py_kind(DpDoor* door, PyObject* object, DpPlantKind* kind);
+int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind);
 
-// py_meadow.c
+// py_planting.c
 PyObject* dp_py_open_plants(PyObject* object, PyObject* args);
 PyObject* dp_py_plant(PyObject* object, PyObject* args);
 PyObject* dp_py_vary_plants(PyObject* object, PyObject* args);
@@ -45,10 +44,12 @@ PyObject* dp_py_lay_plants(PyObject* object, PyObject* unused);
 PyObject* dp_py_read_shown(PyObject* object, PyObject* args);
 PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
-// py_frames.c; the type adds itself to the module, 0 or -1 with an exception
+// py_motion.c
+PyObject* dp_py_load(PyObject* object, PyObject* args);
+
+// py_frames.c
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
 PyObject* dp_py_flush(PyObject* object, PyObject* unused);
-int       dp_py_film_type(PyObject* module);
 
 // py_maps.c: notes[k] from a tuple of (name, str or number), or NULL with an exception. The caller
 // frees the array; what it points to lives as long as `items`.

@@ -1,4 +1,4 @@
-#include "python/door.h"
+#include "python/buffers.h"
 
 #include "base/alloc.h"
 
@@ -20,21 +20,21 @@ static bool is_type(const Py_buffer* view, char type)
     return *format == type;
 }
 
-void* dp_door_open(DpDoor* door, PyObject* object, const char* name, char type, DpShape* shape,
-                   bool write)
+void* dp_buffers_open(DpBuffers* buffers, PyObject* object, const char* name, char type,
+                      DpShape* shape, bool write)
 {
-    if (door->count == DP_DOOR_MOST) {
+    if (buffers->count == DP_MAX_BUFFERS) {
         PyErr_SetString(PyExc_SystemError, "too many arrays in one call");
         return NULL;
     }
-    Py_buffer* view = &door->view[door->count];
+    Py_buffer* view = &buffers->view[buffers->count];
     const int  flags = PyBUF_ND | PyBUF_FORMAT | PyBUF_C_CONTIGUOUS | (write ? PyBUF_WRITABLE : 0);
     if (PyObject_GetBuffer(object, view, flags) < 0) {
         PyErr_Format(PyExc_TypeError, "%s: expected %s%s array in C order", name,
                      write ? "a writable " : "a ", type_name(type));
         return NULL;
     }
-    ++door->count;
+    ++buffers->count;
     if (!is_type(view, type)) {
         PyErr_Format(PyExc_TypeError, "%s: expected %s, got format '%s'", name, type_name(type),
                      view->format ? view->format : "B");
@@ -56,12 +56,12 @@ void* dp_door_open(DpDoor* door, PyObject* object, const char* name, char type, 
     return view->buf ? view->buf : (void*)"";
 }
 
-void dp_door_close(DpDoor* door)
+void dp_buffers_close(DpBuffers* buffers)
 {
-    while (door->count > 0) PyBuffer_Release(&door->view[--door->count]);
+    while (buffers->count > 0) PyBuffer_Release(&buffers->view[--buffers->count]);
 }
 
-int dp_door_finite(const double* value, Py_ssize_t count, const char* name)
+int dp_buffers_finite(const double* value, Py_ssize_t count, const char* name)
 {
     for (Py_ssize_t k = 0; k < count; ++k) {
         if (isfinite(value[k])) continue;
@@ -71,7 +71,7 @@ int dp_door_finite(const double* value, Py_ssize_t count, const char* name)
     return 0;
 }
 
-PyObject* dp_door_result(DpStatus status, const char* what)
+PyObject* dp_py_result(DpStatus status, const char* what)
 {
     PyObject* kind = PyExc_ValueError;
     switch (status) {
@@ -119,7 +119,7 @@ static void block_dealloc(PyObject* object)
     Py_DECREF(type);
 }
 
-PyObject* dp_door_block(PyObject* module, void* memory, size_t size)
+PyObject* dp_py_block(PyObject* module, void* memory, size_t size)
 {
     PyObject* type = PyObject_GetAttrString(module, "Block");
     allocfunc allocate = type ? (allocfunc)PyType_GetSlot((PyTypeObject*)type, Py_tp_alloc) : NULL;
@@ -144,7 +144,7 @@ static PyType_Spec block_spec = {.name = "desire_path._native.Block",
                                  .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION,
                                  .slots = block_slots};
 
-int dp_door_types(PyObject* module)
+int dp_py_block_type(PyObject* module)
 {
     PyObject* type = PyType_FromModuleAndSpec(module, &block_spec, NULL);
     if (!type) return -1;

@@ -1,6 +1,6 @@
-// python/py_meadow.c - the plants of a simulation: planting, resting, and reading them one by one.
+// python/py_planting.c - the plants of a simulation: planting, resting, and reading them one by one.
 #include "base/alloc.h"
-#include "python/py_sim.h"
+#include "python/py_inside.h"
 
 PyObject* dp_py_open_plants(PyObject* object, PyObject* args)
 {
@@ -19,7 +19,7 @@ PyObject* dp_py_open_plants(PyObject* object, PyObject* args)
     else
         dp_plants_destroy(plants);
     self->busy = false;
-    return dp_door_result(status, "open_plants after a recording was loaded or ground was trodden");
+    return dp_py_result(status, "open_plants after a recording was loaded or ground was trodden");
 }
 
 // Plants are there to be talked about, and nobody else is at them.
@@ -35,13 +35,13 @@ PyObject* dp_py_plant(PyObject* object, PyObject* args)
     Simulation* self = (Simulation*)object;
     PyObject *  o_kind, *o_root;
     if (!PyArg_ParseTuple(args, "OO:plant", &o_kind, &o_root)) return NULL;
-    DpDoor       door = {.count = 0};
+    DpBuffers    buffers = {.count = 0};
     DpShape      list = {2, {-1, 2}};
     DpPlantKind  kind;
     const float* root = NULL;
     PyObject*    result = NULL;
-    if (dp_py_kind(&door, o_kind, &kind) == 0)
-        root = dp_door_open(&door, o_root, "root", 'f', &list, false);
+    if (dp_py_kind(&buffers, o_kind, &kind) == 0)
+        root = dp_buffers_open(&buffers, o_root, "root", 'f', &list, false);
     if (root && enter(self)) {
         int      stand = -1, grown = 0;
         DpStatus status = DP_BAD_ARGUMENT;
@@ -51,9 +51,9 @@ PyObject* dp_py_plant(PyObject* object, PyObject* args)
         Py_END_ALLOW_THREADS
         self->busy = false;
         result = status == DP_OK ? Py_BuildValue("(ii)", stand, grown)
-                                 : dp_door_result(status, "planting");
+                                 : dp_py_result(status, "planting");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -63,17 +63,17 @@ PyObject* dp_py_vary_plants(PyObject* object, PyObject* args)
     int         stand;
     PyObject*   o_vigour;
     if (!PyArg_ParseTuple(args, "iO:vary_plants", &stand, &o_vigour)) return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   list = {1, {-1}};
     PyObject* result = NULL;
-    float*    vigour = dp_door_open(&door, o_vigour, "vigour", 'f', &list, false);
+    float*    vigour = dp_buffers_open(&buffers, o_vigour, "vigour", 'f', &list, false);
     if (vigour && enter(self)) {
         const bool fits = stand >= 0 && dp_plants_count(self->plants, stand) == list.n[0];
-        result = dp_door_result(
-            fits ? dp_plants_vary(self->plants, stand, vigour) : DP_BAD_ARGUMENT, "varying plants");
+        result = dp_py_result(fits ? dp_plants_vary(self->plants, stand, vigour) : DP_BAD_ARGUMENT,
+                              "varying plants");
         self->busy = false;
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -87,7 +87,7 @@ PyObject* dp_py_rest_plants(PyObject* object, PyObject* args)
     status = dp_sim_rest(self->sim, seconds);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return dp_door_result(status, "letting plants rest");
+    return dp_py_result(status, "letting plants rest");
 }
 
 PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
@@ -98,18 +98,18 @@ PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
     if (!PyArg_ParseTuple(args, "iiOOO:read_plants", &stand, &first, &o_position, &o_strength,
                           &o_alpha))
         return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   places = {3, {-1, -1, 3}}, bends = {2, {-1, -1}}, list = {1, {-1}};
     float*    position = NULL;
     double *  strength = NULL, *alpha = NULL;
     PyObject* result = NULL;
     bool      ready = true;
     if (o_position != Py_None)
-        ready = (position = dp_door_open(&door, o_position, "position", 'f', &places, true));
+        ready = (position = dp_buffers_open(&buffers, o_position, "position", 'f', &places, true));
     if (ready && o_strength != Py_None)
-        ready = (strength = dp_door_open(&door, o_strength, "strength", 'd', &bends, true));
+        ready = (strength = dp_buffers_open(&buffers, o_strength, "strength", 'd', &bends, true));
     if (ready && o_alpha != Py_None)
-        ready = (alpha = dp_door_open(&door, o_alpha, "alpha", 'd', &list, true));
+        ready = (alpha = dp_buffers_open(&buffers, o_alpha, "alpha", 'd', &list, true));
     if (!ready || !enter(self)) goto done;
     const DpPlantShape shape = dp_plants_shape(self->plants, stand);
     const Py_ssize_t   count = position ? places.n[0] : strength ? bends.n[0] : list.n[0];
@@ -129,9 +129,9 @@ PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
         Py_END_ALLOW_THREADS
     }
     self->busy = false;
-    result = dp_door_result(fits ? DP_OK : DP_BAD_ARGUMENT, "reading plants");
+    result = dp_py_result(fits ? DP_OK : DP_BAD_ARGUMENT, "reading plants");
 done:
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -142,7 +142,7 @@ PyObject* dp_py_lay_plants(PyObject* object, PyObject* unused)
     if (!enter(self)) return NULL;
     const DpStatus status = dp_sim_lay(self->sim);
     self->busy = false;
-    return dp_door_result(status, "laying plants");
+    return dp_py_result(status, "laying plants");
 }
 
 PyObject* dp_py_read_shown(PyObject* object, PyObject* args)
@@ -151,10 +151,10 @@ PyObject* dp_py_read_shown(PyObject* object, PyObject* args)
     int         stand, first;
     PyObject*   o_position;
     if (!PyArg_ParseTuple(args, "iiO:read_shown", &stand, &first, &o_position)) return NULL;
-    DpDoor    door = {.count = 0};
+    DpBuffers buffers = {.count = 0};
     DpShape   places = {3, {-1, -1, 3}};
     PyObject* result = NULL;
-    float*    position = dp_door_open(&door, o_position, "position", 'f', &places, true);
+    float*    position = dp_buffers_open(&buffers, o_position, "position", 'f', &places, true);
     if (position && enter(self)) {
         const int  particles = dp_plants_shape(self->plants, stand).particles;
         const bool fits = first >= 0 && places.n[1] == particles &&
@@ -166,9 +166,9 @@ PyObject* dp_py_read_shown(PyObject* object, PyObject* args)
                                   position + 3 * (size_t)k * (size_t)particles);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_door_result(status, "reading plants");
+        result = dp_py_result(status, "reading plants");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
 
@@ -179,21 +179,21 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
     long        i0, j0;
     PyObject*   o_out;
     if (!PyArg_ParseTuple(args, "illO:read_lean", &axis, &i0, &j0, &o_out)) return NULL;
-    DpDoor     door = {.count = 0};
+    DpBuffers  buffers = {.count = 0};
     DpShape    shape = {2, {-1, -1}};
     PyObject*  result = NULL;
-    float*     out = dp_door_open(&door, o_out, "out", 'f', &shape, true);
+    float*     out = dp_buffers_open(&buffers, o_out, "out", 'f', &shape, true);
     const bool fits = axis >= 0 && axis < 3 && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX &&
                       dp_terrain_has(i0, j0, (long)shape.n[1], (long)shape.n[0]);
-    if (out && !fits) dp_door_result(DP_BAD_ARGUMENT, "reading how grass lies");
+    if (out && !fits) dp_py_result(DP_BAD_ARGUMENT, "reading how grass lies");
     if (out && fits && enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_grass_read(dp_sim_grass(self->sim), i0, j0, (int)shape.n[1], (int)shape.n[0],
                       axis == 0 ? out : NULL, axis == 1 ? out : NULL, axis == 2 ? out : NULL);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_door_result(DP_OK, "");
+        result = dp_py_result(DP_OK, "");
     }
-    dp_door_close(&door);
+    dp_buffers_close(&buffers);
     return result;
 }
