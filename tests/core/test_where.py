@@ -148,6 +148,24 @@ def test_rooms_fall(tmp_path, path, text, words):
     assert told.returncode == 1 and words in told.stderr and path in told.stderr
 
 
+def test_circles_of_files_are_named(tmp_path):
+    room = tmp_path / "native" / "soil"
+    room.mkdir(parents=True)
+    (room / "soil.h").write_text("int dp_soil_one(void);\nint dp_soil_two(void);\n")
+    (room / "one.c").write_text('#include "soil/soil.h"\n\nint dp_soil_one(void)\n{\n    return dp_soil_two();\n}\n')
+    (room / "two.c").write_text("static int x;\n\nint dp_soil_two(void)\n{\n    return x;  // not dp_soil_one()\n}\n")
+    assert run("rooms", "--quiet", "--root", tmp_path).returncode == 0
+    (room / "two.c").write_text("int dp_soil_two(void)\n{\n    return dp_soil_one();\n}\n")
+    told = run("rooms", "--quiet", "--root", tmp_path)
+    assert told.returncode == 1 and "native/soil/one.c, native/soil/two.c: a circle" in told.stderr
+    assert "one.c needs two.c for dp_soil_two" in told.stderr and "two.c needs one.c for dp_soil_one" in told.stderr
+    (room / "two.c").unlink()
+    (room / "one.h").write_text('#include "soil/two.h"\n')
+    (room / "two.h").write_text('#include "soil/one.h"\n')
+    assert "one.h needs two.h, which it includes" in run("rooms", "--quiet", "--root", tmp_path).stderr
+
+
+
 @pytest.mark.parametrize("text, code", [("int stray", 1), ("int dp_own", 0), ("static int stray", 0)])
 def test_names_that_files_share_begin_with_dp(tmp_path, text, code):
     built = tmp_path / "build" / "plain"
