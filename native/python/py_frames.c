@@ -93,7 +93,7 @@ static PyObject* film_list_files(PyObject* object, PyObject* args)
         if (self->film[which]) status = dp_film_list(self->film[which], path);
     Py_END_ALLOW_THREADS
     self->simulation->busy = false;
-    return told(status, path);
+    return outcome(status, path);
 }
 
 PyObject* dp_py_flush(PyObject* object, PyObject* unused)
