@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import bvh, trials
+from scenes import bvh, plates, trials
 from test_size import scaled
 
 from desire_path.ground.sim import Ground, Simulation
@@ -63,6 +63,58 @@ def test_a_pose_held_in_mid_step_changes_no_print(name):
         still = slice(4 * at + 1, 4 * (at + round(seconds * RATE)) - 1)
         down = -loads.force[:, still, 2].sum(axis=0)
         assert loads.held[:, still].all() and np.ptp(down) == 0.0 and down.max() <= 75.0 * 9.81 + 1e-6
+
+
+def jittering(motion, size, seed=1):
+    """The clip as it is recorded: every joint off by so much in every frame [m]."""
+    matrix = motion.matrix.copy()
+    matrix[..., :3, 3] += np.random.default_rng(seed).normal(0, size, matrix[..., :3, 3].shape)
+    return replace(motion, matrix=matrix)
+
+
+@pytest.mark.parametrize("noise", [5e-5, 1e-4, 3e-4])
+def test_a_held_pose_may_jitter(noise):
+    skeleton, motion = walk()
+    noisy = jittering(motion, noise)
+    alone, _ = prints(gait_of(skeleton, noisy))
+    last = len(motion.time) - 1
+    for at, seconds in ((0, 2.0), (last // 2, 0.5), (last // 3, 10.0), (last, 2.0)):
+        clip, more = held(noisy, at, seconds), round(seconds * RATE)
+        clip.matrix[at + 1 : at + more + 1] = jittering(held(motion, at, seconds), noise, 2).matrix[at + 1 : at + more + 1]
+        pressed, loads = prints(gait_of(skeleton, clip))
+        assert abs(pressed - alone).max() < 1e-3, (at, seconds)
+        assert loads.held[:, 4 * at + 6 : 4 * (at + more) - 6].all()
+
+
+def test_a_hold_is_found_in_a_noisy_recording_at_any_rate():
+    """.. that was made elsewhere; and keys that drift by half a millimetre are a hold as well."""
+    skeleton, motion = walk()
+    gait = gait_of(skeleton, held(motion, 30, 2.0))
+    drift = np.interp(gait.time, [1.0, 3.0], [0.0, 5e-4])
+    keyed = replace(gait, com=gait.com + drift[:, None], pose=gait.pose + drift[:, None] * np.eye(7)[0])
+    assert freeze.holds(keyed) == [((30, 90),)]
+    for rate in (30.0, 60.0, 240.0):
+        noisy = plates.noisy(gait.resample(rate), 1e-4)
+        ((first, last),) = freeze.holds(noisy)[0]
+        assert abs(noisy.time[[first, last]] - (1.0, 3.0)).max() < 0.05
+
+
+def test_slow_motion_is_no_hold():
+    """A walk at a fiftieth of its speed, with noise and without; who brakes in 0.4 s; every recording there is."""
+    skeleton, motion = walk()
+    plain = gait_of(skeleton, motion)
+    slow = replace(plain, time=plain.time * 50.0).resample(RATE)
+    fine, time = plain.resample(1200.0), motion.time
+    pick = np.round(1200.0 * np.where(time < 0.6, time, 0.8 - (1.0 - np.minimum(time, 1.0)) ** 2 / 0.8)).astype(int)
+    ends = replace(fine, time=time, com=fine.com[:, pick], pose=fine.pose[:, pick])
+    for gait in (slow, plates.noisy(slow, 1e-4), plates.noisy(ends, 1e-4), plain, plates.noisy(plain, 3e-4)):
+        assert freeze.holds(gait) == [()]
+    for name in plates.TRIALS:
+        assert freeze.holds(plates.trial(name)) == [()], name
+    for name in ("cmu_12_01_walk", "cmu_02_03_run", "cmu_02_04_jump", "cmu_03_02_uneven"):
+        assert freeze.holds(gait_of(*walk(name))) == [()], name
+    for name in trials.TRIALS:
+        assert freeze.holds(recorded(name)[1]) == [()], name
 
 
 def test_a_wait_with_a_sway_hardly_changes_a_print():

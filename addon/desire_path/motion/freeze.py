@@ -4,6 +4,9 @@
 
 A body that walks cannot stop at once. Where a clip shows that, since its last pose is held to the end of a shot
 or a pose waits for its turn, nothing is to be learnt from the stop; a body that comes to rest is no such case.
+
+A pose that is held may jitter, as a recording does, and may drift as no eye sees. That is told from slow motion by how
+the body came to it: from a walk's speed to none between one frame and the next.
 """
 
 from dataclasses import replace
@@ -15,6 +18,10 @@ from . import stays
 
 SAME = 2e-6  # a pose that is held moves no more than this from one sample to the next, in legs of a person [m]
 STRAY = 1e-4  # and no more than this in all [m]
+JITTERS = 0.05  # what comes and goes in less than this is noise [s]
+NOISE = 1e-3  # a pose that is held jitters by no more, its standard deviation [m]
+DRIFT = 2e-3  # and goes no farther than this, but for what noise leaves in means over HELD [m]
+TURNS = 0.02  # nor turns farther than this [rad]
 BEFORE = 0.04  # a body's speed beside a hold is taken over this [s]
 WALKS = 0.15  # who walks is faster [m/s]
 
@@ -37,21 +44,72 @@ def stops(time, com, poses, size, rests=False):
     """
     if len(time) < 4:
         return ()
+    found = _exact(time, com, poses, size)
+    if rests:
+        return tuple(found)
+    found = [each for each in found if _under_way(time, com, *each, size)]
+    jitters = [each for each in _jittery(time, com, poses, size) if _under_way(time, com, *each, size)]
+    apart = [(a, b) for a, b in jitters if not any(first < b and a < last for first, last in found)]
+    return tuple(sorted(found + apart))
+
+
+def _exact(time, com, poses, size):
+    """(first, last) sample of stretches over which nothing moves."""
     same = abs(np.diff(com, axis=0)).max(axis=1) < SAME * size
     if not same.any():
-        return ()
+        return []
     for at, turn in poses:
         same &= abs(np.diff(at, axis=0)).max(axis=1) < SAME * size
         same &= abs(np.diff(turn.reshape(len(time), -1), axis=0)).max(axis=1) < SAME
-    edge = np.flatnonzero(np.diff(np.concatenate([[0], same.astype("i1"), [0]])))
     found = []
-    for first, last in zip(edge[::2].tolist(), edge[1::2].tolist()):
+    for first, last in _runs(same):
         if time[last] - time[first] < stays.HELD * np.sqrt(size) - 1e-9:
             continue
-        stray = max(np.ptp(at[first : last + 1], axis=0).max() for at, _ in poses)
-        if stray < STRAY * size and (rests or _under_way(time, com, first, last, size)):
+        if max(np.ptp(at[first : last + 1], axis=0).max() for at, _ in poses) < STRAY * size:
             found.append((first, last))
-    return tuple(found)
+    return found
+
+
+def _jittery(time, com, poses, size):
+    """(first, last) sample of stretches over which nothing moves but by noise."""
+    least = stays.HELD * np.sqrt(size)
+    rate = (len(time) - 1) / (time[-1] - time[0])
+    lag, wide = max(1, int(JITTERS * np.sqrt(size) * rate + 1e-6)), int(least * rate + 1e-6)
+    if len(time) <= max(lag, wide):
+        return []
+    most = 4.0 * np.sqrt(2.0) * NOISE * size
+    slow = abs(com[lag:] - com[:-lag]).max(axis=1) < most
+    for at, turn in poses if slow.any() else ():
+        turn = turn.reshape(len(time), -1)
+        slow &= abs(at[lag:] - at[:-lag]).max(axis=1) < most
+        slow &= abs(turn[lag:] - turn[:-lag]).max(axis=1) < TURNS
+    found = []
+    for first, last in _runs(slow):
+        last = min(last + lag - 1, len(time) - 1)
+        if time[last] - time[first] < least - 1e-9:
+            continue
+        stretch = slice(first, last + 1)
+        places = np.concatenate([com[stretch], *(at[stretch] for at, _ in poses)], axis=1)
+        noise = np.median(abs(places[lag:] - places[:-lag]), axis=0) / 0.954  # of what is normal, 0.954 sigma
+        stray = abs(places - np.median(places, axis=0))
+        inside = np.flatnonzero((stray < 6.0 * noise + DRIFT / 2.0 * size).all(axis=1))
+        if not len(inside):
+            continue
+        first, last = first + int(inside[0]), first + int(inside[-1])
+        places = places[inside[0] : inside[-1] + 1]
+        if len(inside) < len(places) or time[last] - time[first] < least - 1e-9 or noise.max() > NOISE * size:
+            continue
+        sums = np.cumsum(np.concatenate([np.zeros((1, places.shape[1])), places - places[0]]), axis=0)
+        means = (sums[wide:] - sums[:-wide]) / wide
+        if (np.ptp(means, axis=0) < DRIFT * size + 9.0 * noise * np.sqrt(lag / wide)).all():
+            found.append((first, last))
+    return found
+
+
+def _runs(mask):
+    """(first, after) of the runs of a mask, which also are the first and last samples of runs of steps."""
+    edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
+    return zip(edge[::2].tolist(), edge[1::2].tolist())
 
 
 def _under_way(time, com, first, last, size):

@@ -352,6 +352,32 @@ TEST(over_an_edge)
         }
 }
 
+// lower ground beside a step carries nothing: what stands on the step goes as much deeper as it is less
+TEST(over_a_step)
+{
+    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
+    for (int law = 0; law < 2; ++law)
+        for (int from = 17; from <= 25; from += 4) {
+            Ground whole = ground_make(50, 40, 0.01, soil), step = ground_make(50, 40, 0.01, soil);
+            DpPressed on_whole, on_step;
+            for (int j = 0; j < 40; ++j)
+                for (int i = from; i < 50; ++i) step.base_height[j * 50 + i] = -0.3f;
+            ground_sole(&whole, (BoxSole){.length = 0.24, .width = 0.10});
+            ground_sole(&step, (BoxSole){.length = 0.24, .width = 0.10});
+            const DpFootForce foot = ground_load(700.0);
+            CHECK(dp_soil_compress(&whole.patch, &whole.imprint, &foot, (DpContactLaw)law, 1.0,
+                                   &on_whole) == DP_OK);
+            CHECK(dp_soil_compress(&step.patch, &step.imprint, &foot, (DpContactLaw)law, 1.0,
+                                   &on_step) == DP_OK);
+            CHECK(on_step.area < 0.6 * on_whole.area && on_step.deepest > 1.6 * on_whole.deepest);
+            CHECK_CLOSE(on_step.deepest * on_step.area, on_whole.deepest * on_whole.area, 1e-5);
+            CHECK_CLOSE(on_step.firm, on_whole.firm, 1e-5);
+            for (int j = 0; j < 40; ++j)
+                for (int i = from; i < 50; ++i) CHECK(step.compression[j * 50 + i] == 0.0f);
+            ground_free(&whole), ground_free(&step);
+        }
+}
+
 // `uniform` asks where the body meets the ground that was there before it came
 TEST(met_ground_counts)
 {
@@ -396,6 +422,7 @@ int main(void)
     RUN(nothing_to_press);
     RUN(mirrored_to_the_bit);
     RUN(over_an_edge);
+    RUN(over_a_step);
     RUN(met_ground_counts);
     return check_done();
 }
