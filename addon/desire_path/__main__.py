@@ -123,6 +123,8 @@ def _bake(args):
         check_idle(args.out)
     except DesirePathError as problem:
         print(f"{problem}\nWaiting for up to {bake.wait:g} s.", file=sys.stderr)
+    for warning in bake.warnings:
+        print(f"warning       {warning}", flush=True)
     word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
         _bar(progress.fraction, f"{word} {progress.frame}")
@@ -136,7 +138,8 @@ def _bake(args):
     print(f"heaped        {1000 * report['heaped_m3']:.3f} l")
     print(f"seconds       {report['seconds']:.2f}")
     for warning in report["warnings"]:
-        print(f"warning       {warning}")
+        if warning not in bake.warnings:
+            print(f"warning       {warning}")
     print(f"written to    {os.path.abspath(args.out)}")
 
 

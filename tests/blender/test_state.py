@@ -138,6 +138,24 @@ def placed(ground, frame):
     return axes.points(np.array(ground.matrix_world), shown(ground, frame)[0], 1.0)
 
 
+def test_a_copy_that_is_moved(folder):
+    ground, _ = baked(folder)
+    for linked in (False, True):
+        copy = ground.copy()
+        if not linked:
+            copy.data = ground.data.copy()
+        bpy.context.scene.collection.objects.link(copy)
+        assert copy.desire_path.bake_state == "FRESH"
+        copy.location.x += 5.0
+        bpy.context.view_layer.update()
+        assert copy.desire_path.bake_state == "OUTDATED" and "moved since the bake" in copy.desire_path.missing
+        assert ground.desire_path.bake_state == "FRESH"
+        copy.location.x -= 5.0
+        bpy.context.view_layer.update()
+        assert copy.desire_path.bake_state == "FRESH"
+        bpy.data.objects.remove(copy)
+
+
 def test_files_that_are_gone(folder):
     ground, _ = baked(folder)
     place = folder / "bake" / "frames"
@@ -151,6 +169,11 @@ def test_files_that_are_gone(folder):
             path.write_bytes(data)
         assert ground.desire_path.bake_state == "FRESH"
 
+    for name in ("maps_start.exr", "maps_final.exr", "report.json"):
+        (folder / "bake" / name).unlink()
+        assert ground.desire_path.bake_state == "MISSING"
+        assert f"{name} of the last bake is gone" in ground.desire_path.missing
+        restored()
     (place / "trail_0005.exr").unlink()
     assert ground.desire_path.bake_state == "MISSING" and "5 to 8 are missing" in ground.desire_path.missing
     restored()

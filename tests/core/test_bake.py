@@ -62,6 +62,19 @@ def test_feet_lost_between_cells_are_named_before_the_bake(tmp_path, length, cel
     assert bake.report["pressed_m3"] > 0 and not any("beside" in each for each in bake.report["warnings"])
 
 
+def test_soles_of_few_cells_are_told_before_the_bake(tmp_path):
+    """With cells that would do, of which nothing is told."""
+    gait = standing()
+    bake = Bake(gait, Ground.flat(), "mud", tmp_path, cell_size=0.06)
+    (told,) = bake.warnings
+    assert "cells of 0.06 m wide, too few for a print to have their shape: choose a cell size of" in told
+    cell = float(told.split("cell size of ")[1].split(" m")[0])
+    assert not Bake(gait, Ground.flat(), "mud", tmp_path, cell_size=cell).warnings and 0.005 < cell < 0.02
+    for _ in bake.run():
+        pass
+    assert bake.report["warnings"].count(told) == 1
+
+
 def test_one_foot_of_many_that_is_lost_is_a_warning(tmp_path):
     gait, _ = gaits.pressed(
         [gaits.box(0.25, 0.11), gaits.box(0.003, 0.003)],

@@ -1,6 +1,7 @@
 """One output folder: who may write there, and that a bake takes another one's place as a whole or not at all."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -494,3 +495,25 @@ def test_what_stands_where_the_folder_is_to_be_is_named(tmp_path, make, word):
         for _ in Bake(standing(), Ground.flat(), "mud", place, cell_size=0.02).run():
             pass
     assert os.path.lexists(place) and os.listdir(tmp_path) == ["bake"]
+
+
+@pytest.mark.parametrize(
+    "name", ["frames/trail_0001.exr", "maps/second_0001.exr", "maps_final.exr", "report.json", "frames/lean_0000.exr"]
+)
+def test_files_of_others_named_as_ours_are_not_replaced(tmp_path, name):
+    """Nor freed. What is left of a bake, without its index or without all of its frames, is the bake's."""
+    path = tmp_path / "others" / name
+    path.parent.mkdir(parents=True)
+    path.write_bytes(b"a picture of the cat")
+    with pytest.raises(DesirePathError, match="is named as a file of a bake, of which there is nothing else: move it"):
+        next(grown(tmp_path / "others", "mud").run())
+    with pytest.raises(DesirePathError, match="move it, or choose another folder"):
+        free(tmp_path / "others")
+    assert path.read_bytes() == b"a picture of the cat"
+    assert [each for each in (tmp_path / "others").rglob("*") if each.is_file()] == [path]
+    for gone in ("frames/index.json", "frames"):
+        list(grown(tmp_path / "ours", "mud").run())
+        left = tmp_path / "ours" / gone
+        left.unlink() if left.is_file() else shutil.rmtree(left)
+        list(grown(tmp_path / "ours", "snow").run())
+        assert read_index(tmp_path / "ours").complete

@@ -37,6 +37,7 @@ from ..loads import walker
 from ..motion import jumps, size
 from ..motion.rotation import turned
 from ..placement.passes import turns_of
+from ..rig.sole import coarse_cells
 from ..version import VERSION
 from .folder import FORMAT, FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .output import Output
@@ -81,6 +82,7 @@ class Bake:
     inputs: words for what it is made from, kept in index.json for whoever wants to know whether that has changed.
     wait: so long run() lets another program end its bake into the folder before it refuses, which it does at once where
     this program bakes there [s].
+    warnings: sentences about it that are known before it runs; the report tells them, too.
     limits: what it may take of memory, disk and so on: run() refuses more before anything is written.
     """
 
@@ -146,6 +148,7 @@ class Bake:
         self.map_seconds = map_seconds
         self.options = {"law": law, "heap": heap, "rim_width": rim_width, "origin": tuple(origin)}
         self.cell_size = float(cell_size)
+        self.warnings = (*gait.warnings, *coarse_cells(gait, self.cell_size))
         self.threads = threads
         self.loads = None
         self.report = None
@@ -451,7 +454,7 @@ class Bake:
         found = [sim.report() for sim in sims]
         total = {name: sum(each[name] for each in found) for name in found[0]}
         left = [each for sim in sims for each in sim.warnings]
-        warnings = list(dict.fromkeys([*self.gait.warnings, *self.loads.warnings, *self.lost, *left]))
+        warnings = list(dict.fromkeys([*self.warnings, *self.loads.warnings, *self.lost, *left]))
         if any(
             each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)
         ):

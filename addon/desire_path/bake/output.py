@@ -48,6 +48,7 @@ FRAMES = (
 )
 MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
 FILES = ("maps_start.exr", "maps_final.exr", "report.json", "plants.pc2", "plants.npz")
+MAPS_ALWAYS = FILES[:3]  # every whole bake has these
 NAMES = ("frames", "maps", *FILES)
 NEW, OLD, SHOWN, LOCK = "bake.new", "bake.old", "bake.shown", "bake.lock"
 PARTS = tuple(f"{name}*.part" for name in (*FILES, SHOWN))
@@ -59,13 +60,27 @@ MOST_JSON = 1 << 22  # bytes of an index.json
 
 def told(frames):
     """What the index.json of a folder of frames says, a dict; empty where there is none that can be read."""
+    return _said(os.path.join(frames, "index.json"))
+
+
+def _said(path):
+    """The dict in a JSON file of a bake; empty where there is none."""
     try:
-        with atomic_file.reader(os.path.join(frames, "index.json")) as file:
+        with atomic_file.reader(path) as file:
             text = file.read(MOST_JSON + 1)
         data = json.loads(text.decode("utf-8")) if len(text) <= MOST_JSON else {}
     except (OSError, ValueError, RecursionError, MemoryError):
         return {}
     return data if isinstance(data, dict) else {}
+
+
+def holds_bake(folder):
+    """Whether the files in a folder that are named as those of a bake are a bake's, or what is left of one."""
+    there = (os.path.join(folder, *way, "frames") for way in ((), (NEW,)))
+    return any(os.path.isfile(os.path.join(each, name)) for each in there for name in ("index.json", "trail_sums.txt")) or {
+        "parameters",
+        "version",
+    } <= set(_said(os.path.join(folder, "report.json")))
 
 
 def is_whole(frames):
@@ -118,6 +133,7 @@ class Output:
             self._take(time.monotonic() + wait)
             self._check_places()
             check_owner(self.folder, self.owner)
+            self._check_files()
             self.settle()
         except OSError as problem:
             self.release()
@@ -166,6 +182,22 @@ class Output:
         kind = atomic_file.kind_of(shown)
         if kind not in ("", "file") and not (kind == "link" and os.readlink(shown) in (OLD, NEW)):
             raise DesirePathError(f"{shown} stands where the bake keeps a link: move it or choose another folder.")
+
+    def _check_files(self):
+        """Refuse a folder without a bake in which a file has the name of one: it is somebody else's."""
+        if holds_bake(self.folder):
+            return
+        for inside in ("frames", "maps", ""):
+            place = os.path.join(self.folder, inside)
+            if not os.path.isdir(place) or os.path.islink(place):
+                continue
+            for name in sorted(os.listdir(place)):
+                ours = FILES if not inside else INSIDE[inside]
+                if not name.endswith("part") and any(fnmatch.fnmatchcase(name, pattern) for pattern in ours):
+                    raise DesirePathError(
+                        f"{os.path.join(place, name)} is named as a file of a bake, of which there is nothing else: move "
+                        "it, or choose another folder."
+                    )
 
     # ---- what was left ----------------------------------------------------------------------------------
 

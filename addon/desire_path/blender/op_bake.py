@@ -37,7 +37,7 @@ class Job:
     def __init__(self, scene, obj):
         self.scene_name, self.name = scene.name, obj.name
         self.fraction, self.text, self.cancelled = 0.0, "Recording the walkers", False
-        self.warnings = []
+        self.warnings, self.early = [], []
         self.bake = None
         settings = obj.desire_path
         if not settings.is_ground:
@@ -82,7 +82,8 @@ class Job:
         made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
         for each, parcel in zip(company.grounds, made.parcels):
             parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
-        self.warnings += made.gait.warnings  # what is told of the walkers themselves comes before what follows from it
+        self.early += made.warnings
+        self.warnings += made.warnings  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
             self.warnings += each.warnings
         self.warnings += [*company.warnings, *inputs.told(company), *way.warnings(company.walkers)]
@@ -231,6 +232,8 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         try:
             while time.perf_counter() < until:
                 next(self.steps)
+                while job.early:  # before it is made: it may be stopped and mended
+                    self.report({"WARNING"}, job.early.pop(0))
         except StopIteration:
             self.leave(context)
             try:

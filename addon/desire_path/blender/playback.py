@@ -22,6 +22,7 @@ ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
 STACKED = ("show_viewport", "show_render", "levels", "render_levels", "subdivision_type")  # of modifiers
+MOVED = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
 SAMPLES = 24  # points of the mesh that tell whether it was changed
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
@@ -96,6 +97,19 @@ def made_for(tree):
     """(the object's matrix (4, 4), the samples of its points (n, 3)) a tree was made for."""
     numbers = np.array(tree[LIE], np.float64)
     return numbers[:16].reshape(4, 4), numbers[16:].reshape(-1, 3)
+
+
+def is_moved(obj):
+    """Whether the points of a ground lie elsewhere than those its tree was made for."""
+    ours = modifier(obj)
+    if ours is None or LIE not in ours.node_group:
+        return False
+    world, was = made_for(ours.node_group)
+    now = samples(obj)
+    if len(was) != len(now):
+        return True
+    there, here = (axes.points(np.array(place, np.float64), each, 1.0) for place, each in ((world, was), (obj.matrix_world, now)))
+    return bool(len(now)) and np.abs(there - here).max() > MOVED * max(np.abs(there).max(), 1.0)
 
 
 def samples(obj):

@@ -89,6 +89,15 @@ def missing(index):
     )
 
 
+def lost(index):
+    """What is gone from beside the frames of a whole bake, in one sentence; empty where nothing is."""
+    from ..bake.output import MAPS_ALWAYS
+
+    above = os.path.dirname(index.folder)
+    gone = [name for name in MAPS_ALWAYS if not os.path.exists(os.path.join(above, name))]
+    return f"{' and '.join(gone)} of the last bake {'is' if len(gone) == 1 else 'are'} gone: bake again." if gone else ""
+
+
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
     from ..bake.output import is_whole

@@ -58,6 +58,9 @@ def found(obj):
         return Told(NONE)
     if not index.complete:
         return Told(MISSING if show.was_whole(index) else PARTIAL, show.missing(index))
+    gone = show.lost(index)
+    if gone:
+        return Told(MISSING, gone)
     text = _changed(obj, index)
     return Told(OUTDATED if text else FRESH, text)
 
@@ -70,7 +73,8 @@ def _changed(obj, index):
     if obj.name not in scene.objects:
         scene = (obj.users_scene or (scene,))[0]
     if not walkers(scene, obj) and not home.is_own(obj):
-        return ""  # who walked is in another file, which tells
+        # who walked is in another file, which tells, or walks on the ground of which this is a copy
+        return "This ground was moved since the bake: bake again." if playback.is_moved(obj) else ""
     try:
         with looked_at(*walkers(scene, obj)):
             bpy.context.view_layer.update()
@@ -127,7 +131,7 @@ def _glance(obj):
     there = [each for each in bpy.data.objects if each.type in {"ARMATURE", "MESH"} and each.desire_path.ground == obj]
     path = home.played(obj)
     ages = []
-    for place in (("frames",), ("frames", "index.json"), ("bake.new",)) if path else ():
+    for place in ((), ("frames",), ("frames", "index.json"), ("bake.new",)) if path else ():
         try:
             ages.append(os.stat(os.path.join(path, *place)).st_mtime_ns)
         except OSError:

@@ -7,6 +7,7 @@ The heel part reaches from the heel to the ball, the toe part from the ball to t
 import numpy as np
 
 from ..motion.gait import Sole
+from ..motion.rotation import turned
 
 # Half widths of a left shoe in shares of its length, seen from above: (from heel 0 to tip 1, inner, outer).
 # The widest place, at the ball, is 0.36 wide; last-makers' proportions.
@@ -38,6 +39,8 @@ ARCH = 0.004  # the inner waist stands this high [m]
 INSETS = (0.0, 0.15, 0.45, 1.0)  # columns near the edge, in shares of ROUND
 FEW = 12  # faces under a foot that give its print a shape, at least
 COARSE = 8.0  # cells of the print under each of them that are too many for so few
+NARROW = 3.0  # cells that a sole is to be wide, at least
+SHAPED = 8.0  # .. and cells that show its shape
 UNDERSIDE = 0.15  # faces lower than this share of a foot's length are under it, if they look more down than aside
 OVERLAP = 0.012  # the toe part reaches back under the heel part, so that a bent foot has no gap [m]
 
@@ -171,6 +174,25 @@ def cut(vertices, triangles, most=4000):
         return None
     used, packed = np.unique(triangles, return_inverse=True)
     return vertices[used], packed.reshape(-1, 3).astype("i4")
+
+
+def coarse_cells(gait, cell):
+    """Sentences about walkers whose every foot is but a few cells [m] wide, with the cells that would show its shape."""
+    if not (np.isfinite(cell) and cell > 0.0):
+        return []  # the bake refuses it
+    told = []
+    for walker, name in enumerate(gait.walker_name):
+        wide = 0.0
+        for part in np.flatnonzero(np.asarray(gait.limb_walker)[gait.part_limb] == walker):
+            lowest = gait.pose[part, gait.pose[part, :, 2].argmin(), 3:]
+            lies = turned(lowest, np.asarray(gait.soles[part].vertices, float))
+            wide = max(wide, float(np.ptp(lies[:, :2], axis=0).min()))
+        if 0.0 < wide < NARROW * cell:
+            told.append(
+                f"The soles of {name} are {wide / cell:.1f} cells of {cell:g} m wide, too few for a print to have their "
+                f"shape: choose a cell size of {max(wide / SHAPED, 0.0005):.1g} m or so."
+            )
+    return told
 
 
 def few_faces(gait, cell):
