@@ -11,6 +11,7 @@ the folder --finds. The run closes with `N passed, N failed`.
 
 import argparse
 import faulthandler
+import json
 import os
 import pathlib
 import random
@@ -30,6 +31,7 @@ for folder in (ROOT, ROOT / "addon"):
         sys.path.insert(0, str(folder))
 
 from desire_path.bake import folder as bake_folder  # noqa: E402
+from desire_path.bake import output  # noqa: E402
 from desire_path.bake.bake import Bake  # noqa: E402
 from desire_path.errors import DesirePathError  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
@@ -131,7 +133,58 @@ def picture(place):
     return made, place / "map.exr", read, mutate.any_bytes
 
 
-PARSERS = {each.__name__: each for each in (index, frame, sums, recording, kind, way, cover, picture)}
+def notes(place):
+    """The parameters, soils among them, that a trail's header keeps as JSON."""
+    import numpy as np
+
+    (place / "bake").mkdir()
+    for _ in Bake(gaits.strides(0.3, rate=24.0)[0], Ground.flat(), "mud", place / "bake", cell_size=0.05).run():
+        pass
+    good = json.dumps(json.loads((place / "bake" / "report.json").read_text())["parameters"])
+    left = np.ones((4, 5), np.float32)
+    fixed = {"cell": 0.1, "originX": 1.0, "originY": -2.0}
+
+    def read():
+        said = (place / "notes.json").read_bytes().replace(b"\0", b" ").decode("utf-8", "replace")
+        maps.write(place / "map.exr", {"rest": left, "compression": left}, {**fixed, "parameters": said})
+        assert Ground.read(place / "map.exr").trail.cell == 0.1
+
+    return [good.encode(), b'{"ground": "mesh", "soils": []}'], place / "notes.json", read, mutate.tree
+
+
+def report(place):
+    """What was left of a bake, by which its files are known."""
+    _baked(place / "bake")
+    at = place / "bake" / "report.json"
+    good = at.read_bytes()
+    for gone in ("frames", "maps"):
+        shutil.rmtree(place / "bake" / gone, ignore_errors=True)
+
+    def read():
+        out = output.Output(place / "bake")
+        out.open()
+        out.release()
+
+    return [good, b'{"version": 1, "parameters": {}}'], at, read, mutate.tree
+
+
+def shown(place):
+    """The list of a bake that is taking another one's place on a disk without links."""
+    (place / "bake").mkdir()
+    good = [json.dumps(names).encode() for names in (output.NAMES, ["frames", "report.json"])]
+
+    def read():
+        out = output.Output(place / "bake")
+        out.open()
+        out.release()
+
+    return good, place / "bake" / output.SHOWN, read, mutate.tree
+
+
+PARSERS = {
+    each.__name__: each
+    for each in (index, frame, sums, recording, kind, way, cover, picture, notes, report, shown)
+}
 
 
 # ---- one parser ---------------------------------------------------------------------------------------------------
