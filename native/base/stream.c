@@ -8,6 +8,9 @@
 
 #define NAME 4
 #define HEAD (NAME + 4 + 8 + 8)  // of a chunk: name, version, size, checksum
+#define MIN_RUN 4                // fewer equal floats stand among others
+#define RUN 0x80000000u          // in the word before floats: one float, so many times
+#define MAX_RUN 0x7fffffffu
 
 // ---- numbers as bytes --------------------------------------------------------------------------
 
@@ -142,6 +145,41 @@ void dp_write_doubles(DpStateWriter* writer, const double* value, size_t count)
     }
 }
 
+// how many floats from the first on have its bits
+static size_t run_length(const float* value, size_t count)
+{
+    size_t n = 1;
+    while (n < count && memcmp(&value[n], value, sizeof *value) == 0) ++n;
+    return n;
+}
+
+// a word that says how many floats follow, or how often one does; then they
+static void write_run(DpStateWriter* writer, const float* value, size_t count, bool equal)
+{
+    for (size_t done = 0; done < count;) {
+        const size_t   n = count - done < MAX_RUN ? count - done : MAX_RUN;
+        const uint32_t head = (uint32_t)n | (equal ? RUN : 0);
+        write_words(writer, &head, 1);
+        write_words(writer, value + done, equal ? 1 : n);
+        done += n;
+    }
+}
+
+void dp_write_runs(DpStateWriter* writer, const float* value, size_t count)
+{
+    size_t from = 0;  // of those that stand by themselves
+    for (size_t k = 0; k < count;) {
+        const size_t n = run_length(value + k, count - k);
+        if (n >= MIN_RUN) {
+            write_run(writer, value + from, k - from, false);
+            write_run(writer, value + k, n, true);
+            from = k + n;
+        }
+        k += n;
+    }
+    write_run(writer, value + from, count - from, false);
+}
+
 // ---- reading -----------------------------------------------------------------------------------
 
 DpStateReader dp_read_open(const void* bytes, size_t size)
@@ -255,6 +293,22 @@ void dp_read_doubles(DpStateReader* reader, double* value, size_t count)
         const uint64_t bits = from ? number_at(from + 8 * k, 8) : 0;
         memcpy(&value[k], &bits, 8);
     }
+}
+
+void dp_read_runs(DpStateReader* reader, float* value, size_t count)
+{
+    size_t done = 0;
+    while (done < count && reader->status == DP_OK) {
+        uint32_t head;
+        read_words(reader, &head, 1);
+        const size_t n = head & MAX_RUN;
+        dp_read_check(reader, n > 0 && n <= count - done);
+        if (reader->status != DP_OK) break;
+        read_words(reader, value + done, head & RUN ? 1 : n);
+        for (size_t k = 1; head & RUN && k < n; ++k) value[done + k] = value[done];
+        done += n;
+    }
+    for (; reader->status != DP_OK && done < count; ++done) value[done] = 0.0f;
 }
 
 int64_t dp_read_int(DpStateReader* reader, int64_t low, int64_t high)

@@ -36,6 +36,8 @@ void dp_write_bytes(DpStateWriter* writer, const void* bytes, size_t count);
 void dp_write_ints(DpStateWriter* writer, const int32_t* value, size_t count);
 void dp_write_floats(DpStateWriter* writer, const float* value, size_t count);
 void dp_write_doubles(DpStateWriter* writer, const double* value, size_t count);
+// Floats of which many follow others of the same bits: runs take little.
+void dp_write_runs(DpStateWriter* writer, const float* value, size_t count);
 
 // ---- reading -----------------------------------------------------------------------------------
 
@@ -68,6 +70,7 @@ void     dp_read_bytes(DpStateReader* reader, void* bytes, size_t count);
 void     dp_read_ints(DpStateReader* reader, int32_t* value, size_t count);
 void     dp_read_floats(DpStateReader* reader, float* value, size_t count);
 void     dp_read_doubles(DpStateReader* reader, double* value, size_t count);
+void     dp_read_runs(DpStateReader* reader, float* value, size_t count);
 
 // The same numbers where only low <= value <= high makes sense; others, and NaN, are DP_BAD_FILE and
 // read as `low`.

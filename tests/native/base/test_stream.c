@@ -124,6 +124,31 @@ TEST(numbers_keep_to_their_range)
     dp_write_drop(&writer);
 }
 
+// 1 1 1 1 1, 2, 3 3, 0 .. 0 -0: two runs, and what is between and after them
+TEST(runs_take_little)
+{
+    float value[1000] = {1, 1, 1, 1, 1, 2, 3, 3}, read[1000];
+    value[999] = -0.0f;
+    for (size_t count = 0; count <= 1000; count += count < 12 ? 1 : 988) {
+        DpStateWriter writer = {0};
+        dp_write_chunk(&writer, "runs", 1);
+        dp_write_runs(&writer, value, count);
+        dp_write_end(&writer);
+        CHECK(writer.size <= 24 + 4 * (2 + 4 + 2 + 2));
+        DpStateReader reader = dp_read_open(writer.bytes, writer.size);
+        dp_read_chunk(&reader, "runs", 1);
+        dp_read_runs(&reader, read, count);
+        dp_read_end(&reader);
+        CHECK(reader.status == DP_OK && memcmp(read, value, count * sizeof *read) == 0);
+        reader = dp_read_open(writer.bytes, writer.size);
+        dp_read_chunk(&reader, "runs", 1);
+        if (count > 0) dp_read_runs(&reader, read, count - 1);  // fewer than there are
+        dp_read_end(&reader);
+        CHECK(count == 0 || reader.status == DP_BAD_FILE);
+        dp_write_drop(&writer);
+    }
+}
+
 TEST(without_memory_it_says_so)
 {
     for (long left = 0; left < 2; ++left) {
@@ -144,6 +169,7 @@ int main(void)
     RUN(refuses_what_is_damaged);
     RUN(refuses_what_is_not_asked_for);
     RUN(numbers_keep_to_their_range);
+    RUN(runs_take_little);
     RUN(without_memory_it_says_so);
     return check_done();
 }
