@@ -138,6 +138,7 @@ void dp_plant_ask_ceiling(const PlantStand* stand, PlantBlock* block, const DpPl
 {
     const double x = (double)block->root[0][l], y = (double)block->root[1][l];
     if (block->ceiling[l] > -INFINITY) return;
+    block->moved = true;
     block->ceiling[l] = fmaxf(look_around(ground, x, y, around(stand)).highest,
                               highest_of(ground, x, y, around(stand)));
 }
@@ -151,6 +152,7 @@ bool dp_plant_ground_lane(const PlantStand* stand, PlantBlock* block, const DpPl
     const Square square = look_around(ground, x, y, around(stand));
     float*       ceiling = &block->ceiling[l];
     if (!square.any) return false;
+    block->moved = true;
     if (square.all)
         *ceiling = square.highest;
     else if (*ceiling > -INFINITY)  // the rest is as it was

@@ -41,7 +41,8 @@ typedef struct PlantBlock
     PlantState* state;  // NULL: whole and at rest
     int         count;  // lanes in use; the others repeat lane 0
     bool        awake, touched, wearing, changed;
-    bool        touched_lane[DP_LANES];
+    bool   moved;  // the ground has been asked for: it may stand elsewhere than when it was planted
+    bool   touched_lane[DP_LANES];
     bool   ground_known[DP_LANES];  // a grid tells of the ground around it: it may have changed
     int    broke;                   // bends, in the last step
     double quiet;                   // time without motion [s]
@@ -125,6 +126,8 @@ DpVec3 dp_plant_rest_at(const PlantStand* stand, const PlantBlock* block, int pa
 
 // ---- plant_sleep.c
 
+// room for a block's state; NULL without memory
+PlantState* dp_plant_state_create(const PlantStand* stand);
 // give a block its state, in the rest shape; false without memory
 bool dp_plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block);
 void dp_plant_put_to_sleep(const DpPlants* plants, const PlantStand* stand, PlantBlock* block);

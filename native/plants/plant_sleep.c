@@ -21,22 +21,29 @@ void dp_plant_catch_up(const PlantStand* stand, PlantBlock* block, double second
             block->state->strength[b * DP_LANES + l] = dp_plant_recovered(stand, block, b, l, gain);
 }
 
+PlantState* dp_plant_state_create(const PlantStand* stand)
+{
+    const size_t places = (size_t)stand->shape.particles * DP_LANES;
+    const size_t bends = (size_t)stand->shape.bends * DP_LANES;
+    const size_t head = (sizeof(PlantState) + 63) / 64 * 64;
+    char*        memory = dp_alloc(1, head + bends * sizeof(double) + 10 * places * sizeof(float));
+    if (!memory) return NULL;
+    PlantState* state = (PlantState*)(void*)memory;
+    state->strength = (double*)(void*)(memory + head);
+    float* grid = (float*)(void*)(memory + head + bends * sizeof(double));
+    for (int d = 0; d < 3; ++d, grid += places) state->at[d] = grid;
+    for (int d = 0; d < 3; ++d, grid += places) state->speed[d] = grid;
+    state->limp = grid;
+    state->floor = grid + places;
+    for (int d = 0; d < 2; ++d) state->seen[d] = grid + (size_t)(2 + d) * places;
+    return state;
+}
+
 bool dp_plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)
 {
     if (!block->state) {
-        const size_t places = (size_t)stand->shape.particles * DP_LANES;
-        const size_t bends = (size_t)stand->shape.bends * DP_LANES;
-        const size_t head = (sizeof(PlantState) + 63) / 64 * 64;
-        char* memory = dp_alloc(1, head + bends * sizeof(double) + 10 * places * sizeof(float));
-        if (!memory) return false;
-        PlantState* state = block->state = (PlantState*)(void*)memory;
-        state->strength = (double*)(void*)(memory + head);
-        float* grid = (float*)(void*)(memory + head + bends * sizeof(double));
-        for (int d = 0; d < 3; ++d, grid += places) state->at[d] = grid;
-        for (int d = 0; d < 3; ++d, grid += places) state->speed[d] = grid;
-        state->limp = grid;
-        state->floor = grid + places;
-        for (int d = 0; d < 2; ++d) state->seen[d] = grid + (size_t)(2 + d) * places;
+        PlantState* state = block->state = dp_plant_state_create(stand);
+        if (!state) return false;
         for (int p = 0; p < stand->shape.particles; ++p)
             for (int l = 0; l < DP_LANES; ++l) {
                 const DpVec3 at = dp_plant_rest_at(stand, block, p, l);
@@ -44,7 +51,8 @@ bool dp_plant_wake(DpPlants* plants, PlantStand* stand, PlantBlock* block)
                 state->at[1][p * DP_LANES + l] = (float)at.y;
                 state->at[2][p * DP_LANES + l] = (float)at.z;
             }
-        for (size_t k = 0; k < bends; ++k) state->strength[k] = block->reserve[k % DP_LANES];
+        for (int k = 0; k < stand->shape.bends * DP_LANES; ++k)
+            state->strength[k] = block->reserve[k % DP_LANES];
     } else if (!block->awake) {
         dp_plant_catch_up(stand, block, plants->now - block->asleep_since);
     }

@@ -17,6 +17,7 @@
 //   TRAIL (7): a stand denser than full cover counts 1; `paper` is as printed.
 #pragma once
 #include "base/status.h"
+#include "base/stream.h"
 #include "base/types.h"
 
 typedef enum DpPlantForm
@@ -160,6 +161,20 @@ double dp_plants_reserve(const DpPlants* plants, int stand, int plant);
 DpStatus dp_plants_vary(DpPlants* plants, int stand, const float* z);
 // alpha_k, share of a plant's bends with nothing broken from the root up to them. TRAIL (7)
 double dp_plants_alpha(const DpPlants* plants, int stand, int plant);
+
+// ---- kept from one run to the next --------------------------------------------------------------
+
+// Write what plants have become since they were planted, as one chunk of a stream.
+void dp_plants_save(const DpPlants* plants, DpStateWriter* writer);
+
+// What was read, until plants take it.
+typedef struct DpPlantsState DpPlantsState;
+// Read for plants that were planted alike, and that nobody trod on yet (else DP_BAD_ARGUMENT).
+// Damaged bytes, and those of plants of another seed, kind or place: DP_BAD_FILE.
+DpStatus dp_plants_load(const DpPlants* plants, DpStateReader* reader, DpPlantsState** state);
+// They go on from there, to the bit; the state is gone afterwards. It cannot fail.
+void dp_plants_restore(DpPlants* plants, DpPlantsState* state);
+void dp_plants_state_destroy(DpPlantsState* state);  // not taken; NULL is fine
 
 // ---- one by one ------------------------------------------------------------------------------
 
