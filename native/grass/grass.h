@@ -1,5 +1,5 @@
 // grass/grass.h - how grass lies between the plants, cell by cell: pressed flat under soles, parted at
-// their edge, standing up again as far as its stems are whole.
+// their edge, standing up again as far as its stems are whole. MODEL 7.6
 //
 // Plants are sparse, soles have edges: every planted cell that was touched keeps the lean of one
 // stem. It takes memory and time where something touched the grass, and nowhere else.

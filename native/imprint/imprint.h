@@ -1,7 +1,7 @@
 // imprint/imprint.h - the underside of a posed limb, one column per cell.
 //
 //   sole meshes of a limb's parts ---lower envelope---> bottom, cover ---touched cells---> rings
-//   TRAIL 4.2.1
+//   TRAIL 4.2.1, MODEL 5.1
 //
 // A triangle mesh is all it takes: feet, hooves, wheels, stamps. Each cell is looked at in
 // samples x samples points, so that cover tells how much of it lies under the sole: print edges are

@@ -1,4 +1,4 @@
-// The underside of a posed limb, one column per cell. TRAIL 4.2.1.
+// The underside of a posed limb, one column per cell. TRAIL 4.2.1, MODEL 5.1
 //
 //   pose every corner -> find the samples it can cover -> lower them -> one mean a cell
 //

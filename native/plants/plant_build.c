@@ -1,4 +1,5 @@
 // plants/plant_build.c - plants from roots: neighbours in blocks, and a look-up by place. TRAIL 4.1
+// MODEL 7.1
 //
 // Departures
 //   TRAIL (6) gives every plant of a kind one reserve. Here each one's is multiplied by exp(s z),

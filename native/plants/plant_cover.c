@@ -1,4 +1,4 @@
-// plants/plant_cover.c - how much of the ground is held by roots. TRAIL (7), TRAIL (8)
+// plants/plant_cover.c - how much of the ground is held by roots. TRAIL (7), TRAIL (8), MODEL 7.4
 //
 // Departures
 //   TRAIL (7): as printed, the mean of (1 - d/w) alpha cannot reach 1 and does not know density.

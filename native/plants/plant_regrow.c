@@ -1,4 +1,4 @@
-// plants/plant_regrow.c - time that passes without walkers: what broke grows again.
+// plants/plant_regrow.c - time that passes without walkers: what broke grows again. MODEL 7.5
 //
 // Regrowth (ours): d alpha/dt = r (w + (1 - w) alpha) (1 - alpha), alpha the cover around a plant as
 // far as runners and heavy seeds come, four times its roots' radius: a lane grows again from its
@@ -13,7 +13,7 @@ double dp_plant_regrow(const DpPlantKind* kind, double alpha, double seconds)
     if (!(source > 0.0)) return 0.0;
     // of d alpha/dt = r (w + (1 - w) alpha) (1 - alpha): what is bare, by what it grows from, decays
     const double bare = (1.0 - share) / source * exp(-(double)kind->regrow_rate * seconds);
-    return (1.0 - w * bare) / (1.0 + (1.0 - w) * bare);
+    return (1.0 - w * bare) / (1.0 + (1.0 - w) * bare);  // MODEL 7.5
 }
 
 // stems that broke grow again, each with the same chance; what grew stands in its rest shape

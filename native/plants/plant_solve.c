@@ -1,4 +1,5 @@
 // plants/plant_solve.c - how plants move: bends, edges, stems, one small step at a time. TRAIL (5)
+// MODEL 7.2
 //
 // XPBD with one pass a sub-step: a correction is C / (sum of weights + compliance / h^2), so
 // stiffness depends neither on passes nor on the time step. Lanes are plants: all do the same sums

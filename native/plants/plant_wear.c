@@ -1,4 +1,4 @@
-// plants/plant_wear.c - what bending costs a stem, and how it gets it back. TRAIL (6)
+// plants/plant_wear.c - what bending costs a stem, and how it gets it back. TRAIL (6), MODEL 7.3
 //
 // Departures
 //   TRAIL (6): the loss is by seconds, not by frames, and its sum over a step is exact while phi

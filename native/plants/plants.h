@@ -1,4 +1,4 @@
-// plants/plants.h - grass that bends under feet, wears, breaks, grows again and holds the soil.
+// plants/plants.h - grass that bends under feet, wears, breaks, grows again and holds the soil. MODEL 7
 //
 //   add ---> step: solve ---> wear ---> cover, roots ---> soil
 //            TRAIL (5)        TRAIL (6)  TRAIL (7)(8)     TRAIL (9)

@@ -1,4 +1,4 @@
-// sim/sim_limb.c - where a limb is between two samples, and how hard it presses.
+// sim/sim_limb.c - where a limb is between two samples, and how hard it presses. MODEL 5.2
 #include <limits.h>
 
 #include "base/vec.h"
@@ -141,6 +141,6 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
                    lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));
         farthest = fmax(farthest, dp_length(rolled));
     }
-    const double steps = ceil(farthest / (0.5 * sim->cell));
+    const double steps = ceil(farthest / (0.5 * sim->cell));  // MODEL 5.2
     return (int)dp_clamp(steps, 1.0, MAX_SUBSTEPS);
 }

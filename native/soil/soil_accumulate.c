@@ -1,4 +1,4 @@
-// soil/soil_accumulate.c - what was pushed aside is laid around the sole. TRAIL (11)-(13).
+// soil/soil_accumulate.c - what was pushed aside is laid around the sole. TRAIL (11)-(13), MODEL 6.3
 //
 //   push --> anisotropy beta (13) --> share of each border cell (11)(12) --> heap: rest | paper
 #include "base/vec.h"

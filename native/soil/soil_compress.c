@@ -1,4 +1,4 @@
-// soil/soil_compress.c - how deep a sole goes. TRAIL (9) (10), SOFT22 (9)-(11).
+// soil/soil_compress.c - how deep a sole goes. TRAIL (9) (10), SOFT22 (9)-(11), MODEL 6.2
 //
 //   force --(balance)--> sink of the sole --> target of each column --(rate)--> pressed now
 //

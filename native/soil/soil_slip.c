@@ -14,5 +14,5 @@ double dp_soil_slip(const DpSoil* soil, double along, double weight)
 {
     if (!(soil->shear_modulus > 0.0f) || !(weight > 0.0) || !(along > 0.0)) return 0.0;
     const double share = fmin(along / (weight * tan((double)soil->rest_angle)), MAX_SHARE);
-    return fmin(-(double)soil->shear_modulus * log(1.0 - share), DP_MAX_SLIP);
+    return fmin(-(double)soil->shear_modulus * log(1.0 - share), DP_MAX_SLIP);  // MODEL 6.5
 }

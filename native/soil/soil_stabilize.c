@@ -1,4 +1,4 @@
-// soil/soil_stabilize.c - loose soil slides until it rests. TRAIL (14)-(16).
+// soil/soil_stabilize.c - loose soil slides until it rests. TRAIL (14)-(16), MODEL 6.4
 //
 //   slopes to 8 neighbours --(first stencil)--> share given away --(second stencil)--> new heaps
 //

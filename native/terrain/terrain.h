@@ -1,4 +1,4 @@
-// terrain/terrain.h - ground without end: sparse tiles inside, dense patches leased.
+// terrain/terrain.h - ground without end: sparse tiles inside, dense patches leased. MODEL 6.1
 //
 //   ground (flat | heights | mesh) ---first touch---> tile of DP_TILE x DP_TILE cells
 //   tiles ---acquire---> DpSoilPatch ---kernels---> commit ---> tiles changed

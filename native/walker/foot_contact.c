@@ -1,4 +1,4 @@
-// walker/foot_contact.c - which part touches the ground when. TRAIL (4).
+// walker/foot_contact.c - which part touches the ground when. TRAIL (4), MODEL 4.2
 //
 //   heights, speeds ---dp_watch_clearance---> clearance ---hysteresis---> touching ---support---> touching
 //

@@ -237,7 +237,7 @@ static void load_sample(DpLoad* l, int t, double* out_force, double* out_point)
     const double pull = accel.z + DP_GRAVITY;
     const double lever = (com.z - low / (double)limbs.count) / fmax(pull, MIN_PULL * DP_GRAVITY);
     // zero-moment point; at rest, what lies below the mass centre
-    const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));
+    const DpVec3 zmp = dp_sub(com, dp_scale(dp_vec3(accel.x, accel.y, 0.0), lever));  // MODEL 4.3
     share_out(l, &limbs, doubtful(&limbs, accel, pull), zmp);
     DpVec3 miss = zmp;  // what the limbs' centres leave to their points
     for (int k = 0; k < limbs.count; ++k)

@@ -1,4 +1,4 @@
-// walker/foot_noise.c - how sharp a landing may be: what flights tell of a recording's noise.
+// walker/foot_noise.c - how sharp a landing may be: what flights tell of a recording's noise. MODEL 4.3
 //
 // Who flies falls freely, whatever was recorded. What the recorded mass centre strays from its
 // parabola is noise: of cameras, of skin, of a mass centre that is not quite the body's. A smoothing

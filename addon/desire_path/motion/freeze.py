@@ -1,4 +1,4 @@
-"""A pose that is held in mid-step: time stands still for the walker, and its motion goes on as if it had not.
+"""A pose that is held in mid-step: time stands still for the walker, and its motion goes on as if it had not. MODEL 3.4
 
     recording with holds ---without---> the motion itself ---loads---> ---fill---> holds get what they interrupted
 

@@ -1,4 +1,4 @@
-"""Where a recording jumps: a pose that stands alone, a teleport, another take. It is cut there.
+"""Where a recording jumps: a pose that stands alone, a teleport, another take. It is cut there. MODEL 3.4
 
     places of the mass centre and the feet --from sample to sample--> farther than bodies go --> Gait.cut
 

@@ -1,4 +1,4 @@
-"""How large a walker is. Lengths of a gait go with the leg, times and speeds with its root (Froude).
+"""How large a walker is. Lengths of a gait go with the leg, times and speeds with its root (Froude). MODEL 3.3
 
 A recording of any walker, as large as a grown person, moves as a grown person does who walks alike: limits on
 heights, speeds and times are given for a person's leg and asked of that recording. Accelerations stay what they

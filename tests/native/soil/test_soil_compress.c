@@ -152,7 +152,7 @@ TEST(one_stress_for_all)
     ground_free(&ground);
 }
 
-// a second stance with the same load adds nothing; more load goes on from there
+// a second stance with the same load adds nothing; more load goes on from there. MODEL 6.6
 TEST(same_load_again_adds_nothing)
 {
     Ground ground = ground_make(60, 40, 0.01, wet());
