@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "base/types.h"
 #include "walker/walker.h"
+#include "motion/motion.h"
 #include "imprint/imprint.h"
 #include "soil/soil.h"
 #include "plants/plants.h"

@@ -4,11 +4,12 @@
 //                                       ^                              |
 //                                     cover <--- wear <--- solve <--- plants follow the surface
 //
-// A simulation holds a terrain and one recording at an even rate. Each limb that touches presses
+// A simulation holds a terrain and follows a motion. Each limb that touches presses
 // its sole; a limb that has let go lets its rim come to rest. Limbs whose patches do not overlap are
 // worked on at once; the result is the same for any number of workers.
 #pragma once
 #include "grass/grass.h"
+#include "motion/motion.h"
 #include "plants/plants.h"
 #include "sim/sim_film.h"
 #include "soil/soil.h"
@@ -48,8 +49,8 @@ typedef struct DpSimReport
 DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
 void     dp_sim_destroy(DpSim* sim);
 
-// Plants on this ground; borrowed like the terrain, on which nobody has walked yet. Once a recording is
-// loaded: DP_BAD_ARGUMENT.
+// Plants on this ground; borrowed like the terrain, on which nobody has walked yet. Once a motion is
+// followed: DP_BAD_ARGUMENT.
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants);
 
 // Plant roots at xy (count, 2) [m] as one more stand, at any time; those without ground are left
@@ -76,20 +77,22 @@ DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position);
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_rest(DpSim* sim, double seconds);
 
-#define DP_HELD 128  // in `touching`: no time passes for the part from this sample to the next
-
-// Take a recording, evenly sampled, with what its parts touch and press (walker/walker.h). Copied.
-// A limb that is held, as DP_HELD in `touching` says, stays in its print and presses no deeper.
-// Pressed prints stay: recordings may follow each other on the same ground.
+// Follow a motion (motion/motion.h), which is the simulation's from now on. A limb that is held, as
+// DP_HELD in `touching` says, stays in its print and presses no deeper. Pressed prints stay: motions
+// may follow each other on the same ground. On failure both are as they were.
+DpStatus dp_sim_follow(DpSim* sim, DpMotion* motion);
+// The same with a recording, evenly sampled, with what its parts touch and press (walker/walker.h).
 DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
                      const double* pressure_point);
+// The next sample of the live motion that is followed: see dp_motion_push.
+DpStatus dp_sim_push(DpSim* sim, double time, const uint8_t* present, const DpLoadedPoses* poses);
 
 // Turn one walker's feet to the rest ground of a terrain, and carry it there: see dp_foot_place.
 DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
                       const DpPlaceOptions* options, const double* clearance, double* pose,
                       double* com);
 
-// Cells the loaded recording can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
+// Cells the motion that is followed can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
 // empty (i0 >= i1) when nothing touches.
 void dp_sim_bounds(const DpSim* sim, long bounds[4]);
 

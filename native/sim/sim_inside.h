@@ -101,6 +101,16 @@ typedef struct PlantStage
     int            soles, grounds;  // of this step
 } PlantStage;
 
+// The same plants before anybody walks by.
+static inline PlantStage dp_stage_empty(const PlantStage* stage)
+{
+    return (PlantStage){.plants = stage->plants,
+                        .grass = stage->grass,
+                        .display = stage->display,
+                        .extent = stage->extent,
+                        .reach = stage->reach};
+}
+
 #define MAX_SPECULATED 4  // limbs; where more press, they keep all cores busy by themselves
 
 // The next step's soil, worked out on leases while plants move. It counts unless they broke
@@ -123,17 +133,13 @@ struct DpSim
     double       cell, origin_x, origin_y;  // of the terrain                            [m]
     int          samples;                   // imprint samples a side
 
-    DpGait   gait;  // copies of all arrays, below
-    double*  time;
-    double*  pose;
-    double*  mass;
-    DpMesh*  sole;
-    float*   sole_vertex;
-    int32_t* sole_triangle;
-    uint8_t* touching;
-    double*  force;
-    double*  pressure_point;
-    int*     part_of_limb;
+    DpMotion* motion;  // what is followed; NULL: nobody walks yet
+    DpGait    cast;    // its walkers, limbs, parts and soles
+    double    datum;   // of the terrain, from which heights count                       [m]
+    int*      part_of_limb;
+    int       limb_parts;   // as many as any limb has
+    DpMesh*   worker_sole;  // room of every worker for the soles and poses of one limb
+    DpPose*   worker_pose;
 
     Limb*     limb;
     Pressing* pressing;  // of every limb
@@ -173,7 +179,17 @@ static inline bool dp_cells_meet(Cells a, Cells b)
     return a.i0 < b.i1 && b.i0 < a.i1 && a.j0 < b.j1 && b.j0 < a.j1;
 }
 
+// how long an interval lasts [s]
+static inline double dp_sim_interval(const DpSim* sim, int sample)
+{
+    return dp_motion_time(sim->motion, sample + 1) - dp_motion_time(sim->motion, sample);
+}
+
+// sim_follow.c: nothing is followed any more
+void dp_sim_forget(DpSim* sim);
+
 // sim_limb.c: where a limb is and what it does at fraction `w` between samples k and k + 1
+bool        dp_limb_there(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_held(const DpSim* sim, const Limb* limb, int sample);
 DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);

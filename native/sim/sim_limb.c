@@ -8,36 +8,43 @@
 #define PROBED 96         // vertices of a sole looked at to tell how fast it slides
 #define LOADED_BAND 0.02  // [m] above the lowest of them: may be loaded
 
-bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
+bool dp_limb_there(const DpSim* sim, const Limb* limb, int sample)
+{
+    return dp_motion_there(sim->motion, limb->walker, sample);
+}
+
+static bool touches(const DpSim* sim, const Limb* limb, int sample, int mask)
 {
     for (int p = 0; p < limb->part_count; ++p)
-        if (sim->touching[(size_t)limb->part[p] * (size_t)sim->gait.times + (size_t)sample])
-            return true;
+        if (dp_motion_touching(sim->motion, limb->part[p], sample) & mask) return true;
     return false;
+}
+
+bool dp_limb_touches(const DpSim* sim, const Limb* limb, int sample)
+{
+    return touches(sim, limb, sample, 255);
 }
 
 bool dp_limb_held(const DpSim* sim, const Limb* limb, int sample)
 {
-    for (int p = 0; p < limb->part_count; ++p)
-        if (sim->touching[(size_t)limb->part[p] * (size_t)sim->gait.times + (size_t)sample] &
-            DP_HELD)
-            return true;
-    return false;
+    return touches(sim, limb, sample, DP_HELD);
 }
 
+// heights count from the terrain's datum
 static DpPose pose_at(const DpSim* sim, int part, int sample)
 {
-    const double* p = sim->pose + 7 * ((size_t)part * (size_t)sim->gait.times + (size_t)sample);
-    const DpPose  pose = {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
+    DpPose pose = dp_motion_pose(sim->motion, part, sample);
+    pose.at.z -= sim->datum;
     return pose;
 }
 
 DpPose dp_limb_pose(const DpSim* sim, int part, int sample, double w)
 {
+    const bool last = sample + 1 >= dp_motion_samples(sim->motion);
+    if (w >= 1.0 && !last) return pose_at(sim, part, sample + 1);  // as the next interval begins
     const DpPose a = pose_at(sim, part, sample);
-    if (w <= 0.0 || sample + 1 >= sim->gait.times) return a;
+    if (w <= 0.0 || last) return a;
     const DpPose b = pose_at(sim, part, sample + 1);
-    if (w >= 1.0) return b;  // to the bit where the next interval begins
     const DpPose pose = {dp_add(dp_scale(a.at, 1.0 - w), dp_scale(b.at, w)),
                          dp_slerp(a.turn, b.turn, w)};
     return pose;
@@ -46,20 +53,21 @@ DpPose dp_limb_pose(const DpSim* sim, int part, int sample, double w)
 // The parts of one limb are one sole: their forces add, their centres of pressure are weighed.
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w)
 {
-    const size_t times = (size_t)sim->gait.times;
-    DpFootForce  foot = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
-    double       weight = 0.0;
+    const int   last = dp_motion_samples(sim->motion) - 1;
+    DpFootForce foot = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    double      weight = 0.0;
     for (int p = 0; p < limb->part_count; ++p) {
         for (int end = 0; end < 2; ++end) {
-            const int     at = sample + end < sim->gait.times ? sample + end : sample;
-            const double  share = end ? w : 1.0 - w;
-            const size_t  k = 3 * ((size_t)limb->part[p] * times + (size_t)at);
-            const double* f = sim->force + k;
-            const double* c = sim->pressure_point + k;
-            const double  load = share * fmax(0.0, -f[2]);
-            foot.force = dp_add(foot.force, dp_scale(dp_vec3(f[0], f[1], f[2]), share));
-            if (load <= 0.0 || !isfinite(c[0] + c[1] + c[2])) continue;
-            foot.point = dp_add(foot.point, dp_scale(dp_vec3(c[0], c[1], c[2]), load));
+            const int    at = sample + end < last ? sample + end : last;
+            const double share = end ? w : 1.0 - w;
+            DpPartState  part;
+            if (!dp_motion_part(sim->motion, limb->part[p], at, &part)) continue;
+            DpVec3       c = part.pressure_point;
+            const double load = share * fmax(0.0, -part.force.z);
+            foot.force = dp_add(foot.force, dp_scale(part.force, share));
+            c.z -= sim->datum;
+            if (load <= 0.0 || !isfinite(c.x + c.y + c.z)) continue;
+            foot.point = dp_add(foot.point, dp_scale(c, load));
             weight += load;
         }
     }
@@ -80,7 +88,7 @@ Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margi
     Cells        cells = {0, 0, 0, 0};
     for (int p = 0; p < limb->part_count; ++p) {
         for (int end = 0; end < 2; ++end) {
-            const DpBox box = dp_imprint_box(&sim->sole[limb->part[p]],
+            const DpBox box = dp_imprint_box(&sim->cast.sole[limb->part[p]],
                                              dp_limb_pose(sim, limb->part[p], sample, end));
             const Cells under = {number_of(floor((box.x0 - margin - ox) / cell)),
                                  number_of(ceil((box.x1 + margin - ox) / cell)),
@@ -117,7 +125,7 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
     double lowest = INFINITY, farthest = 0.0;
     for (int pass = 0; pass < 2; ++pass) {
         for (int p = 0; p < limb->part_count; ++p) {
-            const DpMesh* sole = &sim->sole[limb->part[p]];
+            const DpMesh* sole = &sim->cast.sole[limb->part[p]];
             const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
             const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
             const int     stride = sole->vertex_count / PROBED + 1;
@@ -135,7 +143,7 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
         }
     }
     if (limb->part_count == 1) {
-        const DpMesh* sole = &sim->sole[limb->part[0]];
+        const DpMesh* sole = &sim->cast.sole[limb->part[0]];
         const DpVec3  rolled =
             dp_sub(lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 1.0)),
                    lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));

@@ -18,12 +18,17 @@ static double slips(const DpSim* sim)
     return 0.0;
 }
 
+// Who is there at both ends of an interval presses all the way if it touches at either.
+static bool presses_from(const DpSim* sim, const Limb* limb, int sample)
+{
+    return dp_limb_there(sim, limb, sample) && dp_limb_there(sim, limb, sample + 1) &&
+           (dp_limb_touches(sim, limb, sample) || dp_limb_touches(sim, limb, sample + 1));
+}
+
 // What a limb does in the interval from `sample` to the next, and on which cells.
 static void plan_limb(DpSim* sim, Limb* limb, int sample)
 {
-    const bool now = dp_limb_touches(sim, limb, sample);
-    const bool then = dp_limb_touches(sim, limb, sample + 1);
-    const bool presses = now || then;
+    const bool presses = presses_from(sim, limb, sample);
     limb->lifts = limb->stands && !presses;
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
@@ -68,7 +73,7 @@ static int by_first_column(const void* a, const void* b)
 static void join_limbs(DpSim* sim)
 {
     int count = 0;
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    for (int l = 0; l < sim->cast.limbs; ++l) {
         sim->group[l] = l;
         if (!sim->limb[l].active) continue;
         const Cells at = sim->limb[l].patch;
@@ -89,7 +94,7 @@ static void join_limbs(DpSim* sim)
 // Limbs that meet get one group: start[k] .. start[k + 1] are the places of group k in `order`.
 static int make_groups(DpSim* sim)
 {
-    const int limbs = sim->gait.limbs;
+    const int limbs = sim->cast.limbs;
     int       groups = 0;
     join_limbs(sim);
     for (int l = 0; l < limbs; ++l) {
@@ -137,12 +142,12 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
     sim->groups = 0;
     dp_pressing_clear(sim);
     bool any = false;
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    for (int l = 0; l < sim->cast.limbs; ++l) {
         plan_limb(sim, &sim->limb[l], sample);
         any = any || sim->limb[l].active;
     }
     if (any) sim->groups = make_groups(sim);
-    for (int l = 0; any && l < sim->gait.limbs; ++l) {
+    for (int l = 0; any && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->active || dp_cells_empty(limb->patch)) continue;
         DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
@@ -159,10 +164,13 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
     Cells        cells = {0, 0, 0, 0};
     const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
     const double margin = 3 * fmax(HEAP_MARGIN, rim) + slips(sim) + dp_stage_margin(sim);
-    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l)
-        for (int k = 0; k + 1 < sim->gait.times; ++k)
-            if (dp_limb_touches(sim, &sim->limb[l], k) ||
-                dp_limb_touches(sim, &sim->limb[l], k + 1))
-                cells = dp_cells_join(cells, dp_limb_cells(sim, &sim->limb[l], k, margin));
+    for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
+        const Limb* limb = &sim->limb[l];
+        int         first, end;
+        for (int n = 0; dp_motion_stay(sim->motion, limb->walker, n, &first, &end); ++n)
+            for (int k = first; k < end && k + 1 < dp_motion_samples(sim->motion); ++k)
+                if (presses_from(sim, limb, k))
+                    cells = dp_cells_join(cells, dp_limb_cells(sim, limb, k, margin));
+    }
     bounds[0] = cells.i0, bounds[1] = cells.i1, bounds[2] = cells.j0, bounds[3] = cells.j1;
 }

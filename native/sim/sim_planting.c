@@ -179,9 +179,5 @@ void dp_stage_drop(DpSim* sim)
     for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
     dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
         dp_free(m->height_room);
-    *m = (PlantStage){.plants = m->plants,
-                      .grass = m->grass,
-                      .display = m->display,
-                      .extent = m->extent,
-                      .reach = m->reach};
+    *m = dp_stage_empty(m);
 }

@@ -175,10 +175,10 @@ DpStatus dp_stage_settled(DpSim* sim, Limb* limb)
 DpStatus dp_stage_step(DpSim* sim, int sample, bool more)
 {
     PlantStage*  m = &sim->stage;
-    const double dt = sim->time[sample + 1] - sim->time[sample];
+    const double dt = dp_sim_interval(sim, sample);
     DpStatus     status = DP_OK;
     m->soles = m->grounds = 0;
-    for (int l = 0; l < sim->gait.limbs && status == DP_OK; ++l)
+    for (int l = 0; l < sim->cast.limbs && status == DP_OK; ++l)
         status = take_limb(sim, &sim->limb[l], sample, dt);
     if (status != DP_OK) return status;
     const DpPlantGround elsewhere = {

@@ -84,10 +84,10 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     foot.normal =
         dp_terrain_normal(sim->terrain, foot.point.x, foot.point.y, sim->options.normal_radius);
 
-    slip(limb, soil_under(patch, foot.point), &foot, sim->mass[limb->walker] * DP_GRAVITY, dt);
+    slip(limb, soil_under(patch, foot.point), &foot, sim->cast.mass[limb->walker] * DP_GRAVITY, dt);
     foot.point = dp_add(foot.point, limb->slip);
     for (int p = 0; p < limb->part_count; ++p) {
-        scratch->sole[p] = sim->sole[limb->part[p]];
+        scratch->sole[p] = sim->cast.sole[limb->part[p]];
         scratch->pose[p] = dp_limb_pose(sim, limb->part[p], sample, w);
         scratch->pose[p].at = dp_add(scratch->pose[p].at, limb->slip);
     }
@@ -110,8 +110,8 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
 
     const double volume = pressed.displaced + limb->unlaid;
     if (volume <= 0.0) return DP_OK;
-    const DpSoil*       soil = soil_under(patch, foot.point);
-    const double        half_weight = 0.5 * sim->mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
+    const DpSoil* soil = soil_under(patch, foot.point);
+    const double  half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
     const DpHeapOptions heap = {
         sim->options.heap_law, sim->options.rim_width,
         soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight};
@@ -133,7 +133,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
 
     Pressing*    pressing = &sim->pressing[limb - sim->limb];
     const int    substeps = dp_limb_substeps(sim, limb, sample);
-    const double dt = (sim->time[sample + 1] - sim->time[sample]) / substeps;
+    const double dt = (dp_sim_interval(sim, sample)) / substeps;
     scratch->imprint.i0 = scratch->imprint.i1 = 0;
     scratch->imprint.met = met_on(patch, limb, scratch);
     for (int u = 0; u < substeps && status == DP_OK; ++u) {

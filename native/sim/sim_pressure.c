@@ -22,14 +22,14 @@ DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* pat
 
 void dp_pressing_clear(DpSim* sim)
 {
-    for (int l = 0; sim->pressing && l < sim->gait.limbs; ++l)
+    for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l)
         sim->pressing[l].at = (Cells){0, 0, 0, 0};
 }
 
 void dp_sim_pressure(const DpSim* sim, long i0, long j0, int nx, int ny, float* out)
 {
     memset(out, 0, (size_t)nx * (size_t)ny * sizeof *out);
-    for (int l = 0; sim->pressing && l < sim->gait.limbs; ++l) {
+    for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
         const Pressing* from = &sim->pressing[l];
         for (long j = from->at.j0; j < from->at.j1; ++j) {
             if (j < j0 || j >= j0 + ny) continue;
@@ -47,7 +47,7 @@ static long tile_of(long cell)
 
 void dp_sim_soles(const DpSim* sim, DpTileVisit visit, void* context)
 {
-    for (int l = 0; sim->pressing && l < sim->gait.limbs; ++l) {
+    for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
         const Cells at = sim->pressing[l].at;
         if (dp_cells_empty(at)) continue;
         const long tx1 = tile_of(at.i1 - 1), ty1 = tile_of(at.j1 - 1);

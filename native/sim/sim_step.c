@@ -40,7 +40,7 @@ static void work_group(void* context, int group, int worker)
 // their patches grow as far as they need.
 static DpStatus settle_limbs(DpSim* sim)
 {
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    for (int l = 0; l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->active || !(limb->lifts || limb->spills)) continue;
         if (limb->spills && !limb->lifts) continue;  // its sole holds part of it: at lift-off
@@ -52,7 +52,7 @@ static DpStatus settle_limbs(DpSim* sim)
 
 static void count(DpSim* sim)
 {
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    for (int l = 0; l < sim->cast.limbs; ++l) {
         const Limb* limb = &sim->limb[l];
         if (!limb->active) continue;
         sim->report.pressed += limb->firm;
@@ -66,7 +66,7 @@ static void count(DpSim* sim)
 static DpStatus press_limbs(DpSim* sim, int sample)
 {
     long cells = 0;
-    for (int l = 0; l < sim->gait.limbs; ++l) {
+    for (int l = 0; l < sim->cast.limbs; ++l) {
         const Cells* at = &sim->limb[l].patch;
         if (sim->limb[l].active && !sim->limb[l].lifts)
             cells += (at->i1 - at->i0) * (at->j1 - at->j0);
@@ -97,14 +97,14 @@ static DpStatus step_soil(DpSim* sim, int sample)
 
 DpStatus dp_sim_run(DpSim* sim, int sample)
 {
-    if (!sim->limb) return DP_BAD_ARGUMENT;
-    if (sample > sim->gait.times - 1) sample = sim->gait.times - 1;
+    if (!sim->motion) return DP_BAD_ARGUMENT;
+    if (sample > dp_motion_samples(sim->motion) - 1) sample = dp_motion_samples(sim->motion) - 1;
     while (sim->next < sample) {
         DpStatus status = step_soil(sim, sim->next);
         if (status == DP_OK && sim->stage.plants)
             status = dp_stage_step(sim, sim->next, sim->next + 1 < sample);
         if (status != DP_OK) return status;
-        ++sim->next;
+        dp_motion_forget(sim->motion, ++sim->next);
     }
     return DP_OK;
 }
@@ -112,7 +112,7 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
 DpStatus dp_sim_settle(DpSim* sim)
 {
     dp_pressing_clear(sim);
-    for (int l = 0; sim->limb && l < sim->gait.limbs; ++l) {
+    for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->stands) continue;
         limb->stands = false;

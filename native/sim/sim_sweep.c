@@ -13,26 +13,41 @@ static SweptSole* swept_of(DpSim* sim, int part, int sample)
     return &sim->stage.swept[(sample & 1) * sim->stage.parts + part];
 }
 
+// how far the middle of a box moves to become another [m]
+static DpVec3 middle_moved(const DpBox* from, const DpBox* to)
+{
+    return dp_vec3(0.5 * (to->x0 + to->x1 - from->x0 - from->x1),
+                   0.5 * (to->y0 + to->y1 - from->y0 - from->y1),
+                   0.5 * (to->z0 + to->z1 - from->z0 - from->z1));
+}
+
 SweptSole* dp_sweep_path(DpSim* sim, int part, int sample)
 {
-    const DpMesh*    mesh = &sim->sole[part];
+    const DpMesh*    mesh = &sim->cast.sole[part];
+    const int        walker = sim->cast.limb_walker[sim->cast.part_limb[part]];
     const SweptSole* last = swept_of(sim, part, sample + 1);
     SweptSole*       swept = swept_of(sim, part, sample);
-    const double     dt = sim->time[sample + 1] - sim->time[sample];
     if (swept->sample == sample) return swept;
     swept->sample = sample;
     swept->cast = false;
+    swept->displacement = dp_vec3(0, 0, 0);
+    if (!dp_motion_there(sim->motion, walker, sample + 1)) {  // meets nothing
+        swept->from = swept->to = (DpBox){0};
+        swept->jumps = true, swept->low = INFINITY, swept->ground = NAN;
+        return swept;
+    }
     swept->pose = dp_limb_pose(sim, part, sample, 1.0);
     swept->to = dp_imprint_box(mesh, swept->pose);
-    swept->from = sample > 0 && last->sample == sample - 1
-                      ? last->to
-                      : dp_imprint_box(mesh, dp_limb_pose(sim, part, sample, 0.0));
-    const DpBox *from = &swept->from, *to = &swept->to;
-    swept->displacement = dp_vec3(0.5 * (to->x0 + to->x1 - from->x0 - from->x1),
-                                  0.5 * (to->y0 + to->y1 - from->y0 - from->y1),
-                                  0.5 * (to->z0 + to->z1 - from->z0 - from->z1));
-    swept->jumps = dp_length(swept->displacement) > MAX_SPEED * dt;
+    swept->jumps = !dp_motion_there(sim->motion, walker, sample);
+    if (!swept->jumps) {
+        swept->from = sample > 0 && last->sample == sample - 1
+                          ? last->to
+                          : dp_imprint_box(mesh, dp_limb_pose(sim, part, sample, 0.0));
+        swept->displacement = middle_moved(&swept->from, &swept->to);
+        swept->jumps = dp_length(swept->displacement) > MAX_SPEED * dp_sim_interval(sim, sample);
+    }
     if (swept->jumps) swept->from = swept->to, swept->displacement = dp_vec3(0, 0, 0);
+    const DpBox *from = &swept->from, *to = &swept->to;
     swept->low = fmin(from->z0, to->z0);
     const double xy[2] = {0.25 * (from->x0 + from->x1 + to->x0 + to->x1),
                           0.25 * (from->y0 + from->y1 + to->y0 + to->y1)};
@@ -69,8 +84,8 @@ DpStatus dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch*
                                .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
                                .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell};
     swept->at = at;
-    const DpStatus status =
-        dp_imprint_foot(&swept->imprint, &patch, &sim->sole[part], &swept->pose, 1, 1, scratch);
+    const DpStatus status = dp_imprint_foot(&swept->imprint, &patch, &sim->cast.sole[part],
+                                            &swept->pose, 1, 1, scratch);
     swept->cast = status == DP_OK;
     return status;
 }

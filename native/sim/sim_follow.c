@@ -1,0 +1,118 @@
+// sim/sim_follow.c - the motion that a simulation follows, and the limbs that come with it.
+#include <math.h>
+
+#include "base/alloc.h"
+#include "sim/sim_inside.h"
+
+void dp_sim_forget(DpSim* sim)
+{
+    dp_stage_drop(sim);
+    sim->speculation.planned = false, sim->speculation.count = 0;
+    for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) dp_free(sim->limb[l].met);
+    for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) dp_free(sim->pressing[l].value);
+    void* const blocks[] = {sim->limb,        sim->pressing,   sim->part_of_limb, sim->group,
+                            sim->order,       sim->number,     sim->start,        sim->span,
+                            sim->worker_sole, sim->worker_pose};
+    for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
+    dp_motion_destroy(sim->motion);
+    sim->motion = NULL, sim->limb = NULL, sim->pressing = NULL, sim->span = NULL;
+    sim->part_of_limb = sim->group = sim->order = sim->number = sim->start = NULL;
+    sim->worker_sole = NULL, sim->worker_pose = NULL;
+    sim->cast = (DpGait){0};
+}
+
+// Which parts belong to which limb, in the recording's order.
+static DpStatus make_limbs(DpSim* sim)
+{
+    const DpGait* cast = &sim->cast;
+    const size_t  limbs = (size_t)cast->limbs, parts = (size_t)cast->parts;
+    const size_t  workers = (size_t)sim->worker_count;
+    sim->limb = dp_alloc(limbs, sizeof *sim->limb);
+    sim->pressing = dp_alloc(limbs, sizeof *sim->pressing);
+    sim->part_of_limb = dp_alloc(parts, sizeof *sim->part_of_limb);
+    sim->group = dp_alloc(limbs, sizeof *sim->group);
+    sim->number = dp_alloc(limbs, sizeof *sim->number);
+    sim->order = dp_alloc(limbs, sizeof *sim->order);
+    sim->start = dp_alloc(limbs + 1, sizeof *sim->start);
+    sim->span = dp_alloc(limbs, sizeof *sim->span);
+    if (!sim->limb || !sim->pressing || !sim->part_of_limb || !sim->group || !sim->number ||
+        !sim->order || !sim->start || !sim->span)
+        return DP_NO_MEMORY;
+    for (int p = 0; p < cast->parts; ++p) ++sim->limb[cast->part_limb[p]].part_count;
+    int* next = sim->part_of_limb;
+    int  most = 1;
+    for (int l = 0; l < cast->limbs; ++l) {
+        Limb* limb = &sim->limb[l];
+        limb->walker = cast->limb_walker[l];
+        limb->part = next;
+        next += limb->part_count;
+        most = limb->part_count > most ? limb->part_count : most;
+        limb->part_count = 0;
+    }
+    for (int p = 0; p < cast->parts; ++p) {
+        Limb* limb = &sim->limb[cast->part_limb[p]];
+        limb->part[limb->part_count++] = p;
+    }
+    sim->worker_sole = dp_alloc(workers * (size_t)most, sizeof *sim->worker_sole);
+    sim->worker_pose = dp_alloc(workers * (size_t)most, sizeof *sim->worker_pose);
+    if (!sim->worker_sole || !sim->worker_pose) return DP_NO_MEMORY;
+    sim->limb_parts = most;
+    return DP_OK;
+}
+
+// Heights count from the terrain's datum, which is near to where a walker first treads.
+static void set_datum(DpSim* sim)
+{
+    const double height = dp_motion_first_touch(sim->motion);
+    if (isfinite(height) && !sim->stage.plants) dp_terrain_move_datum(sim->terrain, height);
+    sim->datum = dp_terrain_datum(sim->terrain);
+}
+
+DpStatus dp_sim_follow(DpSim* sim, DpMotion* motion)
+{
+    if (!sim || !motion) return DP_BAD_ARGUMENT;
+    DpSim old = *sim;  // with all that is dropped when the new motion has its limbs
+    sim->motion = motion, sim->cast = *dp_motion_cast(motion);
+    sim->limb = NULL, sim->pressing = NULL, sim->span = NULL;
+    sim->part_of_limb = sim->group = sim->order = sim->number = sim->start = NULL;
+    sim->worker_sole = NULL, sim->worker_pose = NULL;
+    sim->stage = dp_stage_empty(&old.stage);
+    DpStatus status = make_limbs(sim);
+    if (status == DP_OK) status = dp_stage_fit(sim, sim->cast.parts, sim->cast.limbs);
+    if (status != DP_OK) {
+        sim->motion = NULL;  // it stays the caller's
+        dp_sim_forget(sim);
+        *sim = old;
+        return status;
+    }
+    dp_sim_forget(&old);
+    sim->speculation.planned = false, sim->speculation.count = 0;
+    for (int b = 0; b < sim->worker_count; ++b) {
+        sim->scratch[b].sole = sim->worker_sole + b * sim->limb_parts;
+        sim->scratch[b].pose = sim->worker_pose + b * sim->limb_parts;
+    }
+    sim->groups = 0;
+    sim->next = 0;
+    set_datum(sim);
+    return DP_OK;
+}
+
+DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, const double* force,
+                     const double* pressure_point)
+{
+    if (!sim || !gait) return DP_BAD_ARGUMENT;
+    const DpLoadedPoses poses = {gait->pose, touching, force, pressure_point};
+    DpMotion*           motion = NULL;
+    DpStatus            status = dp_motion_record(&motion, gait, &poses);
+    if (status == DP_OK) status = dp_sim_follow(sim, motion);
+    if (status != DP_OK) dp_motion_destroy(motion);
+    return status;
+}
+
+DpStatus dp_sim_push(DpSim* sim, double time, const uint8_t* present, const DpLoadedPoses* poses)
+{
+    if (!sim || !sim->motion) return DP_BAD_ARGUMENT;
+    const DpStatus status = dp_motion_push(sim->motion, time, present, poses);
+    if (status == DP_OK && dp_terrain_tile_count(sim->terrain) == 0) set_datum(sim);
+    return status;
+}
