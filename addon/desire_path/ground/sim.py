@@ -302,11 +302,11 @@ class Simulation:
     def settle_time(self, xy):
         """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
         taus = np.array([soil.settle_time for soil in self.soils])
+        if len(taus) == 1:
+            return np.full(len(xy), taus[0])
         cells, number = np.unique(
             np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0, return_inverse=True
         )
-        if len(taus) == 1:
-            return np.full(len(xy), taus[0])
         kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
         return taus[kinds][number.reshape(-1)]
 

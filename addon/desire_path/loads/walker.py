@@ -258,7 +258,9 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     options = {"frame_time": 1.0 / (_frames(gait) * np.sqrt(size)), **(options or {})}
     tau, taus = settle_time, None
     if callable(tau):
-        tau, taus = 1.0, _settles(even, touching, tau) / np.sqrt(size)
+        tau = 1.0
+        if model == "impulse":  # no other asks for it
+            taus = _settles(even, touching, settle_time) / np.sqrt(size)
     _native.foot_force(
         native_gait(person),
         touching,
@@ -273,11 +275,14 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     )
     point, clearance = point * size, clearance * size
     mean, warnings = _weigh(person, touching, force) if model == "inertia" else (None, [])
-    warnings = _sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, touching, size) + warnings
+    places = point_places(even)
+    told = _sinks(even, below) + _hovers(even, touching, clearance, size) + _slides(even, places, touching, size)
+    warnings = told + warnings
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
-    warnings += _elsewhere(even, below, touching, clearance, max(OFF_GROUND * gait.leg[0], 2.0 * cell), size)
+    over = places[..., 2] - below - clearance[:, None]
+    warnings += _elsewhere(even, over, touching, max(OFF_GROUND * gait.leg[0], 2.0 * cell), size)
     if every > 1:
         touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
     elif not every:
@@ -294,9 +299,11 @@ def _settles(gait, touching, tau):
     return out
 
 
-def _elsewhere(gait, below, touching, clearance, most, size):
-    """Mark parts that stand farther over the ground than `most` [m]; sentences about who does."""
-    over = point_places(gait)[..., 2] - below - clearance[:, None]
+def _elsewhere(gait, over, touching, most, size):
+    """Mark parts that stand farther over the ground than `most` [m]; sentences about who does.
+
+    over: height of each contact point over the ground, less its clearance (K, T) [m]
+    """
     lowest = np.stack(
         [
             np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
@@ -546,12 +553,12 @@ def _hovers(gait, touching, clearance, size):
     return warnings
 
 
-def _slides(gait, touching, size):
+def _slides(gait, places, touching, size):
     """A sentence for each walker whose feet slide while they carry: it walks in place."""
     warnings = []
     if len(gait.time) < 3:
         return warnings
-    rush = np.linalg.norm(np.gradient(point_places(gait)[..., :2], gait.time, axis=1), axis=2)
+    rush = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2)
     on, pace = touching[gait.point_part] != 0, np.sqrt(size)
     for w, name in enumerate(gait.walker_name):
         own = gait.limb_walker[gait.part_limb[gait.point_part]] == w
