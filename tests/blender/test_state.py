@@ -192,6 +192,20 @@ def test_files_that_are_gone(folder):
     assert ground.desire_path.bake_state == "OUTDATED" and "earlier" in ground.desire_path.missing
 
 
+def test_soles_of_few_cells_are_told_before_anything_is_written(folder):
+    ground, _ = scene(folder, frames=8, cell=0.06)
+    job = op_bake.Job(bpy.context.scene, ground)
+    steps = job.run()
+    while not job.early:
+        assert job.bake is None
+        next(steps)
+    (told,) = (each for each in job.early if "too few for a print to have their shape: choose a cell size of" in each)
+    assert not files(folder / "bake")
+    steps.close()
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert json.loads(ground.desire_path.summary)["warnings"].count(told) == 1
+
+
 def stopped(after):
     """Bake, stopped as ESC does after so many steps of writing."""
     job = op_bake.Job(bpy.context.scene, bpy.context.object)
