@@ -12,7 +12,8 @@
 #include <stdint.h>
 
 #define DP_GRAVITY 9.81  // g [m/s^2]
-#define DP_TILE 64       // cells along one side of a terrain tile and of a playback tile
+#define DP_PI 3.14159265358979323846
+#define DP_TILE 64  // cells along one side of a terrain tile and of a playback tile
 
 typedef struct DpVec3
 {

@@ -4,13 +4,13 @@
 // Plants are sparse, soles have edges: every planted cell that was touched keeps the lean of one
 // stem. It takes memory and time where something touched the grass, and nowhere else.
 #pragma once
+#include "base/grid.h"
 #include "plants/plants.h"
 
 typedef struct DpGrass DpGrass;
 
 // Cell (i, j) has its centre at origin + (i + 0.5, j + 0.5) cell [m]; plants are borrowed.
-DpStatus dp_grass_create(DpGrass** grass, const DpPlants* plants, double cell, double origin_x,
-                         double origin_y);
+DpStatus dp_grass_create(DpGrass** grass, const DpPlants* plants, DpGrid grid);
 void     dp_grass_destroy(DpGrass* grass);
 
 // Make room where soles can meet grass: reads the plants, which a step does not.

@@ -16,16 +16,14 @@
 #define AT_REST 0.002f  // nearer to where it stays than this, grass is there
 #define DUE 0.01        // slow stems rise once this share of what is left is due
 
-DpStatus dp_grass_create(DpGrass** grass, const DpPlants* plants, double cell, double origin_x,
-                         double origin_y)
+DpStatus dp_grass_create(DpGrass** grass, const DpPlants* plants, DpGrid grid)
 {
-    if (!grass || !plants || !(cell > 0.0 && cell < 1e6) || !(fabs(origin_x) < 1e9) ||
-        !(fabs(origin_y) < 1e9))
+    if (!grass || !plants || !(grid.cell > 0.0 && grid.cell < 1e6) || !(fabs(grid.x0) < 1e9) ||
+        !(fabs(grid.y0) < 1e9))
         return DP_BAD_ARGUMENT;
     DpGrass* created = dp_alloc(1, sizeof *created);
     if (!created) return DP_NO_MEMORY;
-    created->plants = plants, created->cell = cell;
-    created->origin[0] = origin_x, created->origin[1] = origin_y;
+    created->plants = plants, created->grid = grid;
     *grass = created;
     return DP_OK;
 }
@@ -56,14 +54,14 @@ static bool rise(GrassTile* tile, size_t p, float keep)
 
 static void rise_tile(const DpGrass* grass, GrassTile* tile, double dt)
 {
-    const bool     due = (tile->waited + dt) * (double)tile->healing > DUE;
-    const GrassBox at = due ? tile->moves : tile->brisk, none = {0, 0, 0, 0};
+    const bool       due = (tile->waited + dt) * (double)tile->healing > DUE;
+    const DpCellRect at = due ? tile->moves : tile->brisk, none = {0, 0, 0, 0};
     tile->waited += dt;
     tile->brisk = none;
     if (due) tile->moves = none;
     float rate = 0.0f, keep = 1.0f, heal = 0.0f, kept = 1.0f;  // neighbours mostly are alike
-    for (int j = at.j0; j < at.j1; ++j)
-        for (int i = at.i0; i < at.i1; ++i) {
+    for (int j = (int)at.j0; j < at.j1; ++j)
+        for (int i = (int)at.i0; i < at.i1; ++i) {
             const size_t p = (size_t)j * DP_TILE + (size_t)i;
             if (!(tile->crushed[p] > 0.0f)) continue;
             if (tile->held[p] == grass->step) {
@@ -77,8 +75,9 @@ static void rise_tile(const DpGrass* grass, GrassTile* tile, double dt)
                     kept = (float)exp(-(double)heal * tile->waited);
                 }
                 if (!rise(tile, p, kept)) continue;
-                dp_grass_widen(&tile->moves, i, j);
-                if (!(tile->crushed[p] > tile->limp[p])) dp_grass_widen(&tile->brisk, i, j);
+                tile->moves = dp_cells_with(tile->moves, i, j);
+                if (!(tile->crushed[p] > tile->limp[p]))
+                    tile->brisk = dp_cells_with(tile->brisk, i, j);
                 continue;
             }
             if (tile->rate[p] < rate || tile->rate[p] > rate) {
@@ -97,8 +96,8 @@ DpStatus dp_grass_ready(DpGrass* grass, const DpPlantCollider* colliders, int co
         if (!colliders[k].bottom) continue;
         const GrassPrint at = dp_grass_window(grass, &colliders[k]);
         if (at.nx < 1) continue;
-        for (long ty = grass_tile(at.j0); ty <= grass_tile(at.j0 + at.ny - 1); ++ty)
-            for (long tx = grass_tile(at.i0); tx <= grass_tile(at.i0 + at.nx - 1); ++tx)
+        for (long ty = dp_tile_of(at.j0); ty <= dp_tile_of(at.j0 + at.ny - 1); ++ty)
+            for (long tx = dp_tile_of(at.i0); tx <= dp_tile_of(at.i0 + at.nx - 1); ++tx)
                 if (!dp_grass_touch(grass, tx, ty)) return DP_NO_MEMORY;
     }
     return DP_OK;
@@ -143,12 +142,13 @@ DpStatus dp_grass_step(DpGrass* grass, const DpPlantGround* ground,
 // what grows within a box on one tile, anew
 static void grow_box(const DpGrass* grass, GrassTile* tile, const double box[4], bool first)
 {
-    const double side = DP_TILE * grass->cell;
+    const double side = DP_TILE * grass->grid.cell;
     int          from[2], to[2];
     for (int d = 0; d < 2; ++d) {
-        const double at = grass->origin[d] + side * (double)(d ? tile->ty : tile->tx);
-        from[d] = (int)dp_clamp(floor((box[d] - at) / grass->cell) - 1.0, 0.0, DP_TILE);
-        to[d] = (int)dp_clamp(ceil((box[2 + d] - at) / grass->cell) + 1.0, 0.0, DP_TILE);
+        const double at =
+            (d ? grass->grid.y0 : grass->grid.x0) + side * (double)(d ? tile->ty : tile->tx);
+        from[d] = (int)dp_clamp(floor((box[d] - at) / grass->grid.cell) - 1.0, 0.0, DP_TILE);
+        to[d] = (int)dp_clamp(ceil((box[2 + d] - at) / grass->grid.cell) + 1.0, 0.0, DP_TILE);
     }
     if (from[0] >= to[0] || from[1] >= to[1]) return;
     dp_grass_grow(grass, tile, from[0], to[0], from[1], to[1], first);
@@ -166,10 +166,10 @@ DpStatus dp_grass_worn(DpGrass* grass, double x0, double y0, double x1, double y
 {
     if (!grass || !(x0 <= x1 && y0 <= y1 && x1 - x0 < 1e6 && y1 - y0 < 1e6)) return DP_BAD_ARGUMENT;
     const double box[4] = {x0, y0, x1, y1};
-    const long   tx1 = grass_tile(grass_cell(grass, 0, x1)),
-               ty1 = grass_tile(grass_cell(grass, 1, y1));
-    for (long ty = grass_tile(grass_cell(grass, 1, y0)); ty <= ty1; ++ty)
-        for (long tx = grass_tile(grass_cell(grass, 0, x0)); tx <= tx1; ++tx) {
+    const long   tx1 = dp_tile_of(dp_grid_i(&grass->grid, x1)),
+               ty1 = dp_tile_of(dp_grid_j(&grass->grid, y1));
+    for (long ty = dp_tile_of(dp_grid_j(&grass->grid, y0)); ty <= ty1; ++ty)
+        for (long tx = dp_tile_of(dp_grid_i(&grass->grid, x0)); tx <= tx1; ++tx) {
             GrassTile* tile = dp_grass_touch(grass, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             grow_box(grass, tile, box, false);
@@ -202,8 +202,8 @@ void dp_grass_read(const DpGrass* grass, long i0, long j0, int nx, int ny, float
 // Of `deepest`, the share `stays` is that of broken stems, the rest that of whole ones.
 DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y)
 {
-    const long       i = grass_cell(grass, 0, x), j = grass_cell(grass, 1, y);
-    const GrassTile* tile = dp_grass_find(grass, grass_tile(i), grass_tile(j));
+    const long       i = dp_grid_i(&grass->grid, x), j = dp_grid_j(&grass->grid, y);
+    const GrassTile* tile = dp_grass_find(grass, dp_tile_of(i), dp_tile_of(j));
     DpStemLean       stem = {0};
     if (!tile) return stem;
     const size_t p = (size_t)(j - tile->ty * DP_TILE) * DP_TILE + (size_t)(i - tile->tx * DP_TILE);

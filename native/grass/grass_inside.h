@@ -1,33 +1,28 @@
 // grass/grass_inside.h - what the files of this room share.
 #pragma once
+#include "base/grid.h"
 #include "base/vec.h"
 #include "grass/grass.h"
 
 #define CELLS (DP_TILE * DP_TILE)
 
-// cells of a tile: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
-typedef struct GrassBox
-{
-    int i0, i1, j0, j1;
-} GrassBox;
-
 typedef struct GrassTile
 {
-    long     tx, ty;
-    bool     changed;
-    GrassBox moves;  // what is not at rest
-    GrassBox brisk;  // of it what is held or swings, or may: the others wait until they are due
-    float    lean[2][CELLS], crushed[CELLS];
-    float    deepest[CELLS];  // crushed when it was let go
-    float    height[CELLS];   // of the stem, 0 = nothing grows [m]
-    float    rate[CELLS];     // at which it swings up [1/s]
-    float    heal[CELLS];     // at which it rises while its crushed is above `limp` [1/s]
-    float    limp[CELLS];
-    float    healing;       // largest of heal [1/s]
-    double   waited;        // since slow stems rose [s]
-    float    stays[CELLS];  // share of stems that is broken
-    int32_t  held[CELLS];   // the step in which something held it last
-    int32_t  under[CELLS];  // the step in which a sole lay on it last
+    long       tx, ty;
+    bool       changed;
+    DpCellRect moves;  // what is not at rest
+    DpCellRect brisk;  // of it what is held or swings, or may: the others wait until they are due
+    float      lean[2][CELLS], crushed[CELLS];
+    float      deepest[CELLS];  // crushed when it was let go
+    float      height[CELLS];   // of the stem, 0 = nothing grows [m]
+    float      rate[CELLS];     // at which it swings up [1/s]
+    float      heal[CELLS];     // at which it rises while its crushed is above `limp` [1/s]
+    float      limp[CELLS];
+    float      healing;       // largest of heal [1/s]
+    double     waited;        // since slow stems rose [s]
+    float      stays[CELLS];  // share of stems that is broken
+    int32_t    held[CELLS];   // the step in which something held it last
+    int32_t    under[CELLS];  // the step in which a sole lay on it last
 } GrassTile;
 
 // A window of the grass's cells around a sole; grids have a border of one cell.
@@ -46,28 +41,13 @@ typedef struct GrassPrint
 struct DpGrass
 {
     const DpPlants* plants;
-    double          cell, origin[2];
+    DpGrid          grid;
     int32_t         step;
     GrassTile**     tile;  // ascending (ty, tx)
     int             tiles, room;
     GrassPrint*     print;  // of soles, in their order (print_room)
     int             prints, print_room;
 };
-
-static inline double grass_centre(const DpGrass* grass, int axis, long cell)
-{
-    return grass->origin[axis] + ((double)cell + 0.5) * grass->cell;
-}
-
-static inline long grass_cell(const DpGrass* grass, int axis, double at)
-{
-    return (long)floor((at - grass->origin[axis]) / grass->cell);
-}
-
-static inline long grass_tile(long cell)
-{
-    return cell >= 0 ? cell / DP_TILE : -((-cell - 1) / DP_TILE) - 1;
-}
 
 // ---- grass_tiles.c
 
@@ -78,8 +58,6 @@ GrassTile* dp_grass_touch(DpGrass* grass, long tx, long ty);
 // what grows on cells i0 <= i < i1, j0 <= j < j1 of a tile; its stems' size only the first time
 void dp_grass_grow(const DpGrass* grass, GrassTile* tile, int i0, int i1, int j0, int j1,
                    bool first);
-// a box that holds a cell, too
-void dp_grass_widen(GrassBox* box, int i, int j);
 // a cell of a tile is not at rest
 void dp_grass_may_move(GrassTile* tile, int i, int j);
 

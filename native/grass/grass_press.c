@@ -116,7 +116,7 @@ static double depth_at(const GrassPrint* print, size_t p)
 // Height of the ground at a cell's centre: grids mostly have the grass's own cells.
 static double ground_at(const DpGrass* grass, const DpPlantGround* ground, long i, long j)
 {
-    const double x = grass_centre(grass, 0, i), y = grass_centre(grass, 1, j);
+    const double x = dp_grid_x(&grass->grid, i), y = dp_grid_y(&grass->grid, j);
     if (ground && !ground->at) {
         const double u = (x - ground->x0) / ground->cell, v = (y - ground->y0) / ground->cell;
         const double ci = floor(u + 0.5), cj = floor(v + 0.5);
@@ -136,10 +136,10 @@ static void part(DpGrass* grass, const GrassPrint* print, const DpPlantGround* g
     const size_t t = (size_t)tj * DP_TILE + (size_t)ti;
     const double high = (double)tile->height[t], parted = fmin(PARTED * high, MAX_PARTED);
     const size_t p = at_print(print, pi, pj);
-    const double span = parted / grass->cell + 0.5;
+    const double span = parted / grass->grid.cell + 0.5;
     if (!((double)length2(print, p) < span * span)) return;
     const double length = sqrt((double)length2(print, p));
-    const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
+    const double near = dp_clamp(1.0 - (length - 0.5) * grass->grid.cell / parted, 0.0, 1.0);
     const double bottom =
         (double)print->bottom[at_print(print, pi + print->across[p], pj + print->up[p])];
     const double gap = bottom - ground_at(grass, ground, print->i0 + pi, print->j0 + pj);
@@ -169,7 +169,7 @@ static void flatten(DpGrass* grass, const GrassPrint* print, const DpPlantGround
         return;
     }
     const double length = sqrt((double)length2(print, p)), parted = fmin(PARTED * high, MAX_PARTED);
-    const double near = dp_clamp(1.0 - (length - 0.5) * grass->cell / parted, 0.0, 1.0);
+    const double near = dp_clamp(1.0 - (length - 0.5) * grass->grid.cell / parted, 0.0, 1.0);
     const double own =
         sqrt(print->motion[0] * print->motion[0] + print->motion[1] * print->motion[1]);
     const double out = near + (1.0 - near) * (1.0 - own);
@@ -224,9 +224,9 @@ static bool lay_out(const DpGrass* grass, const GrassPrint* print, const DpPlant
                     double tallest)
 {
     const DpPlantCollider* c = print->sole;
-    const double           per_cell = grass->cell / c->cell;  // mostly 1
-    const double           u0 = (grass_centre(grass, 0, print->i0) - c->x0) / c->cell + 0.5;
-    const double           v0 = (grass_centre(grass, 1, print->j0) - c->y0) / c->cell + 0.5;
+    const double           per_cell = grass->grid.cell / c->cell;  // mostly 1
+    const double           u0 = (dp_grid_x(&grass->grid, print->i0) - c->x0) / c->cell + 0.5;
+    const double           v0 = (dp_grid_y(&grass->grid, print->j0) - c->y0) / c->cell + 0.5;
     const size_t           cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
     bool                   low = false;
     for (size_t k = 0; k < cells; ++k) print->bottom[k] = INFINITY, print->under[k] = 0;
@@ -253,17 +253,17 @@ static bool lay_out(const DpGrass* grass, const GrassPrint* print, const DpPlant
 
 static double margin_of(const DpGrass* grass)
 {
-    return fmin(PARTED * dp_plants_height(grass->plants), MAX_PARTED) + 2.0 * grass->cell;
+    return fmin(PARTED * dp_plants_height(grass->plants), MAX_PARTED) + 2.0 * grass->grid.cell;
 }
 
 GrassPrint dp_grass_window(const DpGrass* grass, const DpPlantCollider* c)
 {
     const double margin = margin_of(grass);
     GrassPrint   print = {.sole = c};
-    print.i0 = grass_cell(grass, 0, c->x0 - 0.5 * c->cell - margin);
-    print.j0 = grass_cell(grass, 1, c->y0 - 0.5 * c->cell - margin);
-    const long i1 = grass_cell(grass, 0, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
-    const long j1 = grass_cell(grass, 1, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
+    print.i0 = dp_grid_i(&grass->grid, c->x0 - 0.5 * c->cell - margin);
+    print.j0 = dp_grid_j(&grass->grid, c->y0 - 0.5 * c->cell - margin);
+    const long i1 = dp_grid_i(&grass->grid, c->x0 + (c->nx - 0.5) * c->cell + margin) + 1;
+    const long j1 = dp_grid_j(&grass->grid, c->y0 + (c->ny - 0.5) * c->cell + margin) + 1;
     if ((double)(i1 - print.i0) * (double)(j1 - print.j0) > MAX_CELLS) return print;
     print.nx = (int)(i1 - print.i0), print.ny = (int)(j1 - print.j0);
     return print;
@@ -292,9 +292,9 @@ DpStatus dp_grass_press(DpGrass* grass, const GrassPrint* print, const DpPlantGr
     const int nx = print->nx, ny = print->ny;
     if (nx < 1 || ny < 1) return DP_OK;
     const double far =
-        (margin_of(grass) - 1.5 * grass->cell) / grass->cell;  // nothing is parted there
-    for (long ty = grass_tile(print->j0); ty <= grass_tile(print->j0 + ny - 1); ++ty)
-        for (long tx = grass_tile(print->i0); tx <= grass_tile(print->i0 + nx - 1); ++tx) {
+        (margin_of(grass) - 1.5 * grass->grid.cell) / grass->grid.cell;  // nothing is parted there
+    for (long ty = dp_tile_of(print->j0); ty <= dp_tile_of(print->j0 + ny - 1); ++ty)
+        for (long tx = dp_tile_of(print->i0); tx <= dp_tile_of(print->i0 + nx - 1); ++tx) {
             GrassTile* tile = dp_grass_touch(grass, tx, ty);
             if (!tile) return DP_NO_MEMORY;
             const long from_i = tx * DP_TILE - print->i0, from_j = ty * DP_TILE - print->j0;

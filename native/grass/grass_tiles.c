@@ -33,9 +33,9 @@ void dp_grass_grow(const DpGrass* grass, GrassTile* tile, int i0, int i1, int j0
     const DpPlantWindow  window = {i1 - i0,
                                    j1 - j0,
                                    DP_TILE,
-                                   grass->cell,
-                                   grass_centre(grass, 0, tile->tx * DP_TILE + i0),
-                                   grass_centre(grass, 1, tile->ty * DP_TILE + j0)};
+                                   grass->grid.cell,
+                                   dp_grid_x(&grass->grid, tile->tx * DP_TILE + i0),
+                                   dp_grid_y(&grass->grid, tile->ty * DP_TILE + j0)};
     const int            at = j0 * DP_TILE + i0;
     const DpPlantStature stature = {first ? tile->height + at : NULL, tile->rate + at,
                                     tile->heal + at, tile->limp + at, tile->stays + at};
@@ -65,15 +65,8 @@ GrassTile* dp_grass_touch(DpGrass* grass, long tx, long ty)
     return tile;
 }
 
-void dp_grass_widen(GrassBox* box, int i, int j)
-{
-    const bool none = box->i0 >= box->i1;
-    box->i0 = none || i < box->i0 ? i : box->i0, box->i1 = none || i >= box->i1 ? i + 1 : box->i1;
-    box->j0 = none || j < box->j0 ? j : box->j0, box->j1 = none || j >= box->j1 ? j + 1 : box->j1;
-}
-
 void dp_grass_may_move(GrassTile* tile, int i, int j)
 {
-    dp_grass_widen(&tile->moves, i, j);
-    dp_grass_widen(&tile->brisk, i, j);
+    tile->moves = dp_cells_with(tile->moves, i, j);
+    tile->brisk = dp_cells_with(tile->brisk, i, j);
 }

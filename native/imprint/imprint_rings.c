@@ -2,19 +2,15 @@
 //
 // Steps over 8 neighbours are the chessboard distance, which two passes over the grid give exactly.
 #include "base/assert.h"
+#include "base/grid.h"
 #include "base/wide.h"
 #include "imprint/imprint.h"
 #include "imprint/imprint_raster.h"
 
-typedef struct Rectangle
-{
-    int i0, i1, j0, j1;
-} Rectangle;
-
 // the rectangle about the touched cells; every other cell becomes far
-static Rectangle touched_box(int32_t* ring, const DpSoilPatch* patch)
+static DpCellRect touched_box(int32_t* ring, const DpSoilPatch* patch)
 {
-    Rectangle box = {patch->nx, 0, patch->ny, 0};
+    DpCellRect box = {patch->nx, 0, patch->ny, 0};
     for (int j = 0; j < patch->ny; ++j) {
         int32_t* row = ring + (size_t)j * (size_t)patch->row;
         int      any = 0;
@@ -76,12 +72,10 @@ DP_CLONES static void number(int32_t* ring, int row, int width, int height, int 
 void dp_imprint_rings(DpImprint* imprint, const DpSoilPatch* patch, int rings)
 {
     DP_ASSERT(rings >= 0 && rings < DP_RING_FAR);
-    const Rectangle touched = touched_box(imprint->ring, patch);
-    if (touched.i0 >= touched.i1) return;
-    const int i0 = touched.i0 > rings ? touched.i0 - rings : 0;
-    const int j0 = touched.j0 > rings ? touched.j0 - rings : 0;
-    const int i1 = patch->nx - touched.i1 > rings ? touched.i1 + rings : patch->nx;
-    const int j1 = patch->ny - touched.j1 > rings ? touched.j1 + rings : patch->ny;
-    int32_t*  from = imprint->ring + (size_t)j0 * (size_t)patch->row + (size_t)i0;
-    number(from, patch->row, i1 - i0, j1 - j0, rings);
+    const DpCellRect touched = touched_box(imprint->ring, patch);
+    if (dp_cells_empty(touched)) return;
+    const DpCellRect at =
+        dp_cells_common(dp_cells_grown(touched, rings), dp_cells(0, 0, patch->nx, patch->ny));
+    int32_t* from = imprint->ring + (size_t)at.j0 * (size_t)patch->row + (size_t)at.i0;
+    number(from, patch->row, (int)(at.i1 - at.i0), (int)(at.j1 - at.j0), rings);
 }

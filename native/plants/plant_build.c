@@ -12,8 +12,6 @@
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 
-#define PI 3.14159265358979323846
-
 // ---- neighbours ------------------------------------------------------------------------------
 
 typedef struct Order
@@ -59,7 +57,7 @@ static void fill_lane(const DpPlants* plants, const PlantStand* stand, const Roo
     const float*   root = roots->at + 3 * k;
     const uint64_t name = dp_plant_name(root[0], root[1]);
     const double   facing = roots->heading ? (double)roots->heading[k]
-                                           : 2.0 * PI * dp_plant_hash(plants->seed, name, 0);
+                                           : 2.0 * DP_PI * dp_plant_hash(plants->seed, name, 0);
     const double   z = dp_plant_vigour(plants->seed, name, 1);
     for (int d = 0; d < 3; ++d) {
         block->root[d][lane] = root[d];

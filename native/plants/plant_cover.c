@@ -10,7 +10,6 @@
 
 #include "plants/plant_inside.h"
 
-#define PI 3.14159265358979323846
 #define RUNNERS 4.0  // seeds and runners come from so many times as far as roots reach
 #define CHUNK 64     // cells of a row summed at once
 
@@ -43,7 +42,7 @@ static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, 
 {
     const double radius = wide * (double)stand->kind.root_radius,
                  modulus = (double)stand->kind.modulus;
-    const double full = (double)stand->kind.full_density * PI * radius * radius / 3.0;  // K_ref
+    const double full = (double)stand->kind.full_density * DP_PI * radius * radius / 3.0;  // K_ref
     int          range[4];
     if (!bins_around(stand, x, x, y, radius, range)) return;
     for (int j = range[2]; j <= range[3]; ++j)
@@ -112,7 +111,7 @@ static void add_stand(Row* row, const PlantStand* stand, double x0, double y, do
 {
     const double radius = (double)stand->kind.root_radius, modulus = (double)stand->kind.modulus;
     const double weight =
-        3.0 / ((double)stand->kind.full_density * PI * radius * radius);  // 1/K_ref
+        3.0 / ((double)stand->kind.full_density * DP_PI * radius * radius);  // 1/K_ref
     int range[4];
     if (!bins_around(stand, x0, x0 + (n - 1) * cell, y, radius, range)) return;
     for (int j = range[2]; j <= range[3]; ++j) {
@@ -192,8 +191,8 @@ void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
             for (int s = 0; s < plants->stands; ++s) {
                 const DpPlantKind* kind = &plants->stand[s].kind;
                 const double       swings = dp_plant_rise_rate(kind), heals = heal_rate(kind);
-                const double       bears = 1.0 - cos(fmin((double)kind->degrade_angle, 0.5 * PI));
-                Row                row = {0};
+                const double bears = 1.0 - cos(fmin((double)kind->degrade_angle, 0.5 * DP_PI));
+                Row          row = {0};
                 add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,
                           window->y0 + j * window->cell, window->cell, n);
                 for (int i = 0; i < n; ++i) {

@@ -1,7 +1,6 @@
 // plants/plant_kind.c - one kind of plant: its numbers, what it is made of, how fast it swings.
 #include "plants/plant_inside.h"
 
-#define PI 3.14159265358979323846
 #define MAX_STEMS 96
 
 DpPlantKind dp_plant_kind_default(void)
@@ -19,8 +18,8 @@ DpPlantKind dp_plant_kind_default(void)
         .across = 20.0f,
         .damping = 6.0f,
         .strength = 0.1f,
-        .degrade_angle = (float)(10.0 * PI / 180.0),
-        .break_angle = (float)(70.0 * PI / 180.0),
+        .degrade_angle = (float)(10.0 * DP_PI / 180.0),
+        .break_angle = (float)(70.0 * DP_PI / 180.0),
         .degrade_rate = 0.1f,
         .recover_rate = 0.1f,
         .spread = 0.0f,
@@ -46,10 +45,11 @@ DpStatus dp_plant_kind_check(const DpPlantKind* kind)
     const bool size = within(kind->height, 0.0, 10.0) && within(kind->width, 0.0, 10.0) &&
                       within(kind->depth, 0.0, 10.0) && within(kind->spacing, 1e-4, 10.0) &&
                       within(kind->radius, 0.0, 1.0);
-    const bool swing = within(kind->curl, 0.0, 0.5 * PI + 1e-6) && within(kind->sway, 1e-3, 1e3) &&
-                       within(kind->across, 1e-3, 1e4) && within(kind->damping, 0.0, 1e4);
+    const bool swing = within(kind->curl, 0.0, 0.5 * DP_PI + 1e-6) &&
+                       within(kind->sway, 1e-3, 1e3) && within(kind->across, 1e-3, 1e4) &&
+                       within(kind->damping, 0.0, 1e4);
     const bool wear = within(kind->strength, 1e-9, 1e9) &&
-                      within(kind->degrade_angle, 0.0, PI + 1e-6) &&
+                      within(kind->degrade_angle, 0.0, DP_PI + 1e-6) &&
                       within(kind->break_angle, kind->degrade_angle, 1e3) &&
                       within(kind->degrade_rate, 0.0, 1e9) &&
                       within(kind->recover_rate, 0.0, 1e9) && within(kind->spread, 0.0, 4.0) &&
@@ -83,7 +83,7 @@ DpPlantShape dp_plant_shape(const DpPlantKind* kind)
 
 double dp_plant_return_rate(const DpPlantKind* kind)
 {
-    const double swing = 2.0 * PI * (double)kind->sway, damping = (double)kind->damping;
+    const double swing = 2.0 * DP_PI * (double)kind->sway, damping = (double)kind->damping;
     return damping > 2.0 * swing ? swing * swing / damping : swing;
 }
 

@@ -1,8 +1,6 @@
 // plants/plant_shape.c - the shape that a plant of a kind returns to, and what holds it. TRAIL 4.1
 #include "plants/plant_inside.h"
 
-#define PI 3.14159265358979323846
-
 // squared frequency of a stem of n free particles, of mass and bending stiffness 1: the lowest
 // eigenvalue of B^T B, B the second differences, by inverse iteration
 static double lowest_mode(int n)
@@ -31,7 +29,7 @@ static void rest_shape(PlantStand* stand)
     stand->gap = kind->height / (float)(shape.rows - DP_PLANT_HELD);
     for (int s = 0; s < sheets; ++s)
         for (int c = 0; c < columns; ++c) {
-            const double along = PI * s / sheets, ax = cos(along), ay = sin(along);
+            const double along = DP_PI * s / sheets, ax = cos(along), ay = sin(along);
             const double wide = (double)(s == 0 ? kind->width : kind->depth);
             const double off = columns > 1 ? wide * (c / (columns - 1.0) - 0.5) : 0.0;
             const double side = off > 1e-9 ? 1.0 : off < -1e-9 ? -1.0 : 0.0;
@@ -45,7 +43,7 @@ static void rest_shape(PlantStand* stand)
                 if (far > (double)stand->extent) stand->extent = (float)far;
                 stand->aside = fmaxf(stand->aside, (float)sqrt(x * x + y * y));
                 const double lean = dx != 0.0 || dy != 0.0 ? (double)kind->curl * r : 0.0;
-                const double angle = lean < 0.9 * PI ? lean : 0.9 * PI;  // no stem rolls up
+                const double angle = lean < 0.9 * DP_PI ? lean : 0.9 * DP_PI;  // no stem rolls up
                 x += (double)stand->gap * sin(angle) * dx;
                 y += (double)stand->gap * sin(angle) * dy;
                 z += (double)stand->gap * cos(angle);
@@ -61,7 +59,7 @@ static void rest_shape(PlantStand* stand)
         for (int d = 0; d < 3; ++d)
             stand->rest_bend[3 * b + d] = at[d] - 2.0f * at[3 + d] + at[6 + d];
     }
-    const double swing = 2.0 * PI * (double)kind->sway;
+    const double swing = 2.0 * DP_PI * (double)kind->sway;
     stand->bend_rate = (float)(swing * swing / lowest_mode(shape.rows - DP_PLANT_HELD));
 }
 
@@ -86,7 +84,7 @@ static void add_edge(PlantStand* stand, int a, int b, double rate)
 static void join_edges(PlantStand* stand)
 {
     const int    rows = stand->shape.rows, columns = stand->shape.stems_a_sheet;
-    const double swing = 2.0 * PI * (double)stand->kind.across, rate = swing * swing;
+    const double swing = 2.0 * DP_PI * (double)stand->kind.across, rate = swing * swing;
     for (int odd = 0; odd < 2; ++odd)
         for (int stem = odd; stem < stand->shape.stems; stem += 2)
             for (int r = 0; stem % columns + 1 < columns && r < rows; ++r)
@@ -124,8 +122,8 @@ static void limits(const PlantStand* stand, int bend, double* wears, double* bre
     const double size = sqrt(a2 * b2);
     const double rest = size > 0.0 ? acos(dp_clamp(dot / size, -1.0, 1.0)) : 0.0;  // phi_0
     const double low = rest + (double)kind->degrade_angle, high = rest + (double)kind->break_angle;
-    *wears = low < PI ? cos(low) : -2.0;
-    *breaks = high < PI ? cos(high) : -2.0;
+    *wears = low < DP_PI ? cos(low) : -2.0;
+    *breaks = high < DP_PI ? cos(high) : -2.0;
 }
 
 static void bend_limits(PlantStand* stand)

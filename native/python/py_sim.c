@@ -49,9 +49,9 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     PyObject* made = NULL;
     DpSoil*   soils = dp_py_soils(&buffers, soils_object, &soil_count);
     if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
-        const DpTerrainOptions terrain = {cell,  origin[0],  origin[1],
-                                          soils, soil_count, options.workers};
-        DpStatus               status;
+        const DpTerrainOptions terrain = {
+            {cell, origin[0], origin[1]}, soils, soil_count, options.workers};
+        DpStatus status;
         Py_BEGIN_ALLOW_THREADS
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
         if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);

@@ -229,16 +229,17 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
 static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
 {
     (void)module;
-    PyObject *patch, *imprint, *within, *result = NULL;
-    int       most, box[4] = {0};
-    double    tolerance;
-    Call      call;
+    PyObject * patch, *imprint, *within, *result = NULL;
+    int        most;
+    DpCellRect box = {0};
+    double     tolerance;
+    Call       call;
     if (!PyArg_ParseTuple(arguments, "OOOdi:soil_stabilize", &patch, &imprint, &within, &tolerance,
                           &most))
         return NULL;
     if (within != Py_None &&
         (!PyTuple_Check(within) ||
-         !PyArg_ParseTuple(within, "iiii:within", &box[0], &box[1], &box[2], &box[3]))) {
+         !PyArg_ParseTuple(within, "llll:within", &box.i0, &box.i1, &box.j0, &box.j1))) {
         if (!PyErr_Occurred())
             PyErr_SetString(PyExc_TypeError, "within: expected (i0, i1, j0, j1)");
         return NULL;
@@ -250,13 +251,14 @@ static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
         Py_BEGIN_ALLOW_THREADS
         status =
             dp_soil_stabilize(&call.patch, stands ? &call.imprint : NULL,
-                              within == Py_None ? NULL : box, tolerance, most, call.scratch, &s);
+                              within == Py_None ? NULL : &box, tolerance, most, call.scratch, &s);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK
-                     ? dp_py_result(status, "letting soil come to rest")
-                     : Py_BuildValue("{s:i,s:N,s:N,s:(iiii)}", "sweeps", s.sweeps, "at_rest",
-                                     PyBool_FromLong(s.at_rest), "at_edge",
-                                     PyBool_FromLong(s.at_edge), "changed", s.i0, s.i1, s.j0, s.j1);
+        result =
+            status != DP_OK
+                ? dp_py_result(status, "letting soil come to rest")
+                : Py_BuildValue("{s:i,s:N,s:N,s:(llll)}", "sweeps", s.sweeps, "at_rest",
+                                PyBool_FromLong(s.at_rest), "at_edge", PyBool_FromLong(s.at_edge),
+                                "changed", s.changed.i0, s.changed.i1, s.changed.j0, s.changed.j1);
     }
     close_call(&call);
     return result;

@@ -9,7 +9,7 @@ DpSimOptions dp_sim_options_default(void)
         .law = DP_CONTACT_SOLE,
         .heap_law = DP_HEAP_REST,
         .rim_width = 0.04,
-        .tolerance = 0.1 * 3.14159265358979323846 / 180.0,
+        .tolerance = 0.1 * DP_PI / 180.0,
         .max_sweeps = 100000,
         .normal_radius = 0.25,
         .workers = 1,
@@ -31,14 +31,10 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
     if (!sim_out || !terrain || !options || !options_hold(options)) return DP_BAD_ARGUMENT;
     DpSim* sim = dp_alloc(1, sizeof *sim);
     if (!sim) return DP_NO_MEMORY;
-    double origin[2];
-    dp_terrain_origin(terrain, origin);
     sim->terrain = terrain;
     sim->options = *options;
-    sim->cell = dp_terrain_cell(terrain);
-    sim->origin_x = origin[0];
-    sim->origin_y = origin[1];
-    sim->samples = dp_imprint_samples(sim->cell);
+    sim->grid = dp_terrain_grid(terrain);
+    sim->samples = dp_imprint_samples(sim->grid.cell);
     sim->worker_count = options->workers;
     sim->scratch = dp_alloc((size_t)sim->worker_count, sizeof *sim->scratch);
     bool complete = sim->scratch != NULL;

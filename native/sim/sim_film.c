@@ -284,12 +284,12 @@ DpStatus dp_film_open_playback(DpReel* reel, const DpFilmOptions* options, DpPla
         {"height change [m]", "plant strength [-]", "compression [m]", "pressure_time [Pa s]"},
         {"lean_x [-]", "lean_y [-]", "crushed [-]", "plant strength [-]"}};
     const DpSim* sim = reel->sim;
-    const double tile = sim->cell * DP_TILE;
+    const double tile = sim->grid.cell * DP_TILE;
     const DpNote notes[] = {
         {"software", software, 0.0},
-        {"cell", NULL, sim->cell},
-        {"originX", NULL, sim->origin_x + tile * (double)options->tile_x},
-        {"originY", NULL, sim->origin_y + tile * (double)options->tile_y},
+        {"cell", NULL, sim->grid.cell},
+        {"originX", NULL, sim->grid.x0 + tile * (double)options->tile_x},
+        {"originY", NULL, sim->grid.y0 + tile * (double)options->tile_y},
         {"channelR", name[shows][0], 0.0},
         {"channelG", name[shows][1], 0.0},
         {"channelB", name[shows][2], 0.0},

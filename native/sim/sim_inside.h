@@ -1,39 +1,34 @@
 // sim/sim_inside.h - what a simulation keeps between steps; for the files of this room only.
 #pragma once
+#include "base/grid.h"
 #include "imprint/imprint.h"
 #include "sim/sim.h"
-
-// A rectangle of cells: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1.
-typedef struct Cells
-{
-    long i0, i1, j0, j1;
-} Cells;
 
 // One limb and the stance it is in.
 typedef struct Limb
 {
-    int    walker;
-    int    part_count;
-    int*   part;         // its parts, in the order of the recording (part_count)
-    bool   stands;       // in a stance
-    double heap_height;  // T of the rest heap, from step to step of a stance          [m]
-    double margin;       // of ground around its soles that a step may change        [m]
-    double unlaid;       // displaced volume that found no border cell yet             [m^3]
-    double sink;         // how far its soles stand below where they were recorded     [m]
-    DpVec3 slip;         // how far its soles have slipped along the ground in this stance [m]
-    DpVec3 sheared;      // of that, what the soil carries the push with as it is now       [m]
-    double lowered;      // the same as plants saw it at the end of the last step      [m]
-    Cells  trodden;      // cells its patches covered during this stance
-    float* met;          // `uniform`: heap - compression on `met_at` as this stance met them [m]
-    Cells  met_at;
+    int        walker;
+    int        part_count;
+    int*       part;         // its parts, in the order of the recording (part_count)
+    bool       stands;       // in a stance
+    double     heap_height;  // T of the rest heap, from step to step of a stance          [m]
+    double     margin;       // of ground around its soles that a step may change        [m]
+    double     unlaid;       // displaced volume that found no border cell yet             [m^3]
+    double     sink;         // how far its soles stand below where they were recorded     [m]
+    DpVec3     slip;         // how far its soles have slipped along the ground in this stance [m]
+    DpVec3     sheared;      // of that, what the soil carries the push with as it is now       [m]
+    double     lowered;      // the same as plants saw it at the end of the last step      [m]
+    DpCellRect trodden;      // cells its patches covered during this stance
+    float*     met;  // `uniform`: heap - compression on `met_at` as this stance met them [m]
+    DpCellRect met_at;
 
     // this step's work and what came of it
-    Cells  patch;   // cells this step's patch covers
-    bool   active;  // presses or settles in this step
-    bool   lifts;   // has let go: its rim comes to rest
-    bool   spills;  // loose soil wants to leave the patch: settle again in a larger one
-    double firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
-    bool   off_ground;                  // pressed where there is no ground
+    DpCellRect patch;   // cells this step's patch covers
+    bool       active;  // presses or settles in this step
+    bool       lifts;   // has let go: its rim comes to rest
+    bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
+    double     firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
+    bool       off_ground;                  // pressed where there is no ground
 } Limb;
 
 // Columns of a limb's patch, for finding limbs that meet.
@@ -46,11 +41,11 @@ typedef struct LimbSpan
 // What a limb's soles press with at the end of a step.
 typedef struct Pressing
 {
-    Cells  at;      // cells under its soles; empty: it does not press
-    long   i0, j0;  // world cell of value[0]
-    int    row;
-    float* value;  // sigma [Pa]
-    size_t room;
+    DpCellRect at;      // cells under its soles; empty: it does not press
+    long       i0, j0;  // world cell of value[0]
+    int        row;
+    float*     value;  // sigma [Pa]
+    size_t     room;
 } Pressing;
 
 // What one thread needs for itself.
@@ -70,17 +65,17 @@ typedef struct WorkerScratch
 // A part between two samples, and its underside at the end.
 typedef struct SweptSole
 {
-    int       sample;        // from this sample to the next; -1 = none
-    DpPose    pose;          // at the end
-    DpBox     from, to;      // [m]
-    DpVec3    displacement;  // of its middle [m]
-    bool      jumps;         // was put elsewhere: nothing lies between
-    double    low;           // its lowest [m]
-    double    ground;        // rest height below it, NaN where there is none [m]
-    bool      cast;          // the underside is known
-    Cells     at;            // of its grids
-    DpImprint imprint;       // its own grids
-    size_t    room;          // cells of each
+    int        sample;        // from this sample to the next; -1 = none
+    DpPose     pose;          // at the end
+    DpBox      from, to;      // [m]
+    DpVec3     displacement;  // of its middle [m]
+    bool       jumps;         // was put elsewhere: nothing lies between
+    double     low;           // its lowest [m]
+    double     ground;        // rest height below it, NaN where there is none [m]
+    bool       cast;          // the underside is known
+    DpCellRect at;            // of its grids
+    DpImprint  imprint;       // its own grids
+    size_t     room;          // cells of each
 } SweptSole;
 
 // Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
@@ -130,8 +125,8 @@ struct DpSim
 {
     DpTerrain*   terrain;
     DpSimOptions options;
-    double       cell, origin_x, origin_y;  // of the terrain                            [m]
-    int          samples;                   // imprint samples a side
+    DpGrid       grid;     // of the terrain
+    int          samples;  // imprint samples a side
 
     DpMotion* motion;  // what is followed; NULL: nobody walks yet
     DpGait    cast;    // its walkers, limbs, parts and soles
@@ -159,26 +154,6 @@ struct DpSim
     DpSimReport report;
 };
 
-static inline bool dp_cells_empty(Cells cells)
-{
-    return cells.i0 >= cells.i1 || cells.j0 >= cells.j1;
-}
-
-// the smallest rectangle that holds both
-static inline Cells dp_cells_join(Cells a, Cells b)
-{
-    if (dp_cells_empty(a)) return b;
-    if (dp_cells_empty(b)) return a;
-    const Cells both = {a.i0 < b.i0 ? a.i0 : b.i0, a.i1 > b.i1 ? a.i1 : b.i1,
-                        a.j0 < b.j0 ? a.j0 : b.j0, a.j1 > b.j1 ? a.j1 : b.j1};
-    return both;
-}
-
-static inline bool dp_cells_meet(Cells a, Cells b)
-{
-    return a.i0 < b.i1 && b.i0 < a.i1 && a.j0 < b.j1 && b.j0 < a.j1;
-}
-
 // how long an interval lasts [s]
 static inline double dp_sim_interval(const DpSim* sim, int sample)
 {
@@ -194,14 +169,14 @@ bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_held(const DpSim* sim, const Limb* limb, int sample);
 DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
-Cells       dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
+DpCellRect  dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
 
 // sim_cells.c: cells whose centres may lie in a box [m]; the ground asks again for its cover within
 // one; the surface where no limb is near, as plants ask for it (context: the terrain)
-Cells  dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
-void   dp_sim_cover_anew(DpSim* sim, double x0, double y0, double x1, double y1);
-double dp_sim_surface(const void* terrain, double x, double y);
+DpCellRect dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
+void       dp_sim_cover_anew(DpSim* sim, double x0, double y0, double x1, double y1);
+double     dp_sim_surface(const void* terrain, double x, double y);
 
 // sim_sweep.c: a part's path from `sample` to the next; its underside; both before its step comes, if
 // plants can meet it.

@@ -81,19 +81,19 @@ static long number_of(double cells)
     return (long)dp_clamp(cells, (double)LONG_MIN / 4.0, (double)LONG_MAX / 4.0);
 }
 
-// Cells under the limb's soles at sample and sample + 1, with `margin` [m] around.
-Cells dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin)
+// DpCellRect under the limb's soles at sample and sample + 1, with `margin` [m] around.
+DpCellRect dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin)
 {
-    const double cell = sim->cell, ox = sim->origin_x, oy = sim->origin_y;
-    Cells        cells = {0, 0, 0, 0};
+    const double cell = sim->grid.cell, ox = sim->grid.x0, oy = sim->grid.y0;
+    DpCellRect   cells = {0, 0, 0, 0};
     for (int p = 0; p < limb->part_count; ++p) {
         for (int end = 0; end < 2; ++end) {
-            const DpBox box = dp_imprint_box(&sim->cast.sole[limb->part[p]],
-                                             dp_limb_pose(sim, limb->part[p], sample, end));
-            const Cells under = {number_of(floor((box.x0 - margin - ox) / cell)),
-                                 number_of(ceil((box.x1 + margin - ox) / cell)),
-                                 number_of(floor((box.y0 - margin - oy) / cell)),
-                                 number_of(ceil((box.y1 + margin - oy) / cell))};
+            const DpBox      box = dp_imprint_box(&sim->cast.sole[limb->part[p]],
+                                                  dp_limb_pose(sim, limb->part[p], sample, end));
+            const DpCellRect under = {number_of(floor((box.x0 - margin - ox) / cell)),
+                                      number_of(ceil((box.x1 + margin - ox) / cell)),
+                                      number_of(floor((box.y0 - margin - oy) / cell)),
+                                      number_of(ceil((box.y1 + margin - oy) / cell))};
             cells = dp_cells_join(cells, under);
         }
     }
@@ -149,6 +149,6 @@ int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
                    lowest_spot(sole, dp_limb_pose(sim, limb->part[0], sample, 0.0)));
         farthest = fmax(farthest, dp_length(rolled));
     }
-    const double steps = ceil(farthest / (0.5 * sim->cell));  // MODEL 5.2
+    const double steps = ceil(farthest / (0.5 * sim->grid.cell));  // MODEL 5.2
     return (int)dp_clamp(steps, 1.0, MAX_SUBSTEPS);
 }

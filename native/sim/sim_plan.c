@@ -38,7 +38,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
         limb->margin = HEAP_MARGIN;
-        limb->trodden = limb->met_at = (Cells){0, 0, 0, 0};
+        limb->trodden = limb->met_at = (DpCellRect){0, 0, 0, 0};
         ++sim->report.contacts;
     }
     limb->stands = presses;
@@ -48,7 +48,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
         const bool   paper = sim->options.heap_law == DP_HEAP_PAPER;
         const double rim = paper ? sim->options.rim_width : 0.0;
-        const double spread = fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->cell;
+        const double spread =
+            fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->grid.cell;
         if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
         limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, spread) + slips(sim));
     } else {
@@ -76,7 +77,7 @@ static void join_limbs(DpSim* sim)
     for (int l = 0; l < sim->cast.limbs; ++l) {
         sim->group[l] = l;
         if (!sim->limb[l].active) continue;
-        const Cells at = sim->limb[l].patch;
+        const DpCellRect at = sim->limb[l].patch;
         sim->span[count++] = (LimbSpan){at.i0, at.i1, l};
     }
     qsort(sim->span, (size_t)count, sizeof *sim->span, by_first_column);
@@ -119,9 +120,9 @@ static int make_groups(DpSim* sim)
 // known, the rest is met now.
 static DpStatus meet(DpSim* sim, Limb* limb)
 {
-    const Cells  at = limb->patch, was = limb->met_at;
-    const int    nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
-    float* const met = dp_alloc((size_t)nx * (size_t)ny, sizeof *met);
+    const DpCellRect at = limb->patch, was = limb->met_at;
+    const int        nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    float* const     met = dp_alloc((size_t)nx * (size_t)ny, sizeof *met);
     if (!met) return DP_NO_MEMORY;
     const DpStatus status =
         dp_terrain_read(sim->terrain, DP_FIELD_HEIGHT_CHANGE, at.i0, at.j0, nx, ny, met);
@@ -150,8 +151,7 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
     for (int l = 0; any && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->active || dp_cells_empty(limb->patch)) continue;
-        DpStatus status = dp_terrain_touch(sim->terrain, limb->patch.i0, limb->patch.i1,
-                                           limb->patch.j0, limb->patch.j1);
+        DpStatus status = dp_terrain_touch(sim->terrain, limb->patch);
         if (status == DP_OK && sim->options.law == DP_CONTACT_UNIFORM && !limb->lifts)
             status = meet(sim, limb);
         if (status != DP_OK) return status;
@@ -161,7 +161,7 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
 
 void dp_sim_bounds(const DpSim* sim, long bounds[4])
 {
-    Cells        cells = {0, 0, 0, 0};
+    DpCellRect   cells = {0, 0, 0, 0};
     const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
     const double margin = 3 * fmax(HEAP_MARGIN, rim) + slips(sim) + dp_stage_margin(sim);
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {

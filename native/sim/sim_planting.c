@@ -26,7 +26,7 @@ DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
 {
     if (!sim || !plants || sim->stage.plants || sim->limb) return DP_BAD_ARGUMENT;
     DpGrass* grass = NULL;
-    DpStatus status = dp_grass_create(&grass, plants, sim->cell, sim->origin_x, sim->origin_y);
+    DpStatus status = dp_grass_create(&grass, plants, sim->grid);
     if (status == DP_OK) status = dp_terrain_set_cover(sim->terrain, cover_of, plants);
     if (status != DP_OK) {
         dp_grass_destroy(grass);
@@ -62,10 +62,11 @@ DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position)
 {
     const PlantStage* m = &sim->stage;
     if (!m->plants) return DP_BAD_ARGUMENT;
-    const DpPlantGround ground = {.cell = sim->cell, .at = dp_sim_surface, .context = sim->terrain};
-    const DpStatus      status = m->display
-                                     ? dp_plant_display_read(m->display, &ground, stand, plant, position)
-                                     : dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
+    const DpPlantGround ground = {
+        .cell = sim->grid.cell, .at = dp_sim_surface, .context = sim->terrain};
+    const DpStatus status = m->display
+                                ? dp_plant_display_read(m->display, &ground, stand, plant, position)
+                                : dp_plants_read(m->plants, stand, plant, position, NULL, NULL);
     if (status == DP_OK) in_the_world(sim, stand, position);
     return status;
 }
@@ -91,7 +92,7 @@ static void planted(DpSim* sim, const double box[4])
 static bool stand_on(const DpSim* sim, const DpPlantKind* kind, const float xy[2], float root[3],
                      float slope[2])
 {
-    const double d = fmax(sim->cell, 0.5 * (double)fmaxf(kind->width, kind->depth));
+    const double d = fmax(sim->grid.cell, 0.5 * (double)fmaxf(kind->width, kind->depth));
     const double x = (double)xy[0], y = (double)xy[1];
     const double at[10] = {x, y, x - d, y, x + d, y, x, y - d, x, y + d};
     double       z[5];

@@ -24,18 +24,18 @@ static bool make_room(float** grid, size_t* room, size_t cells)
 }
 
 // the surface around a limb: what its soles can push plants onto, and what its soil moved
-static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
+static DpStatus take_ground(DpSim* sim, const Limb* limb, DpCellRect near)
 {
     PlantStage* m = &sim->stage;
-    Cells       at = near;
+    DpCellRect  at = near;
     if (limb->active) {
-        const long  spare = limb->lifts ? SETTLED_MARGIN : 0;
-        const Cells soil = {limb->patch.i0 - spare, limb->patch.i1 + spare, limb->patch.j0 - spare,
-                            limb->patch.j1 + spare};
+        const long       spare = limb->lifts ? SETTLED_MARGIN : 0;
+        const DpCellRect soil = {limb->patch.i0 - spare, limb->patch.i1 + spare,
+                                 limb->patch.j0 - spare, limb->patch.j1 + spare};
         if (!dp_cells_empty(limb->patch)) at = dp_cells_join(at, soil);
     }
     if (dp_cells_empty(at)) return DP_OK;
-    const DpStatus status = dp_terrain_touch(sim->terrain, at.i0, at.i1, at.j0, at.j1);
+    const DpStatus status = dp_terrain_touch(sim->terrain, at);
     if (status != DP_OK) return status;
     const int l = m->grounds, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
     if (!make_room(&m->height[l], &m->height_room[l], (size_t)nx * (size_t)ny)) return DP_NO_MEMORY;
@@ -43,9 +43,9 @@ static DpStatus take_ground(DpSim* sim, const Limb* limb, Cells near)
     m->ground[l] = (DpPlantGround){.nx = nx,
                                    .ny = ny,
                                    .row = nx,
-                                   .cell = sim->cell,
-                                   .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
-                                   .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell,
+                                   .cell = sim->grid.cell,
+                                   .x0 = dp_grid_x(&sim->grid, at.i0),
+                                   .y0 = dp_grid_y(&sim->grid, at.j0),
                                    .height = m->height[l],
                                    .rose = limb->lifts};
     ++m->grounds;
@@ -68,10 +68,10 @@ static void take_sole(DpSim* sim, const Limb* limb, SweptSole* swept, double was
     const DpImprint*     imprint = &swept->imprint;
     const int            nx = (int)(swept->at.i1 - swept->at.i0);
     const int            ny = (int)(swept->at.j1 - swept->at.j0);
-    const double         x0 = sim->origin_x + ((double)swept->at.i0 + 0.5) * sim->cell;
-    const double         y0 = sim->origin_y + ((double)swept->at.j0 + 0.5) * sim->cell;
-    const long           di = lround((x0 - ground->x0) / sim->cell);
-    const long           dj = lround((y0 - ground->y0) / sim->cell);
+    const double         x0 = dp_grid_x(&sim->grid, swept->at.i0);
+    const double         y0 = dp_grid_y(&sim->grid, swept->at.j0);
+    const long           di = lround((x0 - ground->x0) / sim->grid.cell);
+    const long           dj = lround((y0 - ground->y0) / sim->grid.cell);
     if (imprint->i0 >= imprint->i1) return;
     for (int j = imprint->j0; j < imprint->j1; ++j)
         for (int i = imprint->i0; i < imprint->i1; ++i) {
@@ -85,7 +85,7 @@ static void take_sole(DpSim* sim, const Limb* limb, SweptSole* swept, double was
         (DpPlantCollider){.nx = nx,
                           .ny = ny,
                           .row = nx,
-                          .cell = sim->cell,
+                          .cell = sim->grid.cell,
                           .x0 = x0,
                           .y0 = y0,
                           .bottom = imprint->bottom,
@@ -106,7 +106,7 @@ static DpStatus take_limb(DpSim* sim, Limb* limb, int sample, double dt)
     PlantStage*  m = &sim->stage;
     const double was = limb->lowered, margin = fmin(m->extent, DP_STAGE_MARGIN);
     const int    grounds = m->grounds;
-    Cells        near = {0, 0, 0, 0};
+    DpCellRect   near = {0, 0, 0, 0};
     limb->lowered = limb->stands ? limb->sink : was * exp(-dt / RISE_TIME);
     for (int p = 0; p < limb->part_count; ++p) {
         const SweptSole* swept = dp_sweep_path(sim, limb->part[p], sample);
@@ -162,10 +162,10 @@ DpStatus dp_stage_settled(DpSim* sim, Limb* limb)
     PlantStage* m = &sim->stage;
     if (!m->plants) return DP_OK;
     const DpPlantGround elsewhere = {
-        .cell = sim->cell, .at = dp_sim_surface, .context = sim->terrain};
+        .cell = sim->grid.cell, .at = dp_sim_surface, .context = sim->terrain};
     m->grounds = 0;
     limb->patch = limb->trodden, limb->active = limb->lifts = true;
-    const DpStatus status = take_ground(sim, limb, (Cells){0, 0, 0, 0});
+    const DpStatus status = take_ground(sim, limb, (DpCellRect){0, 0, 0, 0});
     limb->active = limb->lifts = false;
     if (status != DP_OK || m->grounds == 0) return status;
     m->ground[0].next = &elsewhere;
@@ -182,7 +182,7 @@ DpStatus dp_stage_step(DpSim* sim, int sample, bool more)
         status = take_limb(sim, &sim->limb[l], sample, dt);
     if (status != DP_OK) return status;
     const DpPlantGround elsewhere = {
-        .cell = sim->cell, .at = dp_sim_surface, .context = sim->terrain};
+        .cell = sim->grid.cell, .at = dp_sim_surface, .context = sim->terrain};
     for (int g = 0; g < m->grounds; ++g)
         m->ground[g].next = g + 1 < m->grounds ? &m->ground[g + 1] : &elsewhere;
     const DpPlantGround* ground = m->grounds > 0 ? m->ground : &elsewhere;

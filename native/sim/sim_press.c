@@ -147,8 +147,8 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     const bool stands_here = scratch->imprint.i0 < scratch->imprint.i1;
     if (stands_here)
         pressing->at =
-            (Cells){pressing->i0 + scratch->imprint.i0, pressing->i0 + scratch->imprint.i1,
-                    pressing->j0 + scratch->imprint.j0, pressing->j0 + scratch->imprint.j1};
+            (DpCellRect){pressing->i0 + scratch->imprint.i0, pressing->i0 + scratch->imprint.i1,
+                         pressing->j0 + scratch->imprint.j0, pressing->j0 + scratch->imprint.j1};
     const bool rests = sim->options.heap_law == DP_HEAP_PAPER;
     const int  sweeps = rests || sim->options.max_sweeps < SLIDING_SWEEPS ? sim->options.max_sweeps
                                                                           : SLIDING_SWEEPS;
@@ -163,23 +163,19 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
 // Let the rim slide that the sole held, in ever larger patches until nothing wants to leave.
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch)
 {
-    Cells at = limb->trodden;
+    DpCellRect at = limb->trodden;
     if (dp_cells_empty(at)) return DP_OK;
-    at = (Cells){at.i0 - SETTLE_MARGIN, at.i1 + SETTLE_MARGIN, at.j0 - SETTLE_MARGIN,
-                 at.j1 + SETTLE_MARGIN};
+    at = dp_cells_grown(at, SETTLE_MARGIN);
     for (;;) {
         DpSoilPatch* patch = NULL;
-        DpStatus     status =
-            dp_terrain_acquire(sim->terrain, scratch->lease, at.i0, at.i1, at.j0, at.j1, &patch);
+        DpStatus     status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
         if (status != DP_OK) return status;
         DpSettled settled;
         status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance,
                                    sim->options.max_sweeps, scratch->soil_scratch, &settled);
         if (status != DP_OK) return status;
-        dp_terrain_commit(sim->terrain, scratch->lease, settled.i0, settled.i1, settled.j0,
-                          settled.j1);
+        dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
         if (!settled.at_edge) return DP_OK;
-        at = (Cells){at.i0 - SETTLE_GROWTH, at.i1 + SETTLE_GROWTH, at.j0 - SETTLE_GROWTH,
-                     at.j1 + SETTLE_GROWTH};
+        at = dp_cells_grown(at, SETTLE_GROWTH);
     }
 }

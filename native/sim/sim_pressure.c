@@ -23,7 +23,7 @@ DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* pat
 void dp_pressing_clear(DpSim* sim)
 {
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l)
-        sim->pressing[l].at = (Cells){0, 0, 0, 0};
+        sim->pressing[l].at = (DpCellRect){0, 0, 0, 0};
 }
 
 void dp_sim_pressure(const DpSim* sim, long i0, long j0, int nx, int ny, float* out)
@@ -48,7 +48,7 @@ static long tile_of(long cell)
 void dp_sim_soles(const DpSim* sim, DpTileVisit visit, void* context)
 {
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
-        const Cells at = sim->pressing[l].at;
+        const DpCellRect at = sim->pressing[l].at;
         if (dp_cells_empty(at)) continue;
         const long tx1 = tile_of(at.i1 - 1), ty1 = tile_of(at.j1 - 1);
         for (long ty = tile_of(at.j0); ty <= ty1; ++ty)

@@ -34,9 +34,9 @@ DpStatus dp_speculate_open(DpSim* sim, int sample, int* limbs)
     speculation->planned = true;
     const int count = pressing(sim, speculation->limb);
     for (int n = 0; n < count; ++n) {
-        const Cells    at = speculation->limb[n]->patch;
-        const DpStatus status = dp_terrain_acquire(sim->terrain, speculation->lease[n], at.i0,
-                                                   at.i1, at.j0, at.j1, &speculation->patch[n]);
+        const DpCellRect at = speculation->limb[n]->patch;
+        const DpStatus   status =
+            dp_terrain_acquire(sim->terrain, speculation->lease[n], at, &speculation->patch[n]);
         if (status != DP_OK) return status;
         speculation->was[n] = *speculation->limb[n];
         speculation->status[n] = DP_OK;
@@ -61,9 +61,9 @@ static void drop(Speculation* speculation)
 
 void dp_speculate_worn(DpSim* sim, double x0, double y0, double x1, double y1)
 {
-    Speculation* speculation = &sim->speculation;
-    const Cells  worn = dp_sim_cells(sim, x0, y0, x1, y1);
-    bool         meets = false;
+    Speculation*     speculation = &sim->speculation;
+    const DpCellRect worn = dp_sim_cells(sim, x0, y0, x1, y1);
+    bool             meets = false;
     for (int n = 0; n < speculation->count; ++n)
         meets = meets || dp_cells_meet(worn, speculation->limb[n]->patch);
     if (meets) drop(speculation);
@@ -78,8 +78,8 @@ bool dp_speculate_take(DpSim* sim)
             drop(speculation);  // in its turn it says what is wrong
     const int count = speculation->count;
     for (int n = 0; n < count; ++n)
-        dp_terrain_commit(sim->terrain, speculation->lease[n], 0, speculation->patch[n]->nx, 0,
-                          speculation->patch[n]->ny);
+        dp_terrain_commit(sim->terrain, speculation->lease[n],
+                          dp_cells(0, 0, speculation->patch[n]->nx, speculation->patch[n]->ny));
     speculation->count = 0;
     return count > 0;
 }

@@ -23,16 +23,15 @@ static void work_group(void* context, int group, int worker)
     DpSim*         sim = step->sim;
     WorkerScratch* scratch = &sim->scratch[worker];
     for (int k = sim->start[group]; k < sim->start[group + 1]; ++k) {
-        Limb*        limb = &sim->limb[sim->order[k]];
-        const Cells  at = limb->patch;
-        DpSoilPatch* patch = NULL;
+        Limb*            limb = &sim->limb[sim->order[k]];
+        const DpCellRect at = limb->patch;
+        DpSoilPatch*     patch = NULL;
         if (limb->lifts || scratch->status != DP_OK) continue;
-        scratch->status =
-            dp_terrain_acquire(sim->terrain, scratch->lease, at.i0, at.i1, at.j0, at.j1, &patch);
+        scratch->status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
         if (scratch->status == DP_OK)
             scratch->status = dp_limb_press(sim, limb, step->sample, patch, scratch);
         if (scratch->status == DP_OK)
-            dp_terrain_commit(sim->terrain, scratch->lease, 0, patch->nx, 0, patch->ny);
+            dp_terrain_commit(sim->terrain, scratch->lease, dp_cells(0, 0, patch->nx, patch->ny));
     }
 }
 
@@ -67,7 +66,7 @@ static DpStatus press_limbs(DpSim* sim, int sample)
 {
     long cells = 0;
     for (int l = 0; l < sim->cast.limbs; ++l) {
-        const Cells* at = &sim->limb[l].patch;
+        const DpCellRect* at = &sim->limb[l].patch;
         if (sim->limb[l].active && !sim->limb[l].lifts)
             cells += (at->i1 - at->i0) * (at->j1 - at->j0);
     }

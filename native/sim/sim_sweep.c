@@ -72,17 +72,17 @@ static bool make_room(SweptSole* swept, size_t cells)
 DpStatus dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch* scratch)
 {
     if (swept->cast) return DP_OK;
-    const DpBox  to = swept->to;
-    const Cells  at = dp_sim_cells(sim, to.x0, to.y0, to.x1, to.y1);
-    const int    nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
-    const size_t cells = (size_t)nx * (size_t)ny;
+    const DpBox      to = swept->to;
+    const DpCellRect at = dp_sim_cells(sim, to.x0, to.y0, to.x1, to.y1);
+    const int        nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    const size_t     cells = (size_t)nx * (size_t)ny;
     if (!make_room(swept, cells)) return DP_NO_MEMORY;
     const DpSoilPatch patch = {.nx = nx,
                                .ny = ny,
                                .row = nx,
-                               .cell = sim->cell,
-                               .x0 = sim->origin_x + ((double)at.i0 + 0.5) * sim->cell,
-                               .y0 = sim->origin_y + ((double)at.j0 + 0.5) * sim->cell};
+                               .cell = sim->grid.cell,
+                               .x0 = dp_grid_x(&sim->grid, at.i0),
+                               .y0 = dp_grid_y(&sim->grid, at.j0)};
     swept->at = at;
     const DpStatus status = dp_imprint_foot(&swept->imprint, &patch, &sim->cast.sole[part],
                                             &swept->pose, 1, 1, scratch);

@@ -7,6 +7,7 @@
 // Nothing here owns or remembers: a patch goes in and comes back changed. Scratch memory is the
 // caller's DpSoilScratch.
 #pragma once
+#include "base/grid.h"
 #include "base/status.h"
 #include "base/types.h"
 
@@ -92,16 +93,16 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
 typedef struct DpSettled
 {
-    int  sweeps;          // sweeps done                                            [-]
-    bool at_rest;         // no loose slope exceeds the rest angle by more than the tolerance
-    bool at_edge;         // loose soil wants to leave the patch: acquire a larger one
-    int  i0, i1, j0, j1;  // cells that changed: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
+    int        sweeps;   // sweeps done                                            [-]
+    bool       at_rest;  // no loose slope exceeds the rest angle by more than the tolerance
+    bool       at_edge;  // loose soil wants to leave the patch: acquire a larger one
+    DpCellRect changed;  // cells of the patch
 } DpSettled;
 
 // Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or for `max_sweeps`.
 // Nothing slides onto or off the cells with ring == 0 of `imprint` (a sole stands there);
 // imprint may be NULL. Volume is conserved and the order of cells does not matter.
-// Only cells of the rectangle `within` {i0, i1, j0, j1} are looked at first; NULL = the whole patch.
-DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
+// Only cells of the patch `within` are looked at first; NULL = all of it.
+DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const DpCellRect* within,
                            double tolerance, int max_sweeps, DpSoilScratch* scratch,
                            DpSettled* settled);

@@ -53,9 +53,9 @@ static inline int32_t* row_of(const Window* window, int32_t* grid, int j)
     return grid + (size_t)(j + 1) * (size_t)window->row + 1;
 }
 
-// Read the surface of the patch's cells `box` {i0, i1, j0, j1} into the window; false if its heights do
+// Read the surface of the patch's cells `box` into the window; false if its heights do
 // not fit the steps.
-bool dp_heap_open(Heap* heap, double height, double slope, const int box[4]);
+bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box);
 
 // Lay cones of height T sqrt(omega), and measure what lies over the present surface.
 Laid dp_heap_fill(const Heap* heap, double height);

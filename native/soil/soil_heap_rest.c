@@ -128,7 +128,7 @@ static double edge_of(const DpSoilPatch* patch, const DpImprint* imprint, int i,
 }
 
 // cells of a row with its frame, so many that rows start evenly
-static size_t even_row(int nx)
+static size_t even_row(long nx)
 {
     return ((size_t)nx + 2 + 15) / 16 * 16;
 }
@@ -146,7 +146,7 @@ static size_t count_border(const DpSoilPatch* patch, const DpImprint* imprint)
 }
 
 // border cells with a share; *width = sum of omega * cell, the border's length; box is theirs
-static void find_apexes(Heap* heap, const HeapShares* shares, double* width, int box[4])
+static void find_apexes(Heap* heap, const HeapShares* shares, double* width, DpCellRect* box)
 {
     const DpSoilPatch* patch = heap->patch;
     const DpImprint*   imprint = heap->imprint;
@@ -154,7 +154,7 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, int
     const int          j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
     int                count = 0;
     double             sum = 0.0;
-    box[0] = patch->nx, box[1] = 0, box[2] = patch->ny, box[3] = 0;
+    *box = (DpCellRect){0};
     for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
@@ -164,10 +164,7 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, int
             const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
             heap->apex[count++] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
             sum += share;
-            if (i < box[0]) box[0] = i;
-            if (i >= box[1]) box[1] = i + 1;
-            if (j < box[2]) box[2] = j;
-            if (j >= box[3]) box[3] = j + 1;
+            *box = dp_cells_with(*box, i, j);
         }
     *width = sum * patch->cell;
     heap->apex_count = count;
@@ -201,19 +198,11 @@ static void* make_room(const DpSoilPatch* patch, size_t apexes, DpSoilScratch* s
     return dp_soil_scratch_block(scratch, apexes + (3 * cells + row) * sizeof(int32_t));
 }
 
-static void grow(int box[4], const int around[4], int reach, const DpSoilPatch* patch)
-{
-    box[0] = around[0] > reach ? around[0] - reach : 0;
-    box[1] = around[1] < patch->nx - reach ? around[1] + reach : patch->nx;
-    box[2] = around[2] > reach ? around[2] - reach : 0;
-    box[3] = around[3] < patch->ny - reach ? around[3] + reach : patch->ny;
-}
-
 DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
                            double volume, double slope, double* height, DpSoilScratch* scratch)
 {
     Heap         heap = {.patch = patch, .imprint = imprint};
-    int          border[4], box[4];
+    DpCellRect   border;
     double       width = 0.0;
     const double area = patch->cell * patch->cell;
     heap.hollow = hollow_under(patch, imprint);
@@ -221,10 +210,10 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     char*        block = make_room(patch, apexes, scratch);
     if (!block) return DP_NO_MEMORY;
     heap.apex = (Apex*)(void*)block;
-    find_apexes(&heap, shares, &width, border);
+    find_apexes(&heap, shares, &width, &border);
     if (heap.apex_count == 0) {  // all that lies ahead is hollow: then it is filled
         heap.hollow = INFINITY;
-        find_apexes(&heap, shares, &width, border);
+        find_apexes(&heap, shares, &width, &border);
     }
     if (heap.apex_count == 0) return DP_NO_GROUND;
 
@@ -233,9 +222,9 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     double       reach = soil_min(likely / (slope * patch->cell) + 3.0, 30000.0);
     double       found = *height;
     for (bool again = true; again; reach = soil_min(2.0 * reach, 30000.0)) {
-        grow(box, border, (int)reach, patch);
-        const size_t row = even_row(box[1] - box[0]);
-        const size_t cells = row * ((size_t)(box[3] - box[2]) + 2);
+        const DpCellRect box = soil_grown(border, (long)reach, patch);
+        const size_t     row = even_row(box.i1 - box.i0);
+        const size_t     cells = row * ((size_t)(box.j1 - box.j0) + 2);
         heap.window.row = (int)row;
         heap.window.surface = (int32_t*)(void*)(block + apexes);
         heap.window.fill = heap.window.surface + cells;
@@ -246,7 +235,7 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
         found = *height;
         const double goal = volume / (area * heap.step);
         const double laid = find_height(&heap, goal, width, slope, &found);
-        const bool   all = box[0] == 0 && box[1] == patch->nx && box[2] == 0 && box[3] == patch->ny;
+        const bool   all = dp_cells_hold(box, dp_cells(0, 0, patch->nx, patch->ny));
         again = !all && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
         if (again) continue;
         if (!(laid > 0.0)) return DP_NO_GROUND;
@@ -254,7 +243,7 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
         // what is left of the difference goes into a common factor: the sum is right to rounding
         const double metres = heap.step * goal / laid;
         for (int j = 0; j < heap.window.ny; ++j)
-            add_row(patch->heap + soil_at(patch, box[0], box[2] + j),
+            add_row(patch->heap + soil_at(patch, box.i0, box.j0 + j),
                     row_of(&heap.window, heap.window.fill, j),
                     row_of(&heap.window, heap.window.surface, j), heap.window.nx, metres);
         *height = found;

@@ -46,16 +46,16 @@ static void find_turns(int32_t* turn, const int32_t* surface, int count)
     }
 }
 
-bool dp_heap_open(Heap* heap, double height, double slope, const int box[4])
+bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box)
 {
     DpSoilPatch* patch = heap->patch;
     Window*      window = &heap->window;
-    window->i0 = box[0], window->j0 = box[2];
-    window->nx = box[1] - box[0], window->ny = box[3] - box[2];
+    window->i0 = (int)box.i0, window->j0 = (int)box.j0;
+    window->nx = (int)(box.i1 - box.i0), window->ny = (int)(box.j1 - box.j0);
     double low = INFINITY, high = -INFINITY, lows[LANES], highs[LANES];
     for (int k = 0; k < LANES; ++k) lows[k] = INFINITY, highs[k] = -INFINITY;
-    for (int j = box[2]; j < box[3]; ++j) {
-        const size_t p = soil_at(patch, box[0], j);
+    for (long j = box.j0; j < box.j1; ++j) {
+        const size_t p = soil_at(patch, box.i0, j);
         range_of_row(patch->base_height + p, patch->compression + p, patch->heap + p, window->nx,
                      lows, highs);
     }

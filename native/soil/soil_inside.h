@@ -57,7 +57,13 @@ static inline bool soil_patch_ok(const DpSoilPatch* patch)
            patch->soil_count > 0;
 }
 
-static inline size_t soil_at(const DpSoilPatch* patch, int i, int j)
+// a rectangle of the patch's cells, `by` cells wider on every side where the patch goes on
+static inline DpCellRect soil_grown(DpCellRect rect, long by, const DpSoilPatch* patch)
+{
+    return dp_cells_common(dp_cells_grown(rect, by), dp_cells(0, 0, patch->nx, patch->ny));
+}
+
+static inline size_t soil_at(const DpSoilPatch* patch, long i, long j)
 {
     return (size_t)j * (size_t)patch->row + (size_t)i;
 }

@@ -30,72 +30,43 @@
 #define FRAME 3         // cells around the window that only stand as walls
 #define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
-typedef struct Box
-{
-    int i0, i1, j0, j1;  // cells of the patch; empty if i0 >= i1
-} Box;
-
 // A copy of the part of the patch in which soil moves. All grids (ny + 2 FRAME, row).
 typedef struct Window
 {
-    Box     box;  // patch cells it holds
-    size_t  row;
-    float*  firm;    // firm ground, BARRIER where no soil can be          [m]
-    float*  height;  // firm + heap                                        [m]
-    double* sum;     // b, kept finer than a float: small flows add up      [m]
-    float*  heap;    // b                                                  [m]
-    float*  fall;    // tan(gamma_r) cell: what may stand over one cell     [m]
-    float*  slack;   // what may stand above that and still count as rest   [m]
-    float*  share;   // a, share of the excess that is given               [-]
-    float*  give;    // a * sum of excess                                  [m]
+    DpCellRect box;  // patch cells it holds
+    size_t     row;
+    float*     firm;    // firm ground, BARRIER where no soil can be          [m]
+    float*     height;  // firm + heap                                        [m]
+    double*    sum;     // b, kept finer than a float: small flows add up      [m]
+    float*     heap;    // b                                                  [m]
+    float*     fall;    // tan(gamma_r) cell: what may stand over one cell     [m]
+    float*     slack;   // what may stand above that and still count as rest   [m]
+    float*     share;   // a, share of the excess that is given               [-]
+    float*     give;    // a * sum of excess                                  [m]
 } Window;
 
-static size_t cell_of(const Window* window, int i, int j)
+static size_t cell_of(const Window* window, long i, long j)
 {
     return (size_t)(j - window->box.j0 + FRAME) * window->row +
            (size_t)(i - window->box.i0 + FRAME);
 }
 
-static Box grown(Box box, int by, const DpSoilPatch* patch)
-{
-    box.i0 = box.i0 > by ? box.i0 - by : 0;
-    box.j0 = box.j0 > by ? box.j0 - by : 0;
-    box.i1 = box.i1 < patch->nx - by ? box.i1 + by : patch->nx;
-    box.j1 = box.j1 < patch->ny - by ? box.j1 + by : patch->ny;
-    return box;
-}
-
-static Box joined(Box a, Box b)
-{
-    if (a.i0 >= a.i1) return b;
-    if (b.i0 >= b.i1) return a;
-    const Box both = {a.i0 < b.i0 ? a.i0 : b.i0, a.i1 > b.i1 ? a.i1 : b.i1,
-                      a.j0 < b.j0 ? a.j0 : b.j0, a.j1 > b.j1 ? a.j1 : b.j1};
-    return both;
-}
-
-static bool holds(Box outer, Box inner)
-{
-    return inner.i0 >= outer.i0 && inner.i1 <= outer.i1 && inner.j0 >= outer.j0 &&
-           inner.j1 <= outer.j1;
-}
-
 // ---- window ----------------------------------------------------------------------------------
 
 // `sole` tells where one stands (0), as imprint->ring does
-static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, int j,
+static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, long j,
                      double level, double tan_slack)
 {
     const size_t p = soil_at(patch, window->box.i0, j), w = cell_of(window, window->box.i0, j);
     const Row    row = {window->firm + w, window->height + w, window->heap + w,
                         window->fall + w, window->slack + w,  window->sum + w};
     dp_slide_fill(&row, patch->base_height + p, patch->compression + p, patch->heap + p,
-                  patch->rest_slope + p, sole, window->box.i1 - window->box.i0, patch->cell, level,
-                  tan_slack);
+                  patch->rest_slope + p, sole, (int)(window->box.i1 - window->box.i0), patch->cell,
+                  level, tan_slack);
 }
 
-static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
-                        double level, double tan_slack, DpSoilScratch* scratch)
+static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
+                        DpCellRect box, double level, double tan_slack, DpSoilScratch* scratch)
 {
     const size_t nx = (size_t)(box.i1 - box.i0), ny = (size_t)(box.j1 - box.j0);
     window->box = box;
@@ -113,7 +84,7 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     memset(window->heap, 0, 5 * cells * sizeof(float));
     int32_t* nobody = (int32_t*)(void*)window->share;  // a row of cells where no sole stands
     for (size_t i = 0; !imprint && i < nx; ++i) nobody[i] = DP_RING_FAR;
-    for (int j = box.j0; j < box.j1; ++j) {
+    for (long j = box.j0; j < box.j1; ++j) {
         const int32_t* sole = imprint ? imprint->ring + soil_at(patch, box.i0, j) : nobody;
         read_row(window, patch, sole, j, level, tan_slack);
     }
@@ -121,10 +92,11 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     return true;
 }
 
-static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint, Box box)
+static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint,
+                       DpCellRect box)
 {
-    for (int j = box.j0; j < box.j1; ++j)
-        for (int i = box.i0; i < box.i1; ++i) {
+    for (long j = box.j0; j < box.j1; ++j)
+        for (long i = box.i0; i < box.i1; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (!soil_is_ground(patch->base_height[p]) || (imprint && imprint->ring[p] == 0))
                 continue;
@@ -133,8 +105,8 @@ static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint
 }
 
 // a larger window around `box`, which holds the old one; fine sums move along
-static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint, Box box,
-                        double level, double tan_slack, DpSoilScratch* scratch)
+static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
+                        DpCellRect box, double level, double tan_slack, DpSoilScratch* scratch)
 {
     const Window old = *window;
     const size_t cells = old.row * (size_t)(old.box.j1 - old.box.j0 + 2 * FRAME);
@@ -142,9 +114,9 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
     if (!kept) return false;
     memcpy(kept, old.sum, cells * sizeof(double));
     const bool open = open_window(window, patch, imprint, box, level, tan_slack, scratch);
-    for (int j = old.box.j0; open && j < old.box.j1; ++j) {
+    for (long j = old.box.j0; open && j < old.box.j1; ++j) {
         const size_t at = cell_of(window, old.box.i0, j);
-        const int    count = old.box.i1 - old.box.i0;
+        const int    count = (int)(old.box.i1 - old.box.i0);
         memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j),
                (size_t)count * sizeof(double));
         dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
@@ -168,12 +140,13 @@ static void highest_of_row(const float* restrict base_height, int count, float* 
 }
 
 // a height near the ground, so that floats are small; the same for mirrored ground
-static double level_of(const DpSoilPatch* patch, Box box)
+static double level_of(const DpSoilPatch* patch, DpCellRect box)
 {
     float high[LANES];
     for (int k = 0; k < LANES; ++k) high[k] = -INFINITY;
-    for (int j = box.j0; j < box.j1; ++j)
-        highest_of_row(patch->base_height + soil_at(patch, box.i0, j), box.i1 - box.i0, high);
+    for (long j = box.j0; j < box.j1; ++j)
+        highest_of_row(patch->base_height + soil_at(patch, box.i0, j), (int)(box.i1 - box.i0),
+                       high);
     for (int k = 1; k < LANES; ++k) high[0] = high[k] > high[0] ? high[k] : high[0];
     return isfinite(high[0]) ? floor((double)high[0]) : 0.0;
 }
@@ -187,13 +160,13 @@ static int any_loose(const float* heap, int count)
 }
 
 // the cells of a box between which loose soil lies: nothing else can move; empty without any
-static Box loose_in(const DpSoilPatch* patch, Box box)
+static DpCellRect loose_in(const DpSoilPatch* patch, DpCellRect box)
 {
-    Box loose = {box.i1, box.i0, box.j1, box.j0};
-    for (int j = box.j0; j < box.j1; ++j) {
+    DpCellRect loose = {box.i1, box.i0, box.j1, box.j0};
+    for (long j = box.j0; j < box.j1; ++j) {
         const float* heap = patch->heap + soil_at(patch, 0, j);
-        int          first = box.i0, last = box.i1 - 1;
-        if (!any_loose(heap + first, box.i1 - first)) continue;
+        long         first = box.i0, last = box.i1 - 1;
+        if (!any_loose(heap + first, (int)(box.i1 - first))) continue;
         while (!(heap[first] > 0.0f)) ++first;
         while (!(heap[last] > 0.0f)) --last;
         loose.i0 = first < loose.i0 ? first : loose.i0;
@@ -207,19 +180,19 @@ static Box loose_in(const DpSoilPatch* patch, Box box)
 // ---- sweeps ----------------------------------------------------------------------------------
 
 // first stencil over `look`; returns the cells that give, and whether one of them must
-static Box decide(const Window* window, Box look, float film, bool* restless)
+static DpCellRect decide(const Window* window, DpCellRect look, float film, bool* restless)
 {
-    Box movers = {INT_MAX, INT_MIN, INT_MAX, INT_MIN};
+    DpCellRect movers = {LONG_MAX, LONG_MIN, LONG_MAX, LONG_MIN};
     *restless = false;
     const size_t wide = (size_t)(look.i1 - look.i0) + 4;
-    for (int j = look.j0 - 2; j < look.j1 + 2; ++j) {
+    for (long j = look.j0 - 2; j < look.j1 + 2; ++j) {
         const size_t at = cell_of(window, look.i0, j);
         if (j < look.j0 || j >= look.j1) {  // nothing is given from outside
             memset(window->share + at - 2, 0, wide * sizeof(float));
             memset(window->give + at - 2, 0, wide * sizeof(float));
             continue;
         }
-        const int count = look.i1 - look.i0;
+        const int count = (int)(look.i1 - look.i0);
         const int wish = dp_slide_decide(window->share + at, window->give + at, window->height + at,
                                          window->heap + at, window->fall + at, window->slack + at,
                                          (ptrdiff_t)window->row, count, film);
@@ -242,15 +215,15 @@ static Box decide(const Window* window, Box look, float film, bool* restless)
 }
 
 // second stencil over the cells that give and their neighbours
-static void take(const Window* window, Box change)
+static void take(const Window* window, DpCellRect change)
 {
-    const int count = change.i1 - change.i0;
-    for (int j = change.j0; j < change.j1; ++j) {
+    const int count = (int)(change.i1 - change.i0);
+    for (long j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
         dp_slide_take(window->sum + at, window->give + at, window->height + at, window->share + at,
                       window->fall + at, (ptrdiff_t)window->row, count);
     }
-    for (int j = change.j0; j < change.j1; ++j) {
+    for (long j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
         dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
                        count);
@@ -258,34 +231,31 @@ static void take(const Window* window, Box change)
 }
 
 // has loose soil come to the edge of the patch?
-static bool at_edge(const DpSoilPatch* patch, Box box, float film)
+static bool at_edge(const DpSoilPatch* patch, DpCellRect box, float film)
 {
-    const Box inner = {1, patch->nx - 1, 1, patch->ny - 1};
-    if (holds(inner, box)) return false;
-    for (int j = box.j0; j < box.j1; ++j)
-        for (int i = box.i0; i < box.i1; ++i) {
+    const DpCellRect inner = {1, patch->nx - 1, 1, patch->ny - 1};
+    if (dp_cells_hold(inner, box)) return false;
+    for (long j = box.j0; j < box.j1; ++j)
+        for (long i = box.i0; i < box.i1; ++i) {
             const bool edge = i < inner.i0 || i >= inner.i1 || j < inner.j0 || j >= inner.j1;
             if (edge && patch->heap[soil_at(patch, i, j)] > film) return true;
         }
     return false;
 }
 
-DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const int within[4],
+DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const DpCellRect* within,
                            double tolerance, int max_sweeps, DpSoilScratch* scratch,
                            DpSettled* settled)
 {
     if (!soil_patch_ok(patch) || !scratch || !settled) return DP_BAD_ARGUMENT;
     if (!(tolerance > 0.0) || !(tolerance < 1.0) || max_sweeps < 0) return DP_BAD_ARGUMENT;
-    Box look = {0, patch->nx, 0, patch->ny};
-    if (within) {
-        look = (Box){within[0] > 0 ? within[0] : 0, within[1] < patch->nx ? within[1] : patch->nx,
-                     within[2] > 0 ? within[2] : 0, within[3] < patch->ny ? within[3] : patch->ny};
-    }
+    DpCellRect look = dp_cells(0, 0, patch->nx, patch->ny);
+    if (within) look = dp_cells_common(look, *within);
     memset(settled, 0, sizeof *settled);
     settled->at_rest = true;
-    if (look.i0 >= look.i1 || look.j0 >= look.j1) return DP_OK;
+    if (dp_cells_empty(look)) return DP_OK;
 
-    const Box asked = look;
+    const DpCellRect asked = look;
     look = loose_in(patch, look);
     if (look.i0 >= look.i1) return DP_OK;
     const double tan_slack = tan(tolerance), level = level_of(patch, asked);
@@ -293,25 +263,25 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     int          margin = FIRST_MARGIN;
     DpStatus     status = DP_OK;
     Window       window;
-    Box          changed = {0, 0, 0, 0};
-    if (!open_window(&window, patch, imprint, grown(look, margin, patch), level, tan_slack,
+    DpCellRect   changed = {0, 0, 0, 0};
+    if (!open_window(&window, patch, imprint, soil_grown(look, margin, patch), level, tan_slack,
                      scratch))
         return DP_NO_MEMORY;
 
     for (;;) {
-        bool      restless;
-        const Box movers = decide(&window, look, film, &restless);
+        bool             restless;
+        const DpCellRect movers = decide(&window, look, film, &restless);
         settled->at_rest = !restless;
         if (!restless || settled->sweeps == max_sweeps) break;
-        const Box change = grown(movers, 1, patch);
-        look = grown(movers, 2, patch);
+        const DpCellRect change = soil_grown(movers, 1, patch);
+        look = soil_grown(movers, 2, patch);
         take(&window, change);
-        changed = joined(changed, change);
+        changed = dp_cells_join(changed, change);
         ++settled->sweeps;
-        if (holds(window.box, grown(look, 1, patch))) continue;
+        if (dp_cells_hold(window.box, soil_grown(look, 1, patch))) continue;
 
         margin *= 2;  // soil comes near the window's side: a larger one
-        const Box wider = grown(joined(window.box, look), margin, patch);
+        const DpCellRect wider = soil_grown(dp_cells_join(window.box, look), margin, patch);
         if (!move_window(&window, patch, imprint, wider, level, tan_slack, scratch)) {
             status = DP_NO_MEMORY;
             break;
@@ -319,8 +289,7 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const i
     }
     if (changed.i0 < changed.i1) {
         write_back(&window, patch, imprint, changed);
-        settled->i0 = changed.i0, settled->i1 = changed.i1;
-        settled->j0 = changed.j0, settled->j1 = changed.j1;
+        settled->changed = changed;
         settled->at_edge = at_edge(patch, changed, film);
     }
     return status;

@@ -17,8 +17,8 @@ static bool is_soil(const DpSoil* soil)
 
 static bool are_options(const DpTerrainOptions* options)
 {
-    if (!(options->cell > 0.0) || !isfinite(options->cell) || !isfinite(options->origin_x) ||
-        !isfinite(options->origin_y))
+    if (!(options->grid.cell > 0.0) || !isfinite(options->grid.cell) ||
+        !isfinite(options->grid.x0) || !isfinite(options->grid.y0))
         return false;
     if (options->soil_count < 1 || options->soil_count > 255 || !options->soils) return false;
     for (int s = 0; s < options->soil_count; ++s)
@@ -35,9 +35,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     DpTerrain* created = dp_alloc(1, sizeof *created);
     if (!created) return DP_NO_MEMORY;
     const size_t soils = (size_t)options->soil_count;
-    created->cell = options->cell;
-    created->origin_x = options->origin_x;
-    created->origin_y = options->origin_y;
+    created->grid = options->grid;
     created->workers = options->workers < 1 ? 1 : options->workers;
     created->soil_count = options->soil_count;
     created->soils = dp_alloc(soils, sizeof *created->soils);
@@ -70,15 +68,9 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_free(terrain);
 }
 
-double dp_terrain_cell(const DpTerrain* terrain)
+DpGrid dp_terrain_grid(const DpTerrain* terrain)
 {
-    return terrain->cell;
-}
-
-void dp_terrain_origin(const DpTerrain* terrain, double origin[2])
-{
-    origin[0] = terrain->origin_x;
-    origin[1] = terrain->origin_y;
+    return terrain->grid;
 }
 
 double dp_terrain_datum(const DpTerrain* terrain)
@@ -109,7 +101,7 @@ size_t dp_terrain_tile_count(const DpTerrain* terrain)
 
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest)
 {
-    const double area = terrain->cell * terrain->cell;
+    const double area = terrain->grid.cell * terrain->grid.cell;
     double       heap = 0.0, compression = 0.0;
     float        highest = 0.0f;
     for (size_t t = 0; t < terrain->tiles; ++t) {

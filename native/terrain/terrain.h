@@ -3,10 +3,10 @@
 //   ground (flat | heights | mesh) ---first touch---> tile of DP_TILE x DP_TILE cells
 //   tiles ---acquire---> DpSoilPatch ---kernels---> commit ---> tiles changed
 //
-// Cell (i, j) of the world has its centre at (origin_x + (i + 0.5) cell, origin_y + (j + 0.5) cell)
-// and may be negative; tile (tx, ty) holds cells tx * DP_TILE .. + DP_TILE - 1. A tile nobody
+// Cells may have negative numbers; tile (tx, ty) holds cells tx * DP_TILE .. + DP_TILE - 1. A tile nobody
 // touched takes no memory. Asking for a height allocates nothing.
 #pragma once
+#include "base/grid.h"
 #include "base/status.h"
 #include "base/types.h"
 
@@ -41,19 +41,17 @@ typedef struct DpGround
 
 typedef struct DpTerrainOptions
 {
-    double        cell;                // side of a cell [m] > 0
-    double        origin_x, origin_y;  // corner of cell (0, 0) [m]
-    const DpSoil* soils;               // copied; kinds index it
-    int           soil_count;          // 1..255
-    int           workers;             // threads for filling tiles, >= 1
+    DpGrid        grid;        // its cells
+    const DpSoil* soils;       // copied; kinds index it
+    int           soil_count;  // 1..255
+    int           workers;     // threads for filling tiles, >= 1
 } DpTerrainOptions;
 
 DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
                            const DpGround* ground);
 void     dp_terrain_destroy(DpTerrain* terrain);
 
-double        dp_terrain_cell(const DpTerrain* terrain);
-void          dp_terrain_origin(const DpTerrain* terrain, double origin[2]);
+DpGrid        dp_terrain_grid(const DpTerrain* terrain);
 int           dp_terrain_soil_count(const DpTerrain* terrain);
 const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
@@ -72,24 +70,24 @@ void dp_terrain_base_height(const DpTerrain* terrain, int count, const double* x
 // +Z where there is no ground.
 DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius);
 
-// Allocate the tiles of a rectangle of cells (i0 <= i < i1, j0 <= j < j1), in parallel, before
+// Allocate the tiles of a rectangle of cells, in parallel, before
 // patches are acquired. Tiles that are there stay as they are.
-DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1);
+DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells);
 
 // The memory of one patch of the terrain; create one per thread and reuse it.
 typedef struct DpLease DpLease;
 DpLease*               dp_lease_create(void);
 void                   dp_lease_destroy(DpLease* lease);
 
-// Copy cells i0 <= i < i1, j0 <= j < j1 into the lease and allocate tiles that are missing. The patch
+// Copy cells into the lease and allocate tiles that are missing. The patch
 // is valid until the lease acquires another. Patches that do not overlap may be out at once
 // if their tiles were touched before (dp_terrain_touch) -- this is what sim does.
-DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, long i0, long i1, long j0, long j1,
+DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells,
                             DpSoilPatch** patch);
 
-// Copy compression, heap and pressure_time of patch cells di0 <= i < di1, dj0 <= j < dj1 (patch
-// indices) back into the tiles and mark the tiles in which a value is new.
-void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, int di0, int di1, int dj0, int dj1);
+// Copy compression, heap and pressure_time of some cells, counted in the patch, back
+// into the tiles and mark the tiles in which a value is new.
+void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, DpCellRect within);
 
 // A trail somebody left: cells (nx, ny) from (i0, j0) on, all values finite and >= 0.
 typedef struct DpTrail
@@ -117,8 +115,8 @@ typedef void (*DpTerrainCover)(const void* context, double x0, double y0, double
 // whenever it is read. Once tiles are there: DP_BAD_ARGUMENT.
 DpStatus dp_terrain_set_cover(DpTerrain* terrain, DpTerrainCover cover, const void* context);
 
-// Cover has changed on cells i0 <= i < i1, j0 <= j < j1: tiles that are there ask for it again.
-void dp_terrain_refresh_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1);
+// Cover has changed on some cells: tiles that are there ask for it again.
+void dp_terrain_refresh_cover(DpTerrain* terrain, DpCellRect cells);
 
 // ---- reading ---------------------------------------------------------------------------------
 

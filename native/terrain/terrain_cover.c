@@ -18,9 +18,9 @@ static void replant(DpTerrain* terrain, Tile* tile, const TilePart* part)
     const long j0 = tile->ty * DP_TILE + (long)(part->in_tile / DP_TILE);
     float*     roots = fresh + part->nx * part->ny;
     bool       differs = false;
-    terrain->cover(terrain->cover_context, cell_at(terrain->origin_x, terrain->cell, i0),
-                   cell_at(terrain->origin_y, terrain->cell, j0), terrain->cell, part->nx, part->ny,
-                   fresh, roots);
+    terrain->cover(terrain->cover_context, dp_grid_x(&terrain->grid, i0),
+                   dp_grid_y(&terrain->grid, j0), terrain->grid.cell, part->nx, part->ny, fresh,
+                   roots);
     for (int j = 0; j < part->ny; ++j)
         for (int i = 0; i < part->nx; ++i) {
             const int    from = j * part->nx + i;
@@ -32,15 +32,15 @@ static void replant(DpTerrain* terrain, Tile* tile, const TilePart* part)
     if (differs) dp_tile_mark(terrain, tile);
 }
 
-void dp_terrain_refresh_cover(DpTerrain* terrain, long i0, long i1, long j0, long j1)
+void dp_terrain_refresh_cover(DpTerrain* terrain, DpCellRect cells)
 {
-    if (!terrain->cover || !is_rectangle(i0, i1, j0, j1)) return;
+    if (!terrain->cover || !are_cells(cells)) return;
     for (size_t t = 0; t < terrain->tiles; ++t) {
         Tile* tile = terrain->sorted[t];
-        if (tile->ty < tile_of(j0) || tile->ty > tile_of(j1 - 1) || tile->tx < tile_of(i0) ||
-            tile->tx > tile_of(i1 - 1))
+        if (!dp_cells_meet(cells,
+                           dp_cells(tile->tx * DP_TILE, tile->ty * DP_TILE, DP_TILE, DP_TILE)))
             continue;
-        const TilePart part = dp_tile_part(tile->tx, tile->ty, i0, i1, j0, j1);
+        const TilePart part = dp_tile_part(tile->tx, tile->ty, cells);
         replant(terrain, tile, &part);
     }
 }

@@ -63,11 +63,12 @@ void     dp_source_destroy(Source* source);
 // Height at a point, NaN where there is none; the kind of ground there goes to *kind if not NULL.
 double dp_source_at(const Source* source, double x, double y, uint8_t* kind);
 
-// Where a tile's cells are. Positions come from the world's cell numbers alone (cell_at), so a tile
+// Where a tile's cells are. Positions come from the world's cell numbers alone, so a tile
 // and a point query see the same numbers.
 typedef struct TileGrid
 {
-    double origin_x, origin_y, cell, datum;
+    DpGrid world;
+    double datum;
     long   i0, j0;  // world cell of the tile's cell (0, 0)
 } TileGrid;
 
@@ -87,11 +88,6 @@ DpStatus dp_source_copy_weights(Source* source, const DpGround* ground, size_t w
 // kind_weight[k][of[n]].
 uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const double* share);
 
-static inline double cell_at(double origin, double cell, long index)
-{
-    return origin + ((double)index + 0.5) * cell;
-}
-
 // ---- tiles: terrain_tiles.c --------------------------------------------------------------------
 
 typedef struct Tile
@@ -108,7 +104,8 @@ typedef struct Tile
 
 struct DpTerrain
 {
-    double  cell, origin_x, origin_y, datum;
+    DpGrid  grid;
+    double  datum;
     int     soil_count, workers;
     DpSoil* soils;
     float*  slope;  // tan(rest_angle) of each soil
@@ -138,20 +135,16 @@ typedef struct TilePart
     int    i, j, nx, ny;  // in the rectangle
     size_t in_tile;       // its first cell in the tile
 } TilePart;
-TilePart dp_tile_part(long tx, long ty, long i0, long i1, long j0, long j1);
+TilePart dp_tile_part(long tx, long ty, DpCellRect cells);
 
 // NULL if nobody touched it.
 Tile*    dp_tile_find(const DpTerrain* terrain, long tx, long ty);
 TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty);
 
-// which tile holds a cell
-static inline long tile_of(long cell)
+// whether there are cells, and all at numbers whose places are exact
+static inline bool are_cells(DpCellRect cells)
 {
-    return cell >= 0 ? cell / DP_TILE : -((-cell - 1) / DP_TILE) - 1;
-}
-
-static inline bool is_rectangle(long i0, long i1, long j0, long j1)
-{
-    return i0 < i1 && j0 < j1 && i0 > -MAX_CELL_INDEX && i1 < MAX_CELL_INDEX &&
-           j0 > -MAX_CELL_INDEX && j1 < MAX_CELL_INDEX;
+    const long end = MAX_CELL_INDEX;
+    return !dp_cells_empty(cells) && cells.i0 > -end && cells.i1 < end && cells.j0 > -end &&
+           cells.j1 < end;
 }

@@ -30,7 +30,7 @@ static DpStatus lay_tile(DpTerrain* terrain, DpLease* lease, const DpTrail* trai
     const long     i0 = trail->i0 + part->i, j0 = trail->j0 + part->j;
     DpSoilPatch*   patch = NULL;
     const DpStatus status =
-        dp_terrain_acquire(terrain, lease, i0, i0 + part->nx, j0, j0 + part->ny, &patch);
+        dp_terrain_acquire(terrain, lease, dp_cells(i0, j0, part->nx, part->ny), &patch);
     if (status != DP_OK) return status;
     for (int j = 0; j < part->ny; ++j)
         for (int i = 0; i < part->nx; ++i) {
@@ -40,24 +40,25 @@ static DpStatus lay_tile(DpTerrain* terrain, DpLease* lease, const DpTrail* trai
             patch->heap[to] = trail->heap[from];
             patch->pressure_time[to] = trail->pressure_time[from];
         }
-    dp_terrain_commit(terrain, lease, 0, part->nx, 0, part->ny);
+    dp_terrain_commit(terrain, lease, dp_cells(0, 0, part->nx, part->ny));
     return DP_OK;
 }
 
 DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail)
 {
     if (!dp_terrain_has(trail->i0, trail->j0, trail->nx, trail->ny)) return DP_BAD_ARGUMENT;
-    const long   i0 = trail->i0, i1 = i0 + trail->nx, j0 = trail->j0, j1 = j0 + trail->ny;
-    const size_t count = (size_t)trail->nx * (size_t)trail->ny;
+    const DpCellRect cells = dp_cells(trail->i0, trail->j0, trail->nx, trail->ny);
+    const size_t     count = (size_t)trail->nx * (size_t)trail->ny;
     if (!is_trail(count, trail->compression) || !is_trail(count, trail->heap) ||
         !is_trail(count, trail->pressure_time))
         return DP_BAD_ARGUMENT;
     DpLease* lease = dp_lease_create();
     if (!lease) return DP_NO_MEMORY;
     DpStatus status = DP_OK;
-    for (long ty = tile_of(j0); status == DP_OK && ty <= tile_of(j1 - 1); ++ty)
-        for (long tx = tile_of(i0); status == DP_OK && tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+    for (long ty = dp_tile_of(cells.j0); status == DP_OK && ty <= dp_tile_of(cells.j1 - 1); ++ty)
+        for (long tx = dp_tile_of(cells.i0); status == DP_OK && tx <= dp_tile_of(cells.i1 - 1);
+             ++tx) {
+            const TilePart part = dp_tile_part(tx, ty, cells);
             if (is_trodden(trail, &part)) status = lay_tile(terrain, lease, trail, &part);
         }
     dp_lease_destroy(lease);

@@ -100,17 +100,17 @@ static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, do
                         Highest* top)
 {
     int i0, i1, j0, j1;
-    cell_range(facet->x_min, facet->x_max, grid->origin_x, per_cell, grid->i0, &i0, &i1);
-    cell_range(facet->y_min, facet->y_max, grid->origin_y, per_cell, grid->j0, &j0, &j1);
+    cell_range(facet->x_min, facet->x_max, grid->world.x0, per_cell, grid->i0, &i0, &i1);
+    cell_range(facet->y_min, facet->y_max, grid->world.y0, per_cell, grid->j0, &j0, &j1);
     if (i0 > i1 || j0 > j1) return;
     const double z_max = max3(facet->z);
     bool         finished = false;
     for (int j = j0; j <= j1; ++j) {
-        const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
+        const double y = dp_grid_y(&grid->world, grid->j0 + j);
         for (int i = i0; i <= i1; ++i) {
             Highest* here = &top[j * DP_TILE + i];
             if (!can_rise(here, z_max, triangle)) continue;
-            const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
+            const double x = dp_grid_x(&grid->world, grid->i0 + i);
             double       z, share[3];
             if (!finished) facet_finish(facet);
             finished = true;
@@ -122,14 +122,13 @@ static void raise_cells(Facet* facet, int32_t triangle, const TileGrid* grid, do
 void dp_mesh_tile(const Source* source, const TileGrid* grid, float* height, uint8_t* kind)
 {
     const MeshGround* mesh = &source->mesh;
-    const double      per_cell = 1.0 / grid->cell;
+    const double      per_cell = 1.0 / grid->world.cell;
     Highest           top[TILE_CELLS];
     for (int n = 0; n < TILE_CELLS; ++n) top[n] = (Highest){NAN, -1};
 
-    const Bins under = bins_of(mesh, cell_at(grid->origin_x, grid->cell, grid->i0),
-                               cell_at(grid->origin_x, grid->cell, grid->i0 + DP_TILE - 1),
-                               cell_at(grid->origin_y, grid->cell, grid->j0),
-                               cell_at(grid->origin_y, grid->cell, grid->j0 + DP_TILE - 1));
+    const Bins under = bins_of(
+        mesh, dp_grid_x(&grid->world, grid->i0), dp_grid_x(&grid->world, grid->i0 + DP_TILE - 1),
+        dp_grid_y(&grid->world, grid->j0), dp_grid_y(&grid->world, grid->j0 + DP_TILE - 1));
     for (int l = 0; l < mesh->grids; ++l) {
         const BinGrid* bins = &mesh->grid[l];
         if (!bins->used) continue;
@@ -143,9 +142,9 @@ void dp_mesh_tile(const Source* source, const TileGrid* grid, float* height, uin
     }
 
     for (int j = 0; j < DP_TILE; ++j) {
-        const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
+        const double y = dp_grid_y(&grid->world, grid->j0 + j);
         for (int i = 0; i < DP_TILE; ++i) {
-            const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
+            const double x = dp_grid_x(&grid->world, grid->i0 + i);
             const int    n = j * DP_TILE + i;
             height[n] = (float)(top[n].z - grid->datum);
             kind[n] = kind_of(source, top[n].triangle, x, y);

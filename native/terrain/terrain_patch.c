@@ -89,26 +89,25 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* 
     }
 }
 
-DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, long i0, long i1, long j0, long j1,
+DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells,
                             DpSoilPatch** patch)
 {
-    if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
-    const long nx = i1 - i0, ny = j1 - j0;
+    if (!are_cells(cells)) return DP_BAD_ARGUMENT;
+    const long nx = cells.i1 - cells.i0, ny = cells.j1 - cells.j0;
     if (nx > MAX_CELLS || ny > MAX_CELLS || nx + ROW_STEP > MAX_CELLS / ny) return DP_BAD_ARGUMENT;
-    const DpStatus status = dp_terrain_touch(terrain, i0, i1, j0, j1);
+    const DpStatus status = dp_terrain_touch(terrain, cells);
     if (status != DP_OK) return status;
 
-    const int    row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
-    const size_t cells = (size_t)row * (size_t)ny;
-    if (!make_room(lease, cells)) return DP_NO_MEMORY;
+    const int row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
+    if (!make_room(lease, (size_t)row * (size_t)ny)) return DP_NO_MEMORY;
     float* grid[FLOAT_GRIDS];
     for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = lease->grid + g * lease->room;
     const DpSoilPatch acquired = {(int)nx,
                                   (int)ny,
                                   row,
-                                  terrain->cell,
-                                  cell_at(terrain->origin_x, terrain->cell, i0),
-                                  cell_at(terrain->origin_y, terrain->cell, j0),
+                                  terrain->grid.cell,
+                                  dp_grid_x(&terrain->grid, cells.i0),
+                                  dp_grid_y(&terrain->grid, cells.j0),
                                   grid[0],
                                   grid[1],
                                   grid[2],
@@ -120,11 +119,11 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, long i0, long i1
                                   terrain->soil_count,
                                   NULL};
     lease->patch = acquired;
-    lease->i0 = i0;
-    lease->j0 = j0;
-    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
-        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+    lease->i0 = cells.i0;
+    lease->j0 = cells.j0;
+    for (long ty = dp_tile_of(cells.j0); ty <= dp_tile_of(cells.j1 - 1); ++ty)
+        for (long tx = dp_tile_of(cells.i0); tx <= dp_tile_of(cells.i1 - 1); ++tx) {
+            const TilePart part = dp_tile_part(tx, ty, cells);
             copy_in(terrain, dp_tile_find(terrain, tx, ty), &part, lease, grid);
         }
     fill_padding(terrain, lease, grid);
@@ -157,20 +156,21 @@ static bool copy_out(const DpLease* lease, size_t from, Tile* tile, size_t to, i
     return differs != 0;
 }
 
-void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, int di0, int di1, int dj0, int dj1)
+void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, DpCellRect within)
 {
-    DP_ASSERT(di0 >= 0 && di1 <= lease->patch.nx && dj0 >= 0 && dj1 <= lease->patch.ny);
-    if (di0 >= di1 || dj0 >= dj1) return;
-    const long i0 = lease->i0 + di0, i1 = lease->i0 + di1;
-    const long j0 = lease->j0 + dj0, j1 = lease->j0 + dj1;
-    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
-        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+    DP_ASSERT(dp_cells_empty(within) ||
+              dp_cells_hold(dp_cells(0, 0, lease->patch.nx, lease->patch.ny), within));
+    if (dp_cells_empty(within)) return;
+    const DpCellRect cells = {lease->i0 + within.i0, lease->i0 + within.i1, lease->j0 + within.j0,
+                              lease->j0 + within.j1};
+    for (long ty = dp_tile_of(cells.j0); ty <= dp_tile_of(cells.j1 - 1); ++ty)
+        for (long tx = dp_tile_of(cells.i0); tx <= dp_tile_of(cells.i1 - 1); ++tx) {
+            const TilePart part = dp_tile_part(tx, ty, cells);
             Tile*          tile = dp_tile_find(terrain, tx, ty);
             bool           differs = false;
             for (int j = 0; j < part.ny; ++j) {
-                const size_t from =
-                    (size_t)(dj0 + part.j + j) * (size_t)lease->patch.row + (size_t)(di0 + part.i);
+                const size_t from = (size_t)(within.j0 + part.j + j) * (size_t)lease->patch.row +
+                                    (size_t)(within.i0 + part.i);
                 differs |= copy_out(lease, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
             }
             if (differs) dp_tile_mark(terrain, tile);

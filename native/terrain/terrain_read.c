@@ -9,7 +9,7 @@ typedef struct Reading
 {
     const DpTerrain* terrain;
     DpField          field;
-    long             i0, i1, j0, j1;
+    DpCellRect       cells;
     long             tx0, ty0;
     int              tiles_x;
     float*           out;
@@ -121,15 +121,15 @@ static void read_tile(void* context, int index, int worker)
     View           view;
     (void)worker;
     open_view(&view, reading->terrain, tx, ty, reading->field);
-    const TilePart part = dp_tile_part(tx, ty, reading->i0, reading->i1, reading->j0, reading->j1);
-    const size_t   nx = (size_t)(reading->i1 - reading->i0);
+    const TilePart part = dp_tile_part(tx, ty, reading->cells);
+    const size_t   nx = (size_t)(reading->cells.i1 - reading->cells.i0);
     for (int j = 0; j < part.ny; ++j) {
         float* out = reading->out + (size_t)(part.j + j) * nx + (size_t)part.i;
         read_row(&view, reading->field, part.in_tile + (size_t)j * DP_TILE, part.nx, out);
     }
 }
 
-static bool are_cells(long first, long count)
+static bool are_numbers(long first, long count)
 {
     return count > 0 && count < MAX_CELL_INDEX && first > -MAX_CELL_INDEX &&
            first < MAX_CELL_INDEX - count;
@@ -137,7 +137,7 @@ static bool are_cells(long first, long count)
 
 bool dp_terrain_has(long i0, long j0, long nx, long ny)
 {
-    return are_cells(i0, nx) && are_cells(j0, ny);
+    return are_numbers(i0, nx) && are_numbers(j0, ny);
 }
 
 DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
@@ -145,9 +145,10 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
 {
     if (!dp_terrain_has(i0, j0, nx, ny)) return DP_BAD_ARGUMENT;
     if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) return DP_BAD_ARGUMENT;
-    Reading reading = {terrain, field, i0, i0 + nx, j0, j0 + ny, tile_of(i0), tile_of(j0), 0, out};
-    reading.tiles_x = (int)(tile_of(reading.i1 - 1) - reading.tx0 + 1);
-    const long tiles_y = tile_of(reading.j1 - 1) - reading.ty0 + 1;
+    Reading reading = {terrain, field, dp_cells(i0, j0, nx, ny), dp_tile_of(i0), dp_tile_of(j0),
+                       0,       out};
+    reading.tiles_x = (int)(dp_tile_of(i0 + nx - 1) - reading.tx0 + 1);
+    const long tiles_y = dp_tile_of(j0 + ny - 1) - reading.ty0 + 1;
     if (tiles_y > INT_MAX / reading.tiles_x) return DP_BAD_ARGUMENT;
     dp_parallel_for(reading.tiles_x * (int)tiles_y, terrain->workers, read_tile, &reading);
     return DP_OK;
@@ -169,10 +170,10 @@ void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, 
 
 void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int ny, float* out)
 {
-    const long i1 = i0 + nx, j1 = j0 + ny;
-    for (long ty = tile_of(j0); ty <= tile_of(j1 - 1); ++ty)
-        for (long tx = tile_of(i0); tx <= tile_of(i1 - 1); ++tx) {
-            const TilePart part = dp_tile_part(tx, ty, i0, i1, j0, j1);
+    const DpCellRect cells = dp_cells(i0, j0, nx, ny);
+    for (long ty = dp_tile_of(cells.j0); ty <= dp_tile_of(cells.j1 - 1); ++ty)
+        for (long tx = dp_tile_of(cells.i0); tx <= dp_tile_of(cells.i1 - 1); ++tx) {
+            const TilePart part = dp_tile_part(tx, ty, cells);
             const Tile*    tile = dp_tile_find(terrain, tx, ty);
             for (int j = 0; j < part.ny; ++j) {
                 float*       to = out + (size_t)(part.j + j) * (size_t)nx + (size_t)part.i;
@@ -190,8 +191,8 @@ void dp_terrain_surface(const DpTerrain* terrain, long i0, long j0, int nx, int 
 static double surface_of(const DpTerrain* terrain, const Tile* tile, long i, long j)
 {
     if (!tile)
-        return dp_source_at(&terrain->source, cell_at(terrain->origin_x, terrain->cell, i),
-                            cell_at(terrain->origin_y, terrain->cell, j), NULL) -
+        return dp_source_at(&terrain->source, dp_grid_x(&terrain->grid, i),
+                            dp_grid_y(&terrain->grid, j), NULL) -
                terrain->datum;
     const long p = (j - tile->ty * DP_TILE) * DP_TILE + (i - tile->tx * DP_TILE);
     return (double)(tile->base_height[p] - tile->compression[p] + tile->heap[p]);
@@ -199,16 +200,16 @@ static double surface_of(const DpTerrain* terrain, const Tile* tile, long i, lon
 
 double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y)
 {
-    const double u = (x - terrain->origin_x) / terrain->cell - 0.5;
-    const double v = (y - terrain->origin_y) / terrain->cell - 0.5;
+    const double u = (x - terrain->grid.x0) / terrain->grid.cell - 0.5;
+    const double v = (y - terrain->grid.y0) / terrain->grid.cell - 0.5;
     if (!(fabs(u) < (double)MAX_CELL_INDEX && fabs(v) < (double)MAX_CELL_INDEX)) return NAN;
     const long   i = (long)floor(u), j = (long)floor(v);
     const double a = u - (double)i, b = v - (double)j;
     double       h[4];
-    Tile*        tile = dp_tile_find(terrain, tile_of(i), tile_of(j));
+    Tile*        tile = dp_tile_find(terrain, dp_tile_of(i), dp_tile_of(j));
     for (int n = 0; n < 4; ++n) {
-        const long ci = i + n % 2, cj = j + n / 2, tx = tile_of(ci), ty = tile_of(cj);
-        if (tx != tile_of(i) || ty != tile_of(j))
+        const long ci = i + n % 2, cj = j + n / 2, tx = dp_tile_of(ci), ty = dp_tile_of(cj);
+        if (tx != dp_tile_of(i) || ty != dp_tile_of(j))
             h[n] = surface_of(terrain, dp_tile_find(terrain, tx, ty), ci, cj);
         else
             h[n] = surface_of(terrain, tile, ci, cj);

@@ -149,9 +149,9 @@ void dp_source_tile(const Source* source, const TileGrid* grid, float* height, u
         return;
     }
     for (int j = 0; j < DP_TILE; ++j) {
-        const double y = cell_at(grid->origin_y, grid->cell, grid->j0 + j);
+        const double y = dp_grid_y(&grid->world, grid->j0 + j);
         for (int i = 0; i < DP_TILE; ++i) {
-            const double x = cell_at(grid->origin_x, grid->cell, grid->i0 + i);
+            const double x = dp_grid_x(&grid->world, grid->i0 + i);
             height[j * DP_TILE + i] =
                 (float)(dp_source_at(source, x, y, &kind[j * DP_TILE + i]) - grid->datum);
         }

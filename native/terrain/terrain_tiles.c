@@ -31,32 +31,21 @@ Tile* dp_tile_find(const DpTerrain* terrain, long tx, long ty)
 
 TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty)
 {
-    const TileGrid grid = {terrain->origin_x, terrain->origin_y, terrain->cell,
-                           terrain->datum,    tx * DP_TILE,      ty * DP_TILE};
+    const TileGrid grid = {terrain->grid, terrain->datum, tx * DP_TILE, ty * DP_TILE};
     return grid;
 }
 
-static long later(long a, long b)
+TilePart dp_tile_part(long tx, long ty, DpCellRect cells)
 {
-    return a > b ? a : b;
-}
-
-static long earlier(long a, long b)
-{
-    return a < b ? a : b;
-}
-
-TilePart dp_tile_part(long tx, long ty, long i0, long i1, long j0, long j1)
-{
-    const long from_i = later(i0, tx * DP_TILE), to_i = earlier(i1, (tx + 1) * DP_TILE);
-    const long from_j = later(j0, ty * DP_TILE), to_j = earlier(j1, (ty + 1) * DP_TILE);
+    const DpCellRect here = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
+    const DpCellRect part = dp_cells_common(cells, here);
     return (TilePart){tx,
                       ty,
-                      (int)(from_i - i0),
-                      (int)(from_j - j0),
-                      (int)(to_i - from_i),
-                      (int)(to_j - from_j),
-                      (size_t)(from_j - ty * DP_TILE) * DP_TILE + (size_t)(from_i - tx * DP_TILE)};
+                      (int)(part.i0 - cells.i0),
+                      (int)(part.j0 - cells.j0),
+                      (int)(part.i1 - part.i0),
+                      (int)(part.j1 - part.j0),
+                      (size_t)(part.j0 - here.j0) * DP_TILE + (size_t)(part.i0 - here.i0)};
 }
 
 // ---- creating them -----------------------------------------------------------------------------
@@ -108,9 +97,9 @@ static void merge(Tile** sorted, size_t count, Tile* const* fresh, size_t more)
 
 void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant)
 {
-    const double x0 = cell_at(terrain->origin_x, terrain->cell, tx * DP_TILE);
-    const double y0 = cell_at(terrain->origin_y, terrain->cell, ty * DP_TILE);
-    terrain->cover(terrain->cover_context, x0, y0, terrain->cell, DP_TILE, DP_TILE, plant,
+    const double x0 = dp_grid_x(&terrain->grid, tx * DP_TILE);
+    const double y0 = dp_grid_y(&terrain->grid, ty * DP_TILE);
+    terrain->cover(terrain->cover_context, x0, y0, terrain->grid.cell, DP_TILE, DP_TILE, plant,
                    plant + TILE_CELLS);
 }
 
@@ -131,10 +120,11 @@ static void fill_tile(void* context, int index, int worker)
     if (terrain->cover) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
 }
 
-DpStatus dp_terrain_touch(DpTerrain* terrain, long i0, long i1, long j0, long j1)
+DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells)
 {
-    if (!is_rectangle(i0, i1, j0, j1)) return DP_BAD_ARGUMENT;
-    const long tx0 = tile_of(i0), tx1 = tile_of(i1 - 1), ty0 = tile_of(j0), ty1 = tile_of(j1 - 1);
+    if (!are_cells(cells)) return DP_BAD_ARGUMENT;
+    const long tx0 = dp_tile_of(cells.i0), tx1 = dp_tile_of(cells.i1 - 1);
+    const long ty0 = dp_tile_of(cells.j0), ty1 = dp_tile_of(cells.j1 - 1);
     if (tx1 - tx0 >= MAX_TILES_AT_ONCE || ty1 - ty0 >= MAX_TILES_AT_ONCE ||
         (tx1 - tx0 + 1) * (ty1 - ty0 + 1) > MAX_TILES_AT_ONCE)
         return DP_NO_MEMORY;

@@ -12,7 +12,6 @@
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define PI 3.14159265358979323846
 #define FREE 0.3  // slower than this a flight may stray from the parabola [Hz]
 #define BAND 4    // the matrix's diagonal and the three beside it
 
@@ -52,8 +51,8 @@ void dp_walker_fly(double* value, const uint8_t* air, int count, double rate, do
 {
     static const double third[4] = {-1.0, 3.0, -3.0, 1.0}, second[3] = {1.0, -2.0, 1.0};
     if (count < 4 || !(cutoff < 0.45 * rate)) return;
-    const double carried = pow(rate / (2.0 * PI * cutoff), 6.0);
-    const double free = pow(rate / (2.0 * PI * FREE), 4.0);
+    const double carried = pow(rate / (2.0 * DP_PI * cutoff), 6.0);
+    const double free = pow(rate / (2.0 * DP_PI * FREE), 4.0);
     const double start = value[0], slope = (value[count - 1] - start) / (double)(count - 1);
     // about the line between the ends, so that nothing is lost to rounding far from the origin
     for (int k = 0; k < count; ++k) value[k] -= start + slope * (double)k;

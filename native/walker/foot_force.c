@@ -16,7 +16,6 @@
 #include "base/vec.h"
 #include "walker/foot_load.h"
 
-#define PI 3.14159265358979323846
 #define MIN_PULL 0.2  // a_z + g counts as no less than this share of g   [-]
 #define STILL 0.1     // accelerations below this share of g are near rest [-]
 #define THROWN 2.0    // accelerations upward of so many g turn the body too   [-]
@@ -87,7 +86,7 @@ static DpVec3 landing_push(const DpLoad* l, int limb, int t)
     const double since = (double)(t - l->landed[limb]) / l->rate;
     if (l->landed[limb] < 0 || since > tau - 0.5 / l->rate) return dp_vec3(0.0, 0.0, 0.0);
     const double now = dp_clamp((since + 0.5 / l->rate) / tau, 0.0, 1.0);
-    const double shape = l->options->half_sine ? PI / 2.0 * sin(PI * now) : 1.0;
+    const double shape = l->options->half_sine ? DP_PI / 2.0 * sin(DP_PI * now) : 1.0;
     return dp_scale(l->landing[limb], shape / tau);
 }
 

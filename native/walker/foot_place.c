@@ -23,7 +23,7 @@
 DpPlaceOptions dp_place_options_default(void)
 {
     const DpPlaceOptions options = {.max_clearance = 0.20,
-                                    .toe_slope = 15.0 * 3.14159265358979323846 / 180.0,
+                                    .toe_slope = 15.0 * DP_PI / 180.0,
                                     .foot_radius = 0.25,
                                     .body_radius = 0.5};
     return options;

@@ -7,8 +7,6 @@
 #include "base/vec.h"
 #include "walker/walker_inside.h"
 
-#define PI 3.14159265358979323846
-
 typedef struct Section
 {
     double b0, b1, b2, a1, a2;
@@ -17,7 +15,7 @@ typedef struct Section
 // a 2nd-order Butterworth by the bilinear transform, its cut-off kept in place
 static Section butterworth(double rate, double cutoff)
 {
-    const double  k = tan(PI * cutoff / rate);
+    const double  k = tan(DP_PI * cutoff / rate);
     const double  norm = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
     const Section s = {k * k * norm, 2.0 * k * k * norm, k * k * norm, 2.0 * (k * k - 1.0) * norm,
                        (1.0 - sqrt(2.0) * k + k * k) * norm};

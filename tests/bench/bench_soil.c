@@ -23,8 +23,7 @@
 
 #define FRAMES 36
 #define STANDING 16  // sweeps of a frame while the foot stands, as sim/sim_press.c; then to rest
-#define PI 3.14159265358979323846
-#define TENTH (0.1 * PI / 180.0)
+#define TENTH (0.1 * DP_PI / 180.0)
 
 typedef struct World
 {
@@ -42,7 +41,7 @@ static World make(double cell, double degrees)
     const size_t n = (size_t)nx * (size_t)ny;
     w.soil = dp_soil_default();
     w.soil.young_modulus = 0.6e6f;
-    w.soil.rest_angle = (float)(degrees * PI / 180.0);
+    w.soil.rest_angle = (float)(degrees * DP_PI / 180.0);
     w.rest = dp_alloc(n, 4), w.compression = dp_alloc(n, 4), w.heap = dp_alloc(n, 4);
     w.pressure_time = dp_alloc(n, 4), w.modulus = dp_alloc(n, 4), w.rest_slope = dp_alloc(n, 4);
     w.kind = dp_alloc(n, 1);
@@ -117,11 +116,11 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     const int           rings = law == DP_HEAP_PAPER ? 2 + (int)(0.04 / cell) : 1;
     Cost                cost = {0};
     double              height = 0.0;
-    int                 reach[4] = {w.patch.nx, 0, w.patch.ny, 0};
+    DpCellRect          reach = {0};
     for (int f = 0; f < FRAMES; ++f) {
         const double u = (f + 0.5) / FRAMES;
         const DpPose pose = pose_at(u);
-        DpFootForce  foot = {{120.0 * sin(2 * PI * (u - 0.5)), 10.0,
+        DpFootForce  foot = {{120.0 * sin(2 * DP_PI * (u - 0.5)), 10.0,
                               -75.0 * DP_GRAVITY * fmin(1.1, 7.0 * fmin(u, 1.0 - u))},
                              {0.2 * (u - 0.4), 0.0, 0.0},
                              {0.0, 0.0, 1.0}};
@@ -142,26 +141,19 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         cost.accumulate += t0 - t1;
         // where soil lies: the sole and what a heap of height T reaches
         const int wide =
-            2 + (int)((law == DP_HEAP_PAPER ? 0.05 : height / tan(degrees * PI / 180.0)) / cell);
-        if (w.imprint.i0 - wide < reach[0]) reach[0] = w.imprint.i0 - wide;
-        if (w.imprint.i1 + wide > reach[1]) reach[1] = w.imprint.i1 + wide;
-        if (w.imprint.j0 - wide < reach[2]) reach[2] = w.imprint.j0 - wide;
-        if (w.imprint.j1 + wide > reach[3]) reach[3] = w.imprint.j1 + wide;
+            2 + (int)((law == DP_HEAP_PAPER ? 0.05 : height / tan(degrees * DP_PI / 180.0)) / cell);
+        const DpCellRect under = {w.imprint.i0, w.imprint.i1, w.imprint.j0, w.imprint.j1};
+        reach = dp_cells_join(reach, dp_cells_grown(under, wide));
         t0 = bench_now();
         DpSettled settled;
-        dp_soil_stabilize(&w.patch, &w.imprint, reach, TENTH, STANDING, scratch, &settled);
+        dp_soil_stabilize(&w.patch, &w.imprint, &reach, TENTH, STANDING, scratch, &settled);
         cost.stabilize += bench_now() - t0;
         cost.sweeps += settled.sweeps;
-        if (settled.i0 < settled.i1) {
-            if (settled.i0 < reach[0]) reach[0] = settled.i0;
-            if (settled.i1 > reach[1]) reach[1] = settled.i1;
-            if (settled.j0 < reach[2]) reach[2] = settled.j0;
-            if (settled.j1 > reach[3]) reach[3] = settled.j1;
-        }
+        reach = dp_cells_join(reach, settled.changed);
     }
     DpSettled    settled;
     const double t0 = bench_now();
-    dp_soil_stabilize(&w.patch, NULL, reach, TENTH, 100000, scratch, &settled);
+    dp_soil_stabilize(&w.patch, NULL, &reach, TENTH, 100000, scratch, &settled);
     cost.liftoff = bench_now() - t0;
     cost.lift_sweeps = settled.sweeps;
     for (int k = 0; k < w.patch.nx * w.patch.ny; ++k) {

@@ -88,7 +88,7 @@ static void bench_imprint(void)
 static DpTerrain* terrain_on(const DpGround* ground, double* seconds)
 {
     const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f, 0.0f};
-    const DpTerrainOptions options = {0.01, 0.0, 0.0, &soil, 1, 1};
+    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1};
     DpTerrain*             terrain = NULL;
     const double           from = bench_now();
     if (dp_terrain_create(&terrain, &options, ground) != DP_OK) printf("no terrain\n");
@@ -101,15 +101,16 @@ static void bench_windows(void)
     const DpGround ground = {.kind = DP_GROUND_FLAT};
     double         seconds, best;
     DpTerrain*     terrain = terrain_on(&ground, &seconds);
-    DpLease*       loan = dp_lease_create();
+    DpLease*       lease = dp_lease_create();
     DpSoilPatch*   patch;
-    BEST_OF(best, 30, 200, dp_terrain_acquire(terrain, loan, 40, 104, 30, 78, &patch));
+    BEST_OF(best, 30, 200,
+            dp_terrain_acquire(terrain, lease, (DpCellRect){40, 104, 30, 78}, &patch));
     printf("lend     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
     bench_keep("terrain", "lend", best);
-    BEST_OF(best, 30, 200, dp_terrain_commit(terrain, loan, 0, 64, 0, 48));
+    BEST_OF(best, 30, 200, dp_terrain_commit(terrain, lease, (DpCellRect){0, 64, 0, 48}));
     printf("give     64 x 48 cells over 4 tiles               %8.2f us\n", 1e6 * best);
     bench_keep("terrain", "give back", best);
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 

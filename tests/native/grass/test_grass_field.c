@@ -49,7 +49,7 @@ TEST(untouched_grass_takes_no_memory)
     const DpPlantGround ground = {.cell = CELL, .at = level, .context = &zero};
     DpPlants*           plants = meadow(&kind);
     DpGrass*            grass;
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     const size_t before = dp_bytes_live();
     for (int k = 0; k < 10; ++k) CHECK(dp_grass_step(grass, &ground, NULL, 0, 0.1) == DP_OK);
     CHECK(dp_bytes_live() == before);
@@ -78,7 +78,7 @@ TEST(it_rises_by_its_rate_and_then_costs_nothing)
     DpPlants*             plants = meadow(&kind);
     DpGrass*              grass;
     int                   changed = 0;
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_grass_step(grass, &ground, &foot, 1, dt) == DP_OK);
     CHECK_NEAR(crushed_at(grass, 0.305, 0.305), 1.0, 1e-6);
     dp_grass_changed(grass, count_tile, &changed);
@@ -114,7 +114,7 @@ TEST(broken_grass_stays_down)
     DpPlants*             plants = meadow(&kind);
     DpGrass*              grass;
     double*               strength = dp_alloc((size_t)shape.bends, sizeof(double));
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_grass_step(grass, &ground, &foot, 1, 0.01) == DP_OK);
     for (int b = 0; b < shape.bends; ++b)  // half of the stems, at their feet
         strength[b] = b / (shape.rows - 2) % 2 ? (double)kind.strength : 0.0;
@@ -145,7 +145,7 @@ TEST(windows_read_alike)
     DpPlants*             plants = meadow(&kind);
     DpGrass*              grass;
     float                 all[SIDE * SIDE], part[23 * 17];
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_grass_step(grass, &ground, &foot, 1, 0.01) == DP_OK);
     dp_grass_read(grass, -64, -64, SIDE, SIDE, NULL, NULL, all);
     int bad = 0;
@@ -167,10 +167,10 @@ TEST(bad_steps_are_refused_and_memory_may_end)
     const DpPlantCollider foot = sole(bottom, CELL, 0.0, 0.0, 0.0, 0.28, 0.1, 0.0);
     DpPlants*             plants = meadow(&kind);
     DpGrass*              grass = NULL;
-    CHECK(dp_grass_create(&grass, NULL, CELL, 0.0, 0.0) == DP_BAD_ARGUMENT);
-    CHECK(dp_grass_create(&grass, plants, 0.0, 0.0, 0.0) == DP_BAD_ARGUMENT);
-    CHECK(dp_grass_create(&grass, plants, CELL, NAN, 0.0) == DP_BAD_ARGUMENT);
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, NULL, (DpGrid){CELL, 0.0, 0.0}) == DP_BAD_ARGUMENT);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){0.0, 0.0, 0.0}) == DP_BAD_ARGUMENT);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, NAN, 0.0}) == DP_BAD_ARGUMENT);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_grass_step(grass, &ground, &foot, 1, 0.0) == DP_BAD_ARGUMENT);
     CHECK(dp_grass_step(grass, &ground, NULL, 1, 0.1) == DP_BAD_ARGUMENT);
     CHECK(dp_grass_worn(grass, 1.0, 0.0, 0.0, 0.0) == DP_BAD_ARGUMENT);

@@ -31,7 +31,7 @@ static void print_of(const DpPlantCollider* foot, double height, Field* field)
     DpPlants*   plants = dp_plants_create(1);
     kind.height = (float)height, kind.root_radius = 2.0f;  // one plant grows on all cells
     CHECK(dp_plants_add(plants, &kind, root, NULL, 1, &stand) == DP_OK);
-    CHECK(dp_grass_create(&grass, plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&grass, plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_grass_step(grass, &ground, foot, 1, 0.01) == DP_OK);
     dp_grass_read(grass, -N / 2, -N / 2, N, N, field->x, field->y, field->crushed);
     dp_grass_destroy(grass);

@@ -43,7 +43,7 @@ static void make(Bed* bed, const DpPlantKind* kind, double rise)
     bed->plants = dp_plants_create(3);
     CHECK(dp_plants_add(bed->plants, kind, root, NULL, SIDE * SIDE, &stand) == DP_OK);
     CHECK(dp_plants_slope(bed->plants, stand, slope) == DP_OK);
-    CHECK(dp_grass_create(&bed->grass, bed->plants, CELL, 0.0, 0.0) == DP_OK);
+    CHECK(dp_grass_create(&bed->grass, bed->plants, (DpGrid){CELL, 0.0, 0.0}) == DP_OK);
     CHECK(dp_plant_display_create(&bed->display, bed->plants, lean_at, bed->grass) == DP_OK);
 }
 

@@ -4,7 +4,6 @@
 #include "check.h"
 #include "plants/plants.h"
 
-#define PI 3.14159265358979323846
 #define SOLE_SIDE 41
 
 static inline DpPlants* lawn(const DpPlantKind* kind, int nx, int ny, double apart, uint64_t seed)

@@ -29,7 +29,7 @@ TEST(comes_back_to_its_rest_shape)
             kind.form = form;
             kind.sheets = 2 + form;
             DpPlants* plants = lawn(&kind, 3, 1, 0.5, 4);
-            for (int k = 0; k < 3; ++k) bend(plants, &kind, k, (3.0 + 3.0 * k) * PI / 180);
+            for (int k = 0; k < 3; ++k) bend(plants, &kind, k, (3.0 + 3.0 * k) * DP_PI / 180);
             CHECK(strain_of(plants, &kind, 3).away > 0.01);
             for (double t = 0.0; t < 4.0; t += dts[d]) step(plants, NULL, 0, dts[d]);
             const Strain s = strain_of(plants, &kind, 3);
@@ -77,7 +77,7 @@ TEST(sways_at_its_frequency)
         DpPlantKind kind = dp_plant_kind_default();
         kind.damping = 0.0f, kind.width = 0.0f;  // a single stem
         DpPlants* plants = lawn(&kind, 1, 1, 1.0, 2);
-        bend(plants, &kind, 0, 2.0 * PI / 180);
+        bend(plants, &kind, 0, 2.0 * DP_PI / 180);
         double was = 1.0, first = -1.0, last = -1.0;
         int    passages = 0;
         for (double t = 0.0; t < 1.5; t += dts[d]) {

@@ -1,7 +1,7 @@
 // what bending costs. TRAIL (6), MODEL 11.8
 #include "lawn.h"
 
-#define DEG (PI / 180.0)
+#define DEG (DP_PI / 180.0)
 
 TEST(a_stem_held_at_30_degrees_loses_mu_t_and_breaks_at_nothing)
 {

@@ -8,7 +8,6 @@
 #include "sim/sim.h"
 
 #define STRIDE_RATE 120.0
-#define STRIDE_PI 3.14159265358979323846
 
 typedef struct Stride
 {
@@ -61,7 +60,7 @@ static inline Stride stride_make(int walkers, int steps, double mass, double rat
             // lands 15 deg toes up, is flat from 0.2 to 0.6, then the heel lifts to 40 deg
             const double up = phase < 0.2 ? 15.0 * (1.0 - phase / 0.2) : 0.0;
             const double lift = phase > 0.6 ? 40.0 * fmin(1.0, (phase - 0.6) / 0.4) : 0.0;
-            const double pitch = (toe && lift > 0.0 ? 0.0 : lift - up) * STRIDE_PI / 180.0;
+            const double pitch = (toe && lift > 0.0 ? 0.0 : lift - up) * DP_PI / 180.0;
             const double x = 0.7 * (step < 0 ? side - 1 : step) + 0.17;
             const double ball[3] = {x, 1.0 * (limb / 2) + (side ? -0.1 : 0.1), 0.0};
             double*      pose = s.pose + 7 * ((size_t)p * T + (size_t)t);
@@ -73,12 +72,12 @@ static inline Stride stride_make(int walkers, int steps, double mass, double rat
             if (!down) pose[2] += 0.2;
             s.touching[(size_t)p * T + (size_t)t] = (uint8_t)down;
             const double toe_share = stride_share(phase);
-            const double load = down ? mass * DP_GRAVITY * sin(STRIDE_PI * phase) * 1.15 : 0.0;
+            const double load = down ? mass * DP_GRAVITY * sin(DP_PI * phase) * 1.15 : 0.0;
             double*      force = s.force + 3 * ((size_t)p * T + (size_t)t);
             double*      point = s.point + 3 * ((size_t)p * T + (size_t)t);
             const double share = toe ? toe_share : 1.0 - toe_share;
             force[2] = -load * share;
-            force[0] = load * share * 0.15 * -cos(STRIDE_PI * phase);
+            force[0] = load * share * 0.15 * -cos(DP_PI * phase);
             point[0] = ball[0] + (toe ? 0.04 : -0.1), point[1] = ball[1];
         }
     }

@@ -37,7 +37,7 @@ static Limb* load(Scene* s, int parts, const DpMesh* sole)
     static const uint8_t   touching[6] = {1, 1, 1, 1, 1, 1};
     const DpMesh           soles[] = {*sole, *sole};
     const DpSoil           soil = dp_soil_default();
-    const DpTerrainOptions options = {CELL, 0.0, 0.0, &soil, 1, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, &soil, 1, 1};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     const DpSimOptions     chosen = dp_sim_options_default();
     const DpGait           gait = {.times = 3,
@@ -109,8 +109,8 @@ TEST(cells_hold_both_ends_and_a_margin)
     Scene s = scene_make();
     pose_of(&s, 0, 1)[0] = 0.5;
     pose_of(&s, 0, 2)[0] = 9.0;
-    const Limb* limb = load(&s, 1, &box);
-    const Cells at = dp_limb_cells(s.sim, limb, 0, 0.0301);
+    const Limb*      limb = load(&s, 1, &box);
+    const DpCellRect at = dp_limb_cells(s.sim, limb, 0, 0.0301);
     CHECK(at.i0 == -14 && at.i1 == 64);
     CHECK(at.j0 == -9 && at.j1 == 9);
     scene_drop(&s);
@@ -135,7 +135,7 @@ TEST(what_rolls_does_so_by_half_cells)
     static int32_t face[3 * (ROUND - 2)];
     const double   radius = 0.5, turn = 0.1;  // by which it rolls in a step [rad]
     for (int k = 0; k < ROUND; ++k) {
-        const double a = 2.0 * 3.14159265358979323846 * k / ROUND;
+        const double a = 2.0 * DP_PI * k / ROUND;
         vertex[3 * k] = (float)(radius * sin(a)), vertex[3 * k + 2] = (float)(-radius * cos(a));
     }
     for (int k = 0; k < ROUND - 2; ++k)

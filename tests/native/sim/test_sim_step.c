@@ -10,7 +10,7 @@ static DpSoil mud(void)
     soil.young_modulus = 0.6e6f;
     soil.poisson_ratio = 0.35f;
     soil.settle_time = 0.15f;
-    soil.rest_angle = (float)(15.0 * STRIDE_PI / 180.0);
+    soil.rest_angle = (float)(15.0 * DP_PI / 180.0);
     return soil;
 }
 
@@ -22,7 +22,7 @@ typedef struct World
 
 static DpStatus world_make(World* world, const DpSoil* soil, double cell, int workers)
 {
-    const DpTerrainOptions options = {cell, 0.0, 0.0, soil, 1, workers};
+    const DpTerrainOptions options = {{cell, 0.0, 0.0}, soil, 1, workers};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     DpSimOptions           sim = dp_sim_options_default();
     sim.workers = workers;
@@ -106,8 +106,8 @@ TEST(everything_rests)
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_HEAP, -100, -60, nx, ny, heap) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_COMPRESSION, -100, -60, nx, ny, pressed) ==
           DP_OK);
-    const double steepest = tan((15.0 + 0.1) * STRIDE_PI / 180.0);
-    const double film = 0.1 * tan(0.1 * STRIDE_PI / 180.0) * 0.01;  // counts as at rest anywhere
+    const double steepest = tan((15.0 + 0.1) * DP_PI / 180.0);
+    const double film = 0.1 * tan(0.1 * DP_PI / 180.0) * 0.01;  // counts as at rest anywhere
     double       worst = 0.0;
     for (int j = 1; j < ny - 1; ++j)
         for (int i = 1; i < nx - 1; ++i)
@@ -134,7 +134,7 @@ TEST(rolling_leaves_no_ridges)
     sand.young_modulus = 1.0e6f;
     sand.poisson_ratio = 0.5f;
     sand.settle_time = 0.05f;
-    sand.rest_angle = (float)(32.0 * STRIDE_PI / 180.0);
+    sand.rest_angle = (float)(32.0 * DP_PI / 180.0);
     World  world;
     Stride s = stride_make(1, 1, 80.0, STRIDE_RATE);
     CHECK(world_make(&world, &sand, 0.005, 1) == DP_OK);

@@ -9,7 +9,7 @@ static const DpHeapOptions paper = {DP_HEAP_PAPER, 0.04, 367.0};
 static DpSoil sand(double degrees)
 {
     DpSoil soil = dp_soil_default();
-    soil.rest_angle = (float)(degrees * 3.14159265358979 / 180.0);
+    soil.rest_angle = (float)(degrees * DP_PI / 180.0);
     return soil;
 }
 
@@ -89,13 +89,13 @@ TEST(rest_is_a_triangle)
         Ground        ground = ground_make(160, 120, 0.005, sand(degrees[d]));
         const BoxSole wall = {.length = 2.0, .width = 0.02};
         touch(&ground, wall, 1);
-        const double area = 4e-4, slope = tan(degrees[d] * 3.14159265358979 / 180.0);
+        const double area = 4e-4, slope = tan(degrees[d] * DP_PI / 180.0);
         double       height = 0.0;
         CHECK(lay(&ground, ground_load(1.0), 2.0 * area * 160 * 0.005, &rest, &height) == DP_OK);
         const double top = sqrt(2.0 * area * slope);
         CHECK_NEAR(ground_most(&ground, ground.heap), top, 0.6 * slope * 0.005 + 0.002 * top);
         CHECK_CLOSE(height, ground_most(&ground, ground.heap), 0.01);
-        CHECK(steepest(&ground) < 0.1 * 3.14159265358979 / 180.0);
+        CHECK(steepest(&ground) < 0.1 * DP_PI / 180.0);
         ground_free(&ground);
     }
 }
@@ -116,7 +116,7 @@ TEST(rest_stays_at_rest)
         CHECK(lay(&ground, foot, 4e-5, &rest, &height) == DP_OK);
     }
     CHECK_CLOSE(ground_sum(&ground, ground.heap), 24 * 4e-5, 1e-6);
-    CHECK(steepest(&ground) < 0.3 * 3.14159265358979 / 180.0);
+    CHECK(steepest(&ground) < 0.3 * DP_PI / 180.0);
     ground_free(&ground);
 }
 

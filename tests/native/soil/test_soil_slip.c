@@ -8,7 +8,7 @@
 static DpSoil sand(float shear_modulus)
 {
     DpSoil soil = dp_soil_default();
-    soil.rest_angle = (float)(32.0 * 3.14159265358979323846 / 180.0);
+    soil.rest_angle = (float)(32.0 * DP_PI / 180.0);
     soil.shear_modulus = shear_modulus;
     return soil;
 }
@@ -33,8 +33,7 @@ TEST(it_carries_what_it_can_once_it_has_slipped_so_far)
     const DpSoil soil = sand(0.02f);
     for (double push = 20.0; push < 340.0; push += 20.0) {
         const double j = dp_soil_slip(&soil, push, 600.0);
-        const double carried =
-            600.0 * tan(32.0 * 3.14159265358979323846 / 180.0) * (1.0 - exp(-j / 0.02));
+        const double carried = 600.0 * tan(32.0 * DP_PI / 180.0) * (1.0 - exp(-j / 0.02));
         CHECK_NEAR(carried, push, 0.01);
     }
     CHECK_NEAR(dp_soil_slip(&soil, 1e6, 600.0), DP_MAX_SLIP, 1e-9);  // beyond: no farther

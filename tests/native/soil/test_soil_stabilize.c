@@ -2,7 +2,7 @@
 #include "check.h"
 #include "ground.h"
 
-#define DEGREE (3.14159265358979 / 180.0)
+#define DEGREE (DP_PI / 180.0)
 #define TENTH (0.1 * DEGREE)
 
 static DpSoil sand(double degrees)
@@ -13,7 +13,8 @@ static DpSoil sand(double degrees)
     return soil;
 }
 
-static DpSettled settle(Ground* ground, const DpImprint* imprint, const int within[4], int most)
+static DpSettled settle(Ground* ground, const DpImprint* imprint, const DpCellRect* within,
+                        int most)
 {
     DpSoilScratch* scratch = dp_soil_scratch_create();
     DpSettled      settled;
@@ -92,18 +93,18 @@ TEST(comes_to_rest)
         ground.patch.soils = ground.soil;
         for (int j = 57; j < 63; ++j)
             for (int i = 57; i < 63; ++i) ground.heap[j * 120 + i] = 0.15f;
-        const double    before = ground_sum(&ground, ground.heap);
-        const int       within[4] = {57, 63, 57, 63};
-        const DpSettled settled = settle(&ground, NULL, within, 100000);
+        const double     before = ground_sum(&ground, ground.heap);
+        const DpCellRect within = {57, 63, 57, 63};
+        const DpSettled  settled = settle(&ground, NULL, &within, 100000);
         CHECK(settled.at_rest && !settled.at_edge && settled.sweeps > 3);
         CHECK(steepest(&ground) < TENTH);
         CHECK(steepest(&ground) > -0.5 * DEGREE);  // and it did not flow further than it had to
         CHECK_CLOSE(ground_sum(&ground, ground.heap), before, 1e-6);
-        CHECK(settled.i0 < 57 && settled.i1 > 63 && settled.i0 > 0);
+        CHECK(settled.changed.i0 < 57 && settled.changed.i1 > 63 && settled.changed.i0 > 0);
         for (int k = 0; k < 120 * 120; ++k) {
             const int  i = k % 120, j = k / 120;
-            const bool inside =
-                i >= settled.i0 && i < settled.i1 && j >= settled.j0 && j < settled.j1;
+            const bool inside = i >= settled.changed.i0 && i < settled.changed.i1 &&
+                                j >= settled.changed.j0 && j < settled.changed.j1;
             CHECK(ground.heap[k] >= 0.0f && (inside || ground.heap[k] == 0.0f));
         }
         CHECK(settle(&ground, NULL, NULL, 100).sweeps == 0);
@@ -162,7 +163,7 @@ TEST(tells_of_the_edge)
     ground.patch.soils = ground.soil;
     ground.heap[20 * 40 + 5] = 0.3f;
     const DpSettled settled = settle(&ground, NULL, NULL, 100000);
-    CHECK(settled.at_rest && settled.at_edge && settled.i0 == 0);
+    CHECK(settled.at_rest && settled.at_edge && settled.changed.i0 == 0);
     ground_free(&ground);
 }
 
@@ -175,8 +176,8 @@ TEST(windows_do_not_matter)
         g[m].patch.soils = g[m].soil;
         for (int j = 40; j < 44; ++j)
             for (int i = 70; i < 75; ++i) g[m].heap[j * 150 + i] = 0.2f;
-        const int within[4] = {70, 75, 40, 44};
-        (void)settle(&g[m], NULL, m ? within : NULL, 100000);
+        const DpCellRect within = {70, 75, 40, 44};
+        (void)settle(&g[m], NULL, m ? &within : NULL, 100000);
     }
     CHECK(memcmp(g[0].heap, g[1].heap, 150 * 90 * sizeof(float)) == 0);
     for (int m = 0; m < 2; ++m) ground_free(&g[m]);
@@ -323,8 +324,8 @@ TEST(bad_arguments)
     CHECK(dp_soil_stabilize(&ground.patch, NULL, NULL, TENTH, 9, scratch, &settled) ==
           DP_NO_MEMORY);
     dp_alloc_fail_after(-1);
-    const int none[4] = {5, 5, 0, 8};
-    CHECK(dp_soil_stabilize(&ground.patch, NULL, none, TENTH, 9, scratch, &settled) == DP_OK &&
+    const DpCellRect none = {5, 5, 0, 8};
+    CHECK(dp_soil_stabilize(&ground.patch, NULL, &none, TENTH, 9, scratch, &settled) == DP_OK &&
           settled.at_rest);
     dp_soil_scratch_destroy(scratch);
     dp_soil_scratch_destroy(NULL);

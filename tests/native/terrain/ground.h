@@ -9,7 +9,7 @@ static const DpSoil ground_soils[3] = {{0.3f, 2e6f, 0.05f, 0.2f, 0.5585f, 0.0f, 
 
 static inline DpTerrainOptions ground_options(double cell, double origin_x, double origin_y)
 {
-    const DpTerrainOptions options = {cell, origin_x, origin_y, ground_soils, 3, 2};
+    const DpTerrainOptions options = {{cell, origin_x, origin_y}, ground_soils, 3, 2};
     return options;
 }
 

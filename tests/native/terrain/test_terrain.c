@@ -22,9 +22,9 @@ static void visit(void* context, long tx, long ty)
 static DpStatus write_cells(DpTerrain* terrain, long i0, long i1, long j0, long j1,
                             float compression, float heap, float pressure_time)
 {
-    DpLease*     loan = dp_lease_create();
+    DpLease*     lease = dp_lease_create();
     DpSoilPatch* patch = NULL;
-    DpStatus     status = dp_terrain_acquire(terrain, loan, i0, i1, j0, j1, &patch);
+    DpStatus     status = dp_terrain_acquire(terrain, lease, (DpCellRect){i0, i1, j0, j1}, &patch);
     if (status == DP_OK) {
         for (int j = 0; j < patch->ny; ++j)
             for (int i = 0; i < patch->nx; ++i) {
@@ -33,9 +33,9 @@ static DpStatus write_cells(DpTerrain* terrain, long i0, long i1, long j0, long 
                 patch->heap[at] = heap;
                 patch->pressure_time[at] = pressure_time;
             }
-        dp_terrain_commit(terrain, loan, 0, patch->nx, 0, patch->ny);
+        dp_terrain_commit(terrain, lease, (DpCellRect){0, patch->nx, 0, patch->ny});
     }
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     return status;
 }
 
@@ -87,9 +87,9 @@ TEST(what_is_given_back_is_there)
 {
     const DpGround ground = ground_flat(2.0);
     DpTerrain*     terrain = ground_terrain(&ground, 0.25, 10.0, -20.0);
-    DpLease*       loan = dp_lease_create();
+    DpLease*       lease = dp_lease_create();
     DpSoilPatch*   patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, -70, 75, -3, 66, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-70, 75, -3, 66}, &patch) == DP_OK);
     CHECK(patch->nx == 145 && patch->ny == 69 && patch->row == 160);
     CHECK(patch->cell == 0.25);
     CHECK(patch->x0 == 10.0 + (-70 + 0.5) * 0.25 && patch->y0 == -20.0 + (-3 + 0.5) * 0.25);
@@ -107,13 +107,13 @@ TEST(what_is_given_back_is_there)
             patch->pressure_time[at] = (float)(i * j);
         }
     CHECK(((uintptr_t)patch->compression & 63) == 0 && ((uintptr_t)patch->heap & 63) == 0);
-    dp_terrain_commit(terrain, loan, 5, 140, 1, 68);
+    dp_terrain_commit(terrain, lease, (DpCellRect){5, 140, 1, 68});
 
     float field[3][145 * 69];
     CHECK(dp_terrain_read(terrain, DP_FIELD_COMPRESSION, -70, -3, 145, 69, field[0]) == DP_OK);
     CHECK(dp_terrain_read(terrain, DP_FIELD_HEAP, -70, -3, 145, 69, field[1]) == DP_OK);
     CHECK(dp_terrain_read(terrain, DP_FIELD_PRESSURE_TIME, -70, -3, 145, 69, field[2]) == DP_OK);
-    CHECK(dp_terrain_acquire(terrain, loan, -60, 75, -3, 66, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-60, 75, -3, 66}, &patch) == DP_OK);
     for (int j = 0; j < 69; ++j)
         for (int i = 0; i < 145; ++i) {
             const bool in = i >= 5 && i < 140 && j >= 1 && j < 68;
@@ -122,7 +122,7 @@ TEST(what_is_given_back_is_there)
             CHECK(field[2][j * 145 + i] == (in ? (float)(i * j) : 0.0f));
             if (i >= 10) CHECK(patch->heap[j * patch->row + i - 10] == field[1][j * 145 + i]);
         }
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 
@@ -131,7 +131,7 @@ TEST(changed_tiles_are_told_once_and_in_order)
     const DpGround ground = ground_flat(0.0);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
     Visits         visits = {0};
-    CHECK(dp_terrain_touch(terrain, -500, 500, -500, 500) == DP_OK);
+    CHECK(dp_terrain_touch(terrain, (DpCellRect){-500, 500, -500, 500}) == DP_OK);
     dp_terrain_changed(terrain, visit, &visits);
     CHECK(visits.count == 0);  // touched is not changed
     CHECK(write_cells(terrain, 60, 70, 130, 131, 1.0f, 0.0f, 0.0f) == DP_OK);
@@ -234,12 +234,12 @@ TEST(bad_arguments_are_refused)
         options = ground_options(0.01, 0.0, 0.0);                                 \
     } while (0)
     DpSoil soil = ground_soils[0];
-    REFUSED(options.cell = 0.0);
-    REFUSED(options.cell = -1.0);
-    REFUSED(options.cell = (double)NAN);
-    REFUSED(options.cell = (double)INFINITY);
-    REFUSED(options.origin_x = (double)NAN);
-    REFUSED(options.origin_y = (double)INFINITY);
+    REFUSED(options.grid.cell = 0.0);
+    REFUSED(options.grid.cell = -1.0);
+    REFUSED(options.grid.cell = (double)NAN);
+    REFUSED(options.grid.cell = (double)INFINITY);
+    REFUSED(options.grid.x0 = (double)NAN);
+    REFUSED(options.grid.y0 = (double)INFINITY);
     REFUSED(options.soil_count = 0);
     REFUSED(options.soil_count = 256);
     REFUSED(options.soils = NULL);
@@ -254,18 +254,19 @@ TEST(bad_arguments_are_refused)
     CHECK(dp_terrain_create(&terrain, NULL, &ground) == DP_BAD_ARGUMENT);
 
     CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_OK);
-    DpLease*     loan = dp_lease_create();
+    DpLease*     lease = dp_lease_create();
     DpSoilPatch* patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, 5, 5, 0, 1, &patch) == DP_BAD_ARGUMENT);
-    CHECK(dp_terrain_acquire(terrain, loan, 0, 1, 3, 2, &patch) == DP_BAD_ARGUMENT);
-    CHECK(dp_terrain_acquire(terrain, loan, 0, 1L << 60, 0, 1, &patch) == DP_BAD_ARGUMENT);
-    CHECK(dp_terrain_touch(terrain, 0, 1000000, 0, 1000000) == DP_NO_MEMORY);
-    CHECK(dp_terrain_touch(terrain, 0, 0, 0, 1) == DP_BAD_ARGUMENT);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){5, 5, 0, 1}, &patch) == DP_BAD_ARGUMENT);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){0, 1, 3, 2}, &patch) == DP_BAD_ARGUMENT);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){0, 1L << 60, 0, 1}, &patch) ==
+          DP_BAD_ARGUMENT);
+    CHECK(dp_terrain_touch(terrain, (DpCellRect){0, 1000000, 0, 1000000}) == DP_NO_MEMORY);
+    CHECK(dp_terrain_touch(terrain, (DpCellRect){0, 0, 0, 1}) == DP_BAD_ARGUMENT);
     float cell;
     CHECK(dp_terrain_read(terrain, DP_FIELD_HEAP, 0, 0, 0, 1, &cell) == DP_BAD_ARGUMENT);
     CHECK(dp_terrain_read(terrain, (DpField)8, 0, 0, 1, 1, &cell) == DP_BAD_ARGUMENT);
     CHECK(patch == NULL && dp_terrain_tile_count(terrain) == 0);
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
     dp_terrain_destroy(NULL);
     dp_lease_destroy(NULL);
@@ -284,12 +285,13 @@ TEST(without_memory_nothing_is_half_done)
     CHECK(terrain == NULL);
     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
     CHECK(write_cells(terrain, 0, 3, 0, 3, 1.0f, 0.0f, 0.0f) == DP_OK);
-    DpLease*     loan = dp_lease_create();
+    DpLease*     lease = dp_lease_create();
     DpSoilPatch* patch = NULL;
     long         left = 0;
     for (;; ++left) {  // until it passes
         dp_alloc_fail_after(left);
-        const DpStatus status = dp_terrain_acquire(terrain, loan, -600, 600, -600, 600, &patch);
+        const DpStatus status =
+            dp_terrain_acquire(terrain, lease, (DpCellRect){-600, 600, -600, 600}, &patch);
         dp_alloc_fail_after(-1);
         if (status == DP_OK) break;
         CHECK(status == DP_NO_MEMORY && patch == NULL);
@@ -297,7 +299,7 @@ TEST(without_memory_nothing_is_half_done)
     }
     CHECK(left > 400 && dp_terrain_tile_count(terrain) == 400);
     CHECK(patch->compression[600 * patch->row + 600] == 1.0f);
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 

@@ -35,7 +35,7 @@ static double strength_at(const Garden* garden, long i, long j)
 static DpTerrain* garden_terrain(Garden* garden)
 {
     const DpGround         flat = ground_flat(0.25);
-    const DpTerrainOptions options = {CELL, 0.0, 0.0, ground_soils, 3, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, ground_soils, 3, 1};
     DpTerrain*             terrain = NULL;
     CHECK(dp_terrain_create(&terrain, &options, &flat) == DP_OK);
     CHECK(dp_terrain_set_cover(terrain, grow, garden) == DP_OK);
@@ -65,9 +65,9 @@ TEST(roots_stiffen_what_is_lent)
 {
     Garden       garden = {0.8, 0};
     DpTerrain*   terrain = garden_terrain(&garden);
-    DpLease*     loan = dp_lease_create();
+    DpLease*     lease = dp_lease_create();
     DpSoilPatch* patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, -3, 70, -5, 9, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-3, 70, -5, 9}, &patch) == DP_OK);
     CHECK(garden.asked == 6);  // tiles
     for (int j = 0; j < patch->ny; ++j)
         for (int i = 0; i < patch->nx; ++i)
@@ -76,7 +76,7 @@ TEST(roots_stiffen_what_is_lent)
                 (double)ground_soils[0].young_modulus + 1e6 * strength_at(&garden, i - 3, j - 5),
                 1e-6);
     CHECK(dp_terrain_set_cover(terrain, grow, &garden) == DP_BAD_ARGUMENT);  // somebody was here
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 
@@ -93,9 +93,10 @@ TEST(cover_changes_where_it_is_told)
     DpTerrain* terrain = garden_terrain(&garden);
     long       list[3] = {0, 0, 0};
     float      strength[64 * 64];
-    CHECK(dp_terrain_touch(terrain, -10, 80, 0, 10) == DP_OK);
+    CHECK(dp_terrain_touch(terrain, (DpCellRect){-10, 80, 0, 10}) == DP_OK);
     garden.share = 0.4, garden.asked = 0;
-    dp_terrain_refresh_cover(terrain, 10, 20, 3, 500);  // one tile of those that are there
+    dp_terrain_refresh_cover(terrain,
+                             (DpCellRect){10, 20, 3, 500});  // one tile of those that are there
     CHECK(garden.asked == 1 && dp_terrain_tile_count(terrain) == 3);
     dp_terrain_changed(terrain, list_tile, list);
     CHECK(list[0] == 1 && list[1] == 0 && list[2] == 0);
@@ -105,7 +106,8 @@ TEST(cover_changes_where_it_is_told)
         const bool fresh = i >= 10 && i < 20 && j >= 3;
         CHECK_NEAR(strength[k], strength_at(&garden, i, j) * (fresh ? 1.0 : 2.0), 1e-6);
     }
-    dp_terrain_refresh_cover(terrain, 10, 20, 3, 500);  // the same again: nothing is new
+    dp_terrain_refresh_cover(terrain,
+                             (DpCellRect){10, 20, 3, 500});  // the same again: nothing is new
     list[0] = 0;
     dp_terrain_changed(terrain, list_tile, list);
     CHECK(list[0] == 0);
@@ -117,16 +119,16 @@ TEST(the_surface_is_what_prints_left)
     const float    heights[4] = {0.0f, 1.0f, 2.0f, 3.0f};  // x + 2 y
     const DpGround slope = ground_heights(2, 2, -1.0, -1.0, 2.0, heights);
     DpTerrain*     terrain = ground_terrain(&slope, CELL, 0.0, 0.0);
-    DpLease*       loan = dp_lease_create();
+    DpLease*       lease = dp_lease_create();
     DpSoilPatch*   patch = NULL;
     float          surface[20 * 20];
-    CHECK(dp_terrain_acquire(terrain, loan, -10, 10, -10, 10, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-10, 10, -10, 10}, &patch) == DP_OK);
     for (int j = 0; j < 20; ++j)
         for (int i = 0; i < 20; ++i) {
             patch->compression[j * patch->row + i] = i < 10 ? 0.02f : 0.0f;
             patch->heap[j * patch->row + i] = i < 10 ? 0.0f : 0.01f;
         }
-    dp_terrain_commit(terrain, loan, 0, 20, 0, 20);
+    dp_terrain_commit(terrain, lease, (DpCellRect){0, 20, 0, 20});
     dp_terrain_surface(terrain, -10, -10, 20, 20, surface);
     for (int k = 0; k < 400; ++k) {
         const double x = CELL * (k % 20 - 10 + 0.5), y = CELL * (k / 20 - 10 + 0.5);
@@ -138,7 +140,7 @@ TEST(the_surface_is_what_prints_left)
     CHECK_NEAR(dp_terrain_surface_at(terrain, 0.9, 0.9), 1.5 + 0.45 + 0.9, 1e-6);  // untouched
     CHECK(isnan(dp_terrain_surface_at(terrain, 5.0, 0.0)));
     CHECK(isnan(dp_terrain_surface_at(terrain, NAN, 0.0)));
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 

@@ -157,9 +157,9 @@ TEST(slopes_join_and_cells_agree)
     make_grid(vertex, triangle, 0.3, -0.2, 0.4);
     const DpGround ground = ground_mesh(GRID * GRID, vertex, 2 * (GRID - 1) * (GRID - 1), triangle);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
-    DpLease*       loan = dp_lease_create();
+    DpLease*       lease = dp_lease_create();
     DpSoilPatch*   patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, -80, 80, -40, 140, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-80, 80, -40, 140}, &patch) == DP_OK);
     int on = 0;
     for (int j = 0; j < patch->ny; ++j)
         for (int i = 0; i < patch->nx; ++i) {
@@ -173,7 +173,7 @@ TEST(slopes_join_and_cells_agree)
     const DpVec3 want = dp_unit(dp_vec3(-0.4, 0.0, 1.0));
     CHECK_NEAR(normal.x, want.x, 1e-9);
     CHECK_NEAR(normal.y, 0.0, 1e-9);
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 
@@ -216,7 +216,7 @@ TEST(any_number_of_workers_gives_the_same_bits)
         DpTerrain*       terrain = NULL;
         options.workers = w + 1;
         CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_OK);
-        if (w % 2) CHECK(dp_terrain_touch(terrain, -50, 100, 30, 80) == DP_OK);
+        if (w % 2) CHECK(dp_terrain_touch(terrain, (DpCellRect){-50, 100, 30, 80}) == DP_OK);
         CHECK(dp_terrain_read(terrain, DP_FIELD_BASE_HEIGHT, -150, -50, 300, 300, cells[w]) ==
               DP_OK);
         CHECK(memcmp(cells[0], cells[w], sizeof cells[0]) == 0);

@@ -11,7 +11,7 @@
 typedef struct Many
 {
     DpTerrain* terrain;
-    DpLease*   loan[8];
+    DpLease*   lease[8];
     int        bad[8];
 } Many;
 
@@ -21,8 +21,8 @@ static void press_window(void* context, int index, int worker)
     Many*        many = context;
     DpSoilPatch* patch = NULL;
     const long   i0 = (index % 8) * SIDE - 200, j0 = (index / 8) * SIDE - 200;
-    if (dp_terrain_acquire(many->terrain, many->loan[worker], i0, i0 + SIDE, j0, j0 + SIDE,
-                           &patch) != DP_OK) {
+    if (dp_terrain_acquire(many->terrain, many->lease[worker],
+                           (DpCellRect){i0, i0 + SIDE, j0, j0 + SIDE}, &patch) != DP_OK) {
         ++many->bad[worker];
         return;
     }
@@ -32,7 +32,7 @@ static void press_window(void* context, int index, int worker)
             patch->heap[j * patch->row + i] += 0.5f * (float)(i + j);
             patch->pressure_time[j * patch->row + i] += 1.0f;
         }
-    dp_terrain_commit(many->terrain, many->loan[worker], 0, SIDE, 0, SIDE);
+    dp_terrain_commit(many->terrain, many->lease[worker], (DpCellRect){0, SIDE, 0, SIDE});
 }
 
 static void count_tile(void* context, long tx, long ty)
@@ -47,9 +47,9 @@ TEST(windows_side_by_side_do_not_disturb_each_other)
     for (int workers = 1; workers <= 8; ++workers) {
         const DpGround ground = ground_flat(0.0);
         Many           many = {ground_terrain(&ground, 0.01, 0.0, 0.0), {NULL}, {0}};
-        for (int w = 0; w < workers; ++w) many.loan[w] = dp_lease_create();
+        for (int w = 0; w < workers; ++w) many.lease[w] = dp_lease_create();
         const long end = -200 + 8 * SIDE;
-        CHECK(dp_terrain_touch(many.terrain, -200, end, -200, end) == DP_OK);
+        CHECK(dp_terrain_touch(many.terrain, (DpCellRect){-200, end, -200, end}) == DP_OK);
         const int rounds = 5;
         for (int round = 0; round < rounds; ++round)
             dp_parallel_for(WINDOWS, workers, press_window, &many);
@@ -68,7 +68,7 @@ TEST(windows_side_by_side_do_not_disturb_each_other)
         CHECK(changed == 49 && dp_terrain_tile_count(many.terrain) == 49);
         for (int w = 0; w < workers; ++w) {
             CHECK(many.bad[w] == 0);
-            dp_lease_destroy(many.loan[w]);
+            dp_lease_destroy(many.lease[w]);
         }
         dp_terrain_destroy(many.terrain);
     }
@@ -79,12 +79,12 @@ TEST(cells_without_ground_are_never_written)
     const float    height[9] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, NAN, 0.0f, 0.0f};
     const DpGround ground = ground_heights(3, 3, 0.0, 0.0, 1.0, height);
     DpTerrain*     terrain = ground_terrain(&ground, 0.1, 0.0, 0.0);
-    DpLease*       loan = dp_lease_create();
+    DpLease*       lease = dp_lease_create();
     DpSoilPatch*   patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, -5, 25, -5, 25, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){-5, 25, -5, 25}, &patch) == DP_OK);
     for (int n = 0; n < patch->row * patch->ny; ++n)
         patch->compression[n] = patch->heap[n] = patch->pressure_time[n] = 1.0f;
-    dp_terrain_commit(terrain, loan, 0, patch->nx, 0, patch->ny);
+    dp_terrain_commit(terrain, lease, (DpCellRect){0, patch->nx, 0, patch->ny});
     float got[4][900];
     for (DpField field = DP_FIELD_COMPRESSION; field <= DP_FIELD_BASE_HEIGHT; ++field)
         CHECK(dp_terrain_read(terrain, field, -5, -5, 30, 30, got[field]) == DP_OK);
@@ -97,7 +97,7 @@ TEST(cells_without_ground_are_never_written)
         ground_cells += !hole;
     }
     CHECK(ground_cells == 300);
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 
@@ -110,9 +110,9 @@ TEST(each_soil_brings_its_modulus_and_slope)
     ground.kind_count = 3;
     ground.kind_weight = weight;
     DpTerrain*   terrain = ground_terrain(&ground, 0.125, 0.0, 0.0);
-    DpLease*     loan = dp_lease_create();
+    DpLease*     lease = dp_lease_create();
     DpSoilPatch* patch = NULL;
-    CHECK(dp_terrain_acquire(terrain, loan, 0, 8, 0, 8, &patch) == DP_OK);
+    CHECK(dp_terrain_acquire(terrain, lease, (DpCellRect){0, 8, 0, 8}, &patch) == DP_OK);
     float modulus[64], kind[64];
     CHECK(dp_terrain_read(terrain, DP_FIELD_MODULUS, 0, 0, 8, 8, modulus) == DP_OK);
     CHECK(dp_terrain_read(terrain, DP_FIELD_KIND, 0, 0, 8, 8, kind) == DP_OK);
@@ -124,7 +124,7 @@ TEST(each_soil_brings_its_modulus_and_slope)
         CHECK(modulus[n] == ground_soils[want].young_modulus);
         CHECK_CLOSE(patch->rest_slope[at], tan((double)ground_soils[want].rest_angle), 1e-6);
     }
-    dp_lease_destroy(loan);
+    dp_lease_destroy(lease);
     dp_terrain_destroy(terrain);
 }
 

@@ -5,7 +5,6 @@
 
 #define RATE 240.0
 #define TIMES 1200
-#define PI 3.14159265358979323846
 #define SIZE 0.001  // of what shakes the body [m]
 
 static double accel[3 * TIMES], velocity[2 * TIMES];
@@ -33,7 +32,7 @@ static double left(const uint8_t* on, int limbs, int axis, double hertz)
     const DpLoadOptions options = dp_load_options_default();
     double              most = 0.0;
     for (int t = 0; t < TIMES; ++t) {
-        const double shake = SIZE * sin(2.0 * PI * hertz * t / RATE);
+        const double shake = SIZE * sin(2.0 * DP_PI * hertz * t / RATE);
         scene_com(&s, t, axis == 0 ? shake : 0.0, axis == 1 ? shake : 0.0,
                   1.0 + (axis == 2 ? shake : 0.0));
     }
@@ -41,7 +40,7 @@ static double left(const uint8_t* on, int limbs, int axis, double hertz)
     for (int t = TIMES / 3; t < 2 * TIMES / 3; ++t)
         most = fmax(most, fabs(accel[axis * TIMES + t]));
     scene_free(&s);
-    return most / (SIZE * pow(2.0 * PI * hertz, 2.0));
+    return most / (SIZE * pow(2.0 * DP_PI * hertz, 2.0));
 }
 
 // A limb that comes down after half a second and after 0.9 s steps every half second: who waits between

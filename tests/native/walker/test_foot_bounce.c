@@ -3,7 +3,6 @@
 #include "scene.h"
 #include "walker/walker_inside.h"
 
-#define PI 3.14159265358979
 #define RATE 240.0
 
 enum
@@ -17,11 +16,11 @@ enum
 static Scene hopping(uint8_t* on)
 {
     Scene        s = scene_make(N, RATE, 1, 1);
-    const double peak = PI / 2.0 * (double)(STANCE + FLIGHT) / (double)STANCE * DP_GRAVITY;
+    const double peak = DP_PI / 2.0 * (double)(STANCE + FLIGHT) / (double)STANCE * DP_GRAVITY;
     double       z = 1.0, v = -0.5 * (double)FLIGHT / RATE * DP_GRAVITY;
     for (int t = 0; t < N; ++t) {
         const int    at = t % (STANCE + FLIGHT);
-        const double press = at < STANCE ? peak * sin(PI * ((double)at + 0.5) / STANCE) : 0.0;
+        const double press = at < STANCE ? peak * sin(DP_PI * ((double)at + 0.5) / STANCE) : 0.0;
         scene_com(&s, t, 2.0 * (double)t / RATE, 0.0, z);
         scene_put(&s, N, 0, t, 2.0 * (double)t / RATE, 0.0, 0.0);
         on[t] = at < STANCE;

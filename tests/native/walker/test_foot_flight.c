@@ -53,7 +53,7 @@ TEST(a_parabola_stays_one)
 // weights of stances give the low-pass's bandwidth: half the size at the cut-off
 TEST(who_stands_is_smoothed)
 {
-    const double pi = 3.14159265358979323846;
+    const double pi = DP_PI;
     for (int turn = 0; turn < 2; ++turn) {
         const double hertz = turn ? 30.0 : 1.0;
         double       most = 0.0;

@@ -3,7 +3,6 @@
 #include "scene.h"
 
 #define RATE 120.0
-#define PI 3.14159265358979
 
 static void run(Scene* s, int times, int limbs, int points, const uint8_t* on,
                 DpLoadOptions options, double* force, double* point)
@@ -93,7 +92,7 @@ TEST(newton_holds_for_a_bobbing_body)
         N = 240
     };
     Scene        s = scene_make(N, RATE, 2, 1);
-    const double w = 2.0 * PI * 1.0, high = 0.03, wide = 0.02;
+    const double w = 2.0 * DP_PI * 1.0, high = 0.03, wide = 0.02;
     for (int t = 0; t < N; ++t) {
         const double now = (double)t / RATE;
         scene_com(&s, t, wide * sin(w * now), 0.0, 1.0 + high * cos(w * now));
@@ -162,7 +161,7 @@ TEST(ramps_ease_from_foot_to_foot)
     Scene   s = scene_make(N, RATE, 2, 1);
     uint8_t on[2 * N];
     for (int t = 0; t < N; ++t) {
-        scene_com(&s, t, 0.1 * sin(0.5 * PI * (double)(t - 120) / 60.0), 0.0, 1.0);
+        scene_com(&s, t, 0.1 * sin(0.5 * DP_PI * (double)(t - 120) / 60.0), 0.0, 1.0);
         scene_put(&s, N, 0, t, -0.1, 0.0, 0.0);
         scene_put(&s, N, 1, t, 0.1, 0.0, 0.0);
         on[t] = t < 132;
@@ -191,7 +190,7 @@ static void stride(double speed, double wobble, double* behind, double* ahead)
     Scene s = scene_make(N, RATE, 2, 1);
     for (int t = 0; t < N; ++t) {
         const double now = (double)(t - N / 2) / RATE;
-        scene_com(&s, t, speed * now + wobble * sin(2.0 * PI * 4.5 * now), 0.0, 1.0);
+        scene_com(&s, t, speed * now + wobble * sin(2.0 * DP_PI * 4.5 * now), 0.0, 1.0);
         scene_put(&s, N, 0, t, -0.3, 0.1, 0.0);
         scene_put(&s, N, 1, t, 0.3, -0.1, 0.0);
     }
@@ -240,12 +239,12 @@ TEST(who_flies_falls_freely)
     uint8_t      on[N];
     double       truth[N], v = 0.0, z = 1.0;
     // the speed at the start of a stance that comes back after a period
-    const double most = PI / 2.0 * period / stance;
+    const double most = DP_PI / 2.0 * period / stance;
     v = -DP_GRAVITY * (period - stance) / 2.0;
     int next = 0;
     for (int k = 0; next < N; ++k) {
         const double now = (double)k / fine, in = fmod(now, period);
-        const double force = in < stance ? most * sin(PI * in / stance) : 0.0;
+        const double force = in < stance ? most * sin(DP_PI * in / stance) : 0.0;
         if ((double)next / RATE <= now + 1e-9) {
             scene_com(&s, next, 0.0, 0.0, z);
             on[next] = in < stance;
@@ -302,7 +301,7 @@ TEST(impulse_of_fall)
     for (double rate = 60.0; rate < 500.0; rate *= 2.0) {
         CHECK_CLOSE(fall_force(rate, false, &impulse), 2241.0, 0.02);
         CHECK_CLOSE(impulse, 50.0 * 7.0036, 0.03);
-        CHECK_CLOSE(fall_force(rate, true, &impulse), 50.0 * (9.81 + PI / 2.0 * 7.0036 / 0.2),
+        CHECK_CLOSE(fall_force(rate, true, &impulse), 50.0 * (9.81 + DP_PI / 2.0 * 7.0036 / 0.2),
                     0.03);
         CHECK_CLOSE(impulse, 50.0 * 7.0036, 0.03);
     }

@@ -128,7 +128,7 @@ TEST(turns_less_the_higher_it_is)  // TRAIL (1)
     Scene          s = foot(0.1);
     DpPlaceOptions options = dp_place_options_default();
     options.carry = true;
-    const double slope = 10.0 * 3.14159265358979 / 180.0;
+    const double slope = 10.0 * DP_PI / 180.0;
     const Plane  plane = {-tan(slope), 0.0, 0.0, 0.0, 0.0};
     Placed       placed;
     CHECK(place(&s, &plane, &options, &placed) == DP_OK);
@@ -145,7 +145,7 @@ TEST(heels_stay_up_where_it_is_steep)  // TRAIL (2)
     Scene          s = foot(0.0);
     DpPlaceOptions options = dp_place_options_default();
     options.carry = true;
-    const double degree = 3.14159265358979 / 180.0;
+    const double degree = DP_PI / 180.0;
     const double slopes[3] = {14.0, 25.0, -25.0}, want[3] = {0.0, 10.0, 0.0};
     for (int n = 0; n < 3; ++n) {
         const Plane plane = {tan(slopes[n] * degree), 0.0, 0.0, 0.0, 0.0};

@@ -4,7 +4,6 @@
 #include "check.h"
 #include "scene.h"
 
-#define PI 3.14159265358979323846
 #define COUNT 600
 #define RATE 120.0
 
@@ -20,7 +19,7 @@ static double passed(double frequency, double cutoff, double* late)
 {
     double value[COUNT], most = 0.0;
     int    at = 0;
-    for (int k = 0; k < COUNT; ++k) value[k] = sin(2.0 * PI * frequency * k / RATE);
+    for (int k = 0; k < COUNT; ++k) value[k] = sin(2.0 * DP_PI * frequency * k / RATE);
     low_pass(value, cutoff);
     const int period = (int)(RATE / frequency), begin = COUNT / 2 / period * period;
     for (int k = begin; k < begin + period; ++k)

@@ -65,7 +65,7 @@ TEST(turns_the_shortest_way)
     double        time[11], com[33], pose[77];
     CHECK(dp_gait_resample(gait, 10.0, 11, time, com, pose) == DP_OK);
     for (int k = 0; k < 11; ++k) {
-        const double angle = 0.5 * 3.14159265358979 / 2.0 * (double)k / 10.0;
+        const double angle = 0.5 * DP_PI / 2.0 * (double)k / 10.0;
         CHECK_NEAR(fabs(pose[7 * k + 3]), cos(angle), 1e-9);
         CHECK_NEAR(fabs(pose[7 * k + 6]), sin(angle), 1e-9);
     }
