@@ -22,4 +22,5 @@
 #include "grass/grass.h"
 #include "terrain/terrain.h"
 #include "maps/maps.h"
+#include "refine/refine.h"
 #include "sim/sim.h"

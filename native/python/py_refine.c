@@ -1,0 +1,79 @@
+// python/py_refine.c - triangles cut along a trail until they show it.
+#include "python/buffers.h"
+#include "refine/refine.h"
+
+// (valid, points, point_source, point_weight, triangles, source, weight, cut), Blocks after the first
+static PyObject* refined_result(PyObject* module, DpRefined* made, int given_triangles)
+{
+    const size_t fresh = (size_t)(made->points - made->given), count = (size_t)made->triangles;
+    void**       part[] = {(void**)&made->point,        (void**)&made->point_source,
+                           (void**)&made->point_weight, (void**)&made->triangle,
+                           (void**)&made->source,       (void**)&made->weight,
+                           (void**)&made->cut};
+    const size_t size[] = {3 * (size_t)made->points * sizeof *made->point,
+                           fresh * sizeof *made->point_source,
+                           3 * fresh * sizeof *made->point_weight,
+                           3 * count * sizeof *made->triangle,
+                           count * sizeof *made->source,
+                           9 * count * sizeof *made->weight,
+                           (size_t)given_triangles};
+    PyObject*    result = PyTuple_New(8);
+    if (!result) return NULL;
+    if (PyTuple_SetItem(result, 0, PyBool_FromLong(made->valid)) < 0) goto failed;
+    for (int k = 0; k < 7; ++k) {
+        PyObject* block = dp_py_block(module, *part[k], size[k]);
+        *part[k] = NULL;  // the block has it, or it is gone
+        if (!block || PyTuple_SetItem(result, k + 1, block) < 0) goto failed;
+    }
+    return result;
+failed:
+    Py_DECREF(result);
+    return NULL;
+}
+
+static PyObject* refine(PyObject* module, PyObject* arguments)
+{
+    PyObject *points, *triangles, *corners, *sizes;
+    double    block;
+    int       max_triangles;
+    if (!PyArg_ParseTuple(arguments, "OOOOdi:refine", &points, &triangles, &corners, &sizes, &block,
+                          &max_triangles))
+        return NULL;
+    DpBuffers      buffers = {0};
+    PyObject*      answer = NULL;
+    DpRefined      made = {0};
+    DpShape        point_shape = {2, {-1, 3}}, face_shape = {2, {-1, 3}}, wish_shape = {2, {-1, 2}};
+    const double*  point = dp_buffers_open(&buffers, points, "points", 'd', &point_shape, false);
+    const int32_t* triangle =
+        point ? dp_buffers_open(&buffers, triangles, "triangles", 'i', &face_shape, false) : NULL;
+    const double* corner =
+        triangle ? dp_buffers_open(&buffers, corners, "corners", 'd', &wish_shape, false) : NULL;
+    const double* size =
+        corner ? dp_buffers_open(&buffers, sizes, "sizes", 'd', DP_SHAPE1(wish_shape.n[0]), false)
+               : NULL;
+    if (!size) goto done;
+    DpStatus status = DP_BAD_ARGUMENT;
+    if (point_shape.n[0] <= INT32_MAX && face_shape.n[0] <= INT32_MAX &&
+        wish_shape.n[0] <= INT32_MAX) {
+        const DpWishes wishes = {corner, size, (int)wish_shape.n[0], block};
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_refine(point, (int)point_shape.n[0], triangle, (int)face_shape.n[0], &wishes,
+                           max_triangles, &made);
+        Py_END_ALLOW_THREADS
+    }
+    answer = status == DP_OK ? refined_result(module, &made, (int)face_shape.n[0])
+                             : dp_py_result(status, "refining a mesh");
+    dp_refined_free(&made);
+done:
+    dp_buffers_close(&buffers);
+    return answer;
+}
+
+PyMethodDef dp_py_refine_methods[] = {
+    {"refine", refine, METH_VARARGS,
+     "refine(points, triangles, corners, sizes, block, max_triangles)\n--\n\n"
+     "Cut triangles along a trail, see refine/refine.h: points float64 (n, 3) [m], triangles "
+     "int32\n"
+     "(t, 3), corners float64 (w, 2) and sizes float64 (w,) of squares of edge `block` [m].\n"
+     "Returns (valid, points, point_source, point_weight, triangles, source, weight, cut)."},
+    {NULL, NULL, 0, NULL}};
