@@ -108,6 +108,7 @@ def test_bake_plays_what_the_core_pressed(folder):
 
 def test_a_mesh_without_points_in_the_prints_is_told(folder):
     ground, _ = scene(folder, cell=0.01, frames=16, spacing=0.6)
+    ground.desire_path.refine = False
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert "subdivide it there, to about 0.01 m" in ground.desire_path.summary
     finer = ground.modifiers.new("Finer", "SUBSURF")

@@ -54,6 +54,15 @@ def uv(mesh, name):
     return out.astype(np.float64)
 
 
+def set_uv(mesh, name, values):
+    """Set the image coordinates of every corner of a UV map, float32 (corners, 2)."""
+    layer = mesh.uv_layers[name]
+    if hasattr(layer, "uv"):
+        layer.uv.foreach_set("vector", values.ravel())
+    else:
+        layer.data.foreach_set("uv", values.ravel())
+
+
 def faces(mesh):
     """The faces in 3 or 4 corners each: the vertex of every corner, int32 (c,); where each face's corners
     begin, int32 (f + 1,), or None where each has as many; how many that is."""

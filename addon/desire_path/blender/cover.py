@@ -32,28 +32,13 @@ def make_groups(obj):
 def fill(obj, surface, index, depth, planes, standing=()):
     """Write the last frame's values, and off the images plants as they grew (`standing`: see playback.attach);
     returns sentences about what could not be written."""
-    from ..ground import mesh as meshes
-
     settings = obj.desire_path
     mesh = obj.data
     if not settings.attributes and depth == 0.0:
         return []
     if mesh.library is not None:
         return [f"The mesh of '{obj.name}' is linked from another file: no attributes were written."]
-    value = meshes.at_points(
-        {name: plane for name, plane in planes.items() if plane.any()},
-        index.cell,
-        (index.x0, index.y0),
-        compat.positions(mesh),
-        surface.world[:3] * surface.scale,
-        playback.ALIGNED,
-    )
-    if "plant_strength" in value and standing:
-        at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
-        off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
-        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(
-            np.float32
-        )
+    value = values(obj, surface, index, planes, standing)
     warnings = []
     if settings.attributes:
         made = []
@@ -68,9 +53,32 @@ def fill(obj, surface, index, depth, planes, standing=()):
     if depth > 0.0:
         for name, full in (("plant_strength", 1.0), ("compression", depth)):
             if name in value:
-                _weigh(obj.vertex_groups[playback.group_name(name)], value[name] / full)
+                weigh(obj.vertex_groups[playback.group_name(name)], value[name] / full)
     mesh.update_tag()
     return warnings
+
+
+def values(obj, surface, index, planes, standing):
+    """What the planes say at the points of an object that lies as the ground does, by name, float32 (n,) each; those
+    that are zero all over are left out."""
+    from ..ground import mesh as meshes
+
+    mesh = obj.data
+    value = meshes.at_points(
+        {name: plane for name, plane in planes.items() if plane.any()},
+        index.cell,
+        (index.x0, index.y0),
+        compat.positions(mesh),
+        surface.world[:3] * surface.scale,
+        playback.ALIGNED,
+    )
+    if "plant_strength" in value and standing:
+        at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
+        off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
+        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(
+            np.float32
+        )
+    return value
 
 
 def _grown(obj, surface, standing):
@@ -173,7 +181,7 @@ def planes(index):
     }
 
 
-def _weigh(group, weight):
+def weigh(group, weight):
     """Write a weight per vertex, vertices of one level together."""
     level = np.clip(np.round(weight * LEVELS), 0, LEVELS).astype(np.int32)
     order = np.argsort(level, kind="stable")

@@ -41,7 +41,7 @@ def refresh(scene, obj):
         return
     box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
     with suppress(DesirePathError):  # its state says what is wrong
-        show.play(obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
+        show.play(scene, obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
 
 
 @persistent

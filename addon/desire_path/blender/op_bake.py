@@ -116,7 +116,7 @@ class Job:
             obj = bpy.data.objects.get(share.parcel.name)
             if obj is None:
                 raise DesirePathError(f"'{share.parcel.name}' is gone: bake again when it is back.")
-            index, warnings = play(obj, self.surfaces[obj.name], share.final)
+            index, warnings = play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name], share.final)
             self.warnings += warnings
             obj.desire_path.summary = json.dumps(
                 {name: share.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "heaped_m3")}
@@ -146,7 +146,7 @@ class Job:
             if obj is not None:
                 try:
                     if not plays_on(obj, read_index(folder(obj))):
-                        play(obj, self.surfaces[obj.name])
+                        play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name])
                 except DesirePathError:
                     pass  # nothing was written
 

@@ -27,6 +27,7 @@ SAMPLES = 24  # points of the mesh that tell whether it was changed
 TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
 ROUNDED = 0.01  # of a frame is lost where time is stretched
+COPY_NODE = "GeometryNodeObjectInfo"
 GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 LEAN = "desire_path_lean"  # vector attribute where plants grew: lean x, lean y, crushed
 STRENGTH = "plant_strength"  # float attribute where plants grew
@@ -56,7 +57,9 @@ def images(tree):
     return found
 
 
-def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0, standing=(), place=None):
+def attach(
+    obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0, standing=(), place=None, copy=None
+):
     """Play the frames of a bake on the object; replaces what it played before.
 
     frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
@@ -68,12 +71,13 @@ def attach(obj, frames, index, *, count, world, scale, smooth, corners, layer_de
     layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
     standing: plants off the images, (vertex group, "" or plants.Spread, their strength where that is 1) each
     place: where our modifier goes (stack.Place); None: where it was, or after all others
+    copy: an object whose mesh is shown in place of the ground's own (refined.py); None: the ground's own is
     """
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
     detach(obj)
     shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(index)]}
-    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place)
+    tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy)
     tree[TAG] = mark(frames, index, count)
     ours = compat.nodes_modifier(obj, MODIFIER, tree)
     ours.show_expanded = False
@@ -125,7 +129,8 @@ def samples(obj):
 def stacked(obj):
     """All that the place of our modifier, and which points there are, follow from, in a word; what is keyed is not
     among it."""
-    out = [str(len(obj.data.vertices))]
+    settings = obj.desire_path
+    out = [str(len(obj.data.vertices)), str([settings.refine, settings.refine_size, settings.refine_pixels])]
     for each in obj.modifiers:
         tree = each.node_group if each.type == "NODES" else None
         if tree is not None and TAG in tree:
@@ -157,8 +162,13 @@ def discard(tree):
     """Remove a tree of ours that nobody uses, and its images if nobody else does."""
     if tree.users > 0:
         return
-    played = images(tree).values()
+    played, copy = images(tree).values(), copy_of(tree)
     bpy.data.node_groups.remove(tree)
+    if copy is not None and copy.users == 0:
+        mesh = copy.data
+        bpy.data.objects.remove(copy)
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
     for image in played:
         if TAG in image and image.users == 0:
             bpy.data.images.remove(image)
@@ -309,12 +319,14 @@ def file_number(wire, index, count, stretch=1.0):
     return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
 
 
-def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place):
+def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
     wire = Wiring(tree)
     entry = wire.add("NodeGroupInput")
     if place is not None and place.realise:  # the ground is made of instances, which cannot be pressed
         entry = wire.add("GeometryNodeRealizeInstances", Geometry=entry.outputs[0])
+    if copy is not None:
+        entry = _in_place(wire, entry, copy)
     leave = tree.nodes.new("NodeGroupOutput")
     number = file_number(wire, index, count, clock.stretch_of(obj))
 
@@ -360,6 +372,24 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     tree.links.new(geometry, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
     return tree
+
+
+def _in_place(wire, entry, copy):
+    """The mesh of an object in place of the one that comes in, with all that comes in beside a mesh."""
+    info = wire.add(COPY_NODE, {"transform_space": "ORIGINAL"}, Object=copy)
+    parts = wire.add("GeometryNodeSeparateComponents", Geometry=entry.outputs[0])
+    join = wire.add("GeometryNodeJoinGeometry")
+    for each in reversed(parts.outputs):  # the link made last comes first: the mesh
+        if each.enabled and each.name != "Mesh":
+            wire.tree.links.new(each, join.inputs[0])
+    wire.tree.links.new(compat.socket(info.outputs, "Geometry"), join.inputs[0])
+    return join
+
+
+def copy_of(tree):
+    """The object whose mesh a tree of ours shows in place of the ground's own, or None."""
+    found = (node.inputs["Object"].default_value for node in tree.nodes if node.bl_idname == COPY_NODE)
+    return next(filter(None, found), None)
 
 
 def group_name(name):

@@ -54,6 +54,24 @@ def _folder_by_hand(self, _context):
     self.folder_auto = False
 
 
+def _is_carried(self):
+    from . import forward
+
+    return forward.is_carried(self.id_data)
+
+
+def _carry(self, on):
+    from . import forward
+
+    forward.switch(self.id_data, on)
+
+
+def _show_anew(self, _context):
+    from . import watch
+
+    watch.mark(self.id_data)
+
+
 def _foot_by_hand(self, _context):
     self.thigh = self.shank = ""  # the leg above another foot is another leg
 
@@ -198,6 +216,35 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     plant_object: PointerProperty(
         type=bpy.types.Object, options={"HIDDEN"}, description="The mesh of the simulated plants"
     )
+    refine: BoolProperty(
+        name="Refine",
+        default=True,
+        update=_show_anew,
+        description="Show the prints on a copy of the mesh that is fine along the trail, so that they are seen on any "
+        "mesh; the mesh itself stays as it is. Off: prints move the mesh's own points alone",
+    )
+    refine_size: FloatProperty(
+        name="Refined Size [m]",
+        default=0.0,
+        min=0.0,
+        soft_max=0.1,
+        max=100.0,
+        precision=4,
+        step=0.1,
+        update=_show_anew,
+        description="Shortest edge of the refined copy, in metres; 0 = the cell size",
+    )
+    refine_pixels: FloatProperty(
+        name="Refined Pixels",
+        default=0.0,
+        min=0.0,
+        soft_max=10.0,
+        max=1000.0,
+        precision=1,
+        update=_show_anew,
+        description="Edges of the refined copy are no shorter than so many pixels of the scene's camera, as near as it "
+        "comes over the baked frames; 0 = the same everywhere",
+    )
     vertex_group: BoolProperty(
         name="Vertex Groups",
         description="Also fill vertex groups with plant strength and "
@@ -275,6 +322,13 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         poll=is_sole,
         description="A mesh whose underside is the sole of every foot, mirrored for the other side; "
         "place it at a foot of the rest pose. Empty = the walker's own feet or shoes",
+    )
+    carried: BoolProperty(
+        name="Carried",
+        get=_is_carried,
+        set=_carry,
+        description="A clip that walks in place goes ahead with the character, at the speed of its feet, by an action "
+        "of its own. Off: the clip as it was",
     )
     place_feet: BoolProperty(
         name="Placed Feet in Prints",

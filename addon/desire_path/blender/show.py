@@ -7,13 +7,14 @@ from . import cover, ground, home, plants, playback, stems, trash
 from .home import folder
 
 
-def play(obj, surface, baked=None):
+def play(scene, obj, surface, baked=None):
     """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
     sentences about what could not be written.
 
     baked: the final maps by name, where the bake was made just now and is whole
     """
     from ..bake.bake import read_index
+    from . import refined  # which loads the core
 
     settings = obj.desire_path
     index = read_index(folder(obj), just_baked=baked is not None)
@@ -22,8 +23,14 @@ def play(obj, surface, baked=None):
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
-        smooth = surface.between or any(
-            ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
+        planes = baked or cover.planes(index)
+        copy = refined.make(scene, obj, surface, index, planes, standing)
+        smooth = (
+            copy is not None
+            or surface.between
+            or any(
+                ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
+            )
         )
         playback.attach(
             obj,
@@ -37,10 +44,12 @@ def play(obj, surface, baked=None):
             layer_depth=depth,
             standing=standing,
             place=surface.place,
+            copy=copy and copy.object,
         )
-        planes = baked or cover.planes(index)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
-        if index.complete:
+        if copy is not None:
+            warnings += copy.warnings
+        elif index.complete:
             warnings += cover.few_points(obj, surface, index, planes)
     else:
         playback.detach(obj)

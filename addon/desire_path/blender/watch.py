@@ -67,7 +67,7 @@ def _again(scene, obj, world):
         surface = ground.laid(surface, world)
         if playback.interpolates(playback.modifier(obj).node_group):  # as its neighbours may do
             surface = replace(surface, between=True)
-        _, told = show.play(obj, surface)
+        _, told = show.play(scene, obj, surface)
         summary = obj.desire_path.summary
         if summary:
             found = json.loads(summary)
@@ -111,8 +111,21 @@ def changed(scene, depsgraph):
             if bpy.app.background:
                 look(scene, obj)
             else:
-                _waiting.add((scene.name, obj.name))
-    if _waiting and not bpy.app.timers.is_registered(_look):
+                _wait_for(scene, obj)
+
+
+def mark(obj):
+    """Something of a ground was set that its tree is made for; a window looks at it as soon as Blender rests."""
+    for scene in () if _working or obj.library is not None or not obj.desire_path.is_ground else obj.users_scene:
+        if bpy.app.background:
+            look(scene, obj)
+        else:
+            _wait_for(scene, obj)
+
+
+def _wait_for(scene, obj):
+    _waiting.add((scene.name, obj.name))
+    if not bpy.app.timers.is_registered(_look):
         bpy.app.timers.register(_look, first_interval=0.0)
 
 

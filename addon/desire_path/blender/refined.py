@@ -1,0 +1,253 @@
+"""refined.py - a copy of a ground's mesh that is fine along the trail, which our tree shows in the ground's place.
+
+    the ground as modifiers before ours make it --ground/refine.py--> a mesh of an object in no collection
+                                                                      --Object Info--> our tree (playback.py)
+
+The ground's own mesh is never touched. The copy goes with the tree, its only user: into the file, into other files,
+and away again. What is no mesh of the ground, as instances and curves on it, is shown as it was.
+"""
+
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from ..ground import refine  # the core is loaded with it: this file is imported when a bake is shown
+from . import axes, compat, cover, ground, private, stack
+
+TAG = "desire_path_refined"  # custom property on our objects
+CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
+CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
+WRITTEN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "edge_creases"}
+KINDS = {  # data type of an attribute -> (its property, numbers in it, NumPy's type)
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "INT8": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
+    "BYTE_COLOR": ("color", 4, np.float32),
+    "QUATERNION": ("value", 4, np.float32),
+    "INT32_2D": ("value", 2, np.int32),
+    "INT16_2D": ("value", 2, np.int32),
+    "FLOAT4X4": ("value", 16, np.float32),
+}
+
+
+@dataclass(frozen=True)
+class Copy:
+    """A refined copy, and what could not be done, in sentences."""
+
+    object: bpy.types.Object
+    warnings: tuple
+
+
+def make(scene, obj, surface, index, planes, standing=()):
+    """The refined Copy of a ground for a bake, or None where its mesh is fine enough, or it is not asked for.
+
+    planes: the maps after the last frame by name; surface: the ground as it was baked; standing: see playback.attach
+    """
+    settings = obj.desire_path
+    if not settings.refine:
+        return None
+    changed = (planes["compression"] > 0.0) | (planes["heap"] > 0.0)
+    if not changed.any():
+        return None
+    wanted = refine.wishes(
+        planes["heap"] - planes["compression"],
+        changed,
+        index.cell,
+        (index.x0, index.y0),
+        axes.typed(settings.refine_size),
+    )
+    wanted = _as_seen(scene, obj, surface, index, wanted)
+    groups = [each.name for each in obj.vertex_groups]
+    trees = [stack.realised()] if surface.place.realise else []
+    trees += [ground.weights_tree(groups)] if groups else []
+    with stack.shaped(scene, obj, surface.place.before, trees) as (own, copy):
+        stack.show(scene, copy, obj)
+        mesh = private.evaluated(own, copy, index.frame_start).data
+        made = refine.refine(_triangles(mesh, surface), wanted)
+        if not len(made.triangles):
+            return None
+        weights = [compat.float_attribute(mesh, ground.WEIGHT.format(k)) for k in range(len(groups))]
+        copied, left = _mesh(f"Desire Path {obj.name}", mesh, made)
+    carrier = bpy.data.objects.new(copied.name, copied)
+    carrier[TAG] = 1
+    for name, weight in zip(groups, weights):
+        group = carrier.vertex_groups.new(name=name)
+        if weight is not None and weight.any():
+            cover.weigh(group, made.on_points(weight))
+    if settings.attributes:
+        value = cover.values(carrier, surface, index, planes, standing)
+        for name in planes:
+            if name not in copied.attributes:
+                new = copied.attributes.new(name, "FLOAT", "POINT")
+                if name in value:
+                    new.data.foreach_set("value", value[name])
+    warnings = [
+        f"The refined copy of '{obj.name}' lacks its attribute '{name}', which is of a kind that is not known here."
+        for name in left
+    ]
+    if not made.valid:
+        warnings.append(
+            f"Prints on '{obj.name}' are shown coarser than asked for: finer, they would take more than "
+            f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
+        )
+    return Copy(carrier, tuple(warnings))
+
+
+def _as_seen(scene, obj, surface, index, wanted):
+    """Wishes no finer than so many pixels of the camera, where that is asked for."""
+    pixels, camera = obj.desire_path.refine_pixels, scene.camera
+    if pixels <= 0.0 or camera is None or camera.type != "CAMERA":
+        return wanted
+    at = _camera_places(scene, camera, index)
+    low, high = surface.vertices[:, 2].min(), surface.vertices[:, 2].max()
+    nearest = np.full(len(wanted.sizes), np.inf)
+    for place in at:  # to the near side of each square, at the height of the ground that is nearest
+        beside = np.maximum(np.maximum(wanted.corners - place[:2], place[:2] - wanted.corners - wanted.block), 0.0)
+        above = place[2] - np.clip(place[2], low, high)
+        nearest = np.minimum(nearest, np.sqrt((beside**2).sum(axis=1) + above**2))
+    return replace(wanted, sizes=np.maximum(wanted.sizes, pixels * _pixel(scene, camera, nearest)))
+
+
+def _camera_places(scene, camera, index):
+    """Where the camera is over the frames of a bake (n, 3) [m]."""
+    frames = np.unique(np.linspace(index.frame_start, index.frame_end, CAMERA_FRAMES).astype(int))
+    with private.private_scene(scene, camera) as own:
+        return np.array(
+            [private.evaluated(own, camera, int(frame)).matrix_world.translation for frame in frames], np.float64
+        ) * axes.unit_scale(scene)
+
+
+def _pixel(scene, camera, distance):
+    """How wide a pixel of a camera is at a distance [m]."""
+    lens, render = camera.data, scene.render
+    sides = np.array((render.resolution_x, render.resolution_y)) * render.resolution_percentage / 100.0
+    fit = {"HORIZONTAL": 0, "VERTICAL": 1}.get(lens.sensor_fit, int(sides[1] > sides[0]))
+    if lens.type == "ORTHO":
+        return np.full(len(distance), lens.ortho_scale * axes.unit_scale(scene) / sides.max())
+    sensor = lens.sensor_height if lens.sensor_fit == "VERTICAL" else lens.sensor_width
+    return distance * sensor / lens.lens / sides[fit]
+
+
+def _numbers(data, name, count, kind):
+    out = np.empty(len(data) * count, kind)
+    if len(out):
+        data.foreach_get(name, out)
+    return out.reshape(-1, count) if count > 1 else out
+
+
+def _triangles(mesh, surface):
+    triangles = compat.triangles(mesh)
+    return refine.Triangles(
+        axes.points(surface.world, compat.positions(mesh), surface.scale),
+        triangles,
+        compat.triangle_corners(mesh),
+        _numbers(mesh.loop_triangles, "polygon_index", 1, np.int32),
+        _starts(mesh),
+    )
+
+
+def _mesh(name, source, made):
+    """(a mesh as `made` cuts another one, names of attributes that could not be carried over)."""
+    mesh = bpy.data.meshes.new(name)
+    points = made.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", points.ravel())
+    corners = made.corner_points(_numbers(source.loops, "vertex_index", 1, np.int32))
+    mesh.loops.add(len(corners))
+    mesh.loops.foreach_set("vertex_index", corners)
+    sizes = made.sizes.astype(np.int32)
+    mesh.polygons.add(len(sizes))
+    mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
+    if not mesh.polygons.bl_rna.properties or not _read_only(mesh):
+        mesh.polygons.foreach_set("loop_total", sizes)
+    mesh.polygons.foreach_set("material_index", made.on_faces(_numbers(source.polygons, "material_index", 1, np.int32)))
+    smooth = _numbers(source.polygons, "use_smooth", 1, bool)
+    mesh.polygons.foreach_set("use_smooth", np.concatenate((smooth[made.kept], np.ones(len(made.triangles), bool))))
+    mesh.update(calc_edges=True)
+    edges = [_numbers(each.edges, "vertices", 2, np.int32) for each in (source, mesh)]
+    along = {
+        "POINT": made.on_points,
+        "CORNER": made.on_corners,
+        "FACE": made.on_faces,
+        "EDGE": lambda values: made.on_edges(values, *edges),
+    }
+    left = _attributes(mesh, source, along)
+    sharp = _numbers(source.edges, "use_edge_sharp", 1, bool) | _creased(source, smooth)
+    for name, values in (("use_edge_sharp", sharp), ("use_seam", _numbers(source.edges, "use_seam", 1, bool))):
+        if values.any():
+            mesh.edges.foreach_set(name, along["EDGE"](values))
+    for each in source.materials:
+        mesh.materials.append(each and each.original)
+    if hasattr(mesh, "use_auto_smooth"):  # else sharp edges count by themselves
+        mesh.use_auto_smooth = True
+        mesh.auto_smooth_angle = source.auto_smooth_angle if source.use_auto_smooth else np.pi
+    if source.has_custom_normals:
+        mesh.normals_split_custom_set(made.on_corners(_corner_normals(source)))
+    return mesh, left
+
+
+def _creased(mesh, smooth):
+    """Edges where faces that are shaded flat meet others at an angle, bool (e,): there their copies, which are shaded
+    smooth so that prints are, stay apart."""
+    faces = np.repeat(np.arange(len(smooth)), np.diff(_starts(mesh)))
+    normals = _numbers(mesh.polygons, "normal", 3, np.float32)
+    edges = _numbers(mesh.loops, "edge_index", 1, np.int32)
+    count = len(mesh.edges)
+    flat = np.zeros(count, bool)
+    flat[edges[~smooth[faces]]] = True
+    first = np.zeros(count, np.int32)
+    first[edges] = faces  # one of its faces
+    turned = np.zeros(count, bool)
+    turned[edges[(normals[faces] * normals[first[edges]]).sum(axis=1) < np.cos(CREASE)]] = True
+    return flat & turned
+
+
+def _starts(mesh):
+    """First corner of each face, and how many corners there are, int32 (f + 1,)."""
+    return np.append(_numbers(mesh.polygons, "loop_start", 1, np.int32), np.int32(len(mesh.loops)))
+
+
+def _read_only(mesh):
+    """Whether this Blender finds the corners of a face by where the next one's begin."""
+    return mesh.polygons[0].bl_rna.properties["loop_total"].is_readonly
+
+
+def _corner_normals(mesh):
+    if hasattr(mesh, "corner_normals"):
+        return _numbers(mesh.corner_normals, "vector", 3, np.float32)
+    mesh.calc_normals_split()
+    return _numbers(mesh.loops, "normal", 3, np.float32)
+
+
+def _attributes(mesh, source, along):
+    """Carry attributes over, UV maps among them; returns the names of those of unknown kinds."""
+    left = []
+    maps = {each.name for each in source.uv_layers}
+    for each in source.attributes:
+        if each.name in WRITTEN or each.name.startswith(".") or each.name in maps:
+            continue
+        if each.data_type not in KINDS:
+            left.append(each.name)
+            continue
+        name, count, kind = KINDS[each.data_type]
+        values = along[each.domain](_numbers(each.data, name, count, kind))
+        new = mesh.attributes.get(each.name) or mesh.attributes.new(each.name, each.data_type, each.domain)
+        new.data.foreach_set(name, values.ravel())
+    for layer in source.uv_layers:
+        mesh.uv_layers.new(name=layer.name, do_init=False)
+    for layer in source.uv_layers:
+        values = along["CORNER"](compat.uv(source, layer.name).astype(np.float32))
+        compat.set_uv(mesh, layer.name, values)
+        mesh.uv_layers[layer.name].active_render = layer.active_render
+    if source.uv_layers.active is not None:
+        mesh.uv_layers.active = mesh.uv_layers[source.uv_layers.active.name]
+    colours = getattr(source, "color_attributes", None)
+    if colours is not None and colours.active_color is not None and colours.active_color.name in mesh.attributes:
+        mesh.color_attributes.active_color = mesh.color_attributes[colours.active_color.name]
+        mesh.color_attributes.render_color_index = colours.render_color_index
+    return left

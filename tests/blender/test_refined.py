@@ -1,0 +1,183 @@
+"""Prints on any mesh: a copy that is fine along the trail is shown, the user's mesh stays as it is."""
+
+import json
+
+import bpy
+import numpy as np
+from scenes import meshes, people
+from test_bake import state
+
+from desire_path.blender import compat, playback
+
+LOW = 0.8  # of the deepest print at least is shown
+
+
+def plane(side=6.0, cuts=0):
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=cuts + 1, y_subdivisions=cuts + 1, size=side)
+    return bpy.context.object
+
+
+def baked(folder, ground, cell=0.02, frames=30, **settings):
+    """A biped walks over a ground."""
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    ground.desire_path.cell_size, ground.desire_path.folder = cell, str(folder / "bake")
+    for name, value in settings.items():
+        setattr(ground.desire_path, name, value)
+    walker = people.walk(people.biped(), frames=frames)
+    meshes.activate(walker)
+    bpy.ops.object.desire_path_walker_add()
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    bpy.context.scene.frame_set(frames)
+    return ground
+
+
+def copy_of(ground):
+    return playback.copy_of(playback.modifier(ground).node_group)
+
+
+def seen(ground):
+    """The evaluated mesh."""
+    bpy.context.view_layer.update()
+    return ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+
+
+def deepest(ground):
+    return -compat.positions(seen(ground))[:, 2].min()
+
+
+def border(mesh):
+    """Length of the edges that have one face."""
+    edges = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", edges)
+    count = np.bincount(edges, minlength=len(mesh.edges))
+    assert count.max() == 2
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    at = compat.positions(mesh)[ends.reshape(-1, 2)[count == 1]].astype(float)
+    return np.linalg.norm(at[:, 0] - at[:, 1], axis=1).sum()
+
+
+def test_four_points_show_prints_and_stay_four(folder):
+    ground = plane()
+    before = compat.positions(ground.data).copy()
+    baked(folder, ground)
+    pressed = json.loads(ground.desire_path.summary)["deepest_m"]
+    assert deepest(ground) > LOW * pressed > 0.005
+    assert np.array_equal(compat.positions(ground.data), before) and len(ground.data.polygons) == 1
+    copy = copy_of(ground)
+    assert copy.users_collection == () and copy.users == 1
+    assert abs(border(copy.data) - 24.0) < 1e-4
+    bpy.context.scene.frame_set(0)
+    assert deepest(ground) < 1e-7
+    bpy.ops.object.desire_path_free()
+    assert len(seen(ground).vertices) == 4
+    assert not [each for each in bpy.data.objects if each.name.startswith("Desire Path")]
+    assert not [each for each in bpy.data.meshes if each.name.startswith("Desire Path")]
+
+
+def test_a_mesh_that_is_fine_enough_is_shown_itself(folder):
+    ground = plane(side=3.0, cuts=299)
+    baked(folder, ground)
+    assert copy_of(ground) is None and len(seen(ground).vertices) == 301**2
+
+
+def test_it_can_be_switched_off_and_on(folder):
+    ground = plane()
+    baked(folder, ground)
+    fine = len(seen(ground).vertices)
+    ground.desire_path.refine = False
+    assert len(seen(ground).vertices) == 4 and copy_of(ground) is None
+    ground.desire_path.refine = True
+    assert len(seen(ground).vertices) == fine
+    ground.desire_path.refine_size = 0.2
+    assert 4 < len(seen(ground).vertices) < 0.5 * fine
+    assert sum(each.name.startswith("Desire Path") for each in bpy.data.objects) == 1
+
+
+def test_a_cameras_pixels_say_how_fine(folder):
+    ground = plane()
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location = (0.0, 0.0, 30.0)
+    bpy.context.scene.collection.objects.link(camera)
+    bpy.context.scene.camera = camera
+    baked(folder, ground)
+    fine = len(seen(ground).vertices)
+    ground.desire_path.refine_pixels = 4.0  # of 1920: some 0.045 m each at 30 m
+    coarse = len(seen(ground).vertices)
+    assert 4 < coarse < 0.5 * fine
+    camera.location = (0.0, 0.0, 0.5)
+    ground.desire_path.refine_pixels = 4.1
+    assert len(seen(ground).vertices) > 1.5 * coarse
+
+
+def test_what_lies_on_the_mesh_is_on_the_copy(folder):
+    ground = plane(cuts=2)
+    mesh = ground.data
+    for slot in ("earth", "stone"):
+        mesh.materials.append(bpy.data.materials.new(slot))
+    for each in mesh.polygons:
+        each.material_index = each.index % 2
+    mine = mesh.attributes.new("mine", "FLOAT", "POINT")
+    mine.data.foreach_set("value", compat.positions(mesh)[:, 0].copy())
+    group = ground.vertex_groups.new(name="left")
+    group.add([each.index for each in mesh.vertices if each.co.x < -0.5], 1.0, "REPLACE")
+    mesh.edges[0].use_seam = True
+    baked(folder, ground)
+    copy = copy_of(ground).data
+    at = compat.positions(copy)
+    assert len(at) > 100
+    assert np.allclose(compat.float_attribute(copy, "mine"), at[:, 0], atol=1e-5)
+    corner = np.empty(len(copy.loops), np.int32)
+    copy.loops.foreach_get("vertex_index", corner)
+    uv = compat.uv(copy, copy.uv_layers.active.name)
+    assert np.allclose(uv * 6.0 - 3.0, at[corner, :2], atol=1e-4)
+    assert [each.name for each in copy.materials] == ["earth", "stone"]
+    for each in copy.polygons:
+        centre = each.center
+        column, row = int((centre.x + 3.0) // 2.0), int((centre.y + 3.0) // 2.0)
+        assert each.material_index == (3 * row + column) % 2
+    seams = sum(each.use_seam for each in copy.edges)
+    assert seams >= 1
+    assert {"compression", "heap"} <= {each.name for each in copy.attributes}
+    holder = copy_of(ground)
+    weight = [sum(m.weight for m in v.groups) for v in copy.vertices]
+    assert [each.name for each in holder.vertex_groups] == ["left"]
+    assert np.abs(np.array(weight) - np.clip(-(at[:, 0] + 1.0) / 2.0 + 1.0, 0, 1)).max() < 0.51
+    assert sum(weight) > 0.0
+
+
+def test_a_bent_flat_shaded_ground_keeps_its_crease(folder):
+    ground = plane(cuts=1)
+    for each in ground.data.vertices:
+        if each.co.x > 1.0:
+            each.co.z = 0.5
+    baked(folder, ground)
+    copy = copy_of(ground).data
+    sharp = [each for each in copy.edges if each.use_edge_sharp]
+    assert sharp
+    at = compat.positions(copy)
+    for each in sharp:
+        assert np.abs(at[list(each.vertices), 0]).max() < 1e-5
+
+
+def test_the_file_has_it(folder):
+    ground = baked(folder, plane())
+    count = len(seen(ground).vertices)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "a.blend"))
+    ground = bpy.data.objects["Grid"]
+    assert len(seen(ground).vertices) == count
+
+
+def test_modifiers_before_ours_are_in_it(folder):
+    ground = plane(cuts=3)
+    ground.modifiers.new("Rough", "SUBSURF").render_levels = 2
+    ground.modifiers["Rough"].levels = 2
+    baked(folder, ground)
+    assert copy_of(ground) is not None
+    assert len(copy_of(ground).data.vertices) > 17**2
+    untouched = state(ground)
+    ground.desire_path.refine = False
+    assert state(ground)[:2] == untouched[:2]
