@@ -4,7 +4,7 @@ import atexit
 
 import bpy
 
-from . import handlers, op_bake, op_forces, op_place, op_plants, op_walkers, panels, panels_walker, props
+from . import handlers, op_bake, op_forces, op_place, op_plants, op_walk_it, op_walkers, panels, panels_walker, props
 
 _CLASSES = (
     op_walkers.CLASSES
@@ -12,6 +12,7 @@ _CLASSES = (
     + op_forces.CLASSES
     + op_place.CLASSES
     + op_plants.CLASSES
+    + op_walk_it.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES
 )
@@ -21,6 +22,7 @@ def register():
     props.register()
     for each in _CLASSES:
         bpy.utils.register_class(each)
+    op_walk_it.register()
     handlers.register()
     if not bpy.app.binary_path:
         # bpy as a module: 4.5 never ends while an operator or handler of Python is registered
@@ -31,6 +33,7 @@ def unregister():
     atexit.unregister(unregister)
     handlers.unregister()
     op_forces.hide()
+    op_walk_it.unregister()
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)
     props.unregister()

@@ -17,6 +17,10 @@ def _column(layout):
 
 def draw(layout, context):
     obj = context.object
+    if obj is not None and not obj.desire_path.is_ground and not obj.desire_path.is_walker:
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("object.desire_path_walk_it", icon="MOD_DYNAMICPAINT")
     if obj is None or obj.type not in {"MESH", "ARMATURE"}:
         layout.label(text="Select a ground mesh or a walker", icon="INFO")
     elif obj.type == "MESH" and not obj.desire_path.is_walker:
@@ -170,6 +174,10 @@ def draw_plants(layout, context, obj):
 def draw_output(layout, obj):
     settings = obj.desire_path
     column = _column(layout)
+    column.prop(settings, "refine")
+    if settings.refine:
+        column.prop(settings, "refine_size")
+        column.prop(settings, "refine_pixels")
     column.prop(settings, "attributes")
     column.prop(settings, "vertex_group")
     column.prop(settings, "law")

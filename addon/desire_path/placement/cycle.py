@@ -150,7 +150,7 @@ def find(gait):
         raise DesirePathError(
             f"The recording of {name} is too short to be carried along a path: record at least one whole stride."
         )
-    on, _ = walker.contacts(gait, _floor(gait))
+    on, _ = walker.contacts(gait, floor(gait))
     touch = np.array([on[gait.part_limb == limb].any(axis=0) for limb in range(len(gait.limb_walker))])
     first, last = (0, len(gait.time) - 1) if loops else _span(gait, rate, touch)
     if np.hypot(*(gait.com[0, last] - gait.com[0, first])[:2]) < LEAST_SPEED * (last - first) / rate:
@@ -208,7 +208,7 @@ def _ahead_axis(gait):
     return 0.1 * np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=-1)
 
 
-def _floor(gait):
+def floor(gait):
     """Height of the ground a clip walks on [m]: where its contact points are at their lowest."""
     return float(np.median(walker.point_places(gait)[..., 2].min(axis=1)))
 
@@ -290,8 +290,8 @@ def _stood(cycle):
     phase = np.arange(-count, 2 * count) / count
     com, pose, _ = cycle.at(phase)
     thrice = replace(gait, time=np.arange(3 * count) / cycle.rate, com=com[None], pose=pose, cut=(), warnings=())
-    floor = _floor(thrice)
-    on, clearance = walker.contacts(thrice, floor)
+    level = floor(thrice)
+    on, clearance = walker.contacts(thrice, level)
     points = walker.point_places(thrice)[..., :2]
     hold = int(round(HOLD * cycle.rate))
     stand = np.zeros((len(gait.limb_walker), count, 2))
@@ -302,7 +302,7 @@ def _stood(cycle):
     stand[..., 0] -= cycle.way * np.arange(count) / count
     touched = on[gait.point_part].any(axis=1)
     rise = float(np.median(clearance[touched])) if touched.any() else 0.0
-    return replace(cycle, stand=stand, floor=floor + rise)
+    return replace(cycle, stand=stand, floor=level + rise)
 
 
 def _stands(touch, mean, hold):
@@ -327,3 +327,14 @@ def _stands(touch, mean, hold):
             u = (np.arange(b, c + 1) - b)[:, None] / max(c - b, 1)
             stand[b : c + 1] = places[n] + (u * u * (3 - 2 * u)) * (places[n + 1] - places[n])
     return stand
+
+
+def ahead(gait, walker_row=0):
+    """Velocity (2,) [m/s] at which a walker that walks in place would go; None if it moves itself, or does not walk."""
+    slide = _belt(gait, walker_row)
+    return None if slide is None else -slide
+
+
+def loops(gait):
+    """Whether a recording of one walker ends as it began, so that it can be repeated."""
+    return _loop(gait)[1]

@@ -1,0 +1,171 @@
+"""op_walk_it.py - one button from a character to its prints.
+
+what is selected --> characters, and a ground or one made for them --forward.py--> they go ahead --> bake
+"""
+
+import bpy
+import numpy as np
+
+from ..errors import DesirePathError
+from . import axes, forward, ground, moves, sample
+from .op_walkers import Refusal, grounds
+
+MARGIN = 1.0  # a ground that is made reaches this far beyond the feet, in leg lengths
+CELL = 0.011  # side of a cell, in leg lengths: 1 cm for a person
+
+
+def characters(objects):
+    """The armatures among objects, and those that meshes among them hang on; each once, in order."""
+    found = []
+    for obj in objects:
+        rig = rig_of(obj)
+        if rig is not None and rig not in found:
+            found.append(rig)
+    return found
+
+
+def rig_of(obj):
+    """The armature an object is, wears, hangs on, or holds as its only one; None where there is none."""
+    if obj.type == "ARMATURE":
+        return obj
+    for each in obj.modifiers:
+        if each.type == "ARMATURE" and each.object is not None:
+            return each.object
+    above = obj.parent
+    while above is not None:
+        if above.type == "ARMATURE":
+            return above
+        above = above.parent
+    if obj.type == "EMPTY":  # what importers put above a character
+        below = [each for each in obj.children_recursive if each.type == "ARMATURE"]
+        return below[0] if len(below) == 1 else None
+    return None
+
+
+def chosen_ground(context, objects):
+    """The mesh to walk on: one that is a ground, else the active one, else the widest of those selected; None."""
+    meshes = [obj for obj in objects if obj.type == "MESH" and rig_of(obj) is None and not obj.desire_path.is_walker]
+    already = [obj for obj in meshes if obj.desire_path.is_ground]
+    if len(already) == 1 or not meshes:
+        return already[0] if already else None
+    if context.object in meshes:
+        return context.object
+    return max(meshes, key=lambda obj: obj.dimensions.x * obj.dimensions.y)
+
+
+class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
+    """Let the selected characters walk over the selected ground, or over one made for them, and show their prints"""
+
+    bl_idname = "object.desire_path_walk_it"
+    bl_label = "Walk It"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode != "OBJECT" and context.mode != "POSE":
+            cls.poll_message_set("Leave Edit Mode first")
+            return False
+        if not characters(context.selected_objects or filter(None, [context.object])):
+            cls.poll_message_set("Select a character, its armature or a mesh it wears, and a ground if there is one")
+            return False
+        return True
+
+    def work(self, context):
+        scene = context.scene
+        there = list(context.selected_objects) or [context.object]
+        who = characters(there)
+        land = chosen_ground(context, there) or self.known(scene, who)
+        for each in who:
+            if each.library is not None:
+                raise DesirePathError(
+                    f"'{each.name}' is linked from another file: make a library override of it (Object > Library "
+                    "Override > Make) first."
+                )
+            told = forward.carry(scene, each)
+            if told:
+                self.report({"INFO"}, told)
+        gaits = []
+        if land is None or not land.desire_path.is_ground:
+            gaits = [sample.record(scene, each, *moves.frame_range(scene, each)) for each in who]
+        if land is None:
+            land = make_ground(context, gaits)
+        self.use(context, land, bpy.ops.object.desire_path_ground_add)
+        if gaits:
+            land.desire_path.cell_size = cell_for(gaits)
+        for each in who:
+            each.desire_path.ground = land
+            self.use(context, each, bpy.ops.object.desire_path_walker_add)
+        self.use(
+            context,
+            land,
+            bpy.ops.object.desire_path_bake,
+            "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT",
+        )
+        return {"FINISHED"}
+
+    @staticmethod
+    def known(scene, who):
+        """The ground that the characters walk on already."""
+        found = {each.desire_path.ground for each in who} & set(grounds(scene))
+        return found.pop() if len(found) == 1 else None
+
+    def use(self, context, obj, operator, how="EXEC_DEFAULT"):
+        """Call an operator with an object as the active one; what it refuses is refused here."""
+        context.view_layer.objects.active = obj
+        try:
+            operator(how)
+        except RuntimeError as problem:
+            raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
+
+
+def make_ground(context, gaits):
+    """A plane under recordings, as low as their feet come."""
+    from ..motion import size
+    from ..placement import cycle  # the core is loaded when it is first needed
+
+    scale = axes.unit_scale(context.scene)
+    boxes = np.array([ground.under(each) for each in gaits])
+    floor = min(cycle.floor(each) for each in gaits)
+    margin = MARGIN * max(float(size.legs(each).max()) for each in gaits)
+    low, high = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
+    middle, half = 0.5 * (low + high) / scale, 0.5 * (high - low) / scale
+    mesh = bpy.data.meshes.new("Ground")
+    corners = [(x * half[0], y * half[1], 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="UVMap")
+    made = bpy.data.objects.new("Ground", mesh)
+    made.location = (*middle, floor / scale)
+    context.collection.objects.link(made)
+    made.select_set(True)
+    context.view_layer.update()
+    return made
+
+
+def cell_for(gaits):
+    """A round cell size that suits the smallest walker of recordings [m]: 1, 2 or 5 times a power of ten."""
+    from ..motion import size
+
+    wanted = CELL * min(float(size.legs(each).min()) for each in gaits)
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return axes.typed(
+        min((step * power for step in (1.0, 2.0, 5.0, 10.0)), key=lambda cell: abs(np.log(cell / wanted)))
+    )
+
+
+def draw_menu(self, _context):
+    self.layout.separator()
+    self.layout.operator("object.desire_path_walk_it", icon="MOD_DYNAMICPAINT")
+
+
+MENUS = ("VIEW3D_MT_object", "VIEW3D_MT_object_context_menu")
+CLASSES = (OBJECT_OT_desire_path_walk_it,)
+
+
+def register():
+    for name in MENUS:
+        getattr(bpy.types, name).append(draw_menu)
+
+
+def unregister():
+    for name in MENUS:
+        getattr(bpy.types, name).remove(draw_menu)

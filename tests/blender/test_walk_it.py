@@ -1,0 +1,145 @@
+"""Walk It: from a character to its prints at one button, and a clip in place that goes ahead with it."""
+
+import json
+
+import bpy
+import numpy as np
+from scenes import meshes, people
+from test_bake import refused
+from test_refined import deepest, plane
+
+from desire_path.blender import axes, compat
+
+
+def character(action="Walk_Loop"):
+    """A character as it is imported: its armature and the mesh it wears are selected."""
+    rig = people.glb(people.SCENES.joinpath("characters", "human_mixamo_names_inplace.glb"))
+    strip = rig.animation_data.nla_tracks[action].strips[0]
+    compat.use_action(rig.animation_data, strip.action, getattr(strip, "action_slot", None))
+    return rig
+
+
+def select(*objects):
+    bpy.context.view_layer.update()
+    for each in bpy.context.view_layer.objects:
+        each.select_set(each in objects)
+    bpy.context.view_layer.objects.active = objects[-1] if objects else None
+
+
+def skin(rig):
+    return next(each for each in rig.children if each.type == "MESH")
+
+
+def summary(ground):
+    return json.loads(ground.desire_path.summary)
+
+
+def at(rig, frame):
+    bpy.context.scene.frame_set(frame)
+    return np.array(rig.matrix_world.translation)
+
+
+def test_a_character_alone_gets_a_ground_and_walks_it():
+    rig = character()
+    select(rig)
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    ground = rig.desire_path.ground
+    assert ground.name == "Ground" and len(ground.data.vertices) == 4
+    assert abs(ground.location.z) < 0.02, ground.location.z
+    assert ground.desire_path.cell_size == np.float32(0.01)
+    found = summary(ground)
+    assert found["contacts"] >= 15 and not [each for each in found["warnings"] if "slide" in each or "beside" in each]
+    assert rig.desire_path.carried
+    gone = at(rig, 49) - at(rig, 1)
+    assert abs(np.hypot(*gone[:2]) / 2.0 - 1.1) < 0.05 and gone[1] < 0.0 and abs(gone[2]) < 1e-6
+    bpy.context.scene.frame_set(250)
+    assert deepest(ground) > 0.8 * found["deepest_m"] > 0.01
+
+
+def test_a_mesh_it_wears_stands_for_it_and_a_plane_is_walked_on():
+    rig = character()
+    ground = plane(side=2.0)
+    ground.scale = (4.0, 4.0, 1.0)
+    bpy.context.view_layer.update()
+    select(skin(rig), ground)
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert rig.desire_path.ground == ground and ground.desire_path.is_ground and not skin(rig).desire_path.is_ground
+    assert len(ground.data.vertices) == 4 and summary(ground)["contacts"] >= 5
+    bpy.context.scene.frame_set(250)
+    assert deepest(ground) > 0.005
+
+
+def test_carried_is_switched_off_and_on():
+    rig = character()
+    first, slot = rig.animation_data.action, getattr(rig.animation_data, "action_slot", None)
+    keys = [(each.data_path, each.array_index, len(each.modifiers)) for each in compat.curves(rig.animation_data, rig)]
+    assert not rig.desire_path.carried
+    rig.desire_path.carried = True
+    ours = rig.animation_data.action
+    assert rig.desire_path.carried and ours != first and ours.name.endswith("_carried")
+    assert np.abs(at(rig, 49) - at(rig, 1)).max() > 1.0
+    rig.desire_path.carried = False
+    assert rig.animation_data.action == first and getattr(rig.animation_data, "action_slot", None) == slot
+    assert np.abs(at(rig, 49)).max() < 1e-6 and not rig.desire_path.carried
+    assert [
+        (each.data_path, each.array_index, len(each.modifiers)) for each in compat.curves(rig.animation_data, rig)
+    ] == keys
+    assert not [each for each in bpy.data.actions if each.name.endswith("_carried")]
+
+
+def test_parents_scales_and_units_do_not_change_the_speed():
+    rig = character()
+    scene = bpy.context.scene
+    scene.unit_settings.scale_length = 0.5
+    above = bpy.data.objects.new("Above", None)
+    above.scale, above.rotation_euler = (2.0, 2.0, 2.0), (0.0, 0.0, 0.7)
+    scene.collection.objects.link(above)
+    rig.parent = above
+    bpy.context.view_layer.update()
+    rig.desire_path.carried = True
+    gone = (at(rig, 49) - at(rig, 1)) * axes.unit_scale(scene)
+    assert abs(np.hypot(*gone[:2]) / 2.0 - 1.1) < 0.05
+    assert abs(np.arctan2(gone[0], -gone[1]) - 0.7) < 0.05  # it faces where its parent turns it
+
+
+def test_who_walks_by_itself_is_not_carried():
+    rig = people.walk(people.biped(), frames=40)
+    for frame, y in ((1, 0.0), (40, -1.95)):
+        rig.location.y = y
+        rig.keyframe_insert("location", frame=frame)
+    select(rig)
+    bpy.ops.object.desire_path_walk_it()
+    assert not rig.desire_path.carried and not [each for each in bpy.data.actions if each.name.endswith("_carried")]
+
+
+def test_two_characters_walk_one_ground():
+    one, other = character(), character()
+    other.location.x = 1.5
+    bpy.context.view_layer.update()
+    select(one, other)
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert one.desire_path.ground == other.desire_path.ground is not None
+    assert summary(one.desire_path.ground)["contacts"] >= 30, summary(one.desire_path.ground)
+
+
+def test_a_second_time_only_bakes():
+    rig = character()
+    select(rig)
+    bpy.ops.object.desire_path_walk_it()
+    ground, action = rig.desire_path.ground, rig.animation_data.action
+    ground.desire_path.soil = "mud"
+    select(rig)
+    bpy.ops.object.desire_path_walk_it()
+    assert rig.desire_path.ground == ground and rig.animation_data.action == action
+    assert sum(each.type == "MESH" and each.desire_path.is_ground for each in bpy.data.objects) == 1
+
+
+def test_what_cannot_walk_is_told():
+    ground = meshes.grid(4, 4, 1.0)
+    select(ground)
+    refused(bpy.ops.object.desire_path_walk_it, "Select a character")
+    empty = bpy.data.objects.new("Bones", bpy.data.armatures.new("Bones"))
+    bpy.context.scene.collection.objects.link(empty)
+    select(ground, empty)
+    refused(bpy.ops.object.desire_path_walk_it, "has no bones")
+    assert not ground.desire_path.is_ground and not empty.desire_path.is_walker
