@@ -212,6 +212,8 @@ def draw_walker(layout, obj):
     if legged:
         column.prop(settings, "sole")
         column.prop(settings, "path")
+        if settings.path is None:
+            column.prop(settings, "carried")
     if legged and settings.path is not None:
         way = column.column(align=True)
         way.prop(settings, "passes")
