@@ -78,7 +78,7 @@ static void push_back(const Columns* columns, const Balance* balance, double s, 
 
 static Answer answer(Sole* sole, const Balance* balance, double s)
 {
-    double force[LANES] = {0}, slope[LANES] = {0}, share[LANES] = {0};
+    _Alignas(64) double force[LANES] = {0}, slope[LANES] = {0}, share[LANES] = {0};
     for (dp_columns_rewind(sole); dp_columns_next(sole);)
         for (int c = 0; c < sole->filled; ++c)
             push_back(&sole->chunk[c], balance, s, force, slope, share);

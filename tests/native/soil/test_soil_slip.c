@@ -37,6 +37,9 @@ TEST(it_carries_what_it_can_once_it_has_slipped_so_far)
         CHECK_NEAR(carried, push, 0.01);
     }
     CHECK_NEAR(dp_soil_slip(&soil, 1e6, 600.0), DP_MAX_SLIP, 1e-9);  // beyond: no farther
+    // and on soil that gives way sooner no farther than where it carries 0.95 of what it can
+    const DpSoil soon = sand(0.01f);
+    CHECK_CLOSE(dp_soil_slip(&soon, 1e6, 600.0), -0.01 * log(0.05), 1e-6);
 }
 
 int main(void)
