@@ -70,6 +70,16 @@ TEST(out_by_the_shorter_way)
     CHECK_NEAR(p.x, 0.0, 1e-12);
     CHECK(p.z <= 0.02 && p.z >= 0.0);  // down, as far as there is room for its radius
 
+    // 3.5 cm to the side with its radius: down from where that is less, aside from where it is more
+    p = dp_vec3(0.03, 0.0, 0.048);
+    dp_plant_clear(&probe, &p, &by);
+    CHECK_NEAR(p.x, 0.03, 1e-12);
+    CHECK(p.z <= 0.02);
+    p = dp_vec3(0.03, 0.0, 0.052);
+    dp_plant_clear(&probe, &p, &by);
+    CHECK_NEAR(p.z, 0.052, 1e-12);
+    CHECK(p.x > 0.055);
+
     PlantProbe down = probe;
     down.only_down = true;
     p = dp_vec3(0.05, 0.0, 0.09);
