@@ -303,6 +303,24 @@ TEST(without_memory_nothing_is_half_done)
     dp_terrain_destroy(terrain);
 }
 
+// floats on tiles count from a whole multiple of 16 m near the ground, which stays once a tile is there
+TEST(heights_count_from_a_multiple_of_16)
+{
+    const double height[] = {0.0, 7.9, 8.1, 100.0, -1234.5};
+    const double datum[] = {0.0, 0.0, 16.0, 96.0, -1232.0};
+    for (int k = 0; k < 5; ++k) {
+        const DpGround ground = ground_flat(height[k]);
+        DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
+        CHECK(dp_terrain_datum(terrain) == datum[k]);
+        dp_terrain_move_datum(terrain, 50.0);
+        CHECK(dp_terrain_datum(terrain) == 48.0);
+        CHECK(dp_terrain_touch(terrain, (DpCellRect){0, 1, 0, 1}) == DP_OK);
+        dp_terrain_move_datum(terrain, 0.0);
+        CHECK(dp_terrain_datum(terrain) == 48.0);
+        dp_terrain_destroy(terrain);
+    }
+}
+
 int main(void)
 {
     RUN(untouched_ground_costs_nothing);
@@ -314,5 +332,6 @@ int main(void)
     RUN(many_tiles_are_all_found_again);
     RUN(bad_arguments_are_refused);
     RUN(without_memory_nothing_is_half_done);
+    RUN(heights_count_from_a_multiple_of_16);
     return check_done();
 }
