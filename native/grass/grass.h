@@ -37,3 +37,16 @@ DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y);
 // Tiles of DP_TILE x DP_TILE cells that changed since the last call, in ascending (ty, tx) order.
 void dp_grass_changed(DpGrass* grass, void (*visit)(void* context, long tx, long ty),
                       void*    context);
+
+// ---- kept from one run to the next --------------------------------------------------------------
+
+// Write the tiles that something touched, as one chunk of a stream.
+void dp_grass_save(const DpGrass* grass, DpStateWriter* writer);
+
+// What was read, until grass takes it in place of what it was.
+typedef struct DpGrassState DpGrassState;
+// Damaged bytes, and those of cells elsewhere: DP_BAD_FILE.
+DpStatus dp_grass_load(const DpGrass* grass, DpStateReader* reader, DpGrassState** state);
+// It goes on from there, to the bit; the state is gone afterwards. It cannot fail.
+void dp_grass_restore(DpGrass* grass, DpGrassState* state);
+void dp_grass_state_destroy(DpGrassState* state);  // not taken; NULL is fine

@@ -9,7 +9,7 @@
 // the lower a stem is, the more is shown of what it does, so that nothing jumps. Shown stems are as
 // long as what they do.
 #include "base/alloc.h"
-#include "plants/plant_inside.h"
+#include "plants/plant_laid.h"
 #include "plants/plant_stem.h"
 
 #define NEARLY 0.85    // under a sole a stem may lie so much less low than the lean
@@ -19,23 +19,6 @@
 #define PASSES 6       // in which a piece finds its place on the ground
 #define MIN_LIFT 0.3f  // of the radius: lying stems are so high, or up to the whole radius
 #define LIFT_OF 64     // what its chance is called, for the first stem
-
-// What a block's stems looked like when soles laid them.
-typedef struct LaidBlock
-{
-    float*   segment[3];  // (pieces of all stems, lanes) [m]
-    float*   share;       // how low it lay of what the lean said (stems, lanes)
-    uint8_t* laid;        // did anything lay it? (stems, lanes)
-} LaidBlock;
-
-struct DpPlantDisplay
-{
-    const DpPlants* plants;
-    DpStemLeanAt    lean_at;
-    const void*     context;  // of lean_at
-    LaidBlock***    stand;    // blocks of each stand; NULL = never laid
-    int             stands;
-};
 
 DpStatus dp_plant_display_create(DpPlantDisplay** display, const DpPlants* plants,
                                  DpStemLeanAt lean_at, const void* context)
@@ -51,11 +34,8 @@ DpStatus dp_plant_display_create(DpPlantDisplay** display, const DpPlants* plant
 void dp_plant_display_destroy(DpPlantDisplay* display)
 {
     if (!display) return;
-    for (int s = 0; s < display->stands; ++s) {
-        for (int b = 0; b < display->plants->stand[s].blocks; ++b) dp_free(display->stand[s][b]);
-        dp_free(display->stand[s]);
-    }
-    dp_free(display->stand), dp_free(display);
+    dp_plant_laid_drop(&display->laid, display->plants);
+    dp_free(display);
 }
 
 // ---- stems -----------------------------------------------------------------------------------
@@ -116,37 +96,6 @@ static void keep(LaidBlock* kept, const Stem* shown, int stem, int l, double sha
     }
     kept->share[stem * DP_LANES + l] = (float)share;
     kept->laid[stem * DP_LANES + l] = 1;
-}
-
-static LaidBlock* create_block(const DpPlantShape* shape)
-{
-    const size_t head = (sizeof(LaidBlock) + 15) / 16 * 16;
-    const size_t stems = (size_t)shape->stems * DP_LANES;
-    const size_t segments = stems * (size_t)(shape->rows - DP_PLANT_HELD);
-    char*        memory = dp_alloc(1, head + (3 * segments + stems) * sizeof(float) + stems);
-    if (!memory) return NULL;
-    LaidBlock* block = (LaidBlock*)(void*)memory;
-    float*     grid = (float*)(void*)(memory + head);
-    for (int d = 0; d < 3; ++d, grid += segments) block->segment[d] = grid;
-    block->share = grid;
-    block->laid = (uint8_t*)(grid + stems);
-    return block;
-}
-
-// stands that have come since
-static bool know_stands(DpPlantDisplay* display)
-{
-    const int count = display->plants->stands;
-    if (count == display->stands) return true;
-    LaidBlock*** more = dp_realloc(display->stand, (size_t)count, sizeof *more);
-    if (!more) return false;
-    display->stand = more;
-    for (; display->stands < count; ++display->stands) {
-        const size_t blocks = (size_t)display->plants->stand[display->stands].blocks;
-        more[display->stands] = dp_alloc(blocks, sizeof(LaidBlock*));
-        if (!more[display->stands]) return false;
-    }
-    return true;
 }
 
 // ---- a stem and its cell -----------------------------------------------------------------------
@@ -219,7 +168,7 @@ static bool step_block(DpPlantDisplay* display, const PlantStand* stand, const P
             const DpStemLean cell = cell_of(display, block, &foot);
             if (!(cell.down > 0.0) && *kept) (*kept)->laid[stem * DP_LANES + l] = 0;
             if (!(cell.down > 0.0) || !(cell.pressed || block->touched_lane[l])) continue;
-            if (!*kept && !(*kept = create_block(&stand->shape))) return false;
+            if (!*kept && !(*kept = dp_plant_laid_create(&stand->shape))) return false;
             const Stem own = stem_of(stand, block, stem, l);
             const Look look = look_at(&own, *kept, &cell, tall, false, stem, l);
             if (cell.pressed || look.as_it_is) keep(*kept, &look.shown, stem, l, look.share);
@@ -231,12 +180,12 @@ static bool step_block(DpPlantDisplay* display, const PlantStand* stand, const P
 DpStatus dp_plant_display_step(DpPlantDisplay* display)
 {
     if (!display) return DP_BAD_ARGUMENT;
-    if (!know_stands(display)) return DP_NO_MEMORY;
-    for (int s = 0; s < display->stands; ++s) {
+    if (!dp_plant_laid_fit(&display->laid, display->plants)) return DP_NO_MEMORY;
+    for (int s = 0; s < display->laid.stands; ++s) {
         const PlantStand* stand = &display->plants->stand[s];
         for (int b = 0; b < stand->blocks; ++b)
             if (stand->up[b] &&
-                !step_block(display, stand, &stand->block[b], &display->stand[s][b]))
+                !step_block(display, stand, &stand->block[b], &display->laid.stand[s][b]))
                 return DP_NO_MEMORY;
     }
     return DP_OK;
@@ -291,7 +240,7 @@ DpStatus dp_plant_display_read(const DpPlantDisplay* display, const DpPlantGroun
     const int         slot = stand->where[plant], l = slot % DP_LANES, rows = stand->shape.rows;
     const PlantBlock* block = &stand->block[slot / DP_LANES];
     const LaidBlock*  kept =
-        stand_name < display->stands ? display->stand[stand_name][slot / DP_LANES] : NULL;
+        stand_name < display->laid.stands ? display->laid.stand[stand_name][slot / DP_LANES] : NULL;
     const uint64_t name = dp_plant_name(block->root[0][l], block->root[1][l]);
     for (int stem = 0; stem < stand->shape.stems; ++stem) {
         const Stem       foot = {.foot = particle_at(stand, block, stem * rows + 1, l)};

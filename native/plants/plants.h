@@ -256,3 +256,13 @@ DpStatus dp_plant_display_step(DpPlantDisplay* display);
 // plant stands on. Where the lean is 0 those of dp_plants_read, to the bit.
 DpStatus dp_plant_display_read(const DpPlantDisplay* display, const DpPlantGround* ground,
                                int stand, int plant, float* position);
+
+// What soles laid, kept as one chunk of a stream; and read for the same plants: damaged bytes, and
+// those of stands of another shape, are DP_BAD_FILE.
+void dp_plant_display_save(const DpPlantDisplay* display, DpStateWriter* writer);
+typedef struct DpPlantDisplayState DpPlantDisplayState;
+DpStatus dp_plant_display_load(const DpPlantDisplay* display, DpStateReader* reader,
+                               DpPlantDisplayState** state);
+// Stems are shown as they were from then on; the state is gone afterwards. It cannot fail.
+void dp_plant_display_restore(DpPlantDisplay* display, DpPlantDisplayState* state);
+void dp_plant_display_state_destroy(DpPlantDisplayState* state);  // not taken; NULL is fine
