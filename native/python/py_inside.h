@@ -46,6 +46,7 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 
 // py_motion.c
 PyObject* dp_py_load(PyObject* object, PyObject* args);
+PyObject* dp_py_load_tracks(PyObject* object, PyObject* args);
 
 // py_frames.c
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);

@@ -26,79 +26,166 @@ static DpMesh* cut_soles(const float* vertex, Py_ssize_t vertices, const int32_t
     return sole;
 }
 
+// Who walks, and when, as Python tells it.
+typedef struct Cast
+{
+    DpGait     gait;  // but for poses
+    DpMesh*    sole;  // to be freed
+    Py_ssize_t times, parts;
+} Cast;
+
+// The first nine arguments of load and load_tracks; false with an exception.
+static bool open_cast(DpBuffers* buffers, PyObject* const object[8], Cast* cast)
+{
+    DpShape  times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
+    DpShape  vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
+    DpGait*  gait = &cast->gait;
+    float*   vertex;
+    int32_t *vertex_count, *triangle, *triangle_count;
+    if (!(gait->time = dp_buffers_open(buffers, object[0], "time", 'd', &times, false)) ||
+        !(gait->mass = dp_buffers_open(buffers, object[1], "mass", 'd', &walkers, false)) ||
+        !(gait->limb_walker =
+              dp_buffers_open(buffers, object[2], "limb_walker", 'i', &limbs, false)) ||
+        !(gait->part_limb = dp_buffers_open(buffers, object[3], "part_limb", 'i', &parts, false)))
+        return false;
+    const Py_ssize_t T = cast->times = times.n[0], P = cast->parts = parts.n[0];
+    if (T > INT32_MAX / 8 || P > 1000000 || limbs.n[0] > P || walkers.n[0] > 1000000) {
+        PyErr_SetString(PyExc_ValueError, "load: too many samples, parts or walkers");
+        return false;
+    }
+    if (!(vertex = dp_buffers_open(buffers, object[4], "sole_vertex", 'f', &vertices, false)) ||
+        !(vertex_count =
+              dp_buffers_open(buffers, object[5], "sole_vertex_count", 'i', DP_SHAPE1(P), false)) ||
+        !(triangle =
+              dp_buffers_open(buffers, object[6], "sole_triangle", 'i', &triangles, false)) ||
+        !(triangle_count =
+              dp_buffers_open(buffers, object[7], "sole_triangle_count", 'i', DP_SHAPE1(P), false)))
+        return false;
+    if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
+        PyErr_SetString(PyExc_ValueError, "load: too many vertices or triangles in the soles");
+        return false;
+    }
+    gait->times = (int)T, gait->walkers = (int)walkers.n[0];
+    gait->limbs = (int)limbs.n[0], gait->parts = (int)P;
+    gait->sole = cast->sole = cut_soles(vertex, vertices.n[0], vertex_count, triangle,
+                                        triangles.n[0], triangle_count, (int)P);
+    return cast->sole != NULL;
+}
+
 PyObject* dp_py_load(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
-    PyObject *  o_time, *o_mass, *o_pose, *o_limb_walker, *o_part_limb, *o_vertex, *o_vertex_count,
-        *o_triangle, *o_triangle_count, *o_touching, *o_force, *o_point;
-    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO:load", &o_time, &o_mass, &o_pose, &o_limb_walker,
-                          &o_part_limb, &o_vertex, &o_vertex_count, &o_triangle, &o_triangle_count,
-                          &o_touching, &o_force, &o_point))
+    PyObject *  item[8], *o_pose, *o_touching, *o_force, *o_point;
+    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO:load", &item[0], &item[1], &o_pose, &item[2],
+                          &item[3], &item[4], &item[5], &item[6], &item[7], &o_touching, &o_force,
+                          &o_point))
         return NULL;
-    DpBuffers buffers = {.count = 0};
-    DpShape   times = {1, {-1}}, walkers = {1, {-1}}, limbs = {1, {-1}}, parts = {1, {-1}};
-    DpShape   vertices = {2, {-1, 3}}, triangles = {2, {-1, 3}};
-    DpMesh*   sole = NULL;
-    PyObject* result = NULL;
-
-    double*  time = dp_buffers_open(&buffers, o_time, "time", 'd', &times, false);
-    double*  mass = time ? dp_buffers_open(&buffers, o_mass, "mass", 'd', &walkers, false) : NULL;
-    int32_t* limb_walker =
-        mass ? dp_buffers_open(&buffers, o_limb_walker, "limb_walker", 'i', &limbs, false) : NULL;
-    int32_t* part_limb =
-        limb_walker ? dp_buffers_open(&buffers, o_part_limb, "part_limb", 'i', &parts, false)
-                    : NULL;
-    if (!part_limb) goto done;
-    const Py_ssize_t T = times.n[0], P = parts.n[0];
-    if (T > INT32_MAX / 8 || P > 100000 || limbs.n[0] > P || walkers.n[0] > 100000) {
-        PyErr_SetString(PyExc_ValueError, "load: too many samples, parts or walkers");
+    DpBuffers     buffers = {.count = 0};
+    Cast          cast = {.sole = NULL};
+    DpLoadedPoses poses;
+    PyObject*     result = NULL;
+    if (!open_cast(&buffers, item, &cast)) goto done;
+    const Py_ssize_t T = cast.times, P = cast.parts;
+    if (!(poses.pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', DP_SHAPE3(P, T, 7), false)) ||
+        !(poses.touching =
+              dp_buffers_open(&buffers, o_touching, "touching", 'B', DP_SHAPE2(P, T), false)) ||
+        !(poses.force =
+              dp_buffers_open(&buffers, o_force, "force", 'd', DP_SHAPE3(P, T, 3), false)) ||
+        !(poses.pressure_point =
+              dp_buffers_open(&buffers, o_point, "point", 'd', DP_SHAPE3(P, T, 3), false)) ||
+        !dp_py_enter(self))
         goto done;
-    }
-    double* pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', DP_SHAPE3(P, T, 7), false);
-    if (!pose) goto done;
-    float* vertex = dp_buffers_open(&buffers, o_vertex, "sole_vertex", 'f', &vertices, false);
-    if (!vertex) goto done;
-    int32_t* vertex_count =
-        dp_buffers_open(&buffers, o_vertex_count, "sole_vertex_count", 'i', DP_SHAPE1(P), false);
-    if (!vertex_count) goto done;
-    int32_t* triangle =
-        dp_buffers_open(&buffers, o_triangle, "sole_triangle", 'i', &triangles, false);
-    if (!triangle) goto done;
-    int32_t* triangle_count = dp_buffers_open(&buffers, o_triangle_count, "sole_triangle_count",
-                                              'i', DP_SHAPE1(P), false);
-    if (!triangle_count) goto done;
-    if (vertices.n[0] > INT32_MAX / 3 || triangles.n[0] > INT32_MAX / 3) {
-        PyErr_SetString(PyExc_ValueError, "load: too many vertices or triangles in the soles");
-        goto done;
-    }
-    uint8_t* touching =
-        dp_buffers_open(&buffers, o_touching, "touching", 'B', DP_SHAPE2(P, T), false);
-    if (!touching) goto done;
-    double* force = dp_buffers_open(&buffers, o_force, "force", 'd', DP_SHAPE3(P, T, 3), false);
-    if (!force) goto done;
-    double* point = dp_buffers_open(&buffers, o_point, "point", 'd', DP_SHAPE3(P, T, 3), false);
-    if (!point) goto done;
-    sole = cut_soles(vertex, vertices.n[0], vertex_count, triangle, triangles.n[0], triangle_count,
-                     (int)P);
-    if (!sole || !dp_py_enter(self)) goto done;
-    const DpGait gait = {.times = (int)T,
-                         .walkers = (int)walkers.n[0],
-                         .limbs = (int)limbs.n[0],
-                         .parts = (int)P,
-                         .time = time,
-                         .mass = mass,
-                         .pose = pose,
-                         .limb_walker = limb_walker,
-                         .part_limb = part_limb,
-                         .sole = sole};
-    DpStatus     status;
+    DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_sim_load(self->sim, &gait, touching, force, point);
+    cast.gait.pose = poses.pose;
+    status = dp_sim_load(self->sim, &cast.gait, poses.touching, poses.force, poses.pressure_point);
     Py_END_ALLOW_THREADS
     self->busy = false;
     result = dp_py_result(status, "loading the recording");
 done:
-    dp_free(sole);
+    dp_free(cast.sole);
+    dp_buffers_close(&buffers);
+    return result;
+}
+
+// How many parts each walker has (walkers), for dp_free; NULL: no memory.
+static int* count_parts(const DpGait* cast)
+{
+    int* count = dp_alloc((size_t)cast->walkers + 1, sizeof *count);
+    for (int p = 0; count && p < cast->parts; ++p) {
+        const int limb = cast->part_limb[p];
+        const int walker = limb >= 0 && limb < cast->limbs ? cast->limb_walker[limb] : -1;
+        if (walker >= 0 && walker < cast->walkers) ++count[walker];
+    }
+    return count;
+}
+
+// Tracks from rows (walker, first, count) and poses one after the other; NULL with an exception.
+static DpTrack* cut_tracks(const DpGait* cast, const int32_t* row, Py_ssize_t rows,
+                           DpLoadedPoses poses, Py_ssize_t count)
+{
+    int*     parts = count_parts(cast);
+    DpTrack* track = parts ? dp_alloc((size_t)rows + 1, sizeof *track) : NULL;
+    bool     fits = track != NULL;
+    if (!track) PyErr_NoMemory();
+    for (Py_ssize_t n = 0; fits && n < rows; ++n) {
+        const int32_t* at = row + 3 * n;
+        fits = at[0] >= 0 && at[0] < cast->walkers && at[2] >= 0 &&
+               (Py_ssize_t)parts[at[0]] * at[2] <= count;
+        if (!fits) {
+            PyErr_Format(PyExc_ValueError, "load_tracks: track %zd goes past the arrays", n);
+            break;
+        }
+        const Py_ssize_t size = (Py_ssize_t)parts[at[0]] * at[2];
+        track[n] = (DpTrack){at[0], at[1], at[2], poses};
+        poses.pose += 7 * size, poses.touching += size, count -= size;
+        poses.force += 3 * size, poses.pressure_point += 3 * size;
+    }
+    dp_free(parts);
+    if (fits) return track;
+    dp_free(track);
+    return NULL;
+}
+
+PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    PyObject *  item[8], *o_track, *o_pose, *o_touching, *o_force, *o_point;
+    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOOO:load_tracks", &item[0], &item[1], &item[2], &item[3],
+                          &item[4], &item[5], &item[6], &item[7], &o_track, &o_pose, &o_touching,
+                          &o_force, &o_point))
+        return NULL;
+    DpBuffers     buffers = {.count = 0};
+    Cast          cast = {.sole = NULL};
+    DpLoadedPoses poses;
+    DpShape       rows = {2, {-1, 3}}, places = {2, {-1, 7}};
+    DpTrack*      track = NULL;
+    int32_t*      row;
+    PyObject*     result = NULL;
+    if (!open_cast(&buffers, item, &cast) ||
+        !(row = dp_buffers_open(&buffers, o_track, "track", 'i', &rows, false)) ||
+        !(poses.pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', &places, false)))
+        goto done;
+    const Py_ssize_t N = places.n[0];
+    if (!(poses.touching =
+              dp_buffers_open(&buffers, o_touching, "touching", 'B', DP_SHAPE1(N), false)) ||
+        !(poses.force = dp_buffers_open(&buffers, o_force, "force", 'd', DP_SHAPE2(N, 3), false)) ||
+        !(poses.pressure_point =
+              dp_buffers_open(&buffers, o_point, "point", 'd', DP_SHAPE2(N, 3), false)) ||
+        !(track = cut_tracks(&cast.gait, row, rows.n[0], poses, N)) || !dp_py_enter(self))
+        goto done;
+    DpStatus  status;
+    DpMotion* motion = NULL;
+    Py_BEGIN_ALLOW_THREADS
+    status = rows.n[0] > INT32_MAX ? DP_BAD_ARGUMENT
+                                   : dp_motion_tracks(&motion, &cast.gait, track, (int)rows.n[0]);
+    if (status == DP_OK) status = dp_sim_follow(self->sim, motion);
+    if (status != DP_OK) dp_motion_destroy(motion);
+    Py_END_ALLOW_THREADS
+    self->busy = false;
+    result = dp_py_result(status, "loading the recording");
+done:
+    dp_free(track), dp_free(cast.sole);
     dp_buffers_close(&buffers);
     return result;
 }

@@ -34,7 +34,7 @@ from ..ground import plant_mesh
 from ..ground.parcels import Parcel
 from ..ground.sim import LOAD_MODELS, TILE, Ground, Simulation, check_cell
 from ..loads import walker
-from ..motion import jumps, size
+from ..motion import jumps, size, tracks
 from ..motion.rotation import turned
 from ..placement.passes import turns_of
 from ..rig.sole import coarse_cells
@@ -197,7 +197,7 @@ class Bake:
             arrays += parcel.ground.arrays()
             for planting in parcel.plants:
                 arrays += planting.arrays()
-        for array in arrays:
+        for array in [part for each in arrays for part in tracks.parts(each)]:
             digest.update(f"{array.shape} {array.dtype}".encode())
             digest.update(_native.digest(np.ascontiguousarray(array)))
         return digest.hexdigest()
@@ -212,8 +212,10 @@ class Bake:
         seconds = sum(float(self.gait.time[after - 1] - self.gait.time[first]) for first, after in self.gait.pieces())
         self.limits.check("frames", self.frame_end - self.frame_start + 1)
         self.limits.check("seconds", seconds)
-        parts = len(self.gait.part_limb)
-        self.limits.check("memory", bounds.SAMPLE_BYTES * parts * (seconds * self._rate() + 1.0))
+        there = sum(
+            len(values) for part in range(len(self.gait.part_limb)) for _, values in tracks.pieces(self.gait.pose, part)
+        )
+        self.limits.check("memory", bounds.SAMPLE_BYTES * there * (seconds * self._rate() + 1.0) / len(self.gait.time))
 
     def _check_grounds(self):
         """Refuse what is too large, before its pictures are made."""

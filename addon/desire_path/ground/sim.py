@@ -14,6 +14,7 @@ import numpy as np
 from .. import _native
 from ..bounds import Limits
 from ..errors import DesirePathError
+from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import maps, trail
 from .plants import as_plantings, seed_of
@@ -336,26 +337,25 @@ class Simulation:
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
-        touching = (np.asarray(loads.touching) == 1).astype(np.uint8)  # what is carried elsewhere presses nothing
-        held = getattr(loads, "held", None)
-        if held is not None:
-            touching[held & (touching != 0)] |= HELD
         vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
         triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
-        self._core.load(
-            np.ascontiguousarray(gait.time),
-            np.ascontiguousarray(gait.mass),
-            np.ascontiguousarray(gait.pose),
+        time, mass = np.ascontiguousarray(gait.time), np.ascontiguousarray(gait.mass)
+        cast = (
             np.ascontiguousarray(gait.limb_walker, np.int32),
             np.ascontiguousarray(gait.part_limb, np.int32),
             np.ascontiguousarray(vertices),
             np.array([len(sole.vertices) for sole in gait.soles], np.int32),
             np.ascontiguousarray(triangles),
             np.array([len(sole.triangles) for sole in gait.soles], np.int32),
-            np.ascontiguousarray(touching),
-            np.ascontiguousarray(loads.force),
-            np.ascontiguousarray(loads.point),
         )
+        held = getattr(loads, "held", None)
+        if isinstance(gait.pose, TrackArray):
+            track, poses, pressing = _tracks(gait, loads, held)
+            self._core.load_tracks(time, mass, *cast, track, poses, *pressing)
+        else:
+            touching = _pressing(np.asarray(loads.touching), None if held is None else np.asarray(held))
+            force, point = np.ascontiguousarray(loads.force), np.ascontiguousarray(loads.point)
+            self._core.load(time, mass, np.ascontiguousarray(gait.pose), *cast, touching, force, point)
         if self.plantings:
             self._plant_reach()
 
@@ -447,6 +447,36 @@ class Simulation:
     def flush(self):
         """Wait until all frames and maps are written; OSError when one could not be."""
         self._core.flush()
+
+
+def _pressing(touching, held):
+    """What the core is told of touching parts; what is carried elsewhere presses nothing."""
+    out = (touching == 1).astype(np.uint8)
+    if held is not None:
+        out[held & (out != 0)] |= HELD
+    return np.ascontiguousarray(out)
+
+
+def _tracks(gait, loads, held):
+    """(walker, first sample, samples) (n, 3) of all who are there, their poses (N, 7), and (touching, force, point)."""
+    owner = gait.limb_walker[gait.part_limb]
+    table, poses, touching, force, point = [], [], [], [], []
+    for rows, first, values in gait.pose.blocks:
+        count = values.shape[1]
+        after = first + count
+        for walker in np.unique(owner[rows]):
+            mine = np.flatnonzero(owner == walker)
+            table.append((walker, first, count))
+            poses.append(gait.pose[mine, first:after].reshape(-1, 7))
+            stays = None if held is None else held[mine, first:after]
+            touching.append(_pressing(loads.touching[mine, first:after], stays).reshape(-1))
+            force.append(loads.force[mine, first:after].reshape(-1, 3))
+            point.append(loads.point[mine, first:after].reshape(-1, 3))
+    return (
+        np.array(table, np.int32),
+        np.concatenate(poses),
+        tuple(np.concatenate(each) for each in (touching, force, point)),
+    )
 
 
 class Film:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
-from ..motion import freeze, jumps
+from ..motion import freeze, jumps, tracks
 from ..motion import size as sizes
 
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
@@ -367,20 +367,20 @@ def _turns(gait, ground):
     one = ground is None or callable(ground) or np.ndim(ground) == 0
     heights = None if one else ground_below(gait, ground)
     for there, first, after in _spans(gait):
-        piece = gait.piece(first, after)
+        piece = (gait if len(there) == len(gait.mass) else gait.only(there)).piece(first, after)
         alike = {}
-        for walker in there:
+        for number, walker in enumerate(there):
             leg = gait.leg[walker]
-            alike.setdefault((leg, freeze.frozen(piece, walker, leg / sizes.LEG)), []).append(walker)
-        for (_, stops), walkers in alike.items():
-            own = piece if len(walkers) == len(gait.mass) else piece.only(np.array(walkers))
+            alike.setdefault((leg, freeze.frozen(piece, number, leg / sizes.LEG)), []).append(number)
+        for (_, stops), numbers in alike.items():
+            own, walkers = piece if len(numbers) == len(there) else piece.only(np.array(numbers)), there[numbers]
             parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], walkers))
             points = np.flatnonzero(np.isin(gait.point_part, parts))
             samples = first + freeze.kept(after - first, stops)
             yield _Turn(
                 freeze.without(own, stops) if stops else own,
                 ground if one else heights[np.ix_(points, samples)],
-                np.array(walkers),
+                walkers,
                 parts,
                 points,
                 samples,
@@ -397,7 +397,7 @@ def _let_go(gait, touching):
     for w in range(len(gait.mass)):
         cut = gait.cuts_of([w])
         for beside in (cut, cut - 1):
-            touching[np.ix_(owner == w, beside)] = 0
+            tracks.put(touching, np.flatnonzero(owner == w), beside, 0)
     return touching
 
 
@@ -445,9 +445,9 @@ def _standing(gait, turns):
 
 def _together(gait, turns):
     """FootForce of the whole recording from those of its turns, or why there is none."""
-    shape = (len(gait.part_limb), len(gait.time))
-    touching, force, point = np.zeros(shape, "u1"), np.zeros(shape + (3,)), np.full(shape + (3,), np.nan)
-    clearance, told, sunk, held = [], [], [], np.zeros(shape, bool)
+    touching, held = tracks.blank(gait.pose, (), "u1", 0), tracks.blank(gait.pose, (), bool, False)
+    force, point = tracks.blank(gait.pose, (3,), float, 0.0), tracks.blank(gait.pose, (3,), float, np.nan)
+    clearance, told, sunk = [], [], []
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
 
     def known():
@@ -458,14 +458,9 @@ def _together(gait, turns):
                 yield turn, found.touching, found.clearance, found
 
     for turn, *_, found in _standing(gait, known()):
-        at = np.ix_(turn.parts, turn.samples)
-        touching[at], force[at], point[at] = found.touching, found.force, found.point
-        for first, last in turn.holds:
-            held[turn.parts, first:last] = True
-            stay = np.ix_(turn.parts, range(first + 1, last + 1))
-            touching[stay], point[stay] = touching[turn.parts, first][:, None], point[turn.parts, first][:, None]
-            force[stay] = _weighing(force[turn.parts, first], turn.gait.mass[0])[:, None]
-            force[turn.parts, last] = force[turn.parts, first]  # and goes on as it came
+        samples = np.union1d(turn.samples, [k for a, b in turn.holds for k in range(a, b + 1)]).astype(np.int64)
+        for array, values in zip((touching, force, point, held), _with_holds(turn, found, samples)):
+            tracks.put(array, turn.parts, samples, values)
         clearance.append(turn.known(found.touching, found.clearance))
         told += found.warnings
         if found.mean is not None:
@@ -474,7 +469,8 @@ def _together(gait, turns):
     if sunk and not clearance:
         raise sunk[0]
     _let_go(gait, touching)
-    force[touching == 0], point[touching == 0] = 0.0, np.nan
+    for on, push, centre in zip(*map(tracks.values, (touching, force, point))):
+        push[on == 0], centre[on == 0] = 0.0, np.nan
     return FootForce(
         gait.time,
         touching,
@@ -485,6 +481,26 @@ def _together(gait, turns):
         _once(told),
         held,
     )
+
+
+def _with_holds(turn, found, samples):
+    """touching, force, point and held of a turn at all of its samples, those of its holds among them."""
+    shape = (len(turn.parts), len(samples))
+    touching, force, point, held = (
+        np.zeros(shape, "u1"),
+        np.zeros(shape + (3,)),
+        np.full(shape + (3,), np.nan),
+        np.zeros(shape, bool),
+    )
+    at = np.searchsorted(samples, turn.samples)
+    touching[:, at], force[:, at], point[:, at] = found.touching, found.force, found.point
+    for first, last in np.searchsorted(samples, np.array(turn.holds, int).reshape(-1, 2)).tolist():
+        held[:, first:last] = True
+        stay = slice(first + 1, last + 1)
+        touching[:, stay], point[:, stay] = touching[:, first, None], point[:, first, None]
+        force[:, stay] = _weighing(force[:, first], turn.gait.mass[0])[:, None]
+        force[:, last] = force[:, first]  # and goes on as it came
+    return touching, force, point, held
 
 
 def _weighing(force, mass):

@@ -12,14 +12,16 @@ import numpy as np
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..files import atomic_file, npz
+from . import tracks
+from .tracks import TrackArray
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
-AWAY = 1e5  # a walker held higher than this for a whole piece is not there [m]
 
 MOST_FRAME = 1 << 31  # a frame's number may be
 MOST_TIME, MOST_RATE = 1e12, 1e6  # [s], [1/s]
 MOST_MASS = 1e7  # of a walker; the heaviest machines on feet would weigh less [kg]
 _VERSION = 1
+_TRACKS = 2  # of a recording whose walkers are not always there
 _NUMBERS = (  # name, type, shape by letters
     ("time", "f8", "T"),
     ("com", "f8", "WT3"),
@@ -70,7 +72,9 @@ class Gait:
 
     def __post_init__(self):
         for name, kind, _ in _NUMBERS:
-            value = np.ascontiguousarray(getattr(self, name), kind)
+            value = getattr(self, name)
+            if not isinstance(value, TrackArray):
+                value = np.ascontiguousarray(value, kind)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
         object.__setattr__(self, "jump", np.array(self.jump, "i8").reshape(-1, 2))
@@ -117,7 +121,23 @@ class Gait:
 
     def there(self, first, after):
         """Numbers of the walkers that are there in samples first..after-1, rising."""
-        return np.flatnonzero(self.com[:, first:after, 2].min(axis=1) < AWAY)
+        if isinstance(self.com, TrackArray):
+            return np.flatnonzero(self.com.there(first, after))
+        return np.arange(len(self.mass))
+
+    def stays(self, walker):
+        """(first sample, sample after the last) of each piece of a walker in which it is there."""
+        pieces = self.pieces(self.cuts_of([walker]))
+        if not isinstance(self.com, TrackArray):
+            return pieces
+        spans = self.com.spans(walker)
+        ends = np.array([b for _, b in spans])
+        found = []
+        for first, after in pieces:
+            n = int(np.searchsorted(ends, after))
+            if n < len(spans) and spans[n][0] <= first:
+                found.append((first, after))
+        return found
 
     def piece(self, first, after):
         """Samples first..after-1, which hold no cut, as a recording of their own."""
@@ -186,29 +206,27 @@ class Gait:
                 raise DesirePathError(
                     f"{self.walker_name[w]} has a mass of {mass:g} kg: give it one above 0 and up to {MOST_MASS:g}."
                 )
-            bad = ~np.isfinite(self.com[w]).all(axis=1)
-            if bad.any():
+            bad = _broken(self.com, w, lambda at: ~np.isfinite(at).all(axis=1))
+            if bad is not None:
                 raise DesirePathError(
                     f"The mass centre of {self.walker_name[w]} has no finite position at frame "
-                    f"{self.frame(bad.argmax()):g}: mend the animation there or leave the frame "
+                    f"{self.frame(bad):g}: mend the animation there or leave the frame "
                     "out."
                 )
         if len(self.leg) not in (0, len(self.mass)) or not ((self.leg > 0) & np.isfinite(self.leg)).all():
             raise DesirePathError("The recording's legs have no length above 0 for each walker: record the walk again.")
         for p in range(len(self.part_limb)):
-            bad = ~np.isfinite(self.pose[p]).all(axis=1)
-            if bad.any():
+            bad = _broken(self.pose, p, lambda at: ~np.isfinite(at).all(axis=1))
+            if bad is not None:
                 raise DesirePathError(
                     f"Bone {self.bone(p)} has no finite position at frame "
-                    f"{self.frame(bad.argmax()):g}: mend the animation there or leave the frame "
+                    f"{self.frame(bad):g}: mend the animation there or leave the frame "
                     "out."
                 )
-            size = np.linalg.norm(self.pose[p, :, 3:], axis=1)
-            bad = abs(size - 1) > 1e-3
-            if bad.any():
+            bad = _broken(self.pose, p, lambda at: abs(np.linalg.norm(at[:, 3:], axis=1) - 1) > 1e-3)
+            if bad is not None:
                 raise DesirePathError(
-                    f"Bone {self.bone(p)} has a broken rotation at frame "
-                    f"{self.frame(bad.argmax()):g}: record the walk again."
+                    f"Bone {self.bone(p)} has a broken rotation at frame {self.frame(bad):g}: record the walk again."
                 )
             sole = self.soles[p]
             if not len(sole.triangles) or not np.isfinite(sole.vertices).all():
@@ -247,9 +265,9 @@ class Gait:
             self,
             cut=self.cuts_of(walkers),
             jump=jump,
-            com=self.com[walkers],
+            com=tracks.some(self.com, walkers),
             mass=self.mass[walkers],
-            pose=self.pose[parts],
+            pose=tracks.some(self.pose, parts),
             leg=self.leg[walkers] if len(self.leg) else (),
             limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
             part_limb=np.searchsorted(limbs, self.part_limb[parts]),
@@ -272,6 +290,10 @@ class Gait:
             arrays[name] = np.array(getattr(self, name), dtype="U")
         arrays["cut"], arrays["jump"], arrays["leg"] = self.cut, self.jump, self.leg
         arrays["version"] = np.array(_VERSION)
+        if isinstance(self.com, TrackArray):  # only those who are there
+            arrays["version"] = np.array(_TRACKS)
+            for name in ("com", "pose"):
+                arrays.update(getattr(self, name).to_arrays(name))
         arrays["frame_rate"] = np.array(self.frame_rate)
         arrays["frame_start"] = np.array(self.frame_start)
         arrays["sole_vertex_count"] = np.array([len(s.vertices) for s in self.soles], "i4")
@@ -299,8 +321,11 @@ class Gait:
             raise DesirePathError(f"{path} is damaged or no recording ({error}): record the walk again.") from None
         try:
             version = int(arrays["version"])
-            if version != _VERSION:
+            if version not in (_VERSION, _TRACKS):
                 raise DesirePathError(f"{path} was recorded by another version ({version}): record the walk again.")
+            if version == _TRACKS:
+                for name, count in (("com", "mass"), ("pose", "part_limb")):
+                    arrays[name] = TrackArray.from_arrays(arrays, name, len(arrays[count]), len(arrays["time"]))
             wanted = {name: arrays[name] for name, _, _ in _NUMBERS}
             for name in ("limb_name", "part_name", "walker_name", "warnings"):
                 wanted[name] = tuple(arrays[name].tolist())
@@ -323,7 +348,7 @@ class Gait:
             raise DesirePathError(
                 f"There is not enough memory for the recording {path}: record fewer frames."
             ) from None
-        return gait.check()
+        return _let_in(gait.check())
 
     # ---- several walkers, other rates ----------------------------------------------------------
 
@@ -346,9 +371,9 @@ class Gait:
         shifted = lambda name, by: np.concatenate([getattr(g, name) + b for g, b in zip(gaits, by)])
         return Gait(
             time=first.time,
-            com=np.concatenate([g.com for g in gaits]),
+            com=tracks.joined([g.com for g in gaits]),
             mass=np.concatenate([g.mass for g in gaits]),
-            pose=np.concatenate([g.pose for g in gaits]),
+            pose=tracks.joined([g.pose for g in gaits]),
             limb_walker=shifted("limb_walker", walkers),
             part_limb=shifted("part_limb", limbs),
             soles=chain("soles"),
@@ -421,6 +446,8 @@ class Gait:
         have = self.rate()
         if have is not None and abs(rate / have - 1.0) < 1e-9:
             return self
+        if isinstance(self.com, TrackArray):
+            return self._resampled_tracks(rate)
         parts = [self.piece(*ends).resample(rate) for ends in self.pieces()]
         cut = np.cumsum([len(p.time) for p in parts])[:-1]
         jump = self.jump.copy()
@@ -433,6 +460,62 @@ class Gait:
             cut=cut,
             jump=jump,
         )
+
+    def _resampled_tracks(self, rate):
+        """Each piece for those who are there."""
+        from .. import _native
+
+        times, coms, poses, at = [], [], [], 0
+        owner = self.limb_walker[self.part_limb]
+        for first, after in self.pieces():
+            there = self.there(first, after)
+            if len(there):
+                piece = self.only(there).piece(first, after).resample(rate)
+                coms.append((there, at, piece.com))
+                poses.append((np.flatnonzero(np.isin(owner, there)), at, piece.pose))
+                times.append(piece.time)
+            else:
+                count = _native.resample_count(self.time[first], self.time[after - 1], float(rate))
+                times.append(self.time[first] + np.arange(count) / rate)
+            at += len(times[-1])
+        cut = np.cumsum([len(time) for time in times])[:-1]
+        jump = self.jump.copy()
+        jump[:, 0] = cut[np.searchsorted(self.cut, jump[:, 0])]
+        return replace(
+            self,
+            time=np.concatenate(times),
+            com=TrackArray(len(self.mass), at, coms),
+            pose=TrackArray(len(owner), at, poses),
+            cut=cut,
+            jump=jump,
+        )
+
+
+def _let_in(gait):
+    """A recording as it was kept when who was not there was held up in the sky for whole pieces."""
+    sky = 1e5  # [m]
+    if isinstance(gait.com, TrackArray) or not (gait.com[..., 2] >= sky).any():
+        return gait
+    owner, coms, poses = gait.limb_walker[gait.part_limb], [], []
+    for first, after in gait.pieces():
+        there = np.flatnonzero(gait.com[:, first:after, 2].min(axis=1) < sky)
+        if len(there):
+            mine = np.flatnonzero(np.isin(owner, there))
+            coms.append((there, first, gait.com[there, first:after]))
+            poses.append((mine, first, gait.pose[mine, first:after]))
+    if not coms:
+        return gait
+    times = len(gait.time)
+    return replace(gait, com=TrackArray(len(gait.mass), times, coms), pose=TrackArray(len(owner), times, poses))
+
+
+def _broken(array, row, test):
+    """The first sample of a row at which a test of its values (n, ..) says so; None: nowhere."""
+    for first, values in tracks.pieces(array, row):
+        bad = test(values)
+        if bad.any():
+            return first + int(bad.argmax())
+    return None
 
 
 def _stack(blocks, kind):

@@ -36,19 +36,18 @@ def found(gait):
         feet = parts[np.unique(gait.part_limb[parts], return_index=True)[1]]  # the first part of each
         sole = max(float(np.linalg.norm(gait.soles[p].vertices, axis=1).max()) for p in parts)
         seen = []
-        for first, after in gait.pieces(gait.cuts_of([w])):
-            if w in gait.there(first, after):
-                seen += [
-                    (first + a, first + b, size)
-                    for a, b, size in between(
-                        gait.time[first:after],
-                        gait.com[w, first:after],
-                        gait.pose[feet, first:after, :3],
-                        gait.frame_rate,
-                        gait.time[0],
-                        sole,
-                    )
-                ]
+        for first, after in gait.stays(w):
+            seen += [
+                (first + a, first + b, size)
+                for a, b, size in between(
+                    gait.time[first:after],
+                    gait.com[w, first:after],
+                    gait.pose[feet, first:after, :3],
+                    gait.frame_rate,
+                    gait.time[0],
+                    sole,
+                )
+            ]
         for a, b, _ in seen:
             jump.update((sample, w) for sample in range(a + 1, b + 1))
         told += sentences(name, [(gait.frame(a), gait.frame(b), size) for a, b, size in seen])

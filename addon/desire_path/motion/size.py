@@ -9,6 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from .tracks import TrackArray
+
 LEG = 0.86  # from the hip joints to the ankles of a grown person [m]
 TALL = 1.15  # whose mass centre is at most so high over his feet, in legs
 QUICK = 0.6  # shorter legs step so quickly that they need more samples [m]
@@ -20,16 +22,26 @@ def legs(gait):
 
     What has one foot only is a thing rather than a walker, and meets the ground as it did for a person.
     """
-    from ..loads.walker import point_places
-
     if len(gait.leg):
         return gait.leg
+    if isinstance(gait.com, TrackArray):  # the tallest each ever is while it is there
+        alone = (gait.only([w]) for w in range(len(gait.mass)))
+        tall = [[_tall(each.piece(*span))[0] for span in each.com.spans(0)] for each in alone]
+        tall = [max(highs, default=0.0) for highs in tall]
+    else:
+        tall = _tall(gait)
+    return np.array([high / TALL if high > 0.0 else LEG for high in tall])
+
+
+def _tall(gait):
+    """How high the mass centre of each walker rises over its feet [m]; 0 for a thing."""
+    from ..loads.walker import point_places
+
     height, owner = point_places(gait)[..., 2], gait.limb_walker[gait.part_limb[gait.point_part]]
-    tall = [
+    return [
         float((gait.com[w, :, 2] - height[owner == w].min(axis=0)).max()) if (gait.limb_walker == w).sum() > 1 else 0.0
         for w in range(len(gait.mass))
     ]
-    return np.array([high / TALL if high > 0.0 else LEG for high in tall])
 
 
 def known(gait):

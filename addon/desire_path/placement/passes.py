@@ -12,8 +12,9 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..ground.sim import Ground, Simulation
-from ..motion import rotation
-from ..motion.gait import AWAY, Gait
+from ..motion import rotation, size
+from ..motion.gait import Gait
+from ..motion.tracks import TrackArray
 from . import place as placing
 from .cycle import find
 from .path import Path
@@ -232,7 +233,7 @@ class _Below:
 
 def _chained(gaits, turns, rate, pauses):
     """One recording of walkers who go one at a time: turns (walker, com (T, 3), pose (P, T, 7)), each after
-    its pause [s]. In a pause nobody is there, and who is not walking is away: see Gait.there().
+    its pause [s]. In a pause nobody is there, nor is who does not walk: see Gait.there().
     """
     lengths, starts, time, at = [], [], [], gaits[0].time[0]
     for (_, com, _), pause in zip(turns, pauses):
@@ -245,29 +246,32 @@ def _chained(gaits, turns, rate, pauses):
         time.append(at + np.arange(len(com)) / rate)
         at = time[-1][-1] + 1.0 / rate
     time = np.concatenate(time)
-    walking = []
-    for w, gait in enumerate(gaits):
-        com = np.zeros((1, len(time), 3))
-        pose = np.zeros((len(gait.pose), len(time), 7))
-        com[..., 2] = pose[..., 2] = 2.0 * AWAY
-        pose[..., 3] = 1.0
-        for (who, body, parts), start in zip(turns, starts):
-            if who == w:
-                com[0, start : start + len(body)] = body
-                pose[:, start : start + len(body)] = parts
-        walking.append(
-            replace(
-                gait,
-                time=time,
-                com=com,
-                pose=pose,
-                cut=np.cumsum(lengths)[:-1],
-                jump=(),
-                frame_rate=gaits[0].frame_rate,
-                frame_start=gaits[0].frame_start,
-            )
-        )
-    return Gait.join(walking)
+    walkers = np.cumsum([0] + [len(gait.mass) for gait in gaits])
+    parts = np.cumsum([0] + [len(gait.pose) for gait in gaits])
+    coms = [(np.array([walkers[who]]), start, com[None]) for (who, com, _), start in zip(turns, starts)]
+    poses = [(np.arange(parts[who], parts[who + 1]), start, pose) for (who, _, pose), start in zip(turns, starts)]
+    if len(gaits) == 1 and len(turns) == len(lengths):  # one who is always there
+        com, pose = (np.concatenate([each for _, _, each in blocks], axis=1) for blocks in (coms, poses))
+    else:
+        com = TrackArray(walkers[-1], len(time), coms)
+        pose = TrackArray(parts[-1], len(time), poses)
+    one = lambda gait: replace(gait, time=time[:1], com=gait.com[:, :1], pose=gait.pose[:, :1], cut=(), jump=(), leg=())
+    chained = replace(
+        Gait.join([one(gait) for gait in gaits]),
+        time=time,
+        com=com,
+        pose=pose,
+        cut=np.cumsum(lengths)[:-1],
+        jump=(),
+        frame_rate=gaits[0].frame_rate,
+        frame_start=gaits[0].frame_start,
+    )
+    if not any(len(gait.leg) for gait in gaits):
+        return chained
+    legs = size.legs(chained)
+    return replace(
+        chained, leg=[leg for gait, own in zip(gaits, legs) for leg in (gait.leg if len(gait.leg) else [own])]
+    )
 
 
 def in_turn(gaits):

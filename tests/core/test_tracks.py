@@ -1,0 +1,245 @@
+"""Walkers who go in turn: memory grows with who is there, and nothing else changes."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import desire_path
+from desire_path import Gait, _native
+from desire_path.bake.bake import Bake
+from desire_path.errors import DesirePathError
+from desire_path.files import npz
+from desire_path.ground import maps
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.loads import walker
+from desire_path.motion.tracks import TrackArray, joined
+from desire_path.placement import passes
+
+
+@pytest.fixture(scope="module")
+def walk():
+    return Gait.load(Path(desire_path.__file__).parent / "walks" / "walk.npz")
+
+
+@pytest.fixture(scope="module")
+def eight(walk):
+    """Eight walkers in turn, five passes each, on paths of their own."""
+    return passes.in_turn([walk.along([(0, 0.3 * n), (2, 0.3 * n)], 5, seed=n) for n in range(8)])
+
+
+def pressed(gait, loads, **options):
+    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1, **options)
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    i0, i1, j0, j1 = sim.reach()
+    return [sim.read(name, i0, j0, i1 - i0, j1 - j0) for name in ("compression", "heap", "pressure_time")]
+
+
+def dense(gait):
+    return replace(gait, com=np.asarray(gait.com), pose=np.asarray(gait.pose))
+
+
+def dense_loads(loads):
+    arrays = {name: np.asarray(getattr(loads, name)) for name in ("touching", "force", "point", "held")}
+    return replace(loads, **arrays)
+
+
+# ---- the array -------------------------------------------------------------------------------------------
+
+
+def some_array(random, missing=None):
+    """A TrackArray of five rows over 40 samples, and the same dense."""
+    blocks, want = [], np.full((5, 40, 3), np.nan if missing is None else missing)
+    for rows in ([0, 3], [1], [4]):  # row 2 is never there
+        at = int(random.integers(0, 6))
+        while at < 34:
+            count = int(random.integers(1, 7))
+            values = random.random((len(rows), min(count, 40 - at), 3))
+            blocks.append((rows, at, values))
+            want[rows, at : at + values.shape[1]] = values
+            at += count + int(random.integers(0, 5))
+    if missing is None:
+        for row in want:
+            known = np.flatnonzero(np.isfinite(row[:, 0]))
+            if not len(known):
+                row[:] = 0.0
+                continue
+            last = np.searchsorted(known, np.arange(40), "right") - 1
+            row[:] = row[known[np.maximum(last, 0)]]
+    random.shuffle(blocks)
+    return TrackArray(5, 40, blocks, missing), want
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("missing", [None, 0.0])
+def test_it_is_read_like_an_array(seed, missing):
+    random = np.random.default_rng(seed)
+    array, want = some_array(random, missing)
+    assert array.shape == want.shape and array.ndim == 3 and len(array) == 5
+    assert np.array_equal(np.asarray(array), want) and array.nbytes < want.nbytes
+    a, b = sorted(random.integers(0, 41, 2).tolist())
+    rows, mask = np.array([3, 0]), np.array([True, False, True, True, False])
+    for key in (
+        (slice(None), slice(a, b)),
+        (rows, slice(a, b), 2),
+        (2, slice(a, b)),
+        (-1,),
+        (mask, slice(a, None), slice(0, 2)),
+        (slice(None), 7),
+        (3, 39, 1),
+        (slice(None), slice(None, None, 3)),
+        (slice(None), slice(None, None, -1)),
+        (..., 1),
+        (..., slice(0, 2)),
+        np.ix_(rows, np.array([2, 9, 5])),
+        (np.array([0, 4, 1]), np.array([1, 2, 3])),
+        (rows,),
+        (slice(None), None, 3),
+    ):
+        assert np.array_equal(array[key], want[key]), key
+    assert np.array_equal(array + 1.0, want + 1.0) and np.array_equal(array != 0, want != 0)
+    assert array.sum() == pytest.approx(want.sum()) and np.array_equal(array.copy(), want)
+    assert [np.array_equal(one, other) for one, other in zip(array, want)] == [True] * 5
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_it_is_written_where_somebody_is(seed):
+    random = np.random.default_rng(seed)
+    array, _ = some_array(random)
+    other, want = array.like((2,), float, np.nan), np.full((5, 40, 2), np.nan)
+    rows, samples = np.array([0, 1, 4]), np.sort(random.choice(40, 9, replace=False))
+    values = random.random((3, 9, 2))
+    there = np.array([array.there(k, k + 1) for k in samples]).T
+    other.put(rows, samples, values)
+    want[np.ix_(rows, samples)] = np.where(there[rows][..., None], values, np.nan)
+    assert np.array_equal(np.asarray(other), want, equal_nan=True)
+    some = array.rows([1, 3])
+    assert np.array_equal(np.asarray(some), array[[1, 3]])
+    both = joined([array, np.ones((1, 40, 3))])
+    assert np.array_equal(np.asarray(both)[:5], np.asarray(array)) and (both[5] == 1.0).all()
+
+
+# ---- recordings ------------------------------------------------------------------------------------------
+
+
+def test_memory_is_that_of_who_is_there(eight):
+    alone = sum(len(eight.time[a:b]) for a, b, _, _ in passes.turns_of(eight)) * 4 * 7 * 8
+    assert len(eight.mass) == 8 and len(passes.turns_of(eight)) == 40
+    assert np.prod(eight.pose.shape) * 8 == 8 * alone  # what all of them would take all the time
+    assert eight.pose.nbytes <= 1.2 * alone
+    loads = walker.loads(eight)
+    assert loads.force.nbytes <= 1.2 * alone * 3 / 7
+    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    before = _native.bytes_live()
+    sim.load(eight, loads)
+    held = _native.bytes_live() - before - eight.time.nbytes
+    assert held <= 1.2 * alone * (13 * 8 + 1) / (7 * 8) + 50_000  # soles and limbs
+
+
+def test_tracks_leave_the_bits_of_a_dense_recording(eight):
+    loads = walker.loads(eight)
+    tracks, whole = pressed(eight, loads), pressed(dense(eight), dense_loads(loads))
+    assert all(np.array_equal(a, b) for a, b in zip(tracks, whole)) and tracks[0].max() > 0.005
+    one = eight.only([0])
+    single = walker.loads(one)
+    assert np.array_equal(single.force[:, : eight.cut[0]], loads.force[:4, : eight.cut[0]])
+
+
+def test_a_recording_is_the_same_as_one_track(walk):
+    gait = walk.along([(0, 0), (2, 0)], 1)
+    n = len(gait.time)
+    track = replace(
+        gait,
+        com=TrackArray(1, n, [([0], 0, gait.com)]),
+        pose=TrackArray(len(gait.pose), n, [(np.arange(len(gait.pose)), 0, gait.pose)]),
+    )
+    loads = walker.loads(gait)
+    again = walker.loads(track.check())
+    assert np.array_equal(again.force, loads.force) and np.array_equal(again.touching, loads.touching)
+    assert all(np.array_equal(a, b) for a, b in zip(pressed(gait, loads), pressed(track, again)))
+
+
+def test_a_thousand_walkers_go_in_turn(walk):
+    short = walk.along([(0, 0), (2, 0)], 1).piece(10, 30)
+    many = passes.in_turn([short] * 1000)
+    assert many.pose.shape == (4000, 20_000, 7) and many.pose.nbytes == 1000 * short.pose.nbytes
+    loads = walker.FootForce(
+        many.time,
+        many.pose.like((), "u1", 0),
+        many.pose.like((3,), float, 0.0),
+        many.pose.like((3,), float, np.nan),
+        np.zeros(len(many.point)),
+    )
+    for touching, force in zip(
+        (block[2] for block in loads.touching.blocks), (block[2] for block in loads.force.blocks)
+    ):
+        touching[0, 5:15], force[0, 5:15, 2] = 1, -500.0
+    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    before = _native.bytes_live()
+    sim.load(many, loads)
+    soles = sum(sole.vertices.nbytes + sole.triangles.nbytes for sole in many.soles)
+    limbs = 2000 * 1000
+    assert _native.bytes_live() - before < 1.2 * 1000 * 4 * 20 * (13 * 8 + 1) + soles + limbs
+    sim.run(len(many.time) - 1)
+    assert sim.report()["contacts"] == 1000
+
+
+def test_it_comes_back_from_disk(eight, tmp_path):
+    path = tmp_path / "walk.npz"
+    eight.save(path)
+    assert path.stat().st_size < 1.3 * (eight.pose.nbytes + eight.com.nbytes)
+    again = Gait.load(path)
+    assert isinstance(again.pose, TrackArray) and np.array_equal(again.cut, eight.cut)
+    assert np.array_equal(again.pose, eight.pose) and np.array_equal(again.com, eight.com)
+    assert [again.there(a, b).tolist() for a, b in again.pieces()] == [
+        eight.there(a, b).tolist() for a, b in eight.pieces()
+    ]
+    arrays = npz.read(path)
+    for name, value in (
+        ("pose_span", arrays["pose_span"] + (0, 1, 0)),
+        ("pose_span", arrays["pose_span"][1:]),
+        ("pose_rows", arrays["pose_rows"] + 8),
+        ("pose_rows", arrays["pose_rows"] - 1),
+        ("com", arrays["com"][1:]),
+        ("com_span", arrays["com_span"] * 0),
+    ):
+        np.savez(path, **{**arrays, name: value})
+        with pytest.raises(DesirePathError, match="damaged or no recording"):
+            Gait.load(path)
+
+
+def test_who_was_held_in_the_sky_is_not_there(eight, tmp_path):
+    """As recordings were kept before: absent walkers at 2e5 m for whole pieces."""
+    owner, com, pose = eight.limb_walker[eight.part_limb], np.asarray(eight.com), np.asarray(eight.pose)
+    for a, b in eight.pieces():
+        away = np.setdiff1d(np.arange(8), eight.there(a, b))
+        com[away, a:b] = (0, 0, 2e5)
+        pose[np.isin(owner, away), a:b] = (0, 0, 2e5, 1, 0, 0, 0)
+    replace(eight, com=com, pose=pose).save(tmp_path / "old.npz")
+    again = Gait.load(tmp_path / "old.npz")
+    assert np.array_equal(again.pose, eight.pose) and again.pose.nbytes == eight.pose.nbytes
+
+
+def test_they_are_resampled_piece_by_piece(eight):
+    finer = eight.resample(120.0)
+    assert isinstance(finer.pose, TrackArray) and finer.rate() == pytest.approx(120.0)
+    for (a, b), (c, d) in list(zip(eight.pieces(), finer.pieces()))[::7]:
+        there = eight.there(a, b)
+        own = eight.only(there).piece(a, b).resample(120.0)
+        assert np.array_equal(finer.com[there, c:d], own.com) and finer.there(c, d).tolist() == there.tolist()
+
+
+def test_a_bake_of_them_is_that_of_a_dense_recording(walk, tmp_path):
+    gait = passes.in_turn([walk.along([(0, 0.3 * n), (1, 0.3 * n)], 2, seed=n) for n in range(3)])
+    for _ in Bake(gait, Ground.flat(), "mud", tmp_path / "out", cell_size=0.02, threads=1).run():
+        pass
+    found = maps.read(tmp_path / "out" / "maps_final.exr")
+    assert found.planes["compression"].max() > 0.005
+    broken = gait.pose.like((7,), float, 0.0)
+    for (_, _, to), (_, _, values) in zip(broken.blocks, gait.pose.blocks):
+        to[...] = values
+    broken.blocks[1][2][0, 3, 2] = np.nan
+    with pytest.raises(DesirePathError, match="no finite position at frame"):
+        replace(gait, pose=broken).check()
