@@ -13,7 +13,7 @@ from .errors import DesirePathError
 from .files import atomic_file
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
-from .ground.soil import SOILS
+from .ground.soil import SOILS, as_soil
 from .loads import plot, walker
 from .loads.report import sentences, summary, write_contacts
 from .motion import jumps
@@ -22,6 +22,9 @@ from .placement import path as paths
 from .placement.place import place_feet
 from .study import calibrate, trampling
 from .version import VERSION
+
+SOIL_HELP = f"one of {', '.join(SOILS)}, or a .json file that Soil.save or Save Soil wrote"
+SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 
 
 def _ground(text, spacing):
@@ -75,7 +78,7 @@ def _along(args, gait, ground):
             raise DesirePathError("--passes needs a path to walk on: add --along PATH.csv with the columns x,y.")
         return place_feet(gait, ground) if args.place_feet else gait
     cell, origin = _cells(args, ground)
-    below = Simulation(ground, args.soil, cell, origin=origin)
+    below = Simulation(ground, as_soil(args.soil), cell, origin=origin)
     return gait.along(
         paths.read(args.along)[:, :2],
         args.passes,
@@ -104,7 +107,7 @@ def _bake(args):
     bake = Bake(
         _along(args, gait, ground),
         ground,
-        args.soil,
+        as_soil(args.soil).changed(args.soil_set),
         args.out,
         cell_size=cell,
         frame_start=args.frame_start,
@@ -184,7 +187,7 @@ def _lane(args):
         mass=args.mass,
         seed=args.seed,
         rest_days=args.rest_days,
-        soil=args.soil,
+        soil=as_soil(args.soil).changed(args.soil_set),
         cell_size=args.cell,
         threads=args.threads,
         progress=lambda done: _bar(done, "of the passes"),
@@ -237,7 +240,8 @@ def _parser():
         "V or Y), or a bake's maps_final.exr: its trail goes on",
     )
     bake.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if it does not say")
-    bake.add_argument("--soil", default="dry-sand", help=f"one of {', '.join(SOILS)}")
+    bake.add_argument("--soil", default="dry-sand", help=SOIL_HELP)
+    bake.add_argument("--soil-set", action="append", default=[], metavar="NAME=VALUE", help=SET_HELP)
     bake.add_argument("--cell", type=float, help="side of a cell [m] (0.01, or that of the trail that goes on)")
     bake.add_argument(
         "--origin",
@@ -319,7 +323,8 @@ def _parser():
     tread.add_argument("--mass", type=float, default=75.0, help="of who walks [kg] (75)")
     tread.add_argument("--seed", type=int, default=0, help="of the plants and the walkers' scatter (0)")
     tread.add_argument("--rest-days", type=float, default=0.0, help="days of growth before every count (0)")
-    tread.add_argument("--soil", default="soil", help=f"one of {', '.join(SOILS)}")
+    tread.add_argument("--soil", default="soil", help=SOIL_HELP)
+    tread.add_argument("--soil-set", action="append", default=[], metavar="NAME=VALUE", help=SET_HELP)
     tread.add_argument("--cell", type=float, default=0.02, help="side of a cell [m] (0.02)")
     tread.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
     tread.add_argument("--out", required=True, help="the table passes,cover (.csv)")

@@ -5,12 +5,14 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from desire_path.ground import maps
+from desire_path.ground.soil import SOILS
 from tests.core.test_bake import standing
 
 REPO = Path(__file__).resolve().parents[2]
@@ -41,6 +43,17 @@ def test_bake_on_flat_ground(tmp_path, walk):
     report = json.loads((tmp_path / "folder" / "report.json").read_text())
     assert report["contacts"] == 1
     assert (tmp_path / "folder" / "maps_final.exr").exists()
+
+
+def test_a_soil_is_taken_from_a_file_and_changed(tmp_path, walk):
+    replace(SOILS["mud"], layer_depth=0.5).save(tmp_path / "mine.json")
+    done = run(
+        *("bake", walk, "--soil", tmp_path / "mine.json", "--soil-set", "young_modulus=2.5e5", "--soil-set"),
+        *("settle_time=0.2", "--cell", "0.02", "--out", tmp_path / "folder"),
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads((tmp_path / "folder" / "report.json").read_text())["parameters"]["soils"]
+    assert told == [asdict(replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2))]
 
 
 def test_kinds_add_up_however_they_are_listed(tmp_path, walk):
@@ -113,6 +126,9 @@ def test_loads_are_a_table(tmp_path, walk):
     [
         (("bake", "nowhere.npz", "--out", "x"), "nowhere.npz"),
         (("bake", "{walk}", "--soil", "cheese", "--out", "x"), "cheese"),
+        (("bake", "{walk}", "--soil", "cheese.json", "--out", "x"), "cheese.json"),
+        (("bake", "{walk}", "--soil-set", "softness=2", "--out", "x"), "softness"),
+        (("bake", "{walk}", "--soil-set", "young_modulus=-2", "--out", "x"), "young_modulus"),
         (("bake", "{walk}", "--cell", "-1", "--out", "x"), "cell size"),
         (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
         (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),

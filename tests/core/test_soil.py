@@ -1,12 +1,13 @@
 """Kinds of ground: presets lie in the papers' ranges, and impossible numbers are refused with a sentence."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from desire_path import _native
 from desire_path.errors import DesirePathError
-from desire_path.ground.soil import SOILS, Soil
+from desire_path.ground.soil import SOILS, Soil, as_soil
 
 TABLES = {  # E [MPa], nu, gamma_r [deg] (TRAIL Table 1), tau [s] (SOFT22 Table 1)
     "soft-soil": ((0.7, 2.0), (0.1, 0.3), (10, 15), None),
@@ -100,3 +101,46 @@ def test_the_core_takes_what_python_takes():
 def test_a_soil_cannot_be_changed():
     with pytest.raises(AttributeError):
         SOILS["mud"].young_modulus = 1.0
+
+
+def test_a_soil_is_saved_and_comes_back(tmp_path):
+    mine = replace(SOILS["mud"], young_modulus=2.5e5, layer_depth=0.5)
+    mine.save(tmp_path / "mine.json")
+    assert Soil.load(tmp_path / "mine.json") == mine
+    assert as_soil(str(tmp_path / "mine.json")) == mine and as_soil("mud") is SOILS["mud"] and as_soil(mine) is mine
+    (tmp_path / "short.json").write_text('{"desire_path_soil": 1, "young_modulus": 3e5}')
+    assert Soil.load(tmp_path / "short.json") == Soil(young_modulus=3e5)
+
+
+@pytest.mark.parametrize(
+    "text, word",
+    [
+        ("", "not a soil"),
+        ("[1]", "of this version"),
+        ('{"desire_path_soil": 2}', "of this version"),
+        ('{"desire_path_plant": 1}', "of this version"),
+        ('{"desire_path_soil": 1, "softness": 3}', "says softness, which no soil has"),
+        ('{"desire_path_soil": 1, "young_modulus": -1}', "young_modulus"),
+        ('{"desire_path_soil": 1, "young_modulus": NaN}', "young_modulus"),
+        ('{"desire_path_soil": 1, "young_modulus": "soft"}', "is no number"),
+        ('{"desire_path_soil": 1, "rest_angle": null}', "is no number"),
+        ('{"desire_path_soil": 1, "rest_angle": 1' + 400 * "0" + "}", "too large"),
+        ('{"desire_path_soil": 1, "rest_angle": true}', "is no number"),
+        ('{"desire_path_soil": 1, "settle_time": [1, 2]}', "is no number"),
+    ],
+)
+def test_files_that_hold_no_soil_are_refused_in_words(tmp_path, text, word):
+    (tmp_path / "bad.json").write_text(text)
+    with pytest.raises(DesirePathError, match=word):
+        Soil.load(tmp_path / "bad.json")
+
+
+def test_numbers_are_set_by_name():
+    assert SOILS["mud"].changed(["young_modulus=2e6", "layer_depth=.5"]) == replace(
+        SOILS["mud"], young_modulus=2e6, layer_depth=0.5
+    )
+    for text, word in (("softness=1", "No soil has 'softness'"), ("young_modulus=soft", "no number"), ("", "No soil")):
+        with pytest.raises(DesirePathError, match=word):
+            SOILS["mud"].changed([text])
+    with pytest.raises(DesirePathError, match="There is no soil 'Mud'"):
+        as_soil("Mud")

@@ -37,6 +37,7 @@ from desire_path.errors import DesirePathError  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
 from desire_path.ground.plants import KINDS, Kind  # noqa: E402
 from desire_path.ground.sim import Ground, Simulation  # noqa: E402
+from desire_path.ground.soil import SOILS, Soil  # noqa: E402
 from desire_path.motion.gait import Gait  # noqa: E402
 from desire_path.placement import path  # noqa: E402
 from desire_path.study import trampling  # noqa: E402
@@ -103,6 +104,14 @@ def kind(place):
         KINDS[name].save(place / f"{name}.json")
         made.append((place / f"{name}.json").read_bytes())
     return made, place / "kind.json", lambda: Kind.load(place / "kind.json").numbers(), mutate.tree
+
+
+def soil(place):
+    made = []
+    for name in ("mud", "dry-sand"):
+        SOILS[name].save(place / f"{name}.json")
+        made.append((place / f"{name}.json").read_bytes())
+    return made, place / "soil.json", lambda: Soil.load(place / "soil.json"), mutate.tree
 
 
 def way(place):
@@ -183,7 +192,7 @@ def shown(place):
 
 PARSERS = {
     each.__name__: each
-    for each in (index, frame, sums, recording, kind, way, cover, picture, notes, report, shown)
+    for each in (index, frame, sums, recording, kind, soil, way, cover, picture, notes, report, shown)
 }
 
 

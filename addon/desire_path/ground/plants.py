@@ -9,7 +9,6 @@ bake = Bake(gait, ground, soils, folder, plants=[lawn])
 from __future__ import annotations
 
 import functools
-import json
 import math
 from dataclasses import asdict, dataclass, fields
 
@@ -18,12 +17,11 @@ import numpy as np
 from .. import _native
 from ..bounds import PLANT_BYTES, Limits
 from ..errors import DesirePathError
-from ..files import atomic_file
+from ..files import record
 
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
-_VERSION = 1
-_MOST_TEXT = 1 << 16  # bytes of a kind's file
+_TAG, _VERSION = "desire_path_plant", 1  # of a kind's file
 _RANGES = {  # what native/plants refuses, said by name; angles in radians
     "height": (0, 10),
     "width": (0, 10),
@@ -104,34 +102,12 @@ class Kind:
 
     def save(self, path):
         """Write this kind as JSON, whole or not at all."""
-        text = json.dumps({"desire_path_plant": _VERSION, **asdict(self)}, indent=2) + "\n"
-        with atomic_file.file(path, "The kind", "w", encoding="utf-8") as stream:
-            stream.write(text)
+        record.save(self, path, _TAG, _VERSION, "plant kind")
 
     @staticmethod
     def load(path):
         """A kind that save() wrote; numbers it leaves out are those of the default kind."""
-        try:
-            with atomic_file.reader(path) as file:
-                text = file.read(_MOST_TEXT + 1)
-        except FileNotFoundError:
-            raise DesirePathError(f"There is no plant kind at {path}: check the path.") from None
-        except (OSError, ValueError) as error:
-            raise DesirePathError(
-                f"The plant kind {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
-                "choose a file that Kind.save() wrote."
-            ) from None
-        try:
-            told = json.loads(text.decode("utf-8")) if len(text) <= _MOST_TEXT else None
-        except (ValueError, RecursionError, MemoryError):
-            raise DesirePathError(f"{path} is not a plant kind: save one with Kind.save().") from None
-        version = told.pop("desire_path_plant", None) if isinstance(told, dict) else None
-        if type(version) is not int or version != _VERSION:
-            raise DesirePathError(f"{path} is not a plant kind of this version: save one with Kind.save().")
-        unknown = sorted(set(told) - {f.name for f in fields(Kind)})
-        if unknown:
-            raise DesirePathError(f"{path} says {unknown[0][:40]}, which no plant has: remove it.")
-        return Kind(**told)
+        return record.load(Kind, path, _TAG, _VERSION, "plant kind")
 
 
 def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *, curl_deg=0.0, hours=None, **more):

@@ -18,7 +18,7 @@ from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import maps, trail
 from .plants import as_plantings, seed_of
-from .soil import SOILS, Soil
+from .soil import Soil, as_soil
 
 TILE = 64  # cells along one side of a tile of ground and of a playback frame
 
@@ -154,11 +154,7 @@ def as_soils(soils):
         soils = [soils]
     found = []
     for soil in soils:
-        if isinstance(soil, str):
-            if soil not in SOILS:
-                raise DesirePathError(f"There is no soil '{soil}': choose one of {', '.join(SOILS)}.")
-            soil = SOILS[soil]
-        found.append(soil)
+        found.append(as_soil(soil))
     if not 1 <= len(found) <= 255:
         raise DesirePathError("Give the ground between 1 and 255 soils.")
     return found

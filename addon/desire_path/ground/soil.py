@@ -1,9 +1,13 @@
 """Kinds of ground, MODEL 9.1: presets for looks, from the papers' tables, in SI units."""
 
 import math
-from dataclasses import dataclass
+import numbers
+from dataclasses import dataclass, fields, replace
 
 from ..errors import DesirePathError
+from ..files import record
+
+_TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,14 @@ class Soil:
     shear_modulus: float = 0.0  # K, how far it shears before it carries sideways [m] 0..0.1; 0: soles do not slip
 
     def __post_init__(self):
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(value, bool) or not isinstance(value, numbers.Real):
+                raise DesirePathError(f"A soil's {each.name} of {str(value)[:40]!r} is no number: give one.")
+            try:
+                float(value)
+            except OverflowError:
+                raise DesirePathError(f"A soil's {each.name} is too large a number to be used.") from None
         ranges = {
             "layer_depth": (1e-4, 100),
             "young_modulus": (1, 1e12),
@@ -39,6 +51,40 @@ class Soil:
             raise DesirePathError(
                 f"A soil's shear_modulus of {self.shear_modulus:g} cannot be used: choose 0 to 0.1 m."
             )
+
+    def save(self, path):
+        """Write this soil as JSON, whole or not at all; angles in radians, all else in SI units."""
+        record.save(self, path, _TAG, _VERSION, "soil")
+
+    @staticmethod
+    def load(path):
+        """A soil that save() wrote; numbers it leaves out are those of Soil()."""
+        return record.load(Soil, path, _TAG, _VERSION, "soil")
+
+    def changed(self, texts):
+        """This soil with numbers from words `name=value`, such as young_modulus=2e6."""
+        found = {}
+        for text in texts:
+            name, _, value = text.partition("=")
+            if name not in {each.name for each in fields(self)}:
+                names = ", ".join(each.name for each in fields(self))
+                raise DesirePathError(f"No soil has '{name[:40]}': choose one of {names}, as in young_modulus=2e6.")
+            try:
+                found[name] = float(value)
+            except ValueError:
+                raise DesirePathError(f"'{value[:40]}' is no number for a soil's {name}: give one.") from None
+        return replace(self, **found)
+
+
+def as_soil(soil):
+    """A Soil, the name of a preset, or the path of a file that Soil.save() wrote (.json), as a Soil."""
+    if isinstance(soil, str):
+        if soil in SOILS:
+            return SOILS[soil]
+        if soil.lower().endswith(".json"):
+            return Soil.load(soil)
+        raise DesirePathError(f"There is no soil '{soil}': choose one of {', '.join(SOILS)}, or a .json file of one.")
+    return soil
 
 
 def _soil(megapascal, nu, rest_angle_deg, tau, shear=0.0):

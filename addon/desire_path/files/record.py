@@ -1,0 +1,48 @@
+"""Frozen records of numbers and words as JSON files that people save, change and share: soils, kinds of plants."""
+
+import json
+from dataclasses import asdict, fields
+
+from ..errors import DesirePathError
+from . import atomic_file
+
+MAX_TEXT = 1 << 16  # bytes of a file
+
+
+def save(record, path, tag, version, what):
+    """Write a dataclass as JSON, whole or not at all.
+
+    tag, version: say in the file what it is; what: the same for people, "soil"
+    """
+    text = json.dumps({tag: version, **asdict(record)}, indent=2) + "\n"
+    with atomic_file.file(path, f"The {what}", "w", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def load(kind, path, tag, version, what):
+    """A dataclass `kind` out of a file that `save` wrote; what it leaves out is as by default.
+
+    Raises DesirePathError for any file that is none.
+    """
+    name = kind.__name__
+    try:
+        with atomic_file.reader(path) as file:
+            text = file.read(MAX_TEXT + 1)
+    except FileNotFoundError:
+        raise DesirePathError(f"There is no {what} at {path}: check the path.") from None
+    except (OSError, ValueError) as error:
+        raise DesirePathError(
+            f"The {what} {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
+            f"choose a file that {name}.save() wrote."
+        ) from None
+    try:
+        told = json.loads(text.decode("utf-8")) if len(text) <= MAX_TEXT else None
+    except (ValueError, RecursionError, MemoryError):
+        raise DesirePathError(f"{path} is not a {what}: save one with {name}.save().") from None
+    found = told.pop(tag, None) if isinstance(told, dict) else None
+    if type(found) is not int or found != version:
+        raise DesirePathError(f"{path} is not a {what} of this version: save one with {name}.save().")
+    unknown = sorted(set(told) - {each.name for each in fields(kind)})
+    if unknown:
+        raise DesirePathError(f"{path} says {unknown[0][:40]}, which no {what.split()[0]} has: remove it.")
+    return kind(**told)
