@@ -8,7 +8,9 @@
 #pragma once
 #include "base/grid.h"
 #include "base/status.h"
+#include "base/stream.h"
 #include "base/types.h"
+#include "terrain/terrain_fields.h"
 
 typedef struct DpTerrain DpTerrain;
 
@@ -123,17 +125,21 @@ void dp_terrain_refresh_cover(DpTerrain* terrain, DpCellRect cells);
 // Whether there are nx x ny cells from (i0, j0) on: at least one, and all at numbers whose places are exact.
 bool dp_terrain_has(long i0, long j0, long nx, long ny);
 
+// terrain_fields.h has the meaning and unit of each.
+#define DP_FIELD_NUMBER(ID, name, number, unit, meaning) DP_FIELD_##ID = number,
 typedef enum DpField
 {
-    DP_FIELD_COMPRESSION = 0,     // [m]
-    DP_FIELD_HEAP = 1,            // [m]
-    DP_FIELD_PRESSURE_TIME = 2,   // [Pa s]
-    DP_FIELD_BASE_HEIGHT = 3,     // [m], NaN = no ground
-    DP_FIELD_MODULUS = 4,         // E = E_g + E_v, TRAIL (9) [Pa]
-    DP_FIELD_KIND = 5,            // soil index
-    DP_FIELD_PLANT_STRENGTH = 6,  // alpha_veg, TRAIL (7) [-]; 0 without plants
-    DP_FIELD_HEIGHT_CHANGE = 7    // heap - compression [m]
+    DP_TERRAIN_FIELDS(DP_FIELD_NUMBER, DP_FIELD_NUMBER)
 } DpField;
+
+typedef struct DpFieldInfo
+{
+    DpField     field;
+    const char *name, *unit, *meaning;
+} DpFieldInfo;
+
+// All of them, ascending; *count how many.
+const DpFieldInfo* dp_terrain_fields(int* count);
 
 // Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
 // (base height, modulus and kind are computed from the ground). Cells that there cannot be: DP_BAD_ARGUMENT.
@@ -159,6 +165,21 @@ double dp_terrain_surface_at(const DpTerrain* terrain, double x, double y);
 // Sum of heap and of compression over all tiles, times cell^2 [m^3], and the deepest compression [m].
 void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed, double* deepest);
 size_t dp_terrain_tile_count(const DpTerrain* terrain);
+
+// ---- kept from run to run ----------------------------------------------------------------------
+
+// Write a chunk: which tiles there are, and what walkers and wear have made of them.
+void dp_terrain_save(const DpTerrain* terrain, DpStateWriter* writer);
+
+// Read it, for this ground with these soils: of another, or damaged: DP_BAD_FILE. The terrain stays as
+// it is until it is restored.
+typedef struct DpTerrainState DpTerrainState;
+DpStatus dp_terrain_load(const DpTerrain* terrain, DpStateReader* reader, DpTerrainState** state);
+// It goes on from there, to the bit; the state is gone afterwards. It cannot fail. What grows is asked
+// for its cover, so restore plants first. The next dp_terrain_changed tells of all tiles that differ from
+// bare ground; those that are gone are not told of.
+void dp_terrain_restore(DpTerrain* terrain, DpTerrainState* state);
+void dp_terrain_state_destroy(DpTerrainState* state);  // not taken; NULL is fine
 
 // ---- a mesh as other programs keep it ----------------------------------------------------------
 

@@ -90,12 +90,14 @@ uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const 
 
 // ---- tiles: terrain_tiles.c --------------------------------------------------------------------
 
+#define KEPT_ONE(ID, name, number, unit, meaning) +1
+#define KEPT_FIELDS (DP_TERRAIN_FIELDS(KEPT_ONE, DP_FIELD_NONE))
+
+#define TILE_GRID(ID, name, number, unit, meaning) float name[TILE_CELLS];
 typedef struct Tile
 {
-    float      base_height[TILE_CELLS];    // over the datum, NaN = no ground [m]
-    float      compression[TILE_CELLS];    // [m]
-    float      heap[TILE_CELLS];           // [m]
-    float      pressure_time[TILE_CELLS];  // [Pa s]
+    float base_height[TILE_CELLS];  // over the datum, NaN = no ground [m]
+    DP_TERRAIN_FIELDS(TILE_GRID, DP_FIELD_NONE)
     uint8_t    kind[TILE_CELLS];
     long       tx, ty;
     atomic_int changed;
@@ -122,6 +124,20 @@ struct DpTerrain
     atomic_size_t marks;
 };
 
+// the kept grids of a tile, in the order of their fields
+#define TILE_KEPT(ID, name, number, unit, meaning) tile->name,
+static inline float* tile_kept(Tile* tile, int k)
+{
+    float* const grid[] = {DP_TERRAIN_FIELDS(TILE_KEPT, DP_FIELD_NONE)};
+    return grid[k];
+}
+
+static inline const float* tile_kept_in(const Tile* tile, int k)
+{
+    const float* const grid[] = {DP_TERRAIN_FIELDS(TILE_KEPT, DP_FIELD_NONE)};
+    return grid[k];
+}
+
 // strength and E_v of all of a tile, (2, TILE_CELLS)
 void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant);
 
@@ -136,6 +152,13 @@ typedef struct TilePart
     size_t in_tile;       // its first cell in the tile
 } TilePart;
 TilePart dp_tile_part(long tx, long ty, DpCellRect cells);
+
+// A tile of which only the place is known, for dp_tile_adopt; NULL without memory.
+Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty);
+
+// Take new tiles in, ascending (ty, tx): as the ground is, and as its cover is if `covered`. False without
+// memory: then they are still the caller's.
+bool dp_tile_adopt(DpTerrain* terrain, Tile** fresh, size_t count, bool covered);
 
 // NULL if nobody touched it.
 Tile*    dp_tile_find(const DpTerrain* terrain, long tx, long ty);

@@ -7,15 +7,15 @@
 #include "base/wide.h"
 #include "terrain/terrain_inside.h"
 
-#define ROW_STEP 16           // cells; whole cache lines of floats
-#define MAX_CELLS (1L << 28)  // of one patch
-#define FLOAT_GRIDS 6
+#define ROW_STEP 16                    // cells; whole cache lines of floats
+#define MAX_CELLS (1L << 28)           // of one patch
+#define FLOAT_GRIDS (KEPT_FIELDS + 3)  // base height, those that are kept, modulus, rest slope
 
 struct DpLease
 {
     DpSoilPatch patch;
     long        i0, j0;  // world cell of the patch's cell (0, 0)
-    float*      grid;    // base height, compression, heap, pressure_time, modulus, rest_slope
+    float*      grid;    // (FLOAT_GRIDS, room)
     uint8_t*    kind;
     size_t      room;  // cells of each
 };
@@ -56,8 +56,9 @@ static bool make_room(DpLease* lease, size_t cells)
 static void fill_padding(const DpTerrain* terrain, DpLease* lease, float* const* grid)
 {
     const DpSoilPatch* patch = &lease->patch;
-    const float        pad[FLOAT_GRIDS] = {
-               NAN, 0.0f, 0.0f, 0.0f, terrain->soils[0].young_modulus, terrain->slope[0]};
+    float              pad[FLOAT_GRIDS] = {NAN};
+    pad[KEPT_FIELDS + 1] = terrain->soils[0].young_modulus;
+    pad[KEPT_FIELDS + 2] = terrain->slope[0];
     for (int j = 0; j < patch->ny; ++j) {
         const size_t row = (size_t)j * (size_t)patch->row;
         for (int i = patch->nx; i < patch->row; ++i) {
@@ -70,24 +71,28 @@ static void fill_padding(const DpTerrain* terrain, DpLease* lease, float* const*
 static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* part,
                     DpLease* lease, float* const* grid)
 {
-    const float* from[4] = {tile->base_height, tile->compression, tile->heap, tile->pressure_time};
     const size_t wide = (size_t)part->nx;
+    float*       modulus = grid[KEPT_FIELDS + 1];
     for (int j = 0; j < part->ny; ++j) {
         const size_t to = (size_t)(part->j + j) * (size_t)lease->patch.row + (size_t)part->i;
         const size_t at = part->in_tile + (size_t)j * DP_TILE;
-        for (int g = 0; g < 4; ++g) memcpy(grid[g] + to, from[g] + at, wide * sizeof(float));
+        memcpy(grid[0] + to, tile->base_height + at, wide * sizeof(float));
+        for (int k = 0; k < KEPT_FIELDS; ++k)
+            memcpy(grid[k + 1] + to, tile_kept_in(tile, k) + at, wide * sizeof(float));
         memcpy(lease->kind + to, tile->kind + at, wide);
         const bool painted = terrain->soil_count > 1;  // else all of it is soil 0
         for (size_t i = 0; i < wide; ++i) {
             const size_t kind = painted ? tile->kind[at + i] : 0;
-            grid[4][to + i] = terrain->soils[kind].young_modulus;  // TRAIL (9), E_g
-            grid[5][to + i] = terrain->slope[kind];
+            modulus[to + i] = terrain->soils[kind].young_modulus;  // TRAIL (9), E_g
+            grid[KEPT_FIELDS + 2][to + i] = terrain->slope[kind];
         }
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;
-        for (size_t i = 0; i < wide; ++i) grid[4][to + i] += roots[i];  // TRAIL (9), E_v
+        for (size_t i = 0; i < wide; ++i) modulus[to + i] += roots[i];  // TRAIL (9), E_v
     }
 }
+
+#define PATCH_GRID(ID, name, number, unit, meaning) .name = grid[number + 1],
 
 DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells,
                             DpSoilPatch** patch)
@@ -102,22 +107,19 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
     if (!make_room(lease, (size_t)row * (size_t)ny)) return DP_NO_MEMORY;
     float* grid[FLOAT_GRIDS];
     for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = lease->grid + g * lease->room;
-    const DpSoilPatch acquired = {(int)nx,
-                                  (int)ny,
-                                  row,
-                                  terrain->grid.cell,
-                                  dp_grid_x(&terrain->grid, cells.i0),
-                                  dp_grid_y(&terrain->grid, cells.j0),
-                                  grid[0],
-                                  grid[1],
-                                  grid[2],
-                                  grid[3],
-                                  grid[4],
-                                  grid[5],
-                                  lease->kind,
-                                  terrain->soils,
-                                  terrain->soil_count,
-                                  NULL};
+    const DpSoilPatch acquired = {.nx = (int)nx,
+                                  .ny = (int)ny,
+                                  .row = row,
+                                  .cell = terrain->grid.cell,
+                                  .x0 = dp_grid_x(&terrain->grid, cells.i0),
+                                  .y0 = dp_grid_y(&terrain->grid, cells.j0),
+                                  .base_height = grid[0],
+                                  .modulus = grid[KEPT_FIELDS + 1],
+                                  .rest_slope = grid[KEPT_FIELDS + 2],
+                                  .kind = lease->kind,
+                                  .soils = terrain->soils,
+                                  .soil_count = terrain->soil_count,
+                                  DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};
     lease->patch = acquired;
     lease->i0 = cells.i0;
     lease->j0 = cells.j0;
@@ -150,9 +152,10 @@ static bool copy_out(const DpLease* lease, size_t from, Tile* tile, size_t to, i
 {
     const DpSoilPatch* patch = &lease->patch;
     const float*       base_height = tile->base_height + to;
-    int differs = copy_row(tile->compression + to, patch->compression + from, base_height, count);
-    differs |= copy_row(tile->heap + to, patch->heap + from, base_height, count);
-    differs |= copy_row(tile->pressure_time + to, patch->pressure_time + from, base_height, count);
+    int                differs = 0;
+#define COPY_OUT(ID, name, number, unit, meaning) \
+    differs |= copy_row(tile->name + to, patch->name + from, base_height, count);
+    DP_TERRAIN_FIELDS(COPY_OUT, DP_FIELD_NONE)
     return differs != 0;
 }
 

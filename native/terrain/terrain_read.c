@@ -15,25 +15,22 @@ typedef struct Reading
     float*           out;
 } Reading;
 
+#define FIELD_INFO(ID, name, number, unit, meaning) {DP_FIELD_##ID, #name, unit, meaning},
+static const DpFieldInfo fields[] = {DP_TERRAIN_FIELDS(FIELD_INFO, FIELD_INFO)};
+
+const DpFieldInfo* dp_terrain_fields(int* count)
+{
+    *count = (int)(sizeof fields / sizeof *fields);
+    return fields;
+}
+
 // the grid of a tile that a field is copied from; NULL where it is worked out from the soil
 static const float* grid_of(const Tile* tile, const float* base_height, DpField field)
 {
-    switch (field) {
-        case DP_FIELD_COMPRESSION:
-            return tile->compression;
-        case DP_FIELD_HEAP:
-            return tile->heap;
-        case DP_FIELD_PRESSURE_TIME:
-            return tile->pressure_time;
-        case DP_FIELD_BASE_HEIGHT:
-            return base_height;
-        case DP_FIELD_MODULUS:
-        case DP_FIELD_KIND:
-        case DP_FIELD_PLANT_STRENGTH:
-        case DP_FIELD_HEIGHT_CHANGE:
-            break;
-    }
-    return NULL;
+#define GRID_OF(ID, name, number, unit, meaning) \
+    if (field == DP_FIELD_##ID) return tile->name;
+    DP_TERRAIN_FIELDS(GRID_OF, DP_FIELD_NONE)
+    return field == DP_FIELD_BASE_HEIGHT ? base_height : NULL;
 }
 
 // a tile as its fields are read; what an untouched one is asked for is computed for the moment

@@ -107,6 +107,7 @@ typedef struct Filling
 {
     const DpTerrain* terrain;
     Tile**           tile;
+    bool             covered;
 } Filling;
 
 static void fill_tile(void* context, int index, int worker)
@@ -117,7 +118,27 @@ static void fill_tile(void* context, int index, int worker)
     const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
     dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
-    if (terrain->cover) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
+    if (filling->covered) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
+}
+
+Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
+{
+    const size_t cover = terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0;
+    Tile*        tile = dp_alloc(1, sizeof(Tile) + cover);
+    if (tile) tile->tx = tx, tile->ty = ty;
+    return tile;
+}
+
+bool dp_tile_adopt(DpTerrain* terrain, Tile** fresh, size_t count, bool covered)
+{
+    if (!make_room(terrain, count)) return false;
+    Filling filling = {terrain, fresh, covered && terrain->cover};
+    dp_parallel_for((int)count, terrain->workers, fill_tile, &filling);
+    for (size_t t = 0; t < count; ++t)
+        *find_slot(terrain->slot, terrain->slots, fresh[t]->tx, fresh[t]->ty) = fresh[t];
+    merge(terrain->sorted, terrain->tiles, fresh, count);
+    terrain->tiles += count;
+    return true;
 }
 
 DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells)
@@ -134,33 +155,20 @@ DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells)
         for (long tx = tx0; tx <= tx1; ++tx) missing += !dp_tile_find(terrain, tx, ty);
     if (missing == 0) return DP_OK;
 
-    const size_t size = sizeof(Tile) + (terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0);
-    Tile**       fresh = dp_alloc(missing, sizeof *fresh);
-    size_t       created = 0;
-    bool         enough = fresh && make_room(terrain, missing);
+    Tile** fresh = dp_alloc(missing, sizeof *fresh);
+    size_t created = 0;
+    bool   enough = fresh != NULL;
     for (long ty = ty0; ty <= ty1 && enough; ++ty)
         for (long tx = tx0; tx <= tx1 && enough; ++tx) {
             if (dp_tile_find(terrain, tx, ty)) continue;
-            Tile* tile = dp_alloc(1, size);
+            Tile* tile = dp_tile_create(terrain, tx, ty);
             enough = tile != NULL;
-            if (!enough) continue;
-            tile->tx = tx, tile->ty = ty;
-            fresh[created++] = tile;
+            if (enough) fresh[created++] = tile;
         }
-    if (!enough) {
-        for (size_t t = 0; t < created; ++t) dp_free(fresh[t]);
-        dp_free(fresh);
-        return DP_NO_MEMORY;
-    }
-
-    Filling filling = {terrain, fresh};
-    dp_parallel_for((int)missing, terrain->workers, fill_tile, &filling);
-    for (size_t t = 0; t < missing; ++t)
-        *find_slot(terrain->slot, terrain->slots, fresh[t]->tx, fresh[t]->ty) = fresh[t];
-    merge(terrain->sorted, terrain->tiles, fresh, missing);
-    terrain->tiles += missing;
+    enough = enough && dp_tile_adopt(terrain, fresh, missing, true);
+    for (size_t t = 0; t < created && !enough; ++t) dp_free(fresh[t]);
     dp_free(fresh);
-    return DP_OK;
+    return enough ? DP_OK : DP_NO_MEMORY;
 }
 
 // ---- which have changed ------------------------------------------------------------------------
