@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from desire_path import KINDS, SOILS
+
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = ROOT / "native" / "model.md"
 TEXTS = {".c", ".h", ".py", ".md", ".toml", ""}
@@ -119,3 +121,11 @@ def test_names_of_the_core_on_the_pages_are_there(page):
     sources = "".join(text for path, text in texts("native") if path.suffix in {".c", ".h"})
     for name in re.findall(r"`(dp_\w+|Dp\w+)`", (ROOT / page).read_text("utf-8")):
         assert re.search(rf"\b{name}\b", sources), f"{page} names {name}, which the core has not"
+
+
+def test_tables_of_the_readme_name_every_soil_and_kind():
+    text = (ROOT / "README.md").read_text("utf-8")
+    for head, known in (("soil", SOILS), ("kind", KINDS)):
+        table = re.search(rf"^\| {head} \| what it is like \|\n\| ---.*\n((?:\|.*\n)+)", text, re.MULTILINE)[1]
+        rows = [name for row in table.splitlines() for name in re.findall(r"`([\w-]+)`", row.split("|")[1])]
+        assert sorted(rows) == sorted(known), f"README.md's table of what {head}s are like, and the {head}s there are"
