@@ -129,3 +129,14 @@ def test_tables_of_the_readme_name_every_soil_and_kind():
         table = re.search(rf"^\| {head} \| what it is like \|\n\| ---.*\n((?:\|.*\n)+)", text, re.MULTILINE)[1]
         rows = [name for row in table.splitlines() for name in re.findall(r"`([\w-]+)`", row.split("|")[1])]
         assert sorted(rows) == sorted(known), f"README.md's table of what {head}s are like, and the {head}s there are"
+
+
+def test_the_picture_of_the_rooms_holds_all_of_them():
+    picture = (ROOT / "native" / "README.md").read_text("utf-8").split("```")[1]
+    rooms = {
+        path.parent.name for place in ("native", "addon/desire_path") for path in (ROOT / place).glob("*/*.[chp]*")
+    }
+    rooms -= {"walks", "__pycache__", "build"}
+    assert {"soil", "sim", "ground", "blender"} <= rooms
+    missing = {room for room in rooms if not re.search(rf"\b{room}\b", picture)}
+    assert not missing, "rooms that native/README.md does not show"
