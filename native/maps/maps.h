@@ -1,4 +1,4 @@
-// maps/maps.h - what leaves the simulation: OpenEXR files, whole or not at all. TRAIL 4.3, (17), MODEL 8
+// maps/maps.h - what leaves the simulation: OpenEXR files, whole or not at all. TRAIL 4.3, (17), MODEL 8.1
 //
 //   tiles changed ---DpFrames---> frames/trail_0001.exr ..  a picture as it changes, file by file
 //                 ---DpWriter---> the same, in the background

@@ -1,4 +1,4 @@
-// motion/motion.h - where poses and loads come from, sample by sample.
+// motion/motion.h - where poses and loads come from, sample by sample. MODEL 3.7
 //
 //   recorded   a Gait: everybody is there all the time                    ---.
 //   tracks     many short recordings, each with a walker and a start      ---+--> who is there, where

@@ -1,4 +1,4 @@
-// refine/refine.h - faces cut along a trail until they are fine enough to show it. PEYRAT11 3.2
+// refine/refine.h - faces cut along a trail until they are fine enough to show it. PEYRAT11 3.2, MODEL 8.2
 //
 //   triangles ---wishes: how long edges may be where---> triangles without gaps, coarse elsewhere
 //

@@ -66,7 +66,7 @@ static void cut_drop(DpTrack* track)
     dp_free((void*)(uintptr_t)track->poses.touching);
 }
 
-// as recorded, as one track, as three tracks without a gap, and pushed step by step
+// as recorded, as one track, as three tracks without a gap, and pushed step by step. MODEL 11.15
 TEST(every_source_leaves_the_same_bits)
 {
     Stride    s = stride_make(1, 3, 80.0, STRIDE_RATE);
