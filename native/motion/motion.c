@@ -15,6 +15,11 @@ const DpGait* dp_motion_cast(const DpMotion* motion)
     return &motion->cast;
 }
 
+bool dp_motion_is_live(const DpMotion* motion)
+{
+    return motion->live;
+}
+
 int dp_motion_samples(const DpMotion* motion)
 {
     return motion->samples;

@@ -54,6 +54,7 @@ void dp_motion_destroy(DpMotion* motion);
 
 // Walkers, limbs, parts, mass, owners and soles; no times, poses or points.
 const DpGait* dp_motion_cast(const DpMotion* motion);
+bool          dp_motion_is_live(const DpMotion* motion);
 // How many samples there are (recorded, tracks), or were pushed (live), and their times [s].
 int    dp_motion_samples(const DpMotion* motion);
 double dp_motion_time(const DpMotion* motion, int sample);

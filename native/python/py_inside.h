@@ -48,6 +48,10 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 PyObject* dp_py_load(PyObject* object, PyObject* args);
 PyObject* dp_py_load_tracks(PyObject* object, PyObject* args);
 
+// py_state.c
+PyObject* dp_py_save_state(PyObject* object, PyObject* unused);
+PyObject* dp_py_load_state(PyObject* object, PyObject* bytes);
+
 // py_frames.c
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);
 PyObject* dp_py_flush(PyObject* object, PyObject* unused);

@@ -238,14 +238,20 @@ static PyMethodDef methods[] = {
      "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
      " sole_triangle_count, touching, force, point): take an evenly sampled recording with loads."},
     {"load_tracks", dp_py_load_tracks, METH_VARARGS,
-     "load_tracks(time, mass, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
-     " sole_triangle_count, track (n, 3) i4, pose (N, 7), touching (N,), force (N, 3), point (N, 3))"
+     "load_tracks(time, mass, limb_walker, part_limb, sole_vertex, sole_vertex_count, "
+     "sole_triangle,"
+     " sole_triangle_count, track (n, 3) i4, pose (N, 7), touching (N,), force (N, 3), point (N, "
+     "3))"
      ": the same of walkers who are there from sample track[.., 1] on for track[.., 2] samples;"
      " poses are those of the parts of walker track[.., 0], track by track."},
     {"reach", (PyCFunction)simulation_reach, METH_NOARGS,
      "reach() -> (i0, i1, j0, j1): cells the recording can change."},
     {"run", (PyCFunction)simulation_run, METH_VARARGS,
      "run(sample): step up to the state at this sample."},
+    {"save_state", dp_py_save_state, METH_NOARGS,
+     "save_state() -> Block: what the simulation has become, as bytes for load_state."},
+    {"load_state", dp_py_load_state, METH_O,
+     "load_state(bytes): go on from there, in a simulation made alike, before its first step."},
     {"settle", (PyCFunction)simulation_settle, METH_NOARGS,
      "settle(): let everything that is loose come to rest."},
     {"report", (PyCFunction)simulation_report, METH_NOARGS,

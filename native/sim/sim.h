@@ -9,6 +9,7 @@
 // worked on at once; the result is the same for any number of workers.
 #pragma once
 #include "grass/grass.h"
+#include "base/stream.h"
 #include "motion/motion.h"
 #include "plants/plants.h"
 #include "sim/sim_film.h"
@@ -104,3 +105,14 @@ DpStatus dp_sim_run(DpSim* sim, int sample);
 DpStatus dp_sim_settle(DpSim* sim);
 
 DpSimReport dp_sim_report(const DpSim* sim);
+
+// ---- stop and go on ------------------------------------------------------------------------------
+
+// Write what the simulation has become after the steps taken: with the chunks of terrain, plants and
+// grass. Files are whole or not at all if the bytes are written so.
+DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer);
+// Take it back, in a simulation of the same ground, options and plants that follows the same motion,
+// not live, from its first sample on: it goes on from there to the bit, and the next pictures of it are
+// whole. Taken steps, or a live motion: DP_BAD_ARGUMENT. Damaged bytes, or those of another: DP_BAD_FILE.
+// On failure all is as it was.
+DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size);

@@ -186,10 +186,12 @@ void       dp_sweep_ahead(DpSim* sim, int part, int sample, DpImprintScratch* sc
 
 #define DP_STAGE_MARGIN 0.5  // plants are moved no farther beside a sole than this [m]
 
-// sim_planting.c: room for a recording's soles; how far beside a sole plants are changed [m]
+// sim_planting.c: room for a recording's soles; how far beside a sole plants are changed [m]; what
+// remembers how stems are laid
 DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs);
 void     dp_stage_drop(DpSim* sim);
 double   dp_stage_margin(const DpSim* sim);
+DpStatus dp_sim_display(const PlantStage* stage, DpPlantDisplay** display);
 
 // sim_plants.c: what plants do in a step, after the soil
 DpStatus dp_stage_settled(DpSim* sim, Limb* limb);

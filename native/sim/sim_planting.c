@@ -42,11 +42,16 @@ DpGrass* dp_sim_grass(const DpSim* sim)
     return sim->stage.grass;
 }
 
+DpStatus dp_sim_display(const PlantStage* stage, DpPlantDisplay** display)
+{
+    return dp_plant_display_create(display, stage->plants, lean_at, stage->grass);
+}
+
 DpStatus dp_sim_lay(DpSim* sim)
 {
     PlantStage* m = &sim->stage;
     if (!m->plants) return DP_BAD_ARGUMENT;
-    return m->display ? DP_OK : dp_plant_display_create(&m->display, m->plants, lean_at, m->grass);
+    return m->display ? DP_OK : dp_sim_display(m, &m->display);
 }
 
 // from heights over the terrain's base

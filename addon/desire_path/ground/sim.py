@@ -7,6 +7,7 @@ float32 (grids). Nothing here knows Blender.
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from .. import _native
 from ..bounds import Limits
 from ..errors import DesirePathError
+from ..files import atomic_file
 from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import maps, trail
@@ -366,6 +368,37 @@ class Simulation:
     def settle(self):
         """Lift all feet and let everything loose come to rest."""
         self._core.settle()
+
+    def save_state(self, path):
+        """Write what the ground has become to one file, whole or not at all, for load_state()."""
+        state = self._core.save_state()
+        with atomic_file.file(os.fspath(path), "The state") as stream:
+            stream.write(memoryview(state))
+
+    def load_state(self, path):
+        """Go on from a state: in a simulation that is made alike and has loaded the same walk, before its first step.
+
+        What follows is the same, to the bit, as if it had never stopped. DesirePathError, and nothing has changed, if
+        the file is damaged or of another simulation.
+        """
+        path = os.fspath(path)
+        try:
+            with open(path, "rb") as stream:
+                state = stream.read()
+        except OSError as problem:
+            raise DesirePathError(
+                f"The state {path} cannot be read ({problem.strerror}): check its name and whose file it is."
+            ) from None
+        try:
+            self._core.load_state(state)
+        except ValueError as problem:
+            if "damaged" in str(problem):
+                raise DesirePathError(
+                    f"{path} is damaged, or the state of another ground, walk or plants: run this one from its start."
+                ) from None
+            raise DesirePathError(
+                "A state can only be loaded before the first step: make the simulation anew, load the walk, then the state."
+            ) from None
 
     def rest_plants(self, seconds):
         """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
