@@ -4,7 +4,19 @@ import atexit
 
 import bpy
 
-from . import handlers, op_bake, op_forces, op_place, op_plants, op_walk_it, op_walkers, panels, panels_walker, props
+from . import (
+    handlers,
+    op_bake,
+    op_forces,
+    op_place,
+    op_plants,
+    op_walk_it,
+    op_walkers,
+    panels,
+    panels_walker,
+    props,
+    soils,
+)
 
 _CLASSES = (
     op_walkers.CLASSES
@@ -13,6 +25,7 @@ _CLASSES = (
     + op_place.CLASSES
     + op_plants.CLASSES
     + op_walk_it.CLASSES
+    + soils.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES
 )

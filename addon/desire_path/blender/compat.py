@@ -256,3 +256,8 @@ def flat_shader():
         return gpu.shader.from_builtin("UNIFORM_COLOR"), 3
     except ValueError:
         return gpu.shader.from_builtin("2D_UNIFORM_COLOR"), 2
+
+
+def is_group(prop):
+    """Whether a property, as a property group's annotation has it, holds properties of its own."""
+    return prop.function is bpy.props.PointerProperty and issubclass(prop.keywords["type"], bpy.types.PropertyGroup)

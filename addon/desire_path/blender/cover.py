@@ -8,8 +8,7 @@ import os
 
 import numpy as np
 
-from ..ground.soil import SOILS
-from . import axes, compat, playback
+from . import axes, compat, playback, soils
 
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
@@ -26,7 +25,7 @@ def make_groups(obj):
             obj.vertex_groups.new(name=name)
             made.append(name)
     settings.made_groups = ",".join(made)
-    return float(SOILS[settings.soil].layer_depth)
+    return float(soils.soil_of(settings).layer_depth)
 
 
 def fill(obj, surface, index, depth, planes, standing=()):

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from . import axes, compat, playback, sample, stack
+from . import soils as soils_of
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
 NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed slopes [m]
@@ -258,6 +259,6 @@ def _kinds(weights, count):
 
 
 def soils(obj):
-    """Names of the soils: the ground's own, then the painted ones."""
+    """The soils, as Soil: the ground's own, then the painted ones."""
     settings = obj.desire_path
-    return [settings.soil] + [each.soil for each in settings.painted]
+    return [soils_of.soil_of(each) for each in (settings, *settings.painted)]

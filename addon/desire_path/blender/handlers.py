@@ -11,7 +11,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, overrides, playback, show, state, trash, watch
+from . import ground, home, op_forces, op_plants, overrides, playback, show, soils, state, trash, watch
 
 _unsaved = False  # whether the file that is being saved never was before
 
@@ -59,6 +59,8 @@ def after_load(*_):
     for scene in bpy.data.scenes:
         for obj in scene.objects:
             if obj.type == "MESH" and obj.desire_path.is_ground:
+                if obj.library is None:
+                    soils.refill(obj)
                 refresh(scene, obj)
         watch.all_of(scene)
 

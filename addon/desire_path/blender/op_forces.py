@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from . import axes, force_graph, ground, moves, reach, ride, sample
+from . import axes, force_graph, ground, moves, reach, ride, sample, soils
 from .op_walkers import WALKERS, Refusal, active, walkers
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
@@ -75,7 +75,6 @@ class Reading:
 
 def read(scene, armature):
     """A Reading of what an armature does now."""
-    from ..ground.soil import SOILS
     from ..loads import walker
 
     settings = armature.desire_path
@@ -86,7 +85,7 @@ def read(scene, armature):
     gait = sample.record(scene, armature, first, last)
     below, yields = None, {}
     if land is not None:
-        yields = {"settle_time": SOILS[land.desire_path.soil].settle_time}  # as when it is baked
+        yields = {"settle_time": soils.soil_of(land.desire_path).settle_time}  # as when it is baked
         shape, _, _ = reach.under(scene, armature, land, gait, first)
         gait = ground.walked(scene, [armature], gait, shape, first, last)
         below = shape.rest_height

@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import bpy
 
-from . import op_plants
+from . import compat, op_plants
 
 KEPT = "desire_path_overrides"  # on a scene: what each of them was told, as JSON by name
 
@@ -53,9 +53,13 @@ def told(group):
     """The numbers, words and names of a property group, by name."""
     out = {}
     for name, each in type(group).__annotations__.items():
+        if "get" in each.keywords:
+            continue  # it is told by something else
         value = getattr(group, name)
         if each.function is bpy.props.CollectionProperty:
             out[name] = [told(one) | {"name": one.name} for one in value]
+        elif compat.is_group(each):
+            out[name] = told(value)
         elif each.function is bpy.props.PointerProperty:
             out[name] = (
                 [value.bl_rna.identifier, value.name, value.library and value.library.filepath] if value else None
@@ -77,6 +81,8 @@ def tell(group, kept):
                     each = there[number] if number < len(there) else there.add()
                     each.name = one["name"]
                     tell(each, one)
+            elif compat.is_group(kinds[name]):
+                tell(getattr(group, name), value)
             elif kind is bpy.props.PointerProperty:
                 tell_pointer(group, name, value)
             elif getattr(group, name) != value:

@@ -5,7 +5,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, plants, state, tufts
+from . import op_bake, plants, soils, state, tufts
 from .op_walkers import walkers
 
 
@@ -135,6 +135,10 @@ def draw_painted(layout, obj):
     side = row.column(align=True)
     side.operator("object.desire_path_paint_add", text="", icon="ADD")
     side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
+    if settings.painted:
+        soils.draw(
+            _column(layout), settings.painted[min(settings.painted_index, len(settings.painted) - 1)], save=False
+        )
 
 
 def draw_plants(layout, context, obj):
@@ -288,6 +292,13 @@ class _Ground:
         return obj is not None and obj.type == "MESH" and obj.desire_path.is_ground
 
 
+class _Soil(_Ground):
+    bl_label = "Soil Numbers"
+
+    def draw(self, context):
+        soils.draw(_column(self.layout), context.object.desire_path)
+
+
 class _Painted(_Ground):
     bl_label = "Painted Soils"
 
@@ -313,6 +324,10 @@ class PHYSICS_PT_desire_path(_Physics, _Main, bpy.types.Panel):
     pass
 
 
+class PHYSICS_PT_desire_path_soil(_Physics, _Soil, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path"
+
+
 class PHYSICS_PT_desire_path_painted(_Physics, _Painted, bpy.types.Panel):
     bl_parent_id = "PHYSICS_PT_desire_path"
 
@@ -327,6 +342,10 @@ class PHYSICS_PT_desire_path_output(_Physics, _Output, bpy.types.Panel):
 
 class VIEW3D_PT_desire_path(_Sidebar, _Main, bpy.types.Panel):
     pass
+
+
+class VIEW3D_PT_desire_path_soil(_Sidebar, _Soil, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path"
 
 
 class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):
@@ -345,10 +364,12 @@ CLASSES = (
     OBJECT_UL_desire_path_paint,
     OBJECT_UL_desire_path_plants,
     PHYSICS_PT_desire_path,
+    PHYSICS_PT_desire_path_soil,
     PHYSICS_PT_desire_path_painted,
     PHYSICS_PT_desire_path_plants,
     PHYSICS_PT_desire_path_output,
     VIEW3D_PT_desire_path,
+    VIEW3D_PT_desire_path_soil,
     VIEW3D_PT_desire_path_painted,
     VIEW3D_PT_desire_path_plants,
     VIEW3D_PT_desire_path_output,

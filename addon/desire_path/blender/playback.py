@@ -112,7 +112,9 @@ def is_moved(obj):
     now = samples(obj)
     if len(was) != len(now):
         return True
-    there, here = (axes.points(np.array(place, np.float64), each, 1.0) for place, each in ((world, was), (obj.matrix_world, now)))
+    there, here = (
+        axes.points(np.array(place, np.float64), each, 1.0) for place, each in ((world, was), (obj.matrix_world, now))
+    )
     return bool(len(now)) and np.abs(there - here).max() > MOVED * max(np.abs(there).max(), 1.0)
 
 

@@ -11,27 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..ground.soil import SOILS
-from . import compat, picture
-
-
-def _words(name):
-    return name.replace("-", " ").capitalize()
-
-
-_SOIL_ITEMS = tuple(
-    (
-        name,
-        _words(name),
-        f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
-        f"{soil.rest_angle * 57.29578:.0f} degrees, yields in {soil.settle_time:.2g} s",
-    )
-    for name, soil in SOILS.items()
-)
-
-
-def _soil(description):
-    return EnumProperty(name="Soil", description=description, items=_SOIL_ITEMS, default=_SOIL_ITEMS[0][0])
+from . import compat, picture, soils
 
 
 def is_ground(_self, obj):
@@ -89,7 +69,11 @@ class DesirePathPaint(bpy.types.PropertyGroup):
     """A soil painted by a vertex group."""
 
     vertex_group: StringProperty(name="Vertex Group", description="Where this soil lies: weights above one half")
-    soil: _soil("The soil that lies where the group is painted")
+    soil: soils.preset("The soil that lies where the group is painted")
+    soil_numbers: PointerProperty(
+        type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
+    )
+    soil_file: soils.file()
 
 
 def kinds(_self, _context, _text):
@@ -175,7 +159,11 @@ class DesirePathFoot(bpy.types.PropertyGroup):
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
     is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
-    soil: _soil("What the ground is made of where nothing else is painted")
+    soil: soils.preset("What the ground is made of where nothing else is painted")
+    soil_numbers: PointerProperty(
+        type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
+    )
+    soil_file: soils.file()
     cell_size: FloatProperty(
         name="Cell Size [m]",
         default=0.01,
@@ -389,7 +377,8 @@ def set_auto(settings, **values):
         setattr(settings, flag, True)
 
 
-CLASSES = (DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings)
+overridable(soils.DesirePathSoil)
+CLASSES = (soils.DesirePathSoil, DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings)
 
 
 def register():

@@ -104,7 +104,9 @@ def lost(index):
 
     above = os.path.dirname(index.folder)
     gone = [name for name in MAPS_ALWAYS if not os.path.exists(os.path.join(above, name))]
-    return f"{' and '.join(gone)} of the last bake {'is' if len(gone) == 1 else 'are'} gone: bake again." if gone else ""
+    return (
+        f"{' and '.join(gone)} of the last bake {'is' if len(gone) == 1 else 'are'} gone: bake again." if gone else ""
+    )
 
 
 def was_whole(index):

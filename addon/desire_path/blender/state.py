@@ -14,7 +14,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import home, inputs, playback, show
+from . import compat, home, inputs, playback, show
 from .op_walkers import walkers
 from .private import looked_at
 
@@ -145,6 +145,8 @@ def _numbers(group):
     for name, each in type(group).__annotations__.items():
         if each.function is bpy.props.CollectionProperty:
             out += [_numbers(one) for one in getattr(group, name)]
+        elif compat.is_group(each):
+            out.append(_numbers(getattr(group, name)))
         else:
             out.append(getattr(group, name))
     return out

@@ -1,0 +1,172 @@
+"""soils.py - the soil a ground is made of: a preset, numbers of one's own, or a file of them.
+
+    soil_file, if one is set; else soil_numbers, where one was changed by hand; else the preset `soil`
+
+A preset that is chosen is shown by its numbers, which begin anew then.
+"""
+
+import math
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..errors import DesirePathError
+from ..ground.soil import SOILS, Soil
+from . import axes, compat
+
+# what people call a number, and what it is
+WORDS = {
+    "layer_depth": ("Depth of Loose Layer [m]", "How thick the soft soil lies over rigid ground, in metres"),
+    "young_modulus": ("Stiffness [Pa]", "How hard it resists, in pascal: half of it, prints twice as deep"),
+    "poisson_ratio": ("Rim", "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it"),
+    "settle_time": ("Yields In [s]", "How long it takes to give way, in seconds"),
+    "rest_angle": ("Steepest Slope", "Loose soil that is steeper slides"),
+    "push_threshold": (
+        "One-sided From [N]",
+        "A sideways push this strong leaves the rim on one side alone, in newtons; 0 = half the walker's weight",
+    ),
+    "shear_modulus": ("Shear before Grip [m]", "How far it shears before it carries sideways, in metres; 0 = no slip"),
+}
+LARGEST = {"layer_depth": 100.0, "young_modulus": 1e12, "settle_time": 1e4, "push_threshold": 1e9, "shear_modulus": 0.1}
+_filling = False
+
+
+def items():
+    """The presets for an EnumProperty."""
+    return tuple(
+        (
+            name,
+            name.replace("-", " ").capitalize(),
+            f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
+            f"{math.degrees(soil.rest_angle):.0f} degrees, yields in {soil.settle_time:.2g} s",
+        )
+        for name, soil in SOILS.items()
+    )
+
+
+ITEMS = items()
+
+
+def chosen(self, _context):
+    """Another preset: its numbers are shown, and those of one's own are gone."""
+    self.soil_file = ""
+    fill(self)
+
+
+def preset(description):
+    return EnumProperty(name="Soil", description=description, items=ITEMS, default=ITEMS[0][0], update=chosen)
+
+
+def file():
+    return StringProperty(
+        name="Soil File",
+        subtype="FILE_PATH",
+        options=compat.RELATIVE,
+        description="A .json file in which a soil was saved, in place of the preset and the numbers; empty = none",
+    )
+
+
+def _by_hand(self, _context):
+    if not _filling:
+        self.changed = True
+
+
+def _number(name):
+    label, words = WORDS[name]
+    most = {"rest_angle": math.radians(89.0), "poisson_ratio": 0.5}.get(name) or LARGEST[name]
+    return FloatProperty(
+        name=label,
+        description=words,
+        default=getattr(SOILS[ITEMS[0][0]], name),
+        min=0.0,
+        max=most,
+        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time"} else 2,
+        step=1,
+        subtype="ANGLE" if name == "rest_angle" else "NONE",
+        options=set(),  # no keys: a bake has one soil
+        update=_by_hand,
+    )
+
+
+class DesirePathSoil(bpy.types.PropertyGroup):
+    """The numbers of a soil, by the names of Soil."""
+
+    changed: BoolProperty(options={"HIDDEN"}, description="Whether a number was changed since the preset was chosen")
+
+
+DesirePathSoil.__annotations__.update({name: _number(name) for name in WORDS})
+
+
+def fill(settings):
+    """Show the numbers of the preset."""
+    global _filling
+    _filling = True
+    try:
+        for name in WORDS:
+            setattr(settings.soil_numbers, name, getattr(SOILS[settings.soil], name))
+        settings.soil_numbers.changed = False
+    finally:
+        _filling = False
+
+
+def refill(obj):
+    """The same for a ground of a file that does not hold them, as those of earlier versions, or holds another's."""
+    for each in (obj.desire_path, *obj.desire_path.painted):
+        numbers = each.soil_numbers
+        if not numbers.changed and abs(numbers.young_modulus / SOILS[each.soil].young_modulus - 1.0) > 1e-6:
+            fill(each)
+
+
+def soil_of(settings):
+    """The Soil that a ground's settings, or a painted soil's, come to."""
+    if settings.soil_file:
+        return Soil.load(bpy.path.abspath(settings.soil_file))
+    if not settings.soil_numbers.changed:
+        return SOILS[settings.soil]
+    return Soil(**{name: axes.typed(getattr(settings.soil_numbers, name)) for name in WORDS})
+
+
+class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):
+    """Save the soil of the active ground as a file, for other grounds, scripts and people"""
+
+    bl_idname = "object.desire_path_soil_save"
+    bl_label = "Save Soil"
+    bl_options = {"REGISTER"}
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.object
+        if obj is None or obj.type != "MESH" or not obj.desire_path.is_ground:
+            cls.poll_message_set("Select a ground first")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            soil_of(context.object.desire_path).save(bpy.path.abspath(self.filepath))
+        except (DesirePathError, OSError) as problem:
+            self.report({"ERROR"}, str(problem))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"The soil is saved as {self.filepath}.")
+        return {"FINISHED"}
+
+
+def draw(layout, settings, save=True):
+    """The numbers of a soil."""
+    column = layout.column()
+    column.prop(settings, "soil_file")
+    if settings.soil_file:
+        return
+    for name in WORDS:
+        column.prop(settings.soil_numbers, name)
+    if settings.soil_numbers.changed:
+        column.label(text=f"Changed from {settings.soil.replace('-', ' ').capitalize()}", icon="GREASEPENCIL")
+    if save:
+        column.operator("object.desire_path_soil_save", icon="EXPORT")
+
+
+CLASSES = (OBJECT_OT_desire_path_soil_save,)
