@@ -17,7 +17,7 @@
 #define VERSION 1
 #define FARTHEST ((int64_t)1 << 40)  // cells
 #define WIDEST ((int64_t)1 << 24)    // cells along one side of what a limb presses on
-#define LARGEST ((int64_t)1 << 28)   // and in all
+#define LARGEST ((int64_t)1 << 26)   // and in all
 #define MIN_LIMB 100                 // bytes of a limb are no fewer
 
 // ---- writing -----------------------------------------------------------------------------------

@@ -397,7 +397,7 @@ class Simulation:
                     f"{path} is damaged, or the state of another ground, walk or plants: run this one from its start."
                 ) from None
             raise DesirePathError(
-                "A state can only be loaded before the first step: make the simulation anew, load the walk, then the state."
+                "A state can only be loaded before the first step: make the simulation anew and load the walk before it."
             ) from None
 
     def rest_plants(self, seconds):
