@@ -11,7 +11,8 @@ typedef struct Simulation
     DpPlants*  plants;  // NULL: bare ground
     DpReel*    reel;    // NULL: nothing is filmed yet
     int        workers;
-    bool       busy;  // a call without the GIL is under way
+    int        live_walkers, live_parts;  // of the live motion that is followed
+    bool       busy;                      // a call without the GIL is under way
 } Simulation;
 
 // One call at a time: others get a sentence, not a crash.
@@ -47,6 +48,8 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args);
 // py_motion.c
 PyObject* dp_py_load(PyObject* object, PyObject* args);
 PyObject* dp_py_load_tracks(PyObject* object, PyObject* args);
+PyObject* dp_py_load_live(PyObject* object, PyObject* args);
+PyObject* dp_py_push(PyObject* object, PyObject* args);
 
 // py_state.c
 PyObject* dp_py_save_state(PyObject* object, PyObject* unused);

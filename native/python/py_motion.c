@@ -189,3 +189,59 @@ done:
     dp_buffers_close(&buffers);
     return result;
 }
+
+PyObject* dp_py_load_live(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    PyObject*   item[8];
+    if (!PyArg_ParseTuple(args, "OOOOOOOO:load_live", &item[0], &item[1], &item[2], &item[3],
+                          &item[4], &item[5], &item[6], &item[7]))
+        return NULL;
+    DpBuffers buffers = {.count = 0};
+    Cast      cast = {.sole = NULL};
+    PyObject* result = NULL;
+    if (open_cast(&buffers, item, &cast) && dp_py_enter(self)) {
+        DpMotion* motion = NULL;
+        DpStatus  status = dp_motion_live(&motion, &cast.gait);
+        if (status == DP_OK) status = dp_sim_follow(self->sim, motion);
+        if (status != DP_OK) dp_motion_destroy(motion);
+        self->live_parts = status == DP_OK ? cast.gait.parts : self->live_parts;
+        self->live_walkers = status == DP_OK ? cast.gait.walkers : self->live_walkers;
+        self->busy = false;
+        result = dp_py_result(status, "beginning a live motion");
+    }
+    dp_free(cast.sole);
+    dp_buffers_close(&buffers);
+    return result;
+}
+
+PyObject* dp_py_push(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    double      time;
+    PyObject *  o_present, *o_pose, *o_touching, *o_force, *o_point;
+    if (!PyArg_ParseTuple(args, "dOOOOO:push", &time, &o_present, &o_pose, &o_touching, &o_force,
+                          &o_point))
+        return NULL;
+    DpBuffers      buffers = {.count = 0};
+    const int      P = self->live_parts;
+    const uint8_t* present = NULL;
+    DpLoadedPoses  poses;
+    PyObject*      result = NULL;
+    if ((o_present == Py_None ||
+         (present = dp_buffers_open(&buffers, o_present, "present", 'B',
+                                    DP_SHAPE1(self->live_walkers), false))) &&
+        (poses.pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', DP_SHAPE2(P, 7), false)) &&
+        (poses.touching =
+             dp_buffers_open(&buffers, o_touching, "touching", 'B', DP_SHAPE1(P), false)) &&
+        (poses.force = dp_buffers_open(&buffers, o_force, "force", 'd', DP_SHAPE2(P, 3), false)) &&
+        (poses.pressure_point =
+             dp_buffers_open(&buffers, o_point, "point", 'd', DP_SHAPE2(P, 3), false)) &&
+        dp_py_enter(self)) {
+        const DpStatus status = dp_sim_push(self->sim, time, present, &poses);
+        self->busy = false;
+        result = dp_py_result(status, "pushing poses");
+    }
+    dp_buffers_close(&buffers);
+    return result;
+}

@@ -244,6 +244,12 @@ static PyMethodDef methods[] = {
      "3))"
      ": the same of walkers who are there from sample track[.., 1] on for track[.., 2] samples;"
      " poses are those of the parts of walker track[.., 0], track by track."},
+    {"load_live", dp_py_load_live, METH_VARARGS,
+     "load_live(time (0,), mass, limb_walker, part_limb, sole_vertex, sole_vertex_count, "
+     "sole_triangle, sole_triangle_count): the same walkers, of whom poses are pushed."},
+    {"push", dp_py_push, METH_VARARGS,
+     "push(time, present (W,) u1 or None, pose (P, 7), touching (P,), force (P, 3), point (P, 3)): "
+     "the next sample of a live motion."},
     {"reach", (PyCFunction)simulation_reach, METH_NOARGS,
      "reach() -> (i0, i1, j0, j1): cells the recording can change."},
     {"run", (PyCFunction)simulation_run, METH_VARARGS,

@@ -161,6 +161,30 @@ def test_a_recording_is_the_same_as_one_track(walk):
     assert all(np.array_equal(a, b) for a, b in zip(pressed(gait, loads), pressed(track, again)))
 
 
+def test_a_live_motion_leaves_the_same_bits(walk):
+    gait = walk.along([(0, 0), (2, 0)], 1)
+    loads = walker.loads(gait)
+    want = pressed(gait, loads)
+    ahead = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    ahead.load(gait, loads)
+    i0, i1, j0, j1 = ahead.reach()
+    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    sim.load_live(gait)
+    for t, time in enumerate(gait.time):
+        now = (loads.touching[:, t], loads.force[:, t], loads.point[:, t])
+        sim.push(time, gait.pose[:, t], *now)
+        sim.run(t)
+    found = [sim.read(name, i0, j0, i1 - i0, j1 - j0) for name in ("compression", "heap", "pressure_time")]
+    assert all(np.array_equal(a, b) for a, b in zip(found, want)) and want[0].max() > 0.005
+    with pytest.raises(ValueError):  # no later than the last one
+        sim.push(gait.time[-1], gait.pose[:, -1], *now)
+    with pytest.raises(ValueError):
+        sim.push(gait.time[-1] + 1.0, gait.pose[:2, -1], *now)
+    sim.load(gait, loads)
+    with pytest.raises(ValueError):  # a recording takes no more poses
+        sim.push(gait.time[-1] + 1.0, gait.pose[:, -1], *now)
+
+
 def test_a_thousand_walkers_go_in_turn(walk):
     short = walk.along([(0, 0), (2, 0)], 1).piece(10, 30)
     many = passes.in_turn([short] * 1000)

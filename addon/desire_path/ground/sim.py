@@ -335,17 +335,7 @@ class Simulation:
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
-        vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
-        triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
-        time, mass = np.ascontiguousarray(gait.time), np.ascontiguousarray(gait.mass)
-        cast = (
-            np.ascontiguousarray(gait.limb_walker, np.int32),
-            np.ascontiguousarray(gait.part_limb, np.int32),
-            np.ascontiguousarray(vertices),
-            np.array([len(sole.vertices) for sole in gait.soles], np.int32),
-            np.ascontiguousarray(triangles),
-            np.array([len(sole.triangles) for sole in gait.soles], np.int32),
-        )
+        time, mass, *cast = _cast(gait)
         held = getattr(loads, "held", None)
         if isinstance(gait.pose, TrackArray):
             track, poses, pressing = _tracks(gait, loads, held)
@@ -356,6 +346,30 @@ class Simulation:
             self._core.load(time, mass, np.ascontiguousarray(gait.pose), *cast, touching, force, point)
         if self.plantings:
             self._plant_reach()
+
+    def load_live(self, gait):
+        """Follow poses as they are made: the walkers and soles of a Gait, whose own poses are not looked at.
+
+        Each sample comes by push(); run() steps up to it, and forgets what is behind. Of plants only those in areas of
+        their own are there, since nobody knows where the walk will go.
+        """
+        time, *cast = _cast(gait)
+        self._core.load_live(time[:0], *cast)
+
+    def push(self, time, pose, touching, force, point, present=None):
+        """The next sample of a live motion, later than those before [s].
+
+        pose (P, 7) and force (P, 3), point (P, 3) of each part as in Gait and FootForce; touching (P,).
+        present (W,): which walkers are there; None: all.
+        """
+        self._core.push(
+            float(time),
+            None if present is None else np.ascontiguousarray(present, np.uint8),
+            np.ascontiguousarray(pose, np.float64),
+            np.ascontiguousarray(np.asarray(touching) == 1, np.uint8),
+            np.ascontiguousarray(force, np.float64),
+            np.ascontiguousarray(point, np.float64),
+        )
 
     def reach(self):
         """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
@@ -397,7 +411,7 @@ class Simulation:
                     f"{path} is damaged, or the state of another ground, walk or plants: run this one from its start."
                 ) from None
             raise DesirePathError(
-                "A state can only be loaded before the first step: make the simulation anew and load the walk before it."
+                "A state can only be loaded before the first step: make the simulation anew and load the walk first."
             ) from None
 
     def rest_plants(self, seconds):
@@ -478,6 +492,22 @@ class Simulation:
         self._core.flush()
 
 
+def _cast(gait):
+    """Times, and who walks, as the core takes them."""
+    vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
+    triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
+    return (
+        np.ascontiguousarray(gait.time),
+        np.ascontiguousarray(gait.mass),
+        np.ascontiguousarray(gait.limb_walker, np.int32),
+        np.ascontiguousarray(gait.part_limb, np.int32),
+        np.ascontiguousarray(vertices),
+        np.array([len(sole.vertices) for sole in gait.soles], np.int32),
+        np.ascontiguousarray(triangles),
+        np.array([len(sole.triangles) for sole in gait.soles], np.int32),
+    )
+
+
 def _pressing(touching, held):
     """What the core is told of touching parts; what is carried elsewhere presses nothing."""
     out = (touching == 1).astype(np.uint8)
@@ -525,8 +555,8 @@ class Film:
         self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
 
     def list_files(self, path):
-        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it has,
-        and their digest. Before the first frame."""
+        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it
+        has, and their digest. Before the first frame."""
         self._core.list_files(str(path))
 
     def write_frame(self, path, time):
