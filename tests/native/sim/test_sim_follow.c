@@ -13,20 +13,22 @@ enum
 static const DpField FIELDS[] = {DP_FIELD_COMPRESSION, DP_FIELD_HEAP, DP_FIELD_PRESSURE_TIME,
                                  DP_FIELD_PLANT_STRENGTH};
 
-// four fields of the world, for dp_free
+// four fields of the world and how its grass lies, for dp_free
 static float* ground_of(const World* world)
 {
     const size_t cells = (size_t)SIDE * SIDE;
-    float*       out = dp_alloc(4 * cells, sizeof *out);
+    float*       out = dp_alloc(5 * cells, sizeof *out);
     for (size_t f = 0; out && f < 4; ++f)
         CHECK(dp_terrain_read(world->terrain, FIELDS[f], LEFT, LOW, SIDE, SIDE, out + f * cells) ==
               DP_OK);
+    if (out && world->plants)
+        dp_grass_read(dp_sim_grass(world->sim), LEFT, LOW, SIDE, SIDE, NULL, NULL, out + 4 * cells);
     return out;
 }
 
 static bool same(const float* a, const float* b)
 {
-    return memcmp(a, b, 4 * (size_t)SIDE * SIDE * sizeof *a) == 0;
+    return memcmp(a, b, 5 * (size_t)SIDE * SIDE * sizeof *a) == 0;
 }
 
 static World lawn(int workers)
@@ -104,6 +106,45 @@ TEST(every_source_leaves_the_same_bits)
         if (source > 0) CHECK(same(ground[0], ground[source]));
     }
     for (int source = 0; source < 4; ++source) dp_free(ground[source]);
+    stride_drop(&s);
+    CHECK(dp_bytes_live() == 0);
+}
+
+// who is not there is as one who was far up in the meantime, where nothing meets him
+TEST(who_comes_and_goes_meets_nothing_on_the_way)
+{
+    Stride       s = stride_make(1, 3, 80.0, STRIDE_RATE);
+    const int    T = s.gait.times, parts = s.gait.parts, gone = 76, back = 130;
+    float*       ground[2] = {NULL};
+    const double x = s.pose[7 * back], y = s.pose[7 * back + 1];
+    for (int k = 0; k < parts * T; ++k) {  // he comes back where nobody was: at the origin
+        s.pose[7 * k] -= x - 0.05, s.point[3 * k] -= x - 0.05;
+        s.pose[7 * k + 1] -= y, s.point[3 * k + 1] -= y;
+    }
+    for (int p = 0; p < parts; ++p)  // nothing presses beside a gap
+        s.touching[p * T + gone - 1] = s.touching[p * T + back] = 0;
+    for (int run = 0; run < 2; ++run) {
+        World     world = lawn(1);
+        DpMotion* motion = NULL;
+        if (run == 0) {
+            DpTrack track[2] = {cut(&s, 0, gone, 0), cut(&s, back, T - back, 0)};
+            CHECK(dp_motion_tracks(&motion, &s.gait, track, 2) == DP_OK);
+            cut_drop(&track[0]), cut_drop(&track[1]);
+        } else {
+            for (int p = 0; p < parts; ++p)
+                for (int t = gone; t < back; ++t)
+                    s.pose[7 * (p * T + t) + 2] += 1e4, s.touching[p * T + t] = 0;
+            const DpLoadedPoses poses = poses_of(&s);
+            CHECK(dp_motion_record(&motion, &s.gait, &poses) == DP_OK);
+        }
+        CHECK(dp_sim_follow(world.sim, motion) == DP_OK);
+        CHECK(dp_sim_run(world.sim, T - 1) == DP_OK && dp_sim_settle(world.sim) == DP_OK);
+        ground[run] = ground_of(&world);
+        CHECK(dp_sim_report(world.sim).broke > 0);
+        world_drop(&world);
+    }
+    CHECK(same(ground[0], ground[1]));
+    dp_free(ground[0]), dp_free(ground[1]);
     stride_drop(&s);
     CHECK(dp_bytes_live() == 0);
 }
@@ -194,6 +235,7 @@ TEST(what_fails_to_load_leaves_what_was_followed)
 int main(void)
 {
     RUN(every_source_leaves_the_same_bits);
+    RUN(who_comes_and_goes_meets_nothing_on_the_way);
     RUN(a_thousand_walkers_in_turn);
     RUN(what_fails_to_load_leaves_what_was_followed);
     return check_done();
