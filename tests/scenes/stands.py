@@ -8,6 +8,7 @@ import os
 import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from unittest import mock
 
 import bpy
 import mathutils
@@ -15,7 +16,7 @@ import numpy as np
 
 from desire_path.blender import compat, playback
 from desire_path.ground import maps
-from desire_path.ground.soil import SOILS
+from desire_path.ground import soil as soils
 
 from . import gaits, meshes
 
@@ -27,12 +28,8 @@ GRAVITY = 9.81
 @contextmanager
 def soil(name="dry-soil", **numbers):
     """A preset with some numbers changed, for as long as a test needs it."""
-    own = SOILS[name]
-    SOILS[name] = replace(own, **numbers)
-    try:
-        yield SOILS[name]
-    finally:
-        SOILS[name] = own
+    with mock.patch.dict(soils._SOILS, {name: replace(soils.SOILS[name], **numbers)}):
+        yield soils.SOILS[name]
 
 
 def ground(cell=0.01, half=(0.6, 0.6), name="dry-soil", folder=None):

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
+from types import MappingProxyType
 
 import numpy as np
 
@@ -130,7 +132,9 @@ def _kind(height, width, spacing, sway, degrade_deg, break_deg, strength=0.1, *,
 # As printed in TRAIL Table 1, with its phi_max of 70 and 50 degrees: a boot folds stems of pieces 15 mm long farther
 # than that, so that one pass over a lane leaves 62 and 59 per cent of it and 25 leave 3 and 1, where measured lanes
 # keep 86. For looks, and to compare with.
-PAPER = {"carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10), "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08)}
+PAPER: Mapping[str, Kind] = MappingProxyType(
+    {"carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 70, 0.10), "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 50, 0.08)}
+)
 
 # Wear of carex follows `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex`, from the cover of Cole's
 # lanes; how it grows again is fitted in the same way. tests/core/test_lane.py holds it to lanes of another seed, on
@@ -147,7 +151,7 @@ TWO_WEEKS = 14 * 24.0  # [h]
 # at about 1 Hz, short turf faster than the eye), and wear set by how well each is known to bear treading: some eighty
 # footfalls for lawn grasses, three for ferns. Trodden turf stands again within the quarter of an hour, high grass
 # within hours, straw and fronds hardly the next day.
-KINDS = {
+_KINDS = {
     "carex": _kind(0.10, 0.05, 0.015, 3.0, 10, 180, RESERVE, spread=SPREAD, hours=TWO_WEEKS, **REGROWTH),
     "lycopodium": _kind(0.10, 0.05, 0.015, 3.5, 5, 180, 0.8 * RESERVE, spread=SPREAD, hours=TWO_WEEKS, **REGROWTH),
     "lawn": _kind(
@@ -249,6 +253,7 @@ KINDS = {
         spread=1.0,
     ),
 }
+KINDS: Mapping[str, Kind] = MappingProxyType(_KINDS)  # by name, to be read: a kind of your own is a Kind
 
 
 # ---- how they differ ---------------------------------------------------------------------------------------------

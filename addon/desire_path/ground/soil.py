@@ -2,7 +2,9 @@
 
 import math
 import numbers
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from types import MappingProxyType
 
 from ..errors import DesirePathError
 from ..files import record
@@ -99,7 +101,7 @@ def _soil(megapascal, nu, rest_angle_deg, tau, shear=0.0):
 
 # Middle of each range in TRAIL Table 1 and SOFT22 Table 1. Loose grains shear by 1 to 2.5 cm before they carry
 # (Janosi and Hanamoto 1961; Wong, Theory of Ground Vehicles); what holds together by more than friction does not slip.
-SOILS = {
+_SOILS = {
     "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01),
     "snow": _soil(0.375, 0.05, 38.0, 0.2, 0.01),
     "mud": _soil(0.625, 0.35, 15.0, 0.15),
@@ -108,3 +110,4 @@ SOILS = {
     "dry-soil": _soil(0.35, 0.35, 7.5, 0.1),
     "wet-soil": _soil(0.5, 0.3, 12.5, 0.1),
 }
+SOILS: Mapping[str, Soil] = MappingProxyType(_SOILS)  # by name, to be read: a soil of your own is a Soil

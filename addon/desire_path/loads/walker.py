@@ -5,6 +5,7 @@ import os
 import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from warnings import warn
 
 import numpy as np
 
@@ -104,9 +105,11 @@ def point_places(gait):
 def ground_below(gait, ground):
     """Height of the ground below each contact point (K, T) [m].
 
-    ground: None = flat at 0; a number; heights (K, T); or a function of points (n, 2) -> (n,). NaN
-    where there is none: feet that step there carry their share and leave it to nobody else.
+    ground: None = flat at 0; a number; heights (K, T); a function of points (n, 2) -> (n,); or what has one by the
+    name of rest_height, as a Simulation. NaN where there is none: feet that step there carry their share and leave it
+    to nobody else.
     """
+    ground = _heights_of(ground)
     shape = (len(gait.point), len(gait.time))
     if callable(ground):
         xy = point_places(gait)[..., :2].reshape(-1, 2)
@@ -119,6 +122,11 @@ def ground_below(gait, ground):
                 "needed: give one height for each contact point and sample."
             )
     return np.ascontiguousarray(np.broadcast_to(heights, shape), "f8").copy()
+
+
+def _heights_of(ground):
+    """A ground as ground_below() takes it, with a Simulation's function of places in its stead."""
+    return getattr(ground, "rest_height", ground)
 
 
 def _even(gait, size):
@@ -148,11 +156,18 @@ def _find_contacts(gait, below, limits, frame_rate):
     return touching, clearance
 
 
-def contacts(gait, ground_height=None, *, limits=None):
-    """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)"""
+def contacts(gait, ground=None, *, limits=None, ground_height=None):
+    """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)
+
+    ground: see ground_below; ground_height is an old name of it.
+    """
+    if ground_height is not None:
+        warn("ground_height is an old name: give contacts() ground.", DeprecationWarning, stacklevel=2)
+        ground = ground_height
+    ground = _heights_of(ground)
     gait = sizes.known(jumps.found(gait.check()))
     touching, clearance = np.zeros((len(gait.part_limb), len(gait.time)), "u1"), []
-    known = ((turn, *_contacts_of(turn.gait, turn.ground, limits)) for turn in _turns(gait, ground_height))
+    known = ((turn, *_contacts_of(turn.gait, turn.ground, limits)) for turn in _turns(gait, ground))
     for turn, on, rest in _standing(gait, known):
         touching[np.ix_(turn.parts, turn.samples)] = on
         clearance.append(turn.known(on, rest))
@@ -225,6 +240,7 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     What stands on something that is not the ground (a box, a deck, stairs that were left out) is carried there: its
     force is told, and `touching` is ELSEWHERE.
     """
+    ground = _heights_of(ground)
     told, gait = len(gait.warnings), sizes.known(jumps.found(gait.check()))
     if model not in MODELS:
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")

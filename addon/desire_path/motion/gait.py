@@ -432,14 +432,37 @@ class Gait:
 
         return cycle.carried(self)
 
-    def along(self, path, passes=1, **more):
-        """The walk's cycle carried along a path (n, 2 or 3) [m] as often as wanted: see passes.along().
+    def along(
+        self,
+        path,
+        passes=1,
+        *,
+        back_and_forth=True,
+        lateral=0.1,
+        timing=0.05,
+        stride=0.05,
+        seed=0,
+        pause=0.0,
+        ground=None,
+    ):
+        """The walk's cycle carried along a path (n, 2 or 3) [m] as often as wanted, there and back or one way.
 
-        back_and_forth=True, lateral=0.1 [m], timing=0.05, stride=0.05, seed=0, pause=0 [s], ground=None
+        lateral [m], timing, stride: how far passes scatter; pause between them [s]: see passes.along().
         """
         from ..placement import passes as walked
 
-        return walked.along(self, path, passes, **more)
+        return walked.along(
+            self,
+            path,
+            passes,
+            back_and_forth=back_and_forth,
+            lateral=lateral,
+            timing=timing,
+            stride=stride,
+            seed=seed,
+            pause=pause,
+            ground=ground,
+        )
 
     def _resampled_pieces(self, rate):
         """Each piece begins when it began; in between may be a gap."""
