@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/soil_numbers.h"
+
 #define DP_GRAVITY 9.81  // g [m/s^2]
 #define DP_PI 3.14159265358979323846
 #define DP_TILE 64  // cells along one side of a terrain tile and of a playback tile
@@ -68,18 +70,12 @@ typedef struct DpGait
 } DpGait;
 
 // One kind of ground. Start from dp_soil_default() and change what you know.
+// base/soil_numbers.h has the meaning, unit and range of each number.
+#define DP_SOIL_MEMBER(name, unit, lowest, highest, normal, meaning) float name;
 typedef struct DpSoil
 {
-    float layer_depth;     // L0, loose layer over rigid ground          [m]    > 0
-    float young_modulus;   // E_g, without roots                         [Pa]   > 0
-    float poisson_ratio;   // nu, share pushed sideways, SOFT22 (12)     [-]    0..0.5
-    float settle_time;     // tau, time to yield fully, SOFT22 (11)      [s]    > 0
-    float rest_angle;      // gamma_r, steepest slope that stays         [rad]  0 < .. < pi/2
-    float push_threshold;  // F_threshold, TRAIL (13); 0 = half the walker's weight [N] >= 0
-    float shear_modulus;   // K, shear before it carries sideways; 0 = none [m]    0..0.1
+    DP_SOIL_NUMBERS(DP_SOIL_MEMBER)
 } DpSoil;
-
-#define DP_SOIL_NUMBERS 7  // of a DpSoil, in this order
 
 // A dense window of ground, acquired from the terrain by a lease and committed when kernels have changed it.
 // All grids are (ny, nx) with `row` cells from one row to the next.

@@ -4,26 +4,54 @@
 
 #include <string.h>
 
-// Soils as rows of six floats in the order of DpSoil.
-DpSoil* dp_py_soils(DpBuffers* buffers, PyObject* object, int* count)
+// A soil from a dict of its numbers by name; those that are not told are as in dp_soil_default().
+static bool read_soil(PyObject* dict, Py_ssize_t place, DpSoil* soil)
 {
-    DpShape shape = {2, {-1, DP_SOIL_NUMBERS}};
-    float*  row = dp_buffers_open(buffers, object, "soils", 'f', &shape, false);
-    if (!row) return NULL;
-    if (shape.n[0] < 1 || shape.n[0] > 255) {
+    int                 count;
+    const DpSoilNumber* number = dp_soil_numbers(&count);
+    Py_ssize_t          known = 0;
+    *soil = dp_soil_default();
+    if (!PyDict_Check(dict)) {
+        PyErr_Format(PyExc_TypeError, "soils: soil %zd is no dict of numbers by name", place);
+        return false;
+    }
+    for (int n = 0; n < count; ++n) {
+        PyObject* value = PyDict_GetItemString(dict, number[n].name);  // borrowed
+        if (!value) continue;
+        const double told = PyFloat_AsDouble(value);
+        if (PyErr_Occurred()) return false;
+        *(float*)(void*)((char*)soil + number[n].offset) = (float)told;
+        ++known;
+    }
+    if (known != PyDict_Size(dict)) {
+        PyErr_Format(PyExc_ValueError, "soils: soil %zd has a number that no soil has", place);
+        return false;
+    }
+    if (dp_soil_check(soil) == DP_OK) return true;
+    PyErr_Format(PyExc_ValueError, "soils: a number of soil %zd is out of its range", place);
+    return false;
+}
+
+// Soils, each a dict of its numbers by name, in a list or a tuple.
+DpSoil* dp_py_soils(PyObject* object, int* count)
+{
+    const Py_ssize_t size = PySequence_Size(object);
+    if (size < 0) return NULL;
+    if (size < 1 || size > 255) {
         PyErr_SetString(PyExc_ValueError, "soils: give 1 to 255 soils");
         return NULL;
     }
-    *count = (int)shape.n[0];
-    DpSoil* soils = dp_alloc((size_t)*count, sizeof *soils);
+    *count = (int)size;
+    DpSoil* soils = dp_alloc((size_t)size, sizeof *soils);
     if (!soils) {
         PyErr_NoMemory();
         return NULL;
     }
-    for (int s = 0; s < *count; ++s, row += DP_SOIL_NUMBERS) {
-        soils[s] = (DpSoil){row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
-        if (dp_soil_check(&soils[s]) == DP_OK) continue;
-        PyErr_Format(PyExc_ValueError, "soils: a number of soil %d is out of its range", s);
+    for (Py_ssize_t s = 0; s < size; ++s) {
+        PyObject*  dict = PySequence_GetItem(object, s);
+        const bool read = dict && read_soil(dict, s, &soils[s]);
+        Py_XDECREF(dict);
+        if (read) continue;
         dp_free(soils);
         return NULL;
     }

@@ -47,7 +47,7 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpGround  ground;
     int       soil_count = 0;
     PyObject* made = NULL;
-    DpSoil*   soils = dp_py_soils(&buffers, soils_object, &soil_count);
+    DpSoil*   soils = dp_py_soils(soils_object, &soil_count);
     if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
         const DpTerrainOptions terrain = {
             {cell, origin[0], origin[1]}, soils, soil_count, options.workers};

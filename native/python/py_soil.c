@@ -4,16 +4,16 @@
 //   soil_compress(patch, imprint, foot, law, dt)                          -> dict of DpPressed
 //   soil_accumulate(patch, imprint, foot, volume, law, rim_width, threshold, height) -> height
 //   soil_stabilize(patch, imprint | None, within | None, tolerance, most)  -> dict of DpSettled
-//   soil_anisotropy((x, y, z), threshold) -> beta;   soil_default() -> (7 numbers of DpSoil)
+//   soil_anisotropy((x, y, z), threshold) -> beta;   soil_numbers() -> the table of base/soil_numbers.h
 //
 // patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
 // soils) imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
-// float32 (ny, nx), kind uint8, ring int32, soils float32 (count, 7) in DpSoil's order.
+// float32 (ny, nx), kind uint8, ring int32, soils a list of dicts of numbers by name.
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "python/buffers.h"
+#include "python/py_inside.h"
 #include "soil/soil.h"
 
 // What a call works with; zero it, open it, close it.
@@ -36,28 +36,9 @@ static void close_call(Call* call)
 
 static int open_soils(Call* call, PyObject* object)
 {
-    DpShape      shape = {2, {-1, DP_SOIL_NUMBERS}};
-    const float* value = dp_buffers_open(&call->buffers, object, "soils", 'f', &shape, false);
-    if (!value) return -1;
-    if (shape.n[0] < 1 || shape.n[0] > 255) {
-        PyErr_SetString(PyExc_ValueError, "soils: expected 1 to 255 rows");
-        return -1;
-    }
-    call->soils = dp_alloc((size_t)shape.n[0], sizeof(DpSoil));
-    if (!call->soils) {
-        PyErr_NoMemory();
-        return -1;
-    }
-    for (Py_ssize_t k = 0; k < shape.n[0]; ++k, value += DP_SOIL_NUMBERS) {
-        call->soils[k] =
-            (DpSoil){value[0], value[1], value[2], value[3], value[4], value[5], value[6]};
-        if (dp_soil_check(&call->soils[k]) == DP_OK) continue;
-        PyErr_Format(PyExc_ValueError, "soils: row %zd holds a number out of its range", k);
-        return -1;
-    }
+    call->soils = dp_py_soils(object, &call->patch.soil_count);
     call->patch.soils = call->soils;
-    call->patch.soil_count = (int)shape.n[0];
-    return 0;
+    return call->soils ? 0 : -1;
 }
 
 // numbers the kernels count on: no NaN but in `rest`, nothing below its range, soils that are there
@@ -275,13 +256,19 @@ static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
     return PyFloat_FromDouble(dp_soil_anisotropy(push, threshold));
 }
 
-static PyObject* soil_default(PyObject* module, PyObject* arguments)
+static PyObject* soil_numbers(PyObject* module, PyObject* arguments)
 {
     (void)module, (void)arguments;
-    const DpSoil s = dp_soil_default();
-    return Py_BuildValue("(ddddddd)", (double)s.layer_depth, (double)s.young_modulus,
-                         (double)s.poisson_ratio, (double)s.settle_time, (double)s.rest_angle,
-                         (double)s.push_threshold, (double)s.shear_modulus);
+    int                 count;
+    const DpSoilNumber* n = dp_soil_numbers(&count);
+    PyObject*           list = PyList_New(0);
+    for (; list && count-- > 0; ++n) {
+        PyObject* one = Py_BuildValue("(ssddds)", n->name, n->unit, n->lowest, n->highest,
+                                      n->normal, n->meaning);
+        if (!one || PyList_Append(list, one) < 0) Py_CLEAR(list);
+        Py_XDECREF(one);
+    }
+    return list;
 }
 
 PyMethodDef dp_py_soil_methods[] = {
@@ -289,5 +276,6 @@ PyMethodDef dp_py_soil_methods[] = {
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
-    {"soil_default", soil_default, METH_NOARGS, "The seven numbers of the default soil."},
+    {"soil_numbers", soil_numbers, METH_NOARGS,
+     "soil_numbers() -> [(name, unit, lowest, highest, default, meaning)] of a soil, in order."},
     {NULL, NULL, 0, NULL}};

@@ -11,11 +11,24 @@
 #include "base/status.h"
 #include "base/types.h"
 
-// Firm enough for a walk on a beach; DpSoil in base/types.h has the meaning and range of each.
+// Soil between firm and soft, the defaults of base/soil_numbers.h.
 DpSoil dp_soil_default(void);
 
 // DP_OK if every number of the soil is in its range.
 DpStatus dp_soil_check(const DpSoil* soil);
+
+// A number of a soil, as base/soil_numbers.h tells it.
+typedef struct DpSoilNumber
+{
+    const char* name;
+    const char* unit;
+    double      lowest, highest, normal;  // range, both ends included; the default
+    const char* meaning;
+    size_t      offset;  // of the float in DpSoil
+} DpSoilNumber;
+
+// All of them, in the order of DpSoil; *count how many.
+const DpSoilNumber* dp_soil_numbers(int* count);
 
 // Scratch memory of one thread; it grows and is kept.
 typedef struct DpSoilScratch DpSoilScratch;

@@ -2,35 +2,35 @@
 #include "base/alloc.h"
 #include "soil/soil_inside.h"
 
+#define NUMBER(name, unit, lowest, highest, normal, meaning) \
+    {#name, unit, lowest, highest, normal, meaning, offsetof(DpSoil, name)},
+static const DpSoilNumber numbers[] = {DP_SOIL_NUMBERS(NUMBER)};
+
+const DpSoilNumber* dp_soil_numbers(int* count)
+{
+    *count = (int)(sizeof numbers / sizeof *numbers);
+    return numbers;
+}
+
+#define DEFAULT(name, unit, lowest, highest, normal, meaning) .name = (float)(normal),
+
 DpSoil dp_soil_default(void)
 {
-    const DpSoil soil = {
-        .layer_depth = 0.30f,      // TRAIL 4.2: a loose layer of 30 cm
-        .young_modulus = 0.75e6f,  // between soil and mud, SOFT22 Table 1
-        .poisson_ratio = 0.35f,    // the same table
-        .settle_time = 0.05f,      // the same table
-        .rest_angle = 0.5585054f,  // 32 degrees, dry sand
-        .push_threshold = 0.0f,    // half the walker's weight
-        .shear_modulus = 0.0f,     // soles do not slip
-    };
+    const DpSoil soil = {DP_SOIL_NUMBERS(DEFAULT)};
     return soil;
 }
 
-static bool in_range(float value, float low, float high)
+static bool in_range(float value, double lowest, double highest)
 {
-    return value >= low && value <= high;  // false for NaN
+    return value >= (float)lowest && value <= (float)highest;  // false for NaN
 }
+
+#define IN_RANGE(name, unit, lowest, highest, normal, meaning) \
+    &&in_range(soil->name, lowest, highest)
 
 DpStatus dp_soil_check(const DpSoil* soil)
 {
-    const float tiny = 1e-6f;
-    if (!soil) return DP_BAD_ARGUMENT;
-    const bool good =
-        in_range(soil->layer_depth, tiny, 1e3f) && in_range(soil->young_modulus, tiny, 1e15f) &&
-        in_range(soil->poisson_ratio, 0.0f, 0.5f) && in_range(soil->settle_time, tiny, 1e6f) &&
-        in_range(soil->rest_angle, 1e-4f, 1.5533430f) &&  // 89 degrees
-        in_range(soil->push_threshold, 0.0f, 1e15f) && in_range(soil->shear_modulus, 0.0f, 0.1f);
-    return good ? DP_OK : DP_BAD_ARGUMENT;
+    return soil DP_SOIL_NUMBERS(IN_RANGE) ? DP_OK : DP_BAD_ARGUMENT;
 }
 
 DpSoilScratch* dp_soil_scratch_create(void)

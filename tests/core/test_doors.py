@@ -27,7 +27,7 @@ def test_plants_cannot_be_opened_once_a_recording_is_loaded():
 
 
 def bare():
-    return _native.Simulation(("flat", 0.0), np.array([_native.soil_default()], "f4"), 0.02)
+    return _native.Simulation(("flat", 0.0), [{}], 0.02)
 
 
 @pytest.mark.parametrize("at", [2**63 - 1, 2**63 - 4, -(2**63), 2**55])
@@ -140,7 +140,7 @@ def test_windows_of_more_cells_than_there_are_numbers_for_are_refused(shape):
 
 
 def test_laws_that_there_are_not_are_refused():
-    soils = np.array([_native.soil_default()], "f4")
+    soils = [{}]
     for law, heap in ((2, 0), (-1, 0), (0, 7)):
         with pytest.raises(ValueError, match="law, heap"):
             _native.Simulation(("flat", 0.0), soils, 0.02, (0.0, 0.0), law, heap)

@@ -1,7 +1,7 @@
 """Kinds of ground: presets lie in the papers' ranges, and impossible numbers are refused with a sentence."""
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, fields, replace
 
 import pytest
 
@@ -28,6 +28,21 @@ def test_presets_lie_in_the_tables(name):
     assert nu[0] <= soil.poisson_ratio <= nu[1]
     assert angle is None or angle[0] - 1e-9 <= math.degrees(soil.rest_angle) <= angle[1] + 1e-9
     assert tau is None or soil.settle_time == pytest.approx(tau)
+
+
+def test_a_soil_has_the_numbers_of_the_core():
+    """Names, order, defaults and ranges: base/soil_numbers.h tells them to both."""
+    table = _native.soil_numbers()
+    assert [(each.name, each.default) for each in fields(Soil)] == [(n, default) for n, _, _, _, default, _ in table]
+    for name, unit, lowest, highest, _, meaning in table:
+        assert unit and meaning
+        for value in (lowest, highest):
+            assert getattr(replace(Soil(), **{name: value}), name) == value
+        if name != "push_threshold":  # any force
+            with pytest.raises(DesirePathError, match=name):
+                replace(Soil(), **{name: highest * 1.001})
+        with pytest.raises(DesirePathError, match=name):
+            replace(Soil(), **{name: lowest - 0.001 * (lowest or 1.0)})
 
 
 def test_every_preset_is_in_the_tables():
@@ -66,22 +81,7 @@ def test_the_core_takes_what_python_takes():
         Soil(rest_angle=math.radians(88.9)),
         Soil(layer_depth=1e-4),
         Soil(settle_time=1e-5),
-        Soil(*_native.soil_default()),
     ]:
-        row = np.array(
-            [
-                [
-                    soil.layer_depth,
-                    soil.young_modulus,
-                    soil.poisson_ratio,
-                    soil.settle_time,
-                    soil.rest_angle,
-                    soil.push_threshold,
-                    soil.shear_modulus,
-                ]
-            ],
-            np.float32,
-        )
         patch = (
             0.01,
             0.0,
@@ -90,10 +90,10 @@ def test_the_core_takes_what_python_takes():
             grid.copy(),
             grid.copy(),
             grid.copy(),
-            grid + row[0, 1],
+            grid + np.float32(soil.young_modulus),
             grid + 1,
             grid.astype(np.uint8),
-            row,
+            [asdict(soil)],
         )
         assert _native.soil_stabilize(patch, None, None, 0.001, 1)["at_rest"]
 

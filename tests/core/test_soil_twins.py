@@ -21,6 +21,9 @@ SOILS = np.array(
 )
 
 
+NAMES = [number[0] for number in _native.soil_numbers()]
+
+
 class Both:
     """The same random patch twice: float32 for the kernel, float64 for its twin."""
 
@@ -35,7 +38,7 @@ class Both:
             "modulus": SOILS[kind, 1] * (1 + random.random((ny, nx), np.float32)),
             "rest_slope": np.tan(SOILS[kind, 4]),
             "kind": kind,
-            "soils": SOILS,
+            "soils": [dict(zip(NAMES, map(float, row))) for row in SOILS],
         }
         if holes:
             self.native["rest"][random.random((ny, nx)) < 0.03] = np.nan
@@ -254,8 +257,16 @@ def test_the_door_checks_what_comes_in():
         _native.soil_compress((*good[:5], good[5][:3], *good[6:]), (bottom, cover, ring), foot_of(1), 0, 0.1)
     with pytest.raises(ValueError, match="kind: element"):
         _native.soil_compress((*good[:9], good[9] + np.uint8(3), good[10]), (bottom, cover, ring), foot_of(1), 0, 0.1)
-    with pytest.raises(ValueError, match="soils: row 0"):
-        _native.soil_compress((*good[:10], 0 * good[10]), (bottom, cover, ring), foot_of(1), 0, 0.1)
+    for soils, words in (
+        ([{"layer_depth": 0.0}], "out of its range"),
+        ([{"rest_angle": float("nan")}], "out of its range"),
+        ([{"layer_dept": 0.3}], "no soil has"),
+        ([], "1 to 255"),
+    ):
+        with pytest.raises(ValueError, match="soils: .*" + words):
+            _native.soil_compress((*good[:10], soils), (bottom, cover, ring), foot_of(1), 0, 0.1)
+    with pytest.raises(TypeError, match="soils: soil 0"):
+        _native.soil_compress((*good[:10], [0.3]), (bottom, cover, ring), foot_of(1), 0, 0.1)
     with pytest.raises(ValueError, match="foot"):
         _native.soil_compress(good, (bottom, cover, ring), foot_of(float("nan")), 0, 0.1)
     with pytest.raises(ValueError, match="law"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
@@ -162,20 +162,8 @@ def as_soils(soils):
     return found
 
 
-def _soil_rows(soils):
-    rows = [
-        (
-            soil.layer_depth,
-            soil.young_modulus,
-            soil.poisson_ratio,
-            soil.settle_time,
-            soil.rest_angle,
-            soil.push_threshold,
-            soil.shear_modulus,
-        )
-        for soil in soils
-    ]
-    return np.array(rows, np.float32)
+def _soil_numbers(soils):
+    return [asdict(soil) for soil in soils]  # by name
 
 
 def check_cell(cell_size):
@@ -237,7 +225,7 @@ class Simulation:
         try:
             self._core = _native.Simulation(
                 ground.native,
-                _soil_rows(self.soils),
+                _soil_numbers(self.soils),
                 self.cell_size,
                 self.origin,
                 LAWS.index(law),

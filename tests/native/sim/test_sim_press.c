@@ -70,6 +70,7 @@ TEST(a_sole_slips_once_and_never_back)
 {
     DpSoil soil = dp_soil_default();
     soil.shear_modulus = 0.01f;
+    soil.settle_time = 0.05f;
     const double weight = MASS * DP_GRAVITY, wanted = dp_soil_slip(&soil, 0.25 * weight, weight);
     scene_make(&scene);
     for (int t = 0; t < TIMES; ++t) {
@@ -95,6 +96,7 @@ TEST(who_only_begins_to_carry_slips_little)
 {
     DpSoil soil = dp_soil_default();
     soil.shear_modulus = 0.01f;
+    soil.settle_time = 0.05f;
     scene_make(&scene);
     for (int t = 0; t < TIMES; ++t) {
         scene.force[3 * t + 2] = -0.1 * MASS * DP_GRAVITY;

@@ -10,6 +10,7 @@ static DpSoil sand(double degrees)
     DpSoil soil = dp_soil_default();
     soil.rest_angle = (float)(degrees * DEGREE);
     soil.young_modulus = 0.35e6f;
+    soil.settle_time = 0.05f;
     return soil;
 }
 
@@ -342,6 +343,18 @@ TEST(soil_ranges)
     CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
     soil = dp_soil_default(), soil.layer_depth = 0.0f;
     CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
+    int count;
+    for (const DpSoilNumber* n = dp_soil_numbers(&count); count-- > 0; ++n) {  // each has its ends
+        soil = dp_soil_default();
+        float* value = (float*)(void*)((char*)&soil + n->offset);
+        CHECK(n->lowest <= (double)*value && (double)*value <= n->highest);
+        for (int end = 0; end < 2; ++end) {
+            *value = (float)(end ? n->highest : n->lowest);
+            CHECK(dp_soil_check(&soil) == DP_OK);
+            *value = nextafterf(*value, end ? INFINITY : -INFINITY);
+            CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
+        }
+    }
 }
 
 int main(void)
