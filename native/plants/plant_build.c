@@ -12,6 +12,10 @@
 #include "base/alloc.h"
 #include "plants/plant_inside.h"
 
+#define MAX_COUNT (INT_MAX / (4 * DP_LANES))
+#define MAX_PLACE 1e7f    // [m]
+#define MAX_HEADING 1e6f  // [rad]
+
 // ---- neighbours ------------------------------------------------------------------------------
 
 typedef struct Order
@@ -174,17 +178,34 @@ static bool make_arrays(PlantStand* stand)
            stand->box && stand->up && stand->where;
 }
 
+DpStatus dp_plants_check(const DpPlantKind* kind, const float* root, const float* heading,
+                         int count, DpReason* reason)
+{
+    if (dp_plant_kind_check(kind, reason) != DP_OK) return DP_BAD_ARGUMENT;
+    if (!root || count < 1 || count > MAX_COUNT) {
+        dp_reason(reason, "there are %d roots: plant 1 to %d at once", root ? count : 0, MAX_COUNT);
+        return DP_BAD_ARGUMENT;
+    }
+    for (int k = 0; k < 3 * count; ++k) {
+        if (fabsf(root[k]) < MAX_PLACE) continue;
+        dp_reason(reason, "%c of root %d is %g m: it must lie within %g m of 0", 'x' + k % 3, k / 3,
+                  (double)root[k], (double)MAX_PLACE);
+        return DP_BAD_ARGUMENT;
+    }
+    for (int k = 0; heading && k < count; ++k) {
+        if (fabsf(heading[k]) < MAX_HEADING) continue;
+        dp_reason(reason, "heading %d is %g rad: it must lie within %g of 0", k, (double)heading[k],
+                  (double)MAX_HEADING);
+        return DP_BAD_ARGUMENT;
+    }
+    return DP_OK;
+}
+
 DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
                        const float* heading, int count, int* stand_name)
 {
-    if (!plants || !root || !stand_name || count < 1 || count > INT_MAX / (4 * DP_LANES))
-        return DP_BAD_ARGUMENT;
-    if (dp_plant_kind_check(kind) != DP_OK) return DP_BAD_ARGUMENT;
-    for (int k = 0; k < 3 * count; ++k)
-        if (!(fabsf(root[k]) < 1e7f)) return DP_BAD_ARGUMENT;
-    for (int k = 0; heading && k < count; ++k)
-        if (!(fabsf(heading[k]) < 1e6f)) return DP_BAD_ARGUMENT;
-
+    if (!plants || !stand_name) return DP_BAD_ARGUMENT;
+    if (dp_plants_check(kind, root, heading, count, NULL) != DP_OK) return DP_BAD_ARGUMENT;
     PlantStand* more = dp_realloc(plants->stand, (size_t)plants->stands + 1, sizeof(PlantStand));
     if (!more) return DP_NO_MEMORY;
     plants->stand = more;

@@ -3,62 +3,66 @@
 
 #define MAX_STEMS 96
 
+static const DpNumber numbers[] = {
+#define NUMBER(name, unit, low, high, usual, meaning) {#name, unit, low, high, usual, meaning},
+    DP_PLANT_NUMBERS(NUMBER)
+#undef NUMBER
+};
+static const size_t offsets[] = {
+#define OFFSET(name, unit, low, high, usual, meaning) offsetof(DpPlantKind, name),
+    DP_PLANT_NUMBERS(OFFSET)
+#undef OFFSET
+};
+#define COUNT ((int)(sizeof numbers / sizeof numbers[0]))
+
+const DpNumber* dp_plant_numbers(int* count)
+{
+    *count = COUNT;
+    return numbers;
+}
+
+float* dp_plant_number(DpPlantKind* kind, int k)
+{
+    return (float*)(void*)((char*)kind + offsets[k]);
+}
+
 DpPlantKind dp_plant_kind_default(void)
 {
-    return (DpPlantKind){
-        .form = DP_PLANT_SURFACE,
-        .sheets = 2,
-        .height = 0.10f,
-        .width = 0.05f,
-        .depth = 0.05f,
-        .spacing = 0.015f,
-        .radius = 0.005f,
-        .curl = 0.0f,
-        .sway = 3.0f,
-        .across = 20.0f,
-        .damping = 6.0f,
-        .strength = 0.1f,
-        .degrade_angle = (float)(10.0 * DP_PI / 180.0),
-        .break_angle = (float)(70.0 * DP_PI / 180.0),
-        .degrade_rate = 0.1f,
-        .recover_rate = 0.1f,
-        .spread = 0.0f,
-        .regrow_rate = (float)(1.02 / (365.25 * 86400.0)),
-        .seed_share = 0.0f,
-        .root_radius = 0.15f,
-        .full_density = 40.0f,
-        .modulus = 10e6f,
-    };
+    DpPlantKind kind = {.form = DP_PLANT_SURFACE, .sheets = 2};
+    for (int k = 0; k < COUNT; ++k) *dp_plant_number(&kind, k) = (float)numbers[k].usual;
+    return kind;
 }
 
-// low <= value <= high, and a number
-static bool within(float value, double low, double high)
+static bool form_holds(const DpPlantKind* kind)
 {
-    return (double)value >= low && (double)value <= high;
+    return kind->form == DP_PLANT_SURFACE ||
+           (kind->form == DP_PLANT_TUFT && kind->sheets >= 2 && kind->sheets <= 3);
 }
 
-DpStatus dp_plant_kind_check(const DpPlantKind* kind)
+DpStatus dp_plant_kind_check(const DpPlantKind* kind, DpReason* reason)
 {
-    if (!kind) return DP_BAD_ARGUMENT;
-    const bool form = kind->form == DP_PLANT_SURFACE ||
-                      (kind->form == DP_PLANT_TUFT && kind->sheets >= 2 && kind->sheets <= 3);
-    const bool size = within(kind->height, 0.0, 10.0) && within(kind->width, 0.0, 10.0) &&
-                      within(kind->depth, 0.0, 10.0) && within(kind->spacing, 1e-4, 10.0) &&
-                      within(kind->radius, 0.0, 1.0);
-    const bool swing = within(kind->curl, 0.0, 0.5 * DP_PI + 1e-6) &&
-                       within(kind->sway, 1e-3, 1e3) && within(kind->across, 1e-3, 1e4) &&
-                       within(kind->damping, 0.0, 1e4);
-    const bool wear = within(kind->strength, 1e-9, 1e9) &&
-                      within(kind->degrade_angle, 0.0, DP_PI + 1e-6) &&
-                      within(kind->break_angle, kind->degrade_angle, 1e3) &&
-                      within(kind->degrade_rate, 0.0, 1e9) &&
-                      within(kind->recover_rate, 0.0, 1e9) && within(kind->spread, 0.0, 4.0) &&
-                      within(kind->regrow_rate, 0.0, 1e3) && within(kind->seed_share, 0.0, 1.0);
-    const bool roots = within(kind->root_radius, 1e-3, 100.0) &&
-                       within(kind->full_density, 1e-6, 1e9) && within(kind->modulus, 0.0, 1e12);
-    if (!form || !size || !swing || !wear || !roots) return DP_BAD_ARGUMENT;
+    if (!kind || !form_holds(kind)) {
+        dp_reason(reason, "a plant is a surface, or a tuft of 2 or 3 sheets");
+        return DP_BAD_ARGUMENT;
+    }
+    DpPlantKind copy = *kind;
+    for (int k = 0; k < COUNT; ++k) {
+        const float value = *dp_plant_number(&copy, k);
+        if (dp_number_holds(&numbers[k], value)) continue;
+        dp_reason(reason, "%s of %g %s is out of its range, %g to %g", numbers[k].name,
+                  (double)value, numbers[k].unit, numbers[k].low, numbers[k].high);
+        return DP_BAD_ARGUMENT;
+    }
+    if (kind->break_angle < kind->degrade_angle) {
+        dp_reason(reason, "break_angle of %g is out of its range: it lies below degrade_angle, %g",
+                  (double)kind->break_angle, (double)kind->degrade_angle);
+        return DP_BAD_ARGUMENT;
+    }
     const DpPlantShape shape = dp_plant_shape(kind);
-    return shape.rows > DP_PLANT_MAX_ROWS || shape.stems > MAX_STEMS ? DP_BAD_ARGUMENT : DP_OK;
+    if (shape.rows <= DP_PLANT_MAX_ROWS && shape.stems <= MAX_STEMS) return DP_OK;
+    dp_reason(reason, "%d stems of %d particles are more than %d of %d: raise the spacing",
+              shape.stems, shape.rows, MAX_STEMS, DP_PLANT_MAX_ROWS);
+    return DP_BAD_ARGUMENT;
 }
 
 // steps of `spacing` that fit in `length`, and the one they start from

@@ -16,6 +16,7 @@
 //   TRAIL (6)(7): what is above a broken bend is limp, wears no more and holds nothing.
 //   TRAIL (7): a stand denser than full cover counts 1; `paper` is as printed.
 #pragma once
+#include "base/number.h"
 #include "base/status.h"
 #include "base/stream.h"
 #include "base/types.h"
@@ -26,37 +27,50 @@ typedef enum DpPlantForm
     DP_PLANT_TUFT = 1      // two or three sheets that cross
 } DpPlantForm;
 
+// The numbers of a kind: X(name, unit, low, high, as Carex pensylvanica has it, meaning). A new number
+// is a line here.
+// clang-format off
+#define DP_PLANT_NUMBERS(X) \
+    X(height, "m", 0.0, 10.0, 0.10, "over the ground") \
+    X(width, "m", 0.0, 10.0, 0.05, "of the first sheet") \
+    X(depth, "m", 0.0, 10.0, 0.05, "of the sheets that cross it") \
+    X(spacing, "m", 1e-4, 10.0, 0.015, "between particles, about") \
+    X(radius, "m", 0.0, 1.0, 0.005, "of a particle") \
+    X(curl, "rad", 0.0, 0.5 * DP_PI, 0.0, "phi_0, rest angle between edges of a stem") \
+    X(sway, "Hz", 1e-3, 1e3, 3.0, "frequency at which a whole stem swings") \
+    X(across, "Hz", 1e-3, 1e4, 20.0, "of edges between stems, as a frequency") \
+    X(damping, "1/s", 0.0, 1e4, 6.0, "of speed") \
+    X(strength, "-", 1e-9, 1e9, 0.1, "eps_b, reserve of a bend, TRAIL (6)") \
+    X(degrade_angle, "rad", 0.0, DP_PI, 10.0 * DP_PI / 180.0, "phi_deg, from where it wears") \
+    X(break_angle, "rad", 0.0, 1e3, 70.0 * DP_PI / 180.0, "phi_max, from where on it breaks") \
+    X(degrade_rate, "1/s", 0.0, 1e9, 0.1, "mu_deg, at which bent stems wear, TRAIL (6)") \
+    X(recover_rate, "1/s", 0.0, 1e9, 0.1, "mu_rec, at which strength comes back, TRAIL (6)") \
+    X(spread, "-", 0.0, 4.0, 0.0, "s, reserves differ by exp(s z), z of deviation 1") \
+    X(regrow_rate, "1/s", 0.0, 1e3, 1.02 / (365.25 * 86400.0), "r, of stems that broke, logistic") \
+    X(seed_share, "-", 0.0, 1.0, 0.0, "w, of regrowth from seeds that need no neighbours") \
+    X(root_radius, "m", 1e-3, 100.0, 0.15, "R, as far as its roots hold the soil, TRAIL (7)") \
+    X(full_density, "1/m^2", 1e-6, 1e9, 40.0, "plants from which on the ground is fully covered") \
+    X(modulus, "Pa", 0.0, 1e12, 10e6, "E_v0, of soil full of healthy roots, TRAIL (8)")
+// clang-format on
+
 // One kind of plant. Start from dp_plant_kind_default() and change what you know.
 typedef struct DpPlantKind
 {
-    int   form;     // DpPlantForm
-    int   sheets;   // crossed sheets of a tuft; a surface has one           2..3
-    float height;   // over the ground                                       [m]     >= 0
-    float width;    // of the first sheet                                    [m]     >= 0
-    float depth;    // of the sheets that cross it                           [m]     >= 0
-    float spacing;  // between particles, about                              [m]     > 0
-    float radius;   // of a particle                                         [m]     >= 0
-    float curl;     // phi_0, rest angle between neighbouring edges          [rad]   0..pi/2
-    float sway;     // frequency at which a whole stem swings                [Hz]    > 0
-    float across;   // stiffness of the edges between stems, as a frequency  [Hz]    > 0
-    float damping;  // of speed                                              [1/s]   >= 0
-
-    float strength;       // eps_b, reserve of a bend, TRAIL (6)             [-]     > 0
-    float degrade_angle;  // phi_deg, from here on a bend wears              [rad]   0..pi
-    float break_angle;    // phi_max, beyond it a bend breaks                [rad]   >= phi_deg
-    float degrade_rate;   // mu_deg                                          [1/s]   >= 0
-    float recover_rate;   // mu_rec                                          [1/s]   >= 0
-    float spread;         // s, reserves differ by exp(s z) from plant to plant [-]  0..4
-    float regrow_rate;    // r, TRAIL has none                               [1/s]   >= 0
-    float seed_share;     // w, of regrowth from seeds that need no neighbours [-]   0..1
-
-    float root_radius;   // R, as far as its roots hold the soil            [m]     > 0
-    float full_density;  // plants from which on the ground is fully covered [1/m^2] > 0
-    float modulus;       // E_v0, of soil full of healthy roots, TRAIL (8)  [Pa]    >= 0
+    int form;    // DpPlantForm
+    int sheets;  // crossed sheets of a tuft, 2..3; a surface has one
+#define DP_PLANT_MEMBER(name, unit, low, high, usual, meaning) float name;
+    DP_PLANT_NUMBERS(DP_PLANT_MEMBER)
+#undef DP_PLANT_MEMBER
 } DpPlantKind;
 
+// The table above, in the order of the members; *count of them.
+const DpNumber* dp_plant_numbers(int* count);
+// Number k of a kind.
+float* dp_plant_number(DpPlantKind* kind, int k);
+
 DpPlantKind dp_plant_kind_default(void);  // Carex pensylvanica, TRAIL Table 1
-DpStatus    dp_plant_kind_check(const DpPlantKind* kind);
+// Can a plant be built of these numbers? Else DP_BAD_ARGUMENT, and why, if `reason` is there.
+DpStatus dp_plant_kind_check(const DpPlantKind* kind, DpReason* reason);
 
 // What a plant of this kind is made of.
 typedef struct DpPlantShape
@@ -73,9 +87,13 @@ typedef struct DpPlants DpPlants;
 DpPlants*               dp_plants_create(uint64_t seed);
 void                    dp_plants_destroy(DpPlants* plants);
 
+// Can roots be planted? Else DP_BAD_ARGUMENT, and in `reason`, if it is there, which argument it is
+// and why.
+DpStatus dp_plants_check(const DpPlantKind* kind, const float* root, const float* heading,
+                         int count, DpReason* reason);
 // Plant `count` roots (count, 3) [m]; `heading` turns each about +Z [rad], NULL = from the seed.
 // What differs from plant to plant hangs on the seed and the place of its root alone. *stand names
-// them from now on, 0, 1, 2..
+// them from now on, 0, 1, 2.. What dp_plants_check refuses is DP_BAD_ARGUMENT.
 DpStatus dp_plants_add(DpPlants* plants, const DpPlantKind* kind, const float* root,
                        const float* heading, int count, int* stand);
 // How the ground slopes under each plant of a stand, dz/dx and dz/dy (count, 2) [-].

@@ -1,14 +1,16 @@
 // python/py_plants.c - the plants' kernels, one by one, for tests and for fitting kinds.
 //
-//   plants_default() -> 22 numbers of DpPlantKind;  plants_shape(kind) -> (rows, stems, stems of a
-//   sheet, particles, bends);  plants_wear(kind, reserve, strength, angle, dt) -> strength
+//   plants_default() -> (form, sheets, numbers ..)
+//   plants_numbers() -> ((name, unit, low, high, of Carex pensylvanica, meaning), ..)
+//   plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)
+//   plants_wear(kind, reserve, strength, angle, dt) -> strength
 //   plants_regrow(kind, alpha, seconds) -> alpha
 //   plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given) -> count
 //   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None,
 //               colliders, dt, steps, workers) -> dict of DpPlantsReport
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
 //
-// kind: float64 (22) in DpPlantKind's order. Stands are float32 (n, particles, 3), strength float64
+// kind: float64, its form, its sheets, and plants_numbers. Stands are float32 (n, particles, 3), strength float64
 // (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness,
 // velocity, friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
 #include <math.h>
@@ -16,51 +18,60 @@
 #include "base/alloc.h"
 #include "python/py_inside.h"
 
-#define KIND_NUMBERS 22
+#define BEFORE_NUMBERS 2  // of a kind: its form, its sheets
 #define COLLIDERS_MOST 16
 #define MOST_STEPS 1000000  // of one call, which nothing can stop
 
 int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind)
 {
-    const double* v = dp_buffers_open(buffers, object, "kind", 'd', DP_SHAPE1(KIND_NUMBERS), false);
-    if (!v || dp_buffers_finite(v, KIND_NUMBERS, "kind") < 0) return -1;
-    float f[KIND_NUMBERS];
-    for (int k = 0; k < KIND_NUMBERS; ++k) f[k] = (float)v[k];
-    *kind = (DpPlantKind){v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE,
-                          v[1] > 2.5 ? 3 : 2,
-                          f[2],
-                          f[3],
-                          f[4],
-                          f[5],
-                          f[6],
-                          f[7],
-                          f[8],
-                          f[9],
-                          f[10],
-                          f[11],
-                          f[12],
-                          f[13],
-                          f[14],
-                          f[15],
-                          f[16],
-                          f[17],
-                          f[18],
-                          f[19],
-                          f[20],
-                          f[21]};
-    if (dp_plant_kind_check(kind) == DP_OK) return 0;
-    PyErr_SetString(PyExc_ValueError, "kind: holds a number out of its range");
+    int count;
+    dp_plant_numbers(&count);
+    const int     all = BEFORE_NUMBERS + count;
+    const double* v = dp_buffers_open(buffers, object, "kind", 'd', DP_SHAPE1(all), false);
+    if (!v || dp_buffers_finite(v, (size_t)all, "kind") < 0) return -1;
+    kind->form = v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE;
+    kind->sheets = v[1] > 2.5 ? 3 : 2;
+    for (int k = 0; k < count; ++k) *dp_plant_number(kind, k) = (float)v[BEFORE_NUMBERS + k];
+    DpReason reason;
+    if (dp_plant_kind_check(kind, &reason) == DP_OK) return 0;
+    PyErr_Format(PyExc_ValueError, "kind: %s", reason.text);
     return -1;
+}
+
+static PyObject* plants_numbers(PyObject* module, PyObject* none)
+{
+    (void)module, (void)none;
+    int             count;
+    const DpNumber* number = dp_plant_numbers(&count);
+    PyObject*       list = PyTuple_New(count);
+    for (int k = 0; list && k < count; ++k, ++number) {
+        PyObject* one = Py_BuildValue("(ssddds)", number->name, number->unit, number->low,
+                                      number->high, number->usual, number->meaning);
+        if (!one || PyTuple_SetItem(list, k, one) < 0) {
+            Py_DECREF(list);
+            return NULL;
+        }
+    }
+    return list;
 }
 
 static PyObject* plants_default(PyObject* module, PyObject* none)
 {
     (void)module, (void)none;
-    const DpPlantKind k = dp_plant_kind_default();
-    return Py_BuildValue("(iiffffffffffffffffffff)", k.form, k.sheets, k.height, k.width, k.depth,
-                         k.spacing, k.radius, k.curl, k.sway, k.across, k.damping, k.strength,
-                         k.degrade_angle, k.break_angle, k.degrade_rate, k.recover_rate, k.spread,
-                         k.regrow_rate, k.seed_share, k.root_radius, k.full_density, k.modulus);
+    int         count;
+    DpPlantKind kind = dp_plant_kind_default();
+    dp_plant_numbers(&count);
+    PyObject* list = PyTuple_New(BEFORE_NUMBERS + count);
+    for (int k = 0; list && k < BEFORE_NUMBERS + count; ++k) {
+        const int form = k == 0 ? kind.form : kind.sheets, n = k - BEFORE_NUMBERS;
+        PyObject* one =
+            n < 0 ? PyLong_FromLong(form) : PyFloat_FromDouble((double)*dp_plant_number(&kind, n));
+        if (!one || PyTuple_SetItem(list, k, one) < 0) {
+            Py_DECREF(list);
+            return NULL;
+        }
+    }
+    return list;
 }
 
 static PyObject* plants_shape(PyObject* module, PyObject* object)
@@ -190,7 +201,11 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
                                                           heading, stand->count, &name)
                                           : DP_NO_MEMORY;
     if (status == DP_OK) return 0;
-    dp_py_result(status, "planting");
+    DpReason reason;
+    if (dp_plants_check(&stand->kind, root, heading, stand->count, &reason) != DP_OK)
+        PyErr_Format(PyExc_ValueError, "planting: %s", reason.text);
+    else
+        dp_py_result(status, "planting");
     return -1;
 }
 
@@ -375,7 +390,10 @@ done:
 
 PyMethodDef dp_py_plants_methods[] = {
     {"plants_default", plants_default, METH_NOARGS,
-     "plants_default() -> numbers of DpPlantKind: Carex pensylvanica, TRAIL Table 1."},
+     "plants_default() -> form, sheets and numbers of Carex pensylvanica, TRAIL Table 1."},
+    {"plants_numbers", plants_numbers, METH_NOARGS,
+     "plants_numbers() -> ((name, unit, low, high, of Carex pensylvanica, meaning), ..)\n\n"
+     "The numbers of a kind of plant, in the order in which the core reads them."},
     {"plants_shape", plants_shape, METH_O,
      "plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)."},
     {"plants_wear", plants_wear, METH_VARARGS,

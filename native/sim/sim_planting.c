@@ -117,7 +117,7 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
                      int* grown)
 {
     if (!sim || !sim->stage.plants || !xy || count < 0 || !stand || !grown ||
-        dp_plant_kind_check(kind) != DP_OK)
+        dp_plant_kind_check(kind, NULL) != DP_OK)
         return DP_BAD_ARGUMENT;
     *stand = -1, *grown = 0;
     float*   root = dp_alloc((size_t)count + 1, 3 * sizeof *root);

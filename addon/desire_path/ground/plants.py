@@ -24,69 +24,81 @@ from ..files import record
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
 _TAG, _VERSION = "desire_path_plant", 1  # of a kind's file
-_RANGES = {  # what native/plants refuses, said by name; angles in radians
-    "height": (0, 10),
-    "width": (0, 10),
-    "depth": (0, 10),
-    "spacing": (1e-4, 10),
-    "radius": (0, 1),
-    "curl": (0, math.pi / 2),
-    "sway": (1e-3, 1e3),
-    "across": (1e-3, 1e4),
-    "damping": (0, 1e4),
-    "strength": (1e-9, 1e9),
-    "degrade_angle": (0, math.pi),
-    "break_angle": (0, 1e3),
-    "degrade_rate": (0, 1e9),
-    "recover_rate": (0, 1e9),
-    "spread": (0, 4),
-    "regrow_rate": (0, 1e3),
-    "seed_share": (0, 1),
-    "reach": (1e-3, 100),
-    "full_density": (1e-6, 1e9),
-    "modulus": (0, 1e12),
-    "density": (1e-6, 1e9),
-}
 
 
 @dataclass(frozen=True)
-class Kind:
-    """One kind of plant; names, units and ranges as in DpPlantKind of native/plants/plants.h."""
+class Number:
+    """One number of a kind of plant, as the core declares it."""
 
-    form: str = "surface"  # "surface", the paper's, or "tuft": crossed sheets of stems
-    sheets: int = 2  # of a tuft, 2 or 3
-    height: float = 0.10  # over the ground [m]
-    width: float = 0.05  # of the first sheet [m]
-    depth: float = 0.05  # of the sheets that cross it [m]
-    spacing: float = 0.015  # between particles, about [m]
-    radius: float = 0.005  # of a particle [m]
-    curl: float = 0.0  # phi_0, rest angle between neighbouring edges of a stem [rad]
-    sway: float = 3.0  # frequency at which a whole stem swings [Hz]
-    across: float = 20.0  # stiffness of the edges between stems, as a frequency [Hz]
-    damping: float = 6.0  # of speed [1/s]
-    strength: float = 0.1  # eps_b, reserve of a bend, TRAIL (6)
-    degrade_angle: float = math.radians(10)  # phi_deg, from here on a bend wears [rad]
-    break_angle: float = math.radians(70)  # phi_max, beyond it a bend breaks [rad]
-    degrade_rate: float = 0.1  # mu_deg [1/s]
-    recover_rate: float = 0.1  # mu_rec [1/s]
-    spread: float = 0.0  # s, reserves differ by exp(s z) from plant to plant, z of mean 0 and deviation 1
-    regrow_rate: float = 1.02 / YEAR  # r of d alpha/dt = r (w + (1 - w) alpha) (1 - alpha), alpha around [1/s]
-    seed_share: float = 0.0  # w, of regrowth from seeds that need no neighbours
-    reach: float = 0.15  # R, of a plant's roots, TRAIL (7) [m]
-    full_density: float = 40.0  # plants from which on the ground is fully covered [1/m^2]
-    modulus: float = 10e6  # E_v0, of soil full of healthy roots, TRAIL (8) [Pa]
-    density: float = 80.0  # of a stand, unless told otherwise [1/m^2]
+    unit: str  # "m", "rad", "1/s" .., "-" of a share
+    low: float  # low <= value <= high
+    high: float
+    usual: float  # of a kind that does not say
+    meaning: str
+
+
+_NAMES = {"root_radius": "reach"}  # which say the same
+NUMBERS = MappingProxyType(  # by name, in the order in which the core reads them
+    {_NAMES.get(name, name): Number(*of) for name, *of in _native.plants_numbers()}
+)
+_DENSITY = Number("1/m^2", 1e-6, 1e9, 80.0, "of a stand, unless told otherwise")  # what the core does not read
+
+
+def _usual(name: str) -> float:
+    return NUMBERS[name].usual
+
+
+def _with_numbers(kind: type) -> type:
+    """A kind has every number that the core reads, be it listed here or not, and tells what it means."""
+    for name, number in NUMBERS.items():
+        if name not in kind.__annotations__:
+            kind.__annotations__[name] = "float"
+            setattr(kind, name, number.usual)
+    table = (*NUMBERS.items(), ("density", _DENSITY))
+    lines = [f"    {name} [{of.unit}], {of.low:g} to {of.high:g}: {of.meaning}" for name, of in table]
+    kind.__doc__ = "\n".join([f"{kind.__doc__}\n", *lines])
+    return kind
+
+
+@dataclass(frozen=True)
+@_with_numbers
+class Kind:
+    """One kind of plant. Its form is a "surface", the paper's, or a "tuft" of 2 or 3 crossed sheets of stems."""
+
+    form: str = "surface"
+    sheets: int = 2
+    height: float = _usual("height")
+    width: float = _usual("width")
+    depth: float = _usual("depth")
+    spacing: float = _usual("spacing")
+    radius: float = _usual("radius")
+    curl: float = _usual("curl")
+    sway: float = _usual("sway")
+    across: float = _usual("across")
+    damping: float = _usual("damping")
+    strength: float = _usual("strength")
+    degrade_angle: float = _usual("degrade_angle")
+    break_angle: float = _usual("break_angle")
+    degrade_rate: float = _usual("degrade_rate")
+    recover_rate: float = _usual("recover_rate")
+    spread: float = _usual("spread")
+    regrow_rate: float = _usual("regrow_rate")
+    seed_share: float = _usual("seed_share")
+    reach: float = _usual("reach")
+    full_density: float = _usual("full_density")
+    modulus: float = _usual("modulus")
+    density: float = _DENSITY.usual
 
     def __post_init__(self):
         if self.form not in FORMS:
             raise DesirePathError(f'There is no plant form "{str(self.form)[:40]}": choose surface or tuft.')
         if not isinstance(self.sheets, (int, np.integer)) or self.sheets not in (2, 3):
             raise DesirePathError(f"A tuft of {str(self.sheets)[:40]} sheets cannot be built: choose 2 or 3.")
-        for name, (low, high) in _RANGES.items():
+        for name, of in (*NUMBERS.items(), ("density", _DENSITY)):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not of.low <= value <= of.high:
                 raise DesirePathError(
-                    f"A plant's {name} of {_told(value)} cannot be used: choose one from {low:.4g} to {high:.4g}."
+                    f"A plant's {name} of {_told(value)} cannot be used: choose one from {of.low:.4g} to {of.high:.4g}."
                 )
         if self.break_angle < self.degrade_angle:
             raise DesirePathError("A plant's break_angle lies below its degrade_angle: raise it.")
@@ -98,9 +110,8 @@ class Kind:
             )
 
     def numbers(self):
-        """What the core reads: float64 (22) in the order of DpPlantKind."""
-        values = [FORMS.index(self.form) if f.name == "form" else getattr(self, f.name) for f in fields(self)[:-1]]
-        return np.array(values, float)
+        """What the core reads: float64, its form, its sheets, and NUMBERS."""
+        return np.array([FORMS.index(self.form), self.sheets, *(getattr(self, name) for name in NUMBERS)], float)
 
     def save(self, path):
         """Write this kind as JSON, whole or not at all."""

@@ -5,7 +5,7 @@ TEST(the_papers_plant)
 {
     const DpPlantKind  kind = dp_plant_kind_default();
     const DpPlantShape shape = dp_plant_shape(&kind);
-    CHECK(dp_plant_kind_check(&kind) == DP_OK);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_OK);
     CHECK(shape.rows == 7 && shape.stems == 4 && shape.particles == 28 && shape.bends == 20);
     DpPlants* plants = lawn(&kind, 1, 1, 1.0, 1);
     float     at[84];
@@ -84,14 +84,14 @@ TEST(bad_kinds_and_roots_are_refused)
 {
     DpPlantKind kind = dp_plant_kind_default();
     kind.spacing = 0.0f;
-    CHECK(dp_plant_kind_check(&kind) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_BAD_ARGUMENT);
     kind = dp_plant_kind_default(), kind.sway = NAN;
-    CHECK(dp_plant_kind_check(&kind) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_BAD_ARGUMENT);
     kind = dp_plant_kind_default(), kind.break_angle = 0.1f;
-    CHECK(dp_plant_kind_check(&kind) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_BAD_ARGUMENT);
     kind = dp_plant_kind_default(), kind.height = 9.0f;  // too many rows
-    CHECK(dp_plant_kind_check(&kind) == DP_BAD_ARGUMENT);
-    CHECK(dp_plant_kind_check(NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_plant_kind_check(NULL, NULL) == DP_BAD_ARGUMENT);
 
     kind = dp_plant_kind_default();
     float     root[3] = {0.0f, NAN, 0.0f};

@@ -125,7 +125,7 @@ TEST(odd_plants_and_long_steps_stay_numbers)
         if (odd == 1) kind.width = 0.0f;
         if (odd == 2) kind.height = kind.width = kind.radius = 0.0f;
         if (odd == 3) kind.sway = 1000.0f, kind.across = 10000.0f;
-        CHECK(dp_plant_kind_check(&kind) == DP_OK);
+        CHECK(dp_plant_kind_check(&kind, NULL) == DP_OK);
         DpPlants* plants = lawn(&kind, 5, 5, 0.05, 2);
         float     bottom[SOLE_SIDE * SOLE_SIDE];
         for (int f = 0; f < 40; ++f) {  // a foot that is now here, now there, or far away

@@ -1,0 +1,88 @@
+// Kinds by their table of numbers: defaults, ranges, and what is said of those out of them.
+#include "lawn.h"
+
+static const char* why(const DpPlantKind* kind)
+{
+    static DpReason reason;
+    reason.text[0] = 0;
+    CHECK(dp_plant_kind_check(kind, &reason) == (reason.text[0] ? DP_BAD_ARGUMENT : DP_OK));
+    return reason.text;
+}
+
+TEST(numbers_are_the_members_in_order)
+{
+    int             count;
+    DpPlantKind     kind = dp_plant_kind_default();
+    const DpNumber* number = dp_plant_numbers(&count);
+    CHECK(sizeof kind == 2 * sizeof(int) + (size_t)count * sizeof(float));
+    CHECK(strcmp(number[0].name, "height") == 0 && dp_plant_number(&kind, 0) == &kind.height);
+    CHECK(strcmp(number[count - 1].name, "modulus") == 0);
+    CHECK(dp_plant_number(&kind, count - 1) == &kind.modulus);
+    CHECK(kind.form == DP_PLANT_SURFACE && kind.height == 0.10f && kind.modulus == 10e6f);
+    for (int k = 0; k < count; ++k) {
+        CHECK(*dp_plant_number(&kind, k) == (float)number[k].usual);
+        CHECK(number[k].low < number[k].high && number[k].unit[0] && number[k].meaning[0]);
+    }
+}
+
+// each number as low and as high as it may be, and beyond
+TEST(ranges_hold_their_ends_and_no_more)
+{
+    int             count;
+    const DpNumber* number = dp_plant_numbers(&count);
+    for (int k = 0; k < count; ++k) {
+        char words[64];
+        snprintf(words, sizeof words, "%s of ", number[k].name);
+        for (int end = 0; end < 3; ++end) {
+            DpPlantKind kind = dp_plant_kind_default();
+            const float at = (float)(end ? number[k].high : number[k].low);
+            float*      value = dp_plant_number(&kind, k);
+            *value = at;
+            CHECK(!strstr(why(&kind), words) || strstr(why(&kind), "lies below"));
+            *value = end == 2 ? NAN : nextafterf(at, end ? INFINITY : -INFINITY);
+            CHECK(strstr(why(&kind), words) == why(&kind) &&
+                  strstr(why(&kind), "out of its range"));
+        }
+    }
+}
+
+TEST(what_is_wrong_is_said)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    CHECK(strcmp(why(&kind), "") == 0);
+    kind.sway = 0.0f;
+    CHECK(strcmp(why(&kind), "sway of 0 Hz is out of its range, 0.001 to 1000") == 0);
+    kind = dp_plant_kind_default(), kind.break_angle = 0.1f;
+    CHECK(strstr(why(&kind), "below degrade_angle"));
+    kind = dp_plant_kind_default(), kind.height = 9.0f;
+    CHECK(strstr(why(&kind), "raise the spacing"));
+    kind = dp_plant_kind_default(), kind.form = DP_PLANT_TUFT, kind.sheets = 4;
+    CHECK(strstr(why(&kind), "2 or 3 sheets"));
+    CHECK(strstr(why(NULL), "2 or 3 sheets"));
+}
+
+TEST(roots_that_cannot_be_planted_are_named)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    float             root[6] = {0.0f, 0.0f, 0.0f, 0.0f, NAN, 0.0f}, heading[2] = {0.0f, 1e7f};
+    DpReason          reason;
+    CHECK(dp_plants_check(&kind, root, NULL, 2, &reason) == DP_BAD_ARGUMENT);
+    CHECK(strncmp(reason.text, "y of root 1 is ", 15) == 0);
+    root[4] = 0.0f;
+    CHECK(dp_plants_check(&kind, root, NULL, 2, &reason) == DP_OK);
+    CHECK(dp_plants_check(&kind, root, heading, 2, &reason) == DP_BAD_ARGUMENT);
+    CHECK(strncmp(reason.text, "heading 1 is ", 13) == 0);
+    CHECK(dp_plants_check(&kind, root, NULL, 0, &reason) == DP_BAD_ARGUMENT);
+    CHECK(strncmp(reason.text, "there are 0 roots", 17) == 0);
+    CHECK(dp_plants_check(&kind, NULL, NULL, 2, &reason) == DP_BAD_ARGUMENT);
+    CHECK(dp_plants_check(NULL, root, NULL, 2, &reason) == DP_BAD_ARGUMENT);
+}
+
+int main(void)
+{
+    RUN(numbers_are_the_members_in_order);
+    RUN(ranges_hold_their_ends_and_no_more);
+    RUN(what_is_wrong_is_said);
+    RUN(roots_that_cannot_be_planted_are_named);
+    return check_done();
+}
