@@ -58,28 +58,6 @@ TEST(the_meadow_sleeps_and_the_walker_wakes_few)
     dp_plants_destroy(plants);
 }
 
-TEST(far_from_the_origin_plants_come_to_rest_too)
-{
-    const DpPlantKind kind = dp_plant_kind_default();
-    float             root[48], speed[84], at[84], rest[84];
-    int               stand = 0;
-    DpPlantsReport    told = {0};
-    for (int k = 0; k < 16; ++k)
-        root[3 * k] = 2000.0f + 0.25f * (float)k, root[3 * k + 1] = -3000.0f,
-                 root[3 * k + 2] = 512.0f;
-    DpPlants* plants = dp_plants_create(3);
-    CHECK(dp_plants_add(plants, &kind, root, NULL, 16, &stand) == DP_OK);
-    dp_plants_read(plants, 0, 5, rest, NULL, NULL);
-    for (int c = 0; c < 84; ++c) speed[c] = c / 3 % 7 > 1 && c % 3 < 2 ? 0.4f : 0.0f;
-    for (int k = 0; k < 16; ++k) dp_plants_write(plants, 0, k, NULL, speed, NULL);
-    for (int f = 0; f < 240; ++f)
-        CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
-    CHECK(told.awake == 0);
-    dp_plants_read(plants, 0, 5, at, NULL, NULL);
-    for (int c = 0; c < 84; ++c) CHECK_NEAR(at[c], rest[c], 1e-3);
-    dp_plants_destroy(plants);
-}
-
 TEST(what_broke_is_told_and_where)
 {
     const DpPlantKind kind = dp_plant_kind_default();
@@ -207,7 +185,6 @@ int main(void)
 {
     RUN(any_number_of_workers_gives_the_same_bits);
     RUN(the_meadow_sleeps_and_the_walker_wakes_few);
-    RUN(far_from_the_origin_plants_come_to_rest_too);
     RUN(what_broke_is_told_and_where);
     RUN(changes_far_apart_have_boxes_of_their_own);
     RUN(many_changes_share_boxes);

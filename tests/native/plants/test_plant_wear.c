@@ -65,36 +65,6 @@ TEST(a_stand_wears_as_one_bend_does)
     CHECK_NEAR(left, reserve - 0.1 * 0.5, 0.1 / 480 + 1e-6);
 }
 
-TEST(sleepers_recover_exactly_what_their_time_gives)
-{
-    DpPlantKind kind = dp_plant_kind_default();
-    kind.recover_rate = (float)(0.02 / 86400.0);  // a day is a fifth of the reserve
-    DpPlants* plants = lawn(&kind, 1, 1, 1.0, 1);
-    double    strength[20], now[20];
-    for (int b = 0; b < 20; ++b) strength[b] = b > 15 ? 0.0 : 0.01 + 0.001 * b;
-    dp_plants_write(plants, 0, 0, NULL, NULL, strength);
-    DpPlantsReport told = {0};
-    double         time = 0.0;
-    for (int f = 0; f < 600; ++f) {  // falls asleep on the way
-        CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
-        time += 1.0 / 60;
-    }
-    CHECK(told.awake == 0);
-    CHECK(dp_plants_advance_time(plants, 86400.0) == DP_OK);
-    time += 86400.0;
-    const double rate = (double)kind.recover_rate;
-    for (int again = 0; again < 2; ++again) {
-        dp_plants_read(plants, 0, 0, NULL, NULL, now);
-        for (int b = 0; b < 20; ++b)
-            CHECK_NEAR(now[b], b > 15 ? 0.0 : fmin(strength[b] + rate * time, 0.1), 1e-9);
-        dp_plants_write(plants, 0, 0, NULL, NULL, NULL);  // waking tells the same
-    }
-    dp_plants_advance_time(plants, 86400.0 * 30);
-    dp_plants_read(plants, 0, 0, NULL, NULL, now);
-    CHECK_NEAR(now[0], 0.1, 1e-8);
-    dp_plants_destroy(plants);
-}
-
 TEST(frames_a_second_do_not_matter)
 {
     double alpha[2];
@@ -118,94 +88,11 @@ TEST(frames_a_second_do_not_matter)
     CHECK_NEAR(alpha[0], alpha[1], 0.03);
 }
 
-TEST(regrowth_is_logistic)
-{
-    DpPlantKind kind = dp_plant_kind_default();
-    kind.regrow_rate = (float)(1.02 / (365.25 * 86400));
-    const double year = 365.25 * 86400;
-    CHECK_NEAR(dp_plant_regrow(&kind, 0.863, year), 0.946, 0.002);
-    CHECK_NEAR(dp_plant_regrow(&kind, 0.200, year), 0.409, 0.002);
-    CHECK_NEAR(dp_plant_regrow(&kind, dp_plant_regrow(&kind, 0.4, 0.3 * year), 0.7 * year),
-               dp_plant_regrow(&kind, 0.4, year), 1e-9);
-    CHECK_NEAR(dp_plant_regrow(&kind, 0.0, year), 0.0, 0.0);
-    CHECK_NEAR(dp_plant_regrow(&kind, 1.0, year), 1.0, 0.0);
-    kind.seed_share = 0.3f;  // seeds come to bare ground, too: r (w + (1 - w) alpha) (1 - alpha)
-    CHECK_NEAR(dp_plant_regrow(&kind, 0.0, 1e-3 * year), 0.3 * 1.02e-3, 1e-6);
-    CHECK_NEAR(dp_plant_regrow(&kind, 0.5, 1e-3 * year), 0.5 + 0.65 * 0.5 * 1.02e-3, 1e-6);
-    CHECK_NEAR(dp_plant_regrow(&kind, dp_plant_regrow(&kind, 0.0, 0.3 * year), 0.7 * year),
-               dp_plant_regrow(&kind, 0.0, year), 1e-9);
-    CHECK_NEAR(dp_plant_regrow(&kind, 1.0, year), 1.0, 0.0);
-    kind.seed_share = 0.0f;
-
-    // a stand does it stem by stem
-    kind.root_radius = 0.3f, kind.full_density = 50.0f;
-    DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
-    double    before = 0.0, after = 0.0, none[20] = {0};
-    for (int k = 0; k < 1600; ++k)
-        if (k * 7 % 10 < 6) dp_plants_write(plants, 0, k, NULL, NULL, none);
-    for (int k = 0; k < 1600; ++k) before += dp_plants_alpha(plants, 0, k) / 1600;
-    CHECK(dp_plants_advance_time(plants, year) == DP_OK);
-    for (int k = 0; k < 1600; ++k) after += dp_plants_alpha(plants, 0, k) / 1600;
-    CHECK_NEAR(before, 0.4, 1e-9);
-    CHECK_NEAR(after, dp_plant_regrow(&kind, before, year), 0.02);
-    dp_plants_destroy(plants);
-}
-
-// a bare strip among whole plants grows as the stand around it does; a bare field stays bare
-TEST(bare_ground_grows_again_from_around)
-{
-    const double year = 365.25 * 86400;
-    double       none[20] = {0};
-    for (int whole = 0; whole < 2; ++whole) {
-        DpPlantKind kind = dp_plant_kind_default();
-        kind.regrow_rate = (float)(1.02 / year);
-        DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
-        double    strip = 0.0;
-        for (int k = 0; k < 1600; ++k)  // 0.4 m wide, wider than roots reach
-            if (!whole || (k % 40 >= 18 && k % 40 < 22))
-                dp_plants_write(plants, 0, k, NULL, NULL, none);
-        CHECK(dp_plants_advance_time(plants, year) == DP_OK);
-        for (int k = 0; k < 1600; ++k)
-            if (k % 40 >= 18 && k % 40 < 22) strip += dp_plants_alpha(plants, 0, k) / 160;
-        printf("  after a year %.2f\n", strip);
-        CHECK(whole ? strip > 0.2 && strip < 0.9 : !(strip > 0.0));
-        dp_plants_destroy(plants);
-    }
-}
-
-// kinds that share a ground grow at once: none finds the others grown already
-TEST(stands_grow_again_side_by_side)
-{
-    const double year = 365.25 * 86400, none[20] = {0};
-    DpPlantKind  kind = dp_plant_kind_default();
-    kind.regrow_rate = (float)(1.02 / year), kind.root_radius = 0.3f, kind.full_density = 50.0f;
-    DpPlants* plants = lawn(&kind, 40, 40, 0.1, 5);
-    float*    root = dp_alloc(1600, 3 * sizeof(float));
-    double    after[2] = {0.0, 0.0};
-    int       stand = -1;
-    for (int k = 0; k < 1600; ++k)
-        root[3 * k] = 0.1f * (float)(k % 40) + 0.05f,
-                 root[3 * k + 1] = 0.1f * (float)(k / 40) + 0.05f;
-    CHECK(dp_plants_add(plants, &kind, root, NULL, 1600, &stand) == DP_OK);
-    for (int k = 0; k < 3200; ++k)
-        if (k % 1600 * 7 % 10 < 6) dp_plants_write(plants, k / 1600, k % 1600, NULL, NULL, none);
-    CHECK(dp_plants_advance_time(plants, year) == DP_OK);
-    for (int k = 0; k < 3200; ++k) after[k / 1600] += dp_plants_alpha(plants, k / 1600, k % 1600);
-    CHECK_NEAR(after[0] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);
-    CHECK_NEAR(after[1] / 1600, dp_plant_regrow(&kind, 0.4, year), 0.02);
-    dp_free(root);
-    dp_plants_destroy(plants);
-}
-
 int main(void)
 {
     RUN(a_stem_held_at_30_degrees_loses_mu_t_and_breaks_at_nothing);
     RUN(recovers_linearly_up_to_its_maximum);
     RUN(a_stand_wears_as_one_bend_does);
-    RUN(sleepers_recover_exactly_what_their_time_gives);
     RUN(frames_a_second_do_not_matter);
-    RUN(regrowth_is_logistic);
-    RUN(bare_ground_grows_again_from_around);
-    RUN(stands_grow_again_side_by_side);
     return check_done();
 }

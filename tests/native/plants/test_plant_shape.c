@@ -1,0 +1,54 @@
+// What plants are made of, and the shape they return to.
+#include "lawn.h"
+
+TEST(the_papers_plant)
+{
+    const DpPlantKind  kind = dp_plant_kind_default();
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    CHECK(dp_plant_kind_check(&kind, NULL) == DP_OK);
+    CHECK(shape.rows == 7 && shape.stems == 4 && shape.particles == 28 && shape.bends == 20);
+    DpPlants* plants = lawn(&kind, 1, 1, 1.0, 1);
+    float     at[84];
+    CHECK(dp_plants_read(plants, 0, 0, at, NULL, NULL) == DP_OK);
+    double top = 0.0, wide = 0.0;
+    for (int p = 0; p < 28; ++p) {
+        top = fmax(top, (double)at[3 * p + 2]);
+        for (int q = 0; q < 28; ++q)
+            wide = fmax(wide, hypot((double)(at[3 * p] - at[3 * q]),
+                                    (double)(at[3 * p + 1] - at[3 * q + 1])));
+    }
+    CHECK_NEAR(top, 0.10, 1e-6);
+    CHECK_NEAR(wide, 0.05, 1e-6);
+    CHECK(dp_plants_count(plants, 0) == 1 && dp_plants_count(plants, -1) == 1);
+    dp_plants_destroy(plants);
+    dp_plants_destroy(NULL);
+}
+
+TEST(a_tuft_crosses)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.form = DP_PLANT_TUFT;
+    kind.sheets = 3;
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    CHECK(shape.stems == 12 && shape.particles == 84);
+    DpPlants* plants = lawn(&kind, 1, 1, 1.0, 3);
+    float*    at = dp_alloc(84, 3 * sizeof(float));
+    dp_plants_read(plants, 0, 0, at, NULL, NULL);
+    // sheets are turned by 60 degrees against each other
+    double angle[3];
+    for (int s = 0; s < 3; ++s) {
+        const float *a = at + 3 * 28 * s, *b = a + 3 * 21;
+        angle[s] = atan2((double)(b[1] - a[1]), (double)(b[0] - a[0]));
+    }
+    CHECK_NEAR(cos(angle[1] - angle[0]), 0.5, 1e-5);
+    CHECK_NEAR(cos(angle[2] - angle[0]), -0.5, 1e-5);
+    dp_free(at);
+    dp_plants_destroy(plants);
+}
+
+int main(void)
+{
+    RUN(the_papers_plant);
+    RUN(a_tuft_crosses);
+    return check_done();
+}
