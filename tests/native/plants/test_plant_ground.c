@@ -1,5 +1,6 @@
 // The ground under plants: grids first, then functions; ceilings; nothing falls through a rim.
 #include "plants/lawn.h"
+#include "plants/plant_inside.h"
 
 #define CELL 0.01
 
@@ -131,11 +132,24 @@ TEST(of_two_grids_the_first_counts_and_functions_come_last)
     dp_plants_destroy(plants);
 }
 
+TEST(off_the_ground_plants_stand_on_their_own_plane)
+{
+    const float         height[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    const DpPlantGround ground = {.nx = 2, .ny = 2, .row = 2, .cell = 1.0, .height = height};
+    PlantBlock          block = {.count = 1};
+    block.root[0][0] = 5.0f, block.root[1][0] = 6.0f, block.root[2][0] = 2.0f;
+    block.slope[0][0] = 0.5f, block.slope[1][0] = -0.25f;
+    CHECK_NEAR(dp_plant_floor_at(&block, &ground, 0, 0.5, 0.5), 1.0, 1e-12);
+    CHECK_NEAR(dp_plant_floor_at(&block, &ground, 0, 7.0, 7.0), 2.0 + 0.5 * 2 - 0.25, 1e-12);
+    CHECK_NEAR(dp_plant_floor_at(&block, NULL, 0, 5.0, 6.0), 2.0, 1e-12);
+}
+
 int main(void)
 {
     RUN(limp_stems_lie_still_over_a_rim);
     RUN(stems_stand_upright_on_both_sides_of_an_edge);
     RUN(what_stands_over_all_ground_asks_for_none);
     RUN(of_two_grids_the_first_counts_and_functions_come_last);
+    RUN(off_the_ground_plants_stand_on_their_own_plane);
     return check_done();
 }

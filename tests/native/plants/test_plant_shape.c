@@ -46,9 +46,32 @@ TEST(a_tuft_crosses)
     dp_plants_destroy(plants);
 }
 
+// the outer stems of a tuft: each edge leans by curl more than the one below, up to 162 degrees
+TEST(curled_stems_bend_outward_and_never_roll_up)
+{
+    for (int k = 0; k < 2; ++k) {
+        DpPlantKind kind = dp_plant_kind_default();
+        kind.form = DP_PLANT_TUFT, kind.curl = k ? 1.0f : 0.2f;
+        DpPlants* plants = lawn(&kind, 1, 1, 1.0, 3);
+        float     at[3 * 56];
+        CHECK(dp_plants_read(plants, 0, 0, at, NULL, NULL) == DP_OK);
+        for (int r = 0; r < 4; ++r) {
+            const float *a = at + 3 * r, *b = a + 3, *foot = at;
+            const double x = (double)(b[0] - a[0]), y = (double)(b[1] - a[1]);
+            const double out = sqrt(x * x + y * y), up = (double)(b[2] - a[2]);
+            const double lean = fmin((double)kind.curl * r, 0.9 * DP_PI);
+            CHECK_NEAR(out, 0.02 * sin(lean), 1e-5);
+            if (b[2] > 0.0f) CHECK_NEAR(up, 0.02 * cos(lean), 1e-5);
+            CHECK(b[2] >= foot[2]);
+        }
+        dp_plants_destroy(plants);
+    }
+}
+
 int main(void)
 {
     RUN(the_papers_plant);
     RUN(a_tuft_crosses);
+    RUN(curled_stems_bend_outward_and_never_roll_up);
     return check_done();
 }

@@ -88,11 +88,29 @@ TEST(frames_a_second_do_not_matter)
     CHECK_NEAR(alpha[0], alpha[1], 0.03);
 }
 
+TEST(above_a_broken_bend_nothing_wears_or_recovers)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.width = 0.0f;
+    DpPlants*    plants = lawn(&kind, 1, 1, 1.0, 1);
+    const double before[5] = {0.05, 0.1, 0.0, 0.05, 0.03};
+    double       after[5];
+    CHECK(dp_plants_write(plants, 0, 0, NULL, NULL, before) == DP_OK);
+    for (int k = 0; k < 10; ++k) step(plants, NULL, 0, 0.02);
+    CHECK(dp_plants_read(plants, 0, 0, NULL, NULL, after) == DP_OK);
+    CHECK_NEAR(after[0], 0.05 + 0.1 * 0.2, 1e-9);
+    CHECK_NEAR(after[2], 0.0, 0.0);
+    CHECK_NEAR(after[3], 0.05, 0.0);
+    CHECK_NEAR(after[4], 0.03, 0.0);
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(a_stem_held_at_30_degrees_loses_mu_t_and_breaks_at_nothing);
     RUN(recovers_linearly_up_to_its_maximum);
     RUN(a_stand_wears_as_one_bend_does);
     RUN(frames_a_second_do_not_matter);
+    RUN(above_a_broken_bend_nothing_wears_or_recovers);
     return check_done();
 }
