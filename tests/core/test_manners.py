@@ -2,14 +2,18 @@
 read only, arguments that have names, and are alike where they mean the same."""
 
 import inspect
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scenes import gaits
 
-from desire_path import KINDS, SOILS, Gait, Ground, Simulation, Soil
+from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil
+from desire_path.errors import DesirePathError
 from desire_path.ground.plants import PAPER
+from desire_path.ground.trail import Trail
 from desire_path.loads import walker
+from desire_path.motion import tracks
 from desire_path.placement import passes
 
 
@@ -61,3 +65,97 @@ def test_the_old_name_of_the_ground_of_contacts_warns(gait):
         old = walker.contacts(gait, ground_height=0.02)
     for have, want in zip(old, walker.contacts(gait, 0.02)):
         np.testing.assert_array_equal(have, want)
+
+
+def records(gait):
+    """One maker for each kind of record with arrays, and how it differs from another."""
+    heights = np.array([[0.0, np.nan], [0.1, 0.2]])
+    vertices = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], float)
+    nothing = np.zeros((2, 3), np.float32)
+    return {
+        "Gait": (lambda: gait.piece(0, 20), lambda: gait.piece(1, 21)),
+        "Sole": (lambda: gaits.box(0.2, 0.1), lambda: gaits.box(0.2, 0.11)),
+        "FootForce": (lambda: walker.loads(gait), lambda: walker.loads(gait, ground=0.01)),
+        "Ground": (lambda: Ground.heights(heights, 0.5), lambda: Ground.heights(heights, 0.6)),
+        "Ground ": (lambda: Ground.mesh(vertices, [(0, 1, 2)]), lambda: Ground.mesh(2 * vertices, [(0, 1, 2)])),
+        "Trail": (
+            lambda: Trail("a.exr", 0.01, 0.0, 0.0, nothing, nothing, nothing, nothing, True, False),
+            lambda: Trail("a.exr", 0.01, 0.0, 0.0, nothing + 1, nothing, nothing, nothing, True, False),
+        ),
+    }
+
+
+KNOWN = ("Gait", "Sole", "FootForce", "Ground", "Ground ", "Trail")
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+def test_records_with_arrays_compare_by_value(kind, gait):
+    make, other = records(gait)[kind]
+    assert make() == make() and hash(make()) == hash(make())
+    assert make() != other()
+    assert make() != "else" and make() is not None and make() != 1
+
+
+def test_a_recording_in_tracks_is_one_in_arrays(gait):
+    in_tracks = lambda pose: tracks.TrackArray(2, len(gait.time), [(np.arange(2), 0, pose)])
+    assert replace(gait, pose=in_tracks(gait.pose)) == gait
+    assert replace(gait, pose=in_tracks(gait.pose + np.array([1e-9] + 6 * [0.0]))) != gait
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+def test_records_are_shown_on_one_short_line(kind, gait):
+    told = repr(records(gait)[kind][0]())
+    assert "\n" not in told and len(told) < 120 and told.startswith(kind.strip() + "(")
+
+
+def test_a_recording_says_who_when_and_how_fast(gait):
+    assert repr(gait) == f"Gait(1 walker, 2 limbs, {len(gait.time)} samples, {gait.time[-1]:.6g} s, 60 a second)"
+    broken = replace(gait, time=[], cut=[5])
+    assert repr(broken).startswith("Gait(1 walker, 2 limbs, 0 samples")
+    uneven = replace(gait, time=gait.time**2 + gait.time)
+    assert repr(uneven).endswith("no even rate)")
+
+
+def test_simulations_and_bakes_are_shown_on_one_short_line(gait, tmp_path):
+    assert repr(Simulation(Ground.flat(), "mud")) == "Simulation(cells of 0.01 m, 1 soil, 0 plantings)"
+    bake = Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"))
+    assert repr(bake).startswith("Bake(Gait(1 walker") and "frames 1 to" in repr(bake) and "\n" not in repr(bake)
+
+
+def test_a_rectangle_that_bounds_tells_is_one_that_read_takes():
+    heights = np.add.outer(np.zeros(5), np.arange(9.0))
+    with Simulation(Ground.heights(heights, 0.1), cell_size=0.05, origin=(0.01, -0.02)) as sim:
+        whole = sim.read("rest", sim.bounds())
+        i0, i1, j0, j1 = sim.cells(sim.bounds())
+        np.testing.assert_array_equal(whole, sim.read("rest", i0, j0, i1 - i0, j1 - j0))
+        assert sim.cells(sim.box((3, 9, -2, 4))) == (3, 9, -2, 4)
+        assert sim.read("rest", sim.box((3, 9, -2, 4))).shape == (6, 6)
+        assert sim.cells((0.012, -0.018, 0.013, -0.017)) == (0, 1, 0, 1)
+        for bad in ((0, 0, 0, 1), (0, 0, 1), (0, 0, np.inf, 1), 3):
+            with pytest.raises(DesirePathError, match="rectangle"):
+                sim.read("rest", bad)
+        with pytest.raises(DesirePathError, match="i0, j0, nx and ny"):
+            sim.read("rest", 0, 0)
+    with pytest.raises(DesirePathError, match="no end"):
+        flat = Simulation(Ground.flat())
+        flat.read("rest", flat.bounds())
+
+
+def test_a_simulation_is_closed_at_the_end_of_its_block():
+    with Simulation(Ground.flat()) as sim:
+        assert sim.read("rest", 0, 0, 2, 2).shape == (2, 2)
+    with pytest.raises(DesirePathError, match="closed"):
+        sim.read("rest", 0, 0, 2, 2)
+    sim.close()  # once more does no harm
+    with pytest.raises(KeyError), Simulation(Ground.flat()):
+        raise KeyError("what went wrong in the block is told")
+
+
+def test_a_bake_frees_its_folder_at_the_end_of_its_block(gait, tmp_path):
+    with Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"), cell_size=0.03) as bake:
+        steps = bake.run()
+        assert next(steps).frame == 1
+    assert list(steps) == []
+    with Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"), cell_size=0.03, wait=0.0) as bake:
+        assert [each.fraction for each in bake.run()][-1] == 1.0
+    assert bake.report["contacts"] > 0

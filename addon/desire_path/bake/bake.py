@@ -22,6 +22,7 @@ import contextlib
 import hashlib
 import math
 import time
+import weakref
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -152,6 +153,7 @@ class Bake:
         self.threads = threads
         self.loads = None
         self.report = None
+        self._steps = lambda: None  # the generator of a run on its way
         self.shares = []  # a Share of each parcel that the walk reaches; when the bake is whole: that it has trodden
 
     # ---- what is baked --------------------------------------------------------------------------
@@ -301,9 +303,30 @@ class Bake:
 
     # ---- the bake -------------------------------------------------------------------------------
 
+    def __repr__(self):
+        return f"Bake({self.gait!r}, frames {self.frame_start} to {self.frame_end}, {self.folder!r})"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, problem, trace):
+        self.close()
+
+    def close(self):
+        """Stop a run that is on its way, as if its generator was closed: its folder is free, what was written stays."""
+        steps = self._steps()
+        if steps is not None:
+            steps.close()
+
     def run(self):
-        """Bake, yielding Progress after every frame. Stopping early (closing the generator) keeps
+        """Bake, yielding Progress after every frame. Stopping early (closing the generator, or the Bake) keeps
         what was written. DesirePathError says in one sentence what went wrong."""
+        steps = self._told_plainly()
+        self._steps = weakref.ref(steps)  # who drops the generator has stopped the bake
+        return steps
+
+    def _told_plainly(self):
+        """_run() with every way to fail as a sentence."""
         try:
             yield from self._run()
         except OSError as problem:

@@ -6,6 +6,7 @@ float32 (grids). Nothing here knows Blender.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from dataclasses import asdict, dataclass, field
@@ -13,6 +14,7 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 
 from .. import _native
+from ..arrays import Record
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..files import atomic_file
@@ -27,6 +29,7 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 LOAD_MODELS = ("inertia", "impulse")
+ON_EDGE = 1e-6  # a rectangle that ends so near to the edge of a cell ends there [cells]
 HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
 
 _FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
@@ -44,13 +47,24 @@ _LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
 _FIRST_LEAN = 64  # the number of the first of them among a map's fields
 
 
-@dataclass(frozen=True)
-class Ground:
+@dataclass(frozen=True, eq=False, repr=False)
+class Ground(Record):
     """Where the ground is before anybody walks on it. Use flat(), heights(), mesh() or read()."""
 
     native: tuple = field(repr=False)
     name: str = "ground"
     trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
+
+    def __repr__(self):
+        kind, *numbers = self.native
+        told = kind
+        if kind == "flat":
+            told += f", {numbers[0]:g} m"
+        elif kind == "heights":
+            told += f", {numbers[0].shape[1]} x {numbers[0].shape[0]} samples {numbers[1]:g} m apart"
+        elif kind == "mesh":
+            told += f", {len(numbers[0])} vertices, {len(numbers[1])} triangles"
+        return f"Ground({told}{'' if self.trail is None else f', {self.trail!r}'})"
 
     @staticmethod
     def flat(height=0.0):
@@ -301,9 +315,48 @@ class Simulation:
         """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
         return self._core.normal(float(xy[0]), float(xy[1]), float(radius))
 
+    def __repr__(self):
+        soils = f"{len(self.soils)} soil{'' if len(self.soils) == 1 else 's'}"
+        return f"Simulation(cells of {self.cell_size:g} m, {soils}, {len(self.plantings)} plantings)"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, problem, trace):
+        with contextlib.suppress(*((OSError,) if kind else ())):  # what went wrong first is told
+            self.close()
+
+    def close(self):
+        """Wait until all is written, and give the ground back; OSError when a file could not be."""
+        core, self._core = self._core, _Closed()
+        if not isinstance(core, _Closed):
+            core.flush()
+
     def bounds(self):
         """World box of the ground (x0, y0, x1, y1) [m]; infinite for flat ground."""
         return self._core.bounds()
+
+    def cells(self, rectangle):
+        """Cells (i0, i1, j0, j1), as reach() tells them, that a rectangle (x0, y0, x1, y1) [m] has a part of."""
+        try:
+            x0, y0, x1, y1 = (float(value) for value in rectangle)
+        except (TypeError, ValueError):
+            raise DesirePathError(f"rectangle is {rectangle!r}: give x0, y0, x1, y1 in metres.") from None
+        if not (all(map(math.isfinite, (x0, y0, x1, y1))) and x0 < x1 and y0 < y1):
+            raise DesirePathError(
+                f"The rectangle {x0:g}, {y0:g} to {x1:g}, {y1:g} holds no cells, or has no end: give finite "
+                "x0 < x1 and y0 < y1 in metres, as box(reach()) does."
+            )
+        cell, (ox, oy) = self.cell_size, self.origin
+        low = [math.floor((at - start) / cell + ON_EDGE) for at, start in ((x0, ox), (y0, oy))]
+        high = [math.ceil((at - start) / cell - ON_EDGE) for at, start in ((x1, ox), (y1, oy))]
+        return low[0], max(high[0], low[0] + 1), low[1], max(high[1], low[1] + 1)
+
+    def box(self, cells):
+        """Rectangle (x0, y0, x1, y1) [m] of cells (i0, i1, j0, j1), as bounds() tells it and read() takes it."""
+        i0, i1, j0, j1 = cells
+        cell, (ox, oy) = self.cell_size, self.origin
+        return ox + i0 * cell, oy + j0 * cell, ox + i1 * cell, oy + j1 * cell
 
     def place(self, gait, walker, numbers, clearance, pose, com, *, flat, carry):
         """Turn a walker's feet to the ground, changing pose and com: place.place_feet is the door.
@@ -457,9 +510,17 @@ class Simulation:
         """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
         return self._core.report()
 
-    def read(self, name, i0, j0, nx, ny):
-        """A field as float32 (ny, nx) from cell (i0, j0) on; `name` is one of maps.MAPS or
-        maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa]."""
+    def read(self, name, i0, j0=None, nx=None, ny=None):
+        """A field as float32 (ny, nx): of a rectangle (x0, y0, x1, y1) [m] as bounds() and box() tell it, or from cell
+        (i0, j0) on.
+
+        name: one of maps.MAPS or maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa].
+        """
+        if j0 is nx is ny is None:
+            i0, i1, j0, j1 = self.cells(i0)
+            nx, ny = i1 - i0, j1 - j0
+        elif None in (j0, nx, ny):
+            raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
         if name not in _FIELDS and name not in _LEAN:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*_FIELDS, *_LEAN])}.")
         if nx < 1 or ny < 1:
@@ -524,6 +585,13 @@ def _tracks(gait, loads, held):
         np.concatenate(poses),
         tuple(np.concatenate(each) for each in (touching, force, point)),
     )
+
+
+class _Closed:
+    """In place of the core of a Simulation that was closed."""
+
+    def __getattr__(self, name):
+        raise DesirePathError("This simulation was closed: make a new one.")
 
 
 class Film:

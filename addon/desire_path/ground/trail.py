@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from . import maps
 
@@ -23,8 +24,8 @@ FAR = 1e9  # ground lies nearer than this [m]
 SAME = 1e-6  # cells nearer to each other than this are the same [cell]
 
 
-@dataclass(frozen=True)
-class Trail:
+@dataclass(frozen=True, eq=False, repr=False)
+class Trail(Record):
     """What walkers left of a ground: float32 (ny, nx) each, row 0 at the lowest y."""
 
     path: str
@@ -37,6 +38,9 @@ class Trail:
     pressure_time: np.ndarray  # [Pa s] >= 0
     flat: bool  # level ground without end
     planted: bool  # plants grew on it, which a map does not hold
+
+    def __repr__(self):
+        return f"Trail({self.path!r}, {self.rest.shape[1]} x {self.rest.shape[0]} cells of {self.cell:g} m)"
 
     def arrays(self):
         """What tells it from another trail."""

@@ -9,6 +9,7 @@ from warnings import warn
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion import freeze, jumps, tracks
@@ -60,8 +61,8 @@ OPTIONS = {
 }
 
 
-@dataclass(frozen=True)
-class FootForce:
+@dataclass(frozen=True, eq=False, repr=False)
+class FootForce(Record):
     time: np.ndarray  # (T,) [s]
     touching: np.ndarray  # 1 where the part touches (P, T) u1
     force: np.ndarray  # of the part on the ground (P, T, 3) [N]
@@ -70,6 +71,10 @@ class FootForce:
     mean: np.ndarray = None  # mean vertical force of each walker (W,) [body weights]
     warnings: tuple = ()
     held: np.ndarray = None  # from these samples to the next parts are held in mid-step and press no deeper (P, T)
+
+    def __repr__(self):
+        parts, samples = np.shape(self.touching)
+        return f"FootForce({parts} parts, {samples} samples, {len(self.warnings)} warnings)"
 
 
 def native_gait(gait):

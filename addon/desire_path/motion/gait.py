@@ -4,11 +4,13 @@ Arrays carry the names, units and shapes of DpGait in native/base/types.h: W wal
 L limbs own P parts, P parts own K contact points, all over T times.
 """
 
+import contextlib
 import os
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arrays import Record
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..files import atomic_file, npz
@@ -36,8 +38,8 @@ _NUMBERS = (  # name, type, shape by letters
 _NAMES = (("limb_name", "L"), ("part_name", "P"), ("walker_name", "W"))
 
 
-@dataclass(frozen=True)
-class Sole:
+@dataclass(frozen=True, eq=False, repr=False)
+class Sole(Record):
     """What presses the ground, in its part's frame."""
 
     vertices: np.ndarray  # (n, 3) f4 [m]
@@ -47,9 +49,12 @@ class Sole:
         object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, "f4"))
         object.__setattr__(self, "triangles", np.ascontiguousarray(self.triangles, "i4"))
 
+    def __repr__(self):
+        return f"Sole({len(self.vertices)} vertices, {len(self.triangles)} triangles)"
 
-@dataclass(frozen=True)
-class Gait:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Gait(Record):
     time: np.ndarray  # (T,) [s], strictly increasing
     com: np.ndarray  # centre of mass (W, T, 3) [m]
     mass: np.ndarray  # (W,) [kg] > 0
@@ -89,6 +94,15 @@ class Gait:
             object.__setattr__(self, name, names)
         object.__setattr__(self, "frame_rate", float(self.frame_rate))
         object.__setattr__(self, "frame_start", int(self.frame_start))
+
+    def __repr__(self):
+        counted = ((len(self.mass), "walker"), (len(self.limb_walker), "limb"), (len(self.time), "sample"))
+        told = [f"{count} {word}{'' if count == 1 else 's'}" for count, word in counted]
+        with contextlib.suppress(IndexError, TypeError, ValueError):  # one that check() would refuse is shown, too
+            told.append(f"{self.time[-1] - self.time[0]:.6g} s")
+            rate = self.rate()
+            told.append("no even rate" if rate is None else f"{rate:.6g} a second")
+        return f"Gait({', '.join(told)})"
 
     def _count(self, letter):
         source = {"T": self.time, "W": self.mass, "L": self.limb_walker, "P": self.part_limb, "K": self.point_part}[

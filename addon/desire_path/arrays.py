@@ -1,0 +1,52 @@
+"""Records that hold arrays: compared by value, as records of numbers are."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import numpy as np
+
+
+def _is_array(value: object) -> bool:
+    """Whether it is an array, or is read like one, as poses in tracks are."""
+    return isinstance(value, np.ndarray) or (hasattr(value, "ndim") and not np.isscalar(value))
+
+
+def _alike(a: np.ndarray, b: np.ndarray) -> bool:
+    return np.array_equal(a, b, equal_nan=a.dtype.kind == b.dtype.kind == "f")
+
+
+def same(a: object, b: object) -> bool:
+    """Whether two values are alike: arrays in shape and in every number, NaN as NaN; what holds some in all of them."""
+    if _is_array(a) or _is_array(b):
+        if not (_is_array(a) and _is_array(b)) or a.shape != b.shape:  # type: ignore[attr-defined]
+            return False
+        if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+            return a is b or _alike(a, b)
+        return a is b or all(_alike(np.asarray(x), np.asarray(y)) for x, y in zip(a, b))  # type: ignore[call-overload]
+    if isinstance(a, (tuple, list)) and type(a) is type(b):
+        return len(a) == len(b) and all(map(same, a, b))
+    return bool(a == b)
+
+
+def _mark(value: object) -> object:
+    """The same for values that are alike, and cheap: of arrays their shape."""
+    if _is_array(value):
+        return value.shape  # type: ignore[attr-defined]
+    return tuple(map(_mark, value)) if isinstance(value, (tuple, list)) else value
+
+
+class Record:
+    """A frozen dataclass (eq=False) with arrays among its fields: == compares values, and hash() goes with it."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self is other or all(
+            same(getattr(self, each.name), getattr(other, each.name))
+            for each in fields(self)  # type: ignore[arg-type]
+            if each.compare
+        )
+
+    def __hash__(self) -> int:
+        return hash(tuple(_mark(getattr(self, each.name)) for each in fields(self) if each.compare))  # type: ignore[arg-type]
