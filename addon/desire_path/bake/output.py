@@ -195,8 +195,8 @@ class Output:
                 ours = FILES if not inside else INSIDE[inside]
                 if not name.endswith("part") and any(fnmatch.fnmatchcase(name, pattern) for pattern in ours):
                     raise DesirePathError(
-                        f"{os.path.join(place, name)} is named as a file of a bake, of which there is nothing else: move "
-                        "it, or choose another folder."
+                        f"{os.path.join(place, name)} is named as a file of a bake, of which there is nothing else: "
+                        "move it, or choose another folder."
                     )
 
     # ---- what was left ----------------------------------------------------------------------------------

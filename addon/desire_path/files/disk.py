@@ -15,7 +15,7 @@ import stat
 try:
     import fcntl
 except ImportError:  # a system with other locks
-    fcntl = None
+    fcntl = None  # type: ignore[assignment]
 
 _HERE = -100  # AT_FDCWD
 _EXCHANGE = 2  # RENAME_EXCHANGE
@@ -142,7 +142,7 @@ def _locked(handle, before):
         return False
     except OSError:
         pass  # no locks on this disk
-    process, host, *_ = (*before.split(), "", "")
+    process, host, *_ = before.split() + ["", ""]
     return not before or host == socket.gethostname() and not _alive(process)
 
 

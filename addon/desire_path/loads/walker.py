@@ -68,9 +68,9 @@ class FootForce(Record):
     force: np.ndarray  # of the part on the ground (P, T, 3) [N]
     point: np.ndarray  # centre of pressure, NaN in the air (P, T, 3) [m]
     clearance: np.ndarray  # resting height of each contact point over the ground (K,) [m]
-    mean: np.ndarray = None  # mean vertical force of each walker (W,) [body weights]
+    mean: np.ndarray | None = None  # mean vertical force of each walker (W,) [body weights]
     warnings: tuple = ()
-    held: np.ndarray = None  # from these samples to the next parts are held in mid-step and press no deeper (P, T)
+    held: np.ndarray | None = None  # parts held in mid-step from these samples to the next press no deeper (P, T)
 
     def __repr__(self):
         parts, samples = np.shape(self.touching)

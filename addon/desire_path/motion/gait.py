@@ -6,7 +6,7 @@ L limbs own P parts, P parts own K contact points, all over T times.
 
 import contextlib
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -36,6 +36,10 @@ _NUMBERS = (  # name, type, shape by letters
     ("point_role", "i4", "K"),
 )
 _NAMES = (("limb_name", "L"), ("part_name", "P"), ("walker_name", "W"))
+
+
+def _nothing() -> np.ndarray:
+    return np.empty(0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,9 +75,9 @@ class Gait(Record):
     frame_rate: float = 24.0  # scene frames a second
     frame_start: int = 1  # scene frame at time[0]
     warnings: tuple = ()
-    cut: np.ndarray = ()  # samples at which a new piece begins: the motion jumps there (C,), rising
-    jump: np.ndarray = ()  # those of them at which one walker only jumps: sample, walker (J, 2)
-    leg: np.ndarray = ()  # from hips to ankles (W,) [m] > 0; empty: as size.legs() finds it
+    cut: np.ndarray = field(default_factory=_nothing)  # samples at which a new piece begins, rising (C,)
+    jump: np.ndarray = field(default_factory=_nothing)  # those at which one walker only jumps: sample, walker (J, 2)
+    leg: np.ndarray = field(default_factory=_nothing)  # hips to ankles (W,) [m] > 0; empty: size.legs() finds it
 
     def __post_init__(self):
         for name, kind, _ in _NUMBERS:

@@ -177,7 +177,7 @@ def cut(vertices, triangles, most=4000):
 
 
 def coarse_cells(gait, cell):
-    """Sentences about walkers whose every foot is but a few cells [m] wide, with the cells that would show its shape."""
+    """Sentences about walkers whose every foot is but a few cells [m] wide, with the cells that would show it."""
     if not (np.isfinite(cell) and cell > 0.0):
         return []  # the bake refuses it
     told = []
@@ -189,8 +189,8 @@ def coarse_cells(gait, cell):
             wide = max(wide, float(np.ptp(lies[:, :2], axis=0).min()))
         if 0.0 < wide < NARROW * cell:
             told.append(
-                f"The soles of {name} are {wide / cell:.1f} cells of {cell:g} m wide, too few for a print to have their "
-                f"shape: choose a cell size of {max(wide / SHAPED, 0.0005):.1g} m or so."
+                f"The soles of {name} are {wide / cell:.1f} cells of {cell:g} m wide, too few for a print to have "
+                f"their shape: choose a cell size of {max(wide / SHAPED, 0.0005):.1g} m or so."
             )
     return told
 
