@@ -99,6 +99,8 @@ def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
         "LICENSE",
         "CHANGELOG.md",
         "THIRD-PARTY.md",
+        "py.typed",
+        "_native.pyi",
         "blender/__init__.py",
     ):
         assert f"desire_path/{wanted}" in names

@@ -146,7 +146,8 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
         'Requires-Dist: matplotlib>=3.6; extra == "plot"',
         'Requires-Dist: scipy>=1.9; extra == "fit"',
     ]
-    assert {"desire_path/walks/walk.npz", "desire_path/walks/README.md"} <= set(names)
+    data = ("walks/walk.npz", "walks/README.md", "py.typed", "_native.pyi")
+    assert {f"desire_path/{each}" for each in data} <= set(names)
 
 
 @pytest.mark.parametrize("python", [sys.executable, PY313], ids=["3.11", "3.13"])
