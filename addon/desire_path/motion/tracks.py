@@ -91,7 +91,8 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
         if Ellipsis in [each for each in key if not isinstance(each, np.ndarray)]:
             at = next(n for n, each in enumerate(key) if each is Ellipsis)
             key = (*key[:at], *(slice(None),) * (self.ndim - len(key) + 1), *key[at + 1 :])
-        rows, samples, *rest = (*key, *(slice(None),) * (2 - len(key)))
+        key = key + (slice(None),) * (2 - len(key))
+        rows, samples, rest = key[0], key[1], key[2:]
         if isinstance(samples, (int, np.integer)):
             at = range(self.shape[1])[samples]
             return self.window(*self._rows(rows), at, at + 1)[(self._own(rows), 0, *rest)]
