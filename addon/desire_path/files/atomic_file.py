@@ -4,12 +4,16 @@ A device, a FIFO, a link or a folder at the place is refused with a sentence, ne
 through; the file grows beside it under a name of its own, is synced, and takes the place at once.
 """
 
+from __future__ import annotations
+
 import contextlib
 import errno
 import json
 import os
 import stat
 import tempfile
+from collections.abc import Iterator
+from typing import IO, Any, BinaryIO
 
 from ..errors import DesirePathError
 from . import disk
@@ -24,13 +28,13 @@ KINDS = (
 )
 
 
-def _umask():
+def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
 
 
-def kind_of(path):
+def kind_of(path: str | os.PathLike[str]) -> str:
     """What stands at a path: "file", "folder", "link", "pipe", "socket", "device"; "" = nothing."""
     try:
         mode = os.lstat(path).st_mode
@@ -39,7 +43,7 @@ def kind_of(path):
     return next((name for test, name in KINDS if test(mode)), "file")
 
 
-def check(path, what):
+def check(path: str | os.PathLike[str], what: str) -> None:
     """Refuse a path where something stands that is no plain file. what: as for file()."""
     try:
         found = kind_of(path)
@@ -53,7 +57,7 @@ def check(path, what):
         raise DesirePathError(f"{what} cannot be written to {path}, which is a {found}: choose the name of a file.")
 
 
-def reader(path):
+def reader(path: str | os.PathLike[str]) -> BinaryIO:
     """Open a plain file, or a link to one, for reading bytes; OSError for what could wait or never end."""
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     try:
@@ -66,7 +70,9 @@ def reader(path):
 
 
 @contextlib.contextmanager
-def file(path, what, mode="wb", sync=True, **more):
+def file(
+    path: str | os.PathLike[str], what: str, mode: str = "wb", sync: bool = True, **more: Any
+) -> Iterator[IO[Any]]:
     """Open a temporary file beside `path` that takes its place when the block ends well.
 
     what: "The recording", for the sentence that says why it could not be written. An earlier file stays as
@@ -102,14 +108,14 @@ def file(path, what, mode="wb", sync=True, **more):
                 os.unlink(temporary)
 
 
-def _sentence(what, path, problem):
+def _sentence(what: str, path: str | os.PathLike[str], problem: Exception) -> str:
     return (
         f"{what} cannot be written to {path} ({getattr(problem, 'strerror', None) or problem}): choose another "
         "folder or make room."
     )
 
 
-def write_json(path, data, what, sync=True):
+def write_json(path: str | os.PathLike[str], data: object, what: str, sync: bool = True) -> None:
     """Write a small file as JSON, whole or not at all; sync: as for file()."""
     with file(path, what, "w", sync, encoding="utf-8") as stream:
         json.dump(data, stream, indent=1)

@@ -11,6 +11,7 @@ import errno
 import os
 import socket
 import stat
+from typing import Any
 
 try:
     import fcntl
@@ -22,7 +23,7 @@ _EXCHANGE = 2  # RENAME_EXCHANGE
 _CANNOT = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EXDEV, errno.EPERM)
 
 
-def _system(name):
+def _system(name: str) -> Any:
     """A function of the C library; None where there is none."""
     try:
         return getattr(ctypes.CDLL(None, use_errno=True), name)
@@ -33,7 +34,7 @@ def _system(name):
 _renameat2, _syncfs = _system("renameat2"), _system("syncfs")
 
 
-def swap(one, other):
+def swap(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
     """Exchange what two paths name, files or folders, at once; False where system or disk cannot do that."""
     if _renameat2 is None:
         return False
@@ -45,7 +46,7 @@ def swap(one, other):
     raise OSError(number, os.strerror(number), os.fspath(one))
 
 
-def sync(folder):
+def sync(folder: str | os.PathLike[str]) -> None:
     """Return when everything below a folder is on the disk."""
     if _syncfs is not None:
         handle = os.open(folder, os.O_RDONLY)
@@ -60,7 +61,7 @@ def sync(folder):
         sync_one(place)
 
 
-def sync_one(path):
+def sync_one(path: str | os.PathLike[str]) -> None:
     """Return when one file's bytes, or one folder's names, are on the disk."""
     try:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
@@ -75,7 +76,7 @@ def sync_one(path):
         os.close(handle)
 
 
-def is_plain(path):
+def is_plain(path: str | os.PathLike[str]) -> bool:
     """Whether a path names a regular file; a link to one is none."""
     try:
         return stat.S_ISREG(os.lstat(path).st_mode)
@@ -83,7 +84,7 @@ def is_plain(path):
         return False
 
 
-def memory_free():
+def memory_free() -> float:
     """Bytes of memory that programs may still have, about; infinite where the system does not say."""
     try:
         with open("/proc/meminfo", encoding="ascii") as file:
@@ -100,7 +101,7 @@ class Held(Exception):
     """A lock is held; its text says by whom."""
 
 
-def lock(path, text):
+def lock(path: str | os.PathLike[str], text: str) -> int:
     """Make a file ours until unlock(); Held(its text) while another, in this process or not, has it.
 
     The system drops the lock of a process that ends, however it ends, so that its file is taken over. On a disk
@@ -115,24 +116,23 @@ def lock(path, text):
             if not _locked(handle, before):
                 raise Held(before)
             if _same(handle, path):  # else it was released, and is another file by now
-                mine = handle
-                handle = None
+                mine, handle = handle, -1
                 os.ftruncate(mine, 0)
                 os.pwrite(mine, f"{os.getpid()} {socket.gethostname()} {text}\n".encode(), 0)
                 return mine
         finally:
-            if handle is not None:
+            if handle >= 0:
                 os.close(handle)
 
 
-def unlock(handle, path):
+def unlock(handle: int, path: str | os.PathLike[str]) -> None:
     """Give up a lock and its file."""
     if _same(handle, path):
         os.unlink(path)
     os.close(handle)
 
 
-def _locked(handle, before):
+def _locked(handle: int, before: str) -> bool:
     """Whether the lock is ours now."""
     try:
         if fcntl is not None:
@@ -146,7 +146,7 @@ def _locked(handle, before):
     return not before or host == socket.gethostname() and not _alive(process)
 
 
-def _alive(process):
+def _alive(process: str) -> bool:
     try:
         os.kill(int(process), 0)
     except (ProcessLookupError, ValueError, OverflowError):
@@ -156,7 +156,7 @@ def _alive(process):
     return True
 
 
-def _same(handle, path):
+def _same(handle: int, path: str | os.PathLike[str]) -> bool:
     try:
         return os.path.samestat(os.fstat(handle), os.lstat(path))
     except OSError:

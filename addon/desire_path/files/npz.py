@@ -42,7 +42,7 @@ class Damaged(Exception):
     """The file is no .npz that may be read; the text is a clause that says why."""
 
 
-def read(path, most=MOST):
+def read(path: str | os.PathLike[str], most: int = MOST) -> dict[str, np.ndarray]:
     """The arrays of a file by name. FileNotFoundError, PermissionError, or Damaged for whatever else is wrong."""
     try:
         with atomic_file.reader(path) as file:
@@ -61,11 +61,11 @@ def read(path, most=MOST):
         raise Damaged(_clause(problem)) from None
 
 
-def _clause(problem):
+def _clause(problem: Exception) -> str:
     return " ".join(str(problem).split())[:100] or type(problem).__name__
 
 
-def _unpacked(box, most, long):
+def _unpacked(box: zipfile.ZipFile, most: int, long: int) -> dict[str, np.ndarray]:
     members = box.infolist()
     if len(members) > _MOST_ARRAYS:
         raise Damaged(f"it holds {len(members)} files")
@@ -81,7 +81,7 @@ def _unpacked(box, most, long):
     return {member.filename.removesuffix(".npy"): _array(box, member, *head) for member, head in zip(members, heads)}
 
 
-def _head(box, member):
+def _head(box: zipfile.ZipFile, member: zipfile.ZipInfo) -> tuple[int, np.dtype, bool, tuple[int, ...]]:
     """(bytes before the numbers, type, whether columns come first, shape) of a member."""
     with box.open(member) as stream:
         begin = stream.read(10)
@@ -105,11 +105,13 @@ def _head(box, member):
     return before, kind, bool(told["fortran_order"]), shape
 
 
-def _array(box, member, before, kind, columns, shape):
+def _array(
+    box: zipfile.ZipFile, member: zipfile.ZipInfo, before: int, kind: np.dtype, columns: bool, shape: tuple[int, ...]
+) -> np.ndarray:
     with box.open(member) as stream:
         stream.read(before)
         data = bytearray(member.file_size - before)
-        if stream.readinto(data) != len(data) or stream.read(1):
+        if stream.readinto(data) != len(data) or stream.read(1):  # type: ignore[attr-defined]
             raise Damaged(f"{member.filename[:40]} ends early")
     if not kind.itemsize:  # text of no letters
         return np.zeros(shape, kind)

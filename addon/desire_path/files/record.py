@@ -1,15 +1,24 @@
 """Frozen records of numbers and words as JSON files that people save, change and share: soils, kinds of plants."""
 
+from __future__ import annotations
+
 import json
+import os
 from dataclasses import asdict, fields
+from typing import TYPE_CHECKING, TypeVar
 
 from ..errors import DesirePathError
 from . import atomic_file
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
 MAX_TEXT = 1 << 16  # bytes of a file
 
+Record = TypeVar("Record", bound="DataclassInstance")
 
-def save(record, path, tag, version, what):
+
+def save(record: DataclassInstance, path: str | os.PathLike[str], tag: str, version: int, what: str) -> None:
     """Write a dataclass as JSON, whole or not at all.
 
     tag, version: say in the file what it is; what: the same for people, "soil"
@@ -19,7 +28,7 @@ def save(record, path, tag, version, what):
         stream.write(text)
 
 
-def load(kind, path, tag, version, what):
+def load(kind: type[Record], path: str | os.PathLike[str], tag: str, version: int, what: str) -> Record:
     """A dataclass `kind` out of a file that `save` wrote; what it leaves out is as by default.
 
     Raises DesirePathError for any file that is none.
@@ -39,7 +48,8 @@ def load(kind, path, tag, version, what):
         told = json.loads(text.decode("utf-8")) if len(text) <= MAX_TEXT else None
     except (ValueError, RecursionError, MemoryError):
         raise DesirePathError(f"{path} is not a {what}: save one with {name}.save().") from None
-    found = told.pop(tag, None) if isinstance(told, dict) else None
+    told = told if isinstance(told, dict) else {}
+    found = told.pop(tag, None)
     if type(found) is not int or found != version:
         raise DesirePathError(f"{path} is not a {what} of this version: save one with {name}.save().")
     unknown = sorted(set(told) - {each.name for each in fields(kind)})

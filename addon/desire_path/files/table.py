@@ -1,8 +1,11 @@
 """Tables of text that people write: one line of column names, then rows."""
 
+from __future__ import annotations
+
 import csv
 import io
 import os
+from collections.abc import Sequence
 
 from ..errors import DesirePathError
 from . import atomic_file
@@ -10,7 +13,9 @@ from . import atomic_file
 MOST = 1 << 25  # bytes of a table
 
 
-def read(path, needed, *, columns=None):
+def read(
+    path: str | os.PathLike[str], needed: Sequence[str], *, columns: str | None = None
+) -> tuple[list[str], list[list[str]]]:
     """(column names, rows): the names in lower case, every row that is not empty as its cells, all strings.
 
     needed: names that must be there. columns: how a sentence to the user calls them, default: `needed`.

@@ -1,9 +1,16 @@
 """Small tools for rotations as matrices (.., 3, 3) and for rates over time."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def quaternion(turn):
+
+def quaternion(turn: np.ndarray) -> np.ndarray:
     """Unit quaternions (n, 4) w x y z of rotation matrices (n, 3, 3), each near the one before."""
     m = np.asarray(turn, float)
     four = np.empty(m.shape[:-2] + (4, 4))  # 4 q q^T, the largest column is safe to divide by
@@ -30,7 +37,7 @@ def quaternion(turn):
     return q
 
 
-def matrix(q):
+def matrix(q: ArrayLike) -> np.ndarray:
     """Rotation matrices (.., 3, 3) of unit quaternions (.., 4) w x y z."""
     w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
     rows = [
@@ -41,11 +48,11 @@ def matrix(q):
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
-def unit(v):
+def unit(v: np.ndarray) -> np.ndarray:
     return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
 
 
-def square(turn):
+def square(turn: np.ndarray) -> np.ndarray:
     """The rotation nearest to a matrix, so that leftover shear or scale does no harm."""
     u, _, vt = np.linalg.svd(turn)
     flip = np.ones(turn.shape[:-2] + (3,))
@@ -53,7 +60,7 @@ def square(turn):
     return (u * flip[..., None, :]) @ vt
 
 
-def mean_turn(turns, weight):
+def mean_turn(turns: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The mean of rotations by their weights (T,), counting those far from it for little."""
     mean = square(np.average(turns, axis=0, weights=weight))
     for _ in range(4):
@@ -63,19 +70,19 @@ def mean_turn(turns, weight):
     return mean
 
 
-def frame(forward, up):
+def frame(forward: np.ndarray, up: ArrayLike) -> np.ndarray:
     """Rotation with x along `forward` across `up`, z along `up`."""
     z = unit(np.asarray(up, float))
     x = unit(forward - (forward * z).sum(axis=-1, keepdims=True) * z)
     return np.stack([x, np.cross(z, x), np.broadcast_to(z, x.shape)], axis=-1)
 
 
-def rate_of(values, time):
+def rate_of(values: np.ndarray, time: np.ndarray) -> np.ndarray:
     """Change a second along the first axis."""
     return np.gradient(values, time, axis=0) if len(time) > 1 else np.zeros_like(values)
 
 
-def product(a, b):
+def product(a: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Unit quaternions (.., 4) w x y z that turn by b, then by a."""
     aw, ax, ay, az = np.moveaxis(np.asarray(a, float), -1, 0)
     bw, bx, by, bz = np.moveaxis(np.asarray(b, float), -1, 0)
@@ -90,19 +97,19 @@ def product(a, b):
     )
 
 
-def inverse(q):
+def inverse(q: ArrayLike) -> np.ndarray:
     """The turn back."""
     return np.asarray(q, float) * (1.0, -1.0, -1.0, -1.0)
 
 
-def about_z(angle):
+def about_z(angle: ArrayLike) -> np.ndarray:
     """Unit quaternions (.., 4) of turns about +Z [rad]."""
     half = 0.5 * np.asarray(angle, float)
     zero = np.zeros_like(half)
     return np.stack([np.cos(half), zero, zero, np.sin(half)], axis=-1)
 
 
-def turned(q, v):
+def turned(q: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Vectors (.., 3) turned by unit quaternions (.., 4)."""
     u, w = q[..., 1:], q[..., :1]
     t = 2.0 * np.cross(u, v)

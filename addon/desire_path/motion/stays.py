@@ -4,14 +4,21 @@ still    samples at which the whole body keeps its pose: one who holds it there,
 votes    a weight for each sample of a mask, so that each stay in it counts the same
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 HELD = 0.3  # a pose is held when the mass centre keeps its place for so long [s] ..
 SPOT = 0.01  # .. within this, of a grown person [m]
 VOTE = 0.2  # longer stays count as much as one of this [s]
 
 
-def still(com, time, size=1.0):
+def still(com: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
     """Samples (T,) within a stretch over which the mass centre (T, 3) keeps its place.
 
     size: leg length in those of a grown person; lengths go with it, times with its root.
@@ -27,7 +34,7 @@ def still(com, time, size=1.0):
     return held
 
 
-def votes(mask, time, size=1.0):
+def votes(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
     """Weights (T,) [s] of the samples in a mask (T,): every run of them sums to its length, to VOTE at most."""
     weight = np.zeros(len(mask))
     if len(time) < 2:
@@ -39,7 +46,7 @@ def votes(mask, time, size=1.0):
     return weight
 
 
-def thinned(mask, time, size=1.0):
+def thinned(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
     """The mask (T,) with VOTE of every stay in it, spread over its length: samples that count the same."""
     most = max(2, round(VOTE * np.sqrt(size) * (len(time) - 1) / max(time[-1] - time[0], 1e-9)))
     few = np.zeros(len(mask), bool)
@@ -49,7 +56,7 @@ def thinned(mask, time, size=1.0):
     return few
 
 
-def median(values, weight):
+def median(values: ArrayLike, weight: ArrayLike) -> np.ndarray:
     """The weighted median of values (T, ...) along their first axis."""
     values, weight = np.asarray(values, float), np.asarray(weight, float)
     keep = weight > 0.0

@@ -5,7 +5,15 @@ keeps what is there, in blocks, and is an array to everybody who asks: a window 
 it is read. Where a row is not there it tells what it was or will be nearest to that time, or a value of its own.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
@@ -15,12 +23,14 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
     missing: what is told where a row is not there; None: its nearest value in time.
     """
 
-    def __init__(self, count, times, blocks, missing=None):
+    def __init__(
+        self, count: int, times: int, blocks: Iterable[tuple[ArrayLike, int, np.ndarray]], missing: Any = None
+    ) -> None:
         self.blocks = tuple((np.asarray(rows, np.int64), int(first), values) for rows, first, values in blocks)
         values = self.blocks[0][2]
         self.shape = (int(count), int(times), *values.shape[2:])
         self.dtype, self.missing = values.dtype, missing
-        self._of_row = [[] for _ in range(count)]
+        self._of_row: list[list[tuple[int, int, int]]] = [[] for _ in range(count)]
         for number, (rows, first, _) in enumerate(self.blocks):
             for place, row in enumerate(rows.tolist()):
                 self._of_row[row].append((first, number, place))
@@ -30,12 +40,12 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
     ndim = property(lambda self: len(self.shape))
     nbytes = property(lambda self: sum(values.nbytes for _, _, values in self.blocks))
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self.shape[0]
 
     # ---- who is there ----------------------------------------------------------------------------
 
-    def there(self, first, after):
+    def there(self, first: int, after: int) -> np.ndarray:
         """Which rows are there in all samples first..after-1, bool (rows,)."""
         found = np.zeros(len(self), bool)
         for rows, begin, values in self.blocks:
@@ -43,20 +53,20 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
                 found[rows] = True
         return found
 
-    def spans(self, row):
+    def spans(self, row: int) -> list[tuple[int, int]]:
         """(first sample, sample after the last) of each span of a row, rising."""
         return [(first, first + self.blocks[number][2].shape[1]) for first, number, _ in self._of_row[row]]
 
     # ---- reading ---------------------------------------------------------------------------------
 
-    def window(self, rows, first, after):
+    def window(self, rows: Sequence[int] | np.ndarray, first: int, after: int) -> np.ndarray:
         """Some rows, samples first..after-1, as an array of their own."""
         out = np.empty((len(rows), after - first, *self.shape[2:]), self.dtype)
         for to, row in zip(out, rows):
             self._fill(to, int(row), first, after)
         return out
 
-    def _fill(self, to, row, first, after):
+    def _fill(self, to: np.ndarray, row: int, first: int, after: int) -> None:
         spans = self._of_row[row]
         to[...] = 0 if self.missing is None else self.missing
         for n, (begin, number, place) in enumerate(spans):
@@ -72,19 +82,19 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
             if a < b:
                 to[a - first : b - first] = values[a - begin : b - begin]
 
-    def __array__(self, dtype=None, copy=None):
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         dense = self.window(range(len(self)), 0, self.shape[1])
         return dense if dtype is None else dense.astype(dtype, copy=False)
 
-    def __array_ufunc__(self, ufunc, method, *inputs, **more):
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **more: Any) -> Any:
         return getattr(ufunc, method)(*(np.asarray(each) if each is not None else each for each in inputs), **more)
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(np.asarray(self), name)
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: Any) -> Any:
         key = key if isinstance(key, tuple) else (key,)
         if any(each is None for each in key):
             return np.asarray(self)[key]
@@ -104,19 +114,19 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
             return found[(self._own(rows), slice(None), *rest)]
         return np.asarray(self)[key]
 
-    def _rows(self, rows):
+    def _rows(self, rows: Any) -> tuple[np.ndarray]:
         """Which rows a key asks for, as the first argument of window()."""
         found = np.arange(len(self))[rows]
         return (np.atleast_1d(found).reshape(-1),)
 
     @staticmethod
-    def _own(rows):
+    def _own(rows: Any) -> int | slice:
         """What is left of a key for rows when those alone are read."""
         return 0 if isinstance(rows, (int, np.integer)) else slice(None)
 
     # ---- to disk and back ------------------------------------------------------------------------
 
-    def to_arrays(self, name):
+    def to_arrays(self, name: str) -> dict[str, np.ndarray]:
         """Plain arrays by name: blocks one after the other, and where each belongs."""
         return {
             name: np.concatenate([values.reshape(-1, *self.shape[2:]) for _, _, values in self.blocks]),
@@ -125,7 +135,7 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
         }
 
     @staticmethod
-    def from_arrays(arrays, name, count, times):
+    def from_arrays(arrays: Mapping[str, np.ndarray], name: str, count: int, times: int) -> TrackArray:
         """What to_arrays() wrote; ValueError where it makes no sense."""
         values, rows = np.ascontiguousarray(arrays[name], "f8"), np.asarray(arrays[f"{name}_rows"]).astype(np.int64)
         span = np.asarray(arrays[f"{name}_span"]).astype(np.int64).reshape(-1, 3)
@@ -152,7 +162,7 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
 
     # ---- others like it --------------------------------------------------------------------------
 
-    def rows(self, rows):
+    def rows(self, rows: ArrayLike) -> TrackArray:
         """Some of the rows, rising, without those who are never there."""
         rows = np.asarray(rows)
         blocks = []
@@ -165,14 +175,14 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
             blocks = [(np.zeros(0, int), 0, np.zeros((0, 0, *self.shape[2:]), self.dtype))]
         return TrackArray(len(rows), self.shape[1], blocks, self.missing)
 
-    def like(self, tail, dtype, missing):
+    def like(self, tail: tuple[int, ...], dtype: Any, missing: Any) -> TrackArray:
         """An array of the same rows and spans, full of what is missing elsewhere."""
         blocks = [
             (rows, first, np.full((*values.shape[:2], *tail), missing, dtype)) for rows, first, values in self.blocks
         ]
         return TrackArray(len(self), self.shape[1], blocks, missing)
 
-    def put(self, rows, samples, values):
+    def put(self, rows: Sequence[int] | np.ndarray, samples: ArrayLike, values: ArrayLike) -> None:
         """Set rows (r,) at samples (n,) to values (r, n, ..); what falls on nobody is dropped."""
         samples = np.asarray(samples)
         values = np.broadcast_to(values, (len(rows), len(samples), *self.shape[2:]))
@@ -187,26 +197,29 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
                     to[samples[inside] - first] = own[inside]
 
 
-def pieces(array, row):
+Array: TypeAlias = np.ndarray | TrackArray
+
+
+def pieces(array: Array, row: int) -> list[tuple[int, np.ndarray]]:
     """(first sample, values (n, ..)) of a row wherever it is there."""
     if not isinstance(array, TrackArray):
         return [(0, array[row])]
     return [(first, array.blocks[number][2][place]) for first, number, place in array._of_row[row]]
 
 
-def parts(array):
+def parts(array: Array) -> list[np.ndarray]:
     """The arrays it is made of."""
     if not isinstance(array, TrackArray):
         return [array]
     return [each for rows, first, values in array.blocks for each in (rows, np.array(first), values)]
 
 
-def values(array):
+def values(array: Array) -> list[np.ndarray]:
     """What it holds, block by block; arrays like it have the same blocks."""
     return [each for _, _, each in array.blocks] if isinstance(array, TrackArray) else [array]
 
 
-def joined(arrays):
+def joined(arrays: Sequence[Array]) -> Array:
     """Arrays over the same samples as one, row after row."""
     if not any(isinstance(each, TrackArray) for each in arrays):
         return np.concatenate(arrays)
@@ -218,21 +231,21 @@ def joined(arrays):
     return TrackArray(count, arrays[0].shape[1], blocks)
 
 
-def put(array, rows, samples, values):
+def put(array: Array, rows: Sequence[int] | np.ndarray, samples: ArrayLike, values: ArrayLike) -> None:
     """Set rows (r,) at samples (n,) of an array or TrackArray to values (r, n, ..)."""
     if isinstance(array, TrackArray):
         array.put(rows, samples, values)
     else:
-        array[np.ix_(rows, samples)] = values
+        array[np.ix_(np.asarray(rows), np.asarray(samples))] = values
 
 
-def blank(array, tail, dtype, missing):
+def blank(array: Array, tail: tuple[int, ...], dtype: Any, missing: Any) -> Array:
     """An array over the rows and samples of another, dense or not, full of what is missing."""
     if isinstance(array, TrackArray):
         return array.like(tail, dtype, missing)
     return np.full((*array.shape[:2], *tail), missing, dtype)
 
 
-def some(array, rows):
+def some(array: Array, rows: ArrayLike) -> Array:
     """Some rows, rising, of an array or TrackArray."""
-    return array.rows(rows) if isinstance(array, TrackArray) else array[rows]
+    return array.rows(rows) if isinstance(array, TrackArray) else array[np.asarray(rows)]
