@@ -165,7 +165,6 @@ def test_circles_of_files_are_named(tmp_path):
     assert "one.h needs two.h, which it includes" in run("rooms", "--quiet", "--root", tmp_path).stderr
 
 
-
 @pytest.mark.parametrize("text, code", [("int stray", 1), ("int dp_own", 0), ("static int stray", 0)])
 def test_names_that_files_share_begin_with_dp(tmp_path, text, code):
     built = tmp_path / "build" / "plain"

@@ -77,10 +77,9 @@ def _said(path):
 def holds_bake(folder):
     """Whether the files in a folder that are named as those of a bake are a bake's, or what is left of one."""
     there = (os.path.join(folder, *way, "frames") for way in ((), (NEW,)))
-    return any(os.path.isfile(os.path.join(each, name)) for each in there for name in ("index.json", "trail_sums.txt")) or {
-        "parameters",
-        "version",
-    } <= set(_said(os.path.join(folder, "report.json")))
+    return any(
+        os.path.isfile(os.path.join(each, name)) for each in there for name in ("index.json", "trail_sums.txt")
+    ) or {"parameters", "version"} <= set(_said(os.path.join(folder, "report.json")))
 
 
 def is_whole(frames):
