@@ -7,6 +7,20 @@ from dataclasses import fields
 import numpy as np
 
 
+def read_only(array: np.ndarray) -> np.ndarray:
+    """The same numbers, not to be written through it: a view, nothing is copied, and who gave it may still write."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def kept(value: object) -> object:
+    """A field of a record: read_only() where it is an array, or a tuple with some in it."""
+    if isinstance(value, tuple):
+        return tuple(map(kept, value))
+    return read_only(value) if isinstance(value, np.ndarray) else value
+
+
 def _is_array(value: object) -> bool:
     """Whether it is an array, or is read like one, as poses in tracks are."""
     return isinstance(value, np.ndarray) or (hasattr(value, "ndim") and not np.isscalar(value))
@@ -37,7 +51,15 @@ def _mark(value: object) -> object:
 
 
 class Record:
-    """A frozen dataclass (eq=False) with arrays among its fields: == compares values, and hash() goes with it."""
+    """A frozen dataclass (eq=False) with arrays among its fields: == compares values, and hash() goes with it.
+
+    Its arrays are read only; they share memory with what it was given where that has the right type.
+    """
+
+    def __setstate__(self, state: dict) -> None:
+        """From a copy or a pickle, whose arrays are as new."""
+        for name, value in state.items():
+            object.__setattr__(self, name, kept(value))
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import bvh
+from scenes import bvh, gaits
 
 from desire_path.bake.bake import Bake
 from desire_path.ground.sim import Ground
@@ -77,6 +77,7 @@ def test_a_teleport_a_change_of_take_and_a_frozen_end_are_cuts(fps):
     assert not len(jumps.found(gait).cut)
     assert jumps.found(moved(gait, slice(middle, end), (0.0, 1.2, 0.0))).cut.tolist() == [middle]
     frozen = moved(gait, slice(middle, end), (0.0, 0.0, 0.0))
+    frozen = gaits.writable(frozen)
     frozen.com[:, middle:] = frozen.com[:, :1] + (0.9, 0.0, 0.0)
     frozen.pose[:, middle:] = frozen.pose[:, :1] + np.r_[0.9, np.zeros(6)]
     assert jumps.found(frozen).cut.tolist() == [middle]
@@ -220,5 +221,6 @@ def test_who_has_no_feet_does_not_jump():
         limb_walker=np.r_[gait.limb_walker, 1],
         limb_name=(*gait.limb_name, "none"),
     )
+    ghost = gaits.writable(ghost)
     ghost.com[1, 40:] += 3.0
     assert jumps.found(ghost.check()) is ghost

@@ -1,8 +1,10 @@
 """Manners that users of NumPy and SciPy expect: records that print, compare and keep what they hold, tables that are
 read only, arguments that have names, and are alike where they mean the same."""
 
+import copy
 import inspect
-from dataclasses import replace
+import pickle
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from scenes import gaits
 
 from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil
 from desire_path.errors import DesirePathError
-from desire_path.ground.plants import PAPER
+from desire_path.ground.plants import PAPER, Planting
 from desire_path.ground.trail import Trail
 from desire_path.loads import walker
 from desire_path.motion import tracks
@@ -159,3 +161,44 @@ def test_a_bake_frees_its_folder_at_the_end_of_its_block(gait, tmp_path):
     with Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"), cell_size=0.03, wait=0.0) as bake:
         assert [each.fraction for each in bake.run()][-1] == 1.0
     assert bake.report["contacts"] > 0
+
+
+def arrays_of(value):
+    """Every array in a record, and in the records and tuples that it holds."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, (tuple, list)):
+        for each in value:
+            yield from arrays_of(each)
+    elif is_dataclass(value):
+        for each in fields(value):
+            yield from arrays_of(getattr(value, each.name))
+
+
+AGAIN = {
+    "itself": lambda record: record,
+    "its copy": copy.deepcopy,
+    "its pickle": lambda record: pickle.loads(pickle.dumps(record)),
+}
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+@pytest.mark.parametrize("again", AGAIN)
+def test_arrays_of_a_record_are_read_only(kind, again, gait):
+    record = AGAIN[again](records(gait)[kind][0]())
+    held = list(arrays_of(record))
+    assert held and not any(array.flags.writeable for array in held)
+    with pytest.raises(ValueError, match="read-only"):
+        held[0].fill(0)
+
+
+def test_a_record_takes_arrays_without_a_copy_and_leaves_their_giver_free(gait):
+    pose = np.array(gait.pose)
+    record = replace(gait, pose=pose)
+    assert np.shares_memory(record.pose, pose) and pose.flags.writeable
+
+
+def test_arrays_of_a_planting_are_read_only():
+    held = list(arrays_of(Planting("lawn", roots=[(0, 0), (1, 1)], vigour=[0, 1])))
+    held += arrays_of(Planting("lawn", weight=np.ones((2, 2)), rectangle=(0, 0, 1, 1)))
+    assert len(held) == 3 and not any(array.flags.writeable for array in held)

@@ -110,6 +110,7 @@ def standing(kind, seconds_after):
     )
     loads.force[:, 60:] = 0.0
     loads.touching[:, 60:] = 0
+    gait = gaits.writable(gait)
     gait.pose[:, 60:, 2] = 1.0
     sim.load(gait, loads)
     sim.run(58)
@@ -166,6 +167,7 @@ def test_trodden_grass_stays_down_until_its_strength_is_back():
 def test_a_slipping_foot_combs_the_grass_its_way():
     sim = Simulation(Ground.flat(), "wet-soil", 0.01, plants=["moss"])
     gait, loads = gaits.pressed([gaits.box(0.28, 0.20, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -100]], seconds=0.4)
+    gait = gaits.writable(gait)
     gait.pose[:, :, 0] += 1.5 * gait.time
     loads.point[:, :, 0] += 1.5 * gait.time
     sim.load(gait, loads)
@@ -197,6 +199,7 @@ def stepping(kind, seconds=2.0, *, threads=1, newtons=735.0, lay=True):
         [gaits.box(0.28, 0.10, 0.1)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -newtons]], seconds=1.0 + seconds
     )
     away = np.where(gait.time < 0.3, gait.time - 0.3, np.maximum(gait.time - 0.8, 0.0))
+    gait = gaits.writable(gait)
     gait.pose[:, :, 0], gait.pose[:, :, 2] = 0.7 * away, 1.5 * abs(away)
     loads.force[:, away != 0.0], loads.touching[:, away != 0.0] = 0.0, 0
     sim.load(gait, loads)
@@ -514,6 +517,7 @@ def test_bent_stems_return_to_their_rest_shape():
     kind = replace(KINDS["meadow"], degrade_angle=np.pi, break_angle=4.0)
     sim = Simulation(Ground.flat(), "dry-sand", 0.01, plants=[Planting(kind, rectangle=(-0.5, -0.5, 1.0, 0.5))])
     gait, loads = gaits.pressed([gaits.box(0.28, 0.10, 0.1)], [[-0.6, 0, 0.12, 1, 0, 0, 0]], [[0, 0, -1]], seconds=12.0)
+    gait = gaits.writable(gait)
     gait.pose[:, :, 0] += np.minimum(gait.time, 1.0) * 1.5
     gait.pose[:, :, 2] = np.where(gait.time < 1.0, 0.12, 2.0)
     loads.touching[:, 60:] = 0

@@ -48,6 +48,7 @@ def rolled(soil, mass, law, heap):
     """The report of one foot that rolls from heel to toe under its whole weight."""
     gait, loads = gaits.pressed([FOOT], [AT_ORIGIN], [[0, 0, -mass * G]], mass=mass)
     tilt = np.linspace(0.15, -0.15, len(gait.time)) / 2
+    gait = gaits.writable(gait)
     gait.pose[0, :, 2] += 0.125 * np.abs(np.sin(2 * tilt))
     gait.pose[0, :, 3], gait.pose[0, :, 5] = np.cos(tilt), np.sin(tilt)
     sim = Simulation(Ground.flat(), soil, 0.01, law=law, heap=heap)

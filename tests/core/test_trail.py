@@ -47,6 +47,7 @@ def hill(hole=True):
 @pytest.mark.parametrize("ground", [Ground.flat(0.25), hill()], ids=["flat", "hill"])
 def test_two_walks_in_turn_are_one_walk_and_then_the_other_on_its_map(tmp_path, ground):
     first, second = gaits.strides(1.4), gaits.strides(1.4, y=0.06, shift=0.3)
+    first, second = ((gaits.writable(gait), loads) for gait, loads in (first, second))
     for gait, _ in (first, second):
         gait.pose[:, :, 2] += float(np.nanmax(ground.native[1])) if ground.name == "heights" else 0.25
     whole = walked(walked(Simulation(ground, "mud", CELL), first), second)

@@ -3,6 +3,7 @@
 They drive the core directly, with forces said and not computed, so that a test knows the answer.
 """
 
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -43,6 +44,15 @@ def sphere(radius, rings=24):
             a, b = j * n + i, j * n + (i + 1) % n
             faces += [[a, b, a + n], [b, b + n, a + n]]
     return Sole(corner, faces)
+
+
+def writable(record):
+    """A recording with arrays of its own that a test may change before anybody reads them."""
+    own = replace(record)
+    for each in fields(record):
+        if isinstance(getattr(record, each.name), np.ndarray):
+            object.__setattr__(own, each.name, np.array(getattr(record, each.name)))
+    return own
 
 
 def turn_z(angle):

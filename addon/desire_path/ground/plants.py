@@ -17,6 +17,7 @@ from types import MappingProxyType
 import numpy as np
 
 from .. import _native
+from ..arrays import read_only
 from ..bounds import PLANT_BYTES, Limits
 from ..errors import DesirePathError
 from ..files import record
@@ -343,17 +344,17 @@ class Planting:
                 raise DesirePathError("The weight of a planting needs rows and columns, and a rectangle to lie over.")
             if not (np.isfinite(weight).all() and weight.min() >= 0):
                 raise DesirePathError("The weight of a planting must be 0 to 1 everywhere: mend what is not.")
-            put("weight", weight)
+            put("weight", read_only(weight))
         if self.roots is not None:
             roots = np.ascontiguousarray(self.roots, np.float32)
             if roots.ndim != 2 or roots.shape[1] != 2 or not np.isfinite(roots).all():
                 raise DesirePathError(f"Roots of shape {roots.shape} cannot be planted: give finite x, y [m], (n, 2).")
-            put("roots", roots)
+            put("roots", read_only(roots))
         if self.vigour is not None:
             vigour = np.ascontiguousarray(self.vigour, np.float32)
             if self.roots is None or vigour.shape != (len(self.roots),) or not (abs(vigour) <= 8).all():
                 raise DesirePathError("The vigour of a planting needs roots, and one number from -8 to 8 for each.")
-            put("vigour", vigour)
+            put("vigour", read_only(vigour))
 
     def within(self, x0, y0, x1, y1):
         """Roots (n, 2) float32 [m] of the squares that a rectangle [m] meets: what may stand there."""

@@ -14,7 +14,7 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 
 from .. import _native
-from ..arrays import Record
+from ..arrays import Record, kept
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..files import atomic_file
@@ -54,6 +54,9 @@ class Ground(Record):
     native: tuple = field(repr=False)
     name: str = "ground"
     trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
+
+    def __post_init__(self):
+        object.__setattr__(self, "native", kept(tuple(self.native)))
 
     def __repr__(self):
         kind, *numbers = self.native

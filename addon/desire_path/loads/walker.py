@@ -9,7 +9,7 @@ from warnings import warn
 
 import numpy as np
 
-from ..arrays import Record
+from ..arrays import Record, kept
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion import freeze, jumps, tracks
@@ -71,6 +71,10 @@ class FootForce(Record):
     mean: np.ndarray | None = None  # mean vertical force of each walker (W,) [body weights]
     warnings: tuple = ()
     held: np.ndarray | None = None  # parts held in mid-step from these samples to the next press no deeper (P, T)
+
+    def __post_init__(self):
+        for name in ("time", "touching", "force", "point", "clearance", "mean", "held"):
+            object.__setattr__(self, name, kept(getattr(self, name)))
 
     def __repr__(self):
         parts, samples = np.shape(self.touching)

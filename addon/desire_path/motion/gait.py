@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..arrays import Record
+from ..arrays import Record, read_only
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..files import atomic_file, npz
@@ -50,8 +50,8 @@ class Sole(Record):
     triangles: np.ndarray  # (m, 3) i4
 
     def __post_init__(self):
-        object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, "f4"))
-        object.__setattr__(self, "triangles", np.ascontiguousarray(self.triangles, "i4"))
+        object.__setattr__(self, "vertices", read_only(np.ascontiguousarray(self.vertices, "f4")))
+        object.__setattr__(self, "triangles", read_only(np.ascontiguousarray(self.triangles, "i4")))
 
     def __repr__(self):
         return f"Sole({len(self.vertices)} vertices, {len(self.triangles)} triangles)"
@@ -83,11 +83,11 @@ class Gait(Record):
         for name, kind, _ in _NUMBERS:
             value = getattr(self, name)
             if not isinstance(value, TrackArray):
-                value = np.ascontiguousarray(value, kind)
+                value = read_only(np.ascontiguousarray(value, kind))
             object.__setattr__(self, name, value)
-        object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
-        object.__setattr__(self, "jump", np.array(self.jump, "i8").reshape(-1, 2))
-        object.__setattr__(self, "leg", np.array(self.leg, "f8").reshape(-1))
+        object.__setattr__(self, "cut", read_only(np.array(self.cut, "i8").reshape(-1)))
+        object.__setattr__(self, "jump", read_only(np.array(self.jump, "i8").reshape(-1, 2)))
+        object.__setattr__(self, "leg", read_only(np.array(self.leg, "f8").reshape(-1)))
         object.__setattr__(self, "soles", tuple(self.soles))
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in _NAMES:
