@@ -13,14 +13,18 @@ read alike. `Y` repeats a file's first map for programs that know no layers, as 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from .. import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class Map(NamedTuple):
@@ -51,7 +55,7 @@ LEAN = (  # beside them where plants grow
 )
 
 
-def channel(name):
+def channel(name: str) -> str:
     """What a map is called in a file; letters (R, Y ..) and names with a layer are channels already."""
     return name if len(name) < 2 or "." in name else name + LAYER
 
@@ -60,15 +64,19 @@ def channel(name):
 class Picture:
     """What a file holds: planes by name, float32 (ny, nx); notes by name, text or number."""
 
-    planes: dict
-    notes: dict
+    planes: dict[str, np.ndarray]
+    notes: dict[str, str | float]
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, int]:
         return next(iter(self.planes.values())).shape
 
 
-def write(path, planes, notes=()):
+def write(
+    path: str | os.PathLike[str],
+    planes: Mapping[str, ArrayLike],
+    notes: Mapping[str, str | float] | Iterable[tuple[str, str | float]] = (),
+) -> None:
     """Write planes to one file, whole or not at all; an old file stays when this fails.
 
     planes: dict of name -> (ny, nx) array, all of one shape.
@@ -86,8 +94,8 @@ def write(path, planes, notes=()):
     if len({grid.shape for grid in grids.values()}) > 1:
         shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
         raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
-    pairs = list(notes.items() if isinstance(notes, dict) else notes)
-    pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in pairs]
+    said = notes.items() if isinstance(notes, Mapping) else notes
+    pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in said]
     atomic_file.check(path, "The maps")
     try:
         _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs)
@@ -103,7 +111,7 @@ def write(path, planes, notes=()):
         ) from None
 
 
-def read(path):
+def read(path: str | os.PathLike[str]) -> Picture:
     """Read a flat OpenEXR file of any writer as a Picture."""
     path = os.fspath(path)
     try:
@@ -122,6 +130,6 @@ def read(path):
     return Picture({name.removesuffix(LAYER): grid for name, grid in zip(names, grids)}, dict(notes))
 
 
-def _clause(problem):
+def _clause(problem: Exception) -> str:
     """The core's words without the name of what it was doing."""
     return str(problem).split(": ", 1)[-1]

@@ -8,26 +8,31 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import _native
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True)
 class Near:
     """The triangles near a walk, and the points they need."""
 
-    low: tuple  # of all points of the mesh, in its own space
-    high: tuple
+    low: tuple[float, float, float]  # of all points of the mesh, in its own space
+    high: tuple[float, float, float]
     bad: int  # first point that is not finite, else -1; there is nothing more if there is one
     vertices: np.ndarray  # float64 (k, 3) [m]
     triangles: np.ndarray  # int32 (m, 3)
     of: np.ndarray  # int32 (k,): their numbers among all points
 
 
-def mark(arrays, words=()):
+def mark(arrays: Iterable[np.ndarray], words: object = ()) -> str:
     """A word for arrays, and for numbers and words in lists or by name: another one when any of them differs.
 
     What float64 arrays hold was calculated, by other machines and NumPys with other last digits: 1e-6 counts.
@@ -41,7 +46,14 @@ def mark(arrays, words=()):
     return digest.hexdigest()[:32]
 
 
-def near(points, corners, starts, sides, place, box=None):
+def near(
+    points: np.ndarray,
+    corners: np.ndarray,
+    starts: np.ndarray | None,
+    sides: int,
+    place: np.ndarray,
+    box: Sequence[float] | np.ndarray | None = None,
+) -> Near:
     """Cut the faces of 3 or 4 corners that reach into a box (x0, y0, x1, y1) [m] into triangles.
 
     starts: int32 (f + 1,), first corner of each face, or None where each has `sides`
@@ -56,18 +68,25 @@ def near(points, corners, starts, sides, place, box=None):
     return Near(low, high, bad, vertices.reshape(-1, 3), triangles.reshape(-1, 3), of)
 
 
-def are_quads(corners, corner_edges, edges):
+def are_quads(corners: np.ndarray, corner_edges: np.ndarray, edges: np.ndarray) -> bool:
     """Whether faces are quads alone, told by the edge from each corner to the next one, int32 (c,), and
     the points of the edges, int32 (e, 2)."""
     return _native.are_quads(corners, corner_edges, edges)
 
 
-def are_centres(vertices, cell, corner, most):
+def are_centres(vertices: ArrayLike, cell: float, corner: tuple[float, float], most: float) -> bool:
     """Whether all world points (n, 3) [m] lie within `most` cells of the centres of the cells they lie in."""
     return _native.are_centres(np.ascontiguousarray(vertices, np.float64), cell, *corner, most)
 
 
-def at_points(planes, cell, corner, points, place=None, still=0.0):
+def at_points(
+    planes: Mapping[str, np.ndarray],
+    cell: float,
+    corner: tuple[float, float],
+    points: np.ndarray,
+    place: np.ndarray | None = None,
+    still: float = 0.0,
+) -> dict[str, np.ndarray]:
     """What planes of cells say at points, between the centres of cells in proportion, 0 outside.
 
     planes: dict of name -> float32 (ny, nx); cell: their side [m]; corner: (x0, y0) of cell (0, 0) [m]

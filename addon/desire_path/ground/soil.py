@@ -1,8 +1,11 @@
 """Kinds of ground, MODEL 9.1: presets for looks, from the papers' tables, in SI units."""
 
+from __future__ import annotations
+
 import math
 import numbers
-from collections.abc import Mapping
+import os
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
 
@@ -24,7 +27,7 @@ class Soil:
     push_threshold: float = 0.0  # F_threshold, TRAIL (13) [N]; 0 = half the walker's weight
     shear_modulus: float = 0.0  # K, how far it shears before it carries sideways [m] 0..0.1; 0: soles do not slip
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for each in fields(self):
             value = getattr(self, each.name)
             if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -54,16 +57,16 @@ class Soil:
                 f"A soil's shear_modulus of {self.shear_modulus:g} cannot be used: choose 0 to 0.1 m."
             )
 
-    def save(self, path):
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Write this soil as JSON, whole or not at all; angles in radians, all else in SI units."""
         record.save(self, path, _TAG, _VERSION, "soil")
 
     @staticmethod
-    def load(path):
+    def load(path: str | os.PathLike[str]) -> Soil:
         """A soil that save() wrote; numbers it leaves out are those of Soil()."""
         return record.load(Soil, path, _TAG, _VERSION, "soil")
 
-    def changed(self, texts):
+    def changed(self, texts: Iterable[str]) -> Soil:
         """This soil with numbers from words `name=value`, such as young_modulus=2e6."""
         found = {}
         for text in texts:
@@ -78,7 +81,7 @@ class Soil:
         return replace(self, **found)
 
 
-def as_soil(soil):
+def as_soil(soil: str | Soil) -> Soil:
     """A Soil, the name of a preset, or the path of a file that Soil.save() wrote (.json), as a Soil."""
     if isinstance(soil, str):
         if soil in SOILS:
@@ -89,7 +92,7 @@ def as_soil(soil):
     return soil
 
 
-def _soil(megapascal, nu, rest_angle_deg, tau, shear=0.0):
+def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear: float = 0.0) -> Soil:
     return Soil(
         young_modulus=1e6 * megapascal,
         poisson_ratio=nu,

@@ -1,9 +1,17 @@
 """The line a walker follows over the ground: waypoints become a smooth curve, measured along itself."""
 
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ..errors import DesirePathError
 from ..files import table
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 ROUNDING = 0.3  # corners are rounded over about this length [m]
 STEP = 0.01  # distance of the curve's samples, where the path is not too long [m]
@@ -17,7 +25,7 @@ class Path:
     length [m]; has_height: the waypoints had a z. Corners are rounded off, ends stay where they are.
     """
 
-    def __init__(self, points):
+    def __init__(self, points: ArrayLike) -> None:
         points = _checked(points)
         legs = np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1)
         points = points[np.r_[True, legs > 1e-6]]
@@ -38,7 +46,7 @@ class Path:
         self.line = line
         self.bend = np.gradient(self.heading, self.s)
 
-    def backwards(self):
+    def backwards(self) -> Path:
         """The same curve from its end to its start."""
         other = object.__new__(Path)
         other.has_height, other.length = self.has_height, self.length
@@ -47,7 +55,7 @@ class Path:
         other.line, other.bend = self.line[::-1], -self.bend[::-1]
         return other
 
-    def at(self, s):
+    def at(self, s: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Places (.., 2) [m] and headings (..) [rad] at lengths s along the curve."""
         s = np.asarray(s, float)
         heading = np.interp(s, self.s, self.heading)
@@ -56,16 +64,16 @@ class Path:
         beyond = (s - inside)[..., None]
         return place + beyond * np.stack([np.cos(heading), np.sin(heading)], axis=-1), heading
 
-    def height(self, s):
+    def height(self, s: np.ndarray) -> np.ndarray:
         """Height of the curve [m]; level beyond its ends."""
         return np.interp(s, self.s, self.line[:, 2])
 
-    def bend_at(self, s):
+    def bend_at(self, s: np.ndarray) -> np.ndarray:
         """Curvature [1/m], positive to the left; straight beyond the ends."""
         return np.interp(s, self.s, self.bend, left=0.0, right=0.0)
 
 
-def _checked(points):
+def _checked(points: ArrayLike) -> np.ndarray:
     try:
         points = np.array(points, float)
     except (TypeError, ValueError):
@@ -87,7 +95,7 @@ def _checked(points):
     return points
 
 
-def _smoothed(line, sigma):
+def _smoothed(line: np.ndarray, sigma: float) -> np.ndarray:
     """The line under a Gaussian of so many samples; mirrored through its ends, so that they stay."""
     reach = min(int(np.ceil(3.0 * sigma)), len(line) - 1)
     if reach < 1:
@@ -100,7 +108,7 @@ def _smoothed(line, sigma):
     return np.stack([np.convolve(column, weight, "valid") for column in long.T], axis=1)
 
 
-def read(file):
+def read(file: str | os.PathLike[str]) -> np.ndarray:
     """Waypoints (n, 2 or 3) [m] of a table with the columns x,y or x,y,z."""
     names, rows = table.read(file, ("x", "y"), columns="x,y or x,y,z")
     columns = [names.index(name) for name in ("x", "y", "z") if name in names]

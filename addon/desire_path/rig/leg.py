@@ -3,6 +3,8 @@
 ankle -> target: the knee bends in the plane it bent in, the hips come down where legs are too short
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ..motion import rotation
@@ -12,12 +14,12 @@ FORWARD = 0.01  # a knee bends at least so far to its own side, in leg lengths: 
 ELBOW = 0.03  # legs whose middle is this far behind, in leg lengths, bend that way
 
 
-def length(hip, knee, ankle):
+def length(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray) -> np.ndarray:
     """Of a leg (T,)."""
     return np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1)
 
 
-def drop(hip, knee, ankle, target):
+def drop(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray, target: np.ndarray) -> np.ndarray:
     """How far hips have to come down for the ankle to reach its target (T,) >= 0; +Z is up."""
     most = np.maximum(STRETCH * length(hip, knee, ankle), np.linalg.norm(ankle - hip, axis=1))
     apart = target - hip
@@ -26,14 +28,14 @@ def drop(hip, knee, ankle, target):
     return np.maximum(-apart[:, 2] - hang, 0.0)
 
 
-def eased(down, frames):
+def eased(down: np.ndarray, frames: float) -> np.ndarray:
     """`down` (T,) never undercut, without jolts: its largest within `frames`, then the mean of those."""
     count = 2 * int(frames) + 1
     near = lambda values: np.lib.stride_tricks.sliding_window_view(np.pad(values, int(frames), mode="edge"), count)
     return near(near(down).max(axis=1)).mean(axis=1)
 
 
-def turn_between(one, other):
+def turn_between(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """The least turns that take unit vectors (T, 3) to others (T, 3, 3)."""
     axis = np.cross(one, other)
     cosine = np.sum(one * other, axis=1)
@@ -43,7 +45,9 @@ def turn_between(one, other):
     return np.eye(3) + cross + cross @ cross / np.maximum(1.0 + cosine, 1e-9)[:, None, None]
 
 
-def reach(hip, knee, ankle, target, ahead):
+def reach(
+    hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray, target: np.ndarray, ahead: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Turns of thigh and shank (T, 3, 3) each, and where the knee comes to be (T, 3).
 
     ahead (T, 3): where the foot points, for legs too straight to say where their knee bends.
@@ -72,6 +76,6 @@ def reach(hip, knee, ankle, target, ahead):
     return thigh, shank, new_knee
 
 
-def _between_frames(along, hinge, new_along, new_hinge):
+def _between_frames(along: np.ndarray, hinge: np.ndarray, new_along: np.ndarray, new_hinge: np.ndarray) -> np.ndarray:
     frame = lambda a, h: rotation.frame(h, a)  # z along the bone, x near the hinge
     return frame(new_along, new_hinge) @ np.swapaxes(frame(along, hinge), 1, 2)
