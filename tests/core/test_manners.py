@@ -143,6 +143,14 @@ def test_a_rectangle_that_bounds_tells_is_one_that_read_takes():
         flat.read("rest", flat.bounds())
 
 
+def test_cells_of_a_box_are_the_cells_it_was_made_of():
+    for cell, origin in ((0.01, (0.0, 0.0)), (0.03, (0.1, -0.7)), (0.007, (-3.3, 12.1))):
+        sim = Simulation(Ground.flat(), cell_size=cell, origin=origin)
+        for i in range(-300, 300, 7):
+            cells = (i, i + 1 + i % 5, 3 * i, 3 * i + 2)
+            assert sim.cells(sim.box(cells)) == cells
+
+
 def test_a_simulation_is_closed_at_the_end_of_its_block():
     with Simulation(Ground.flat()) as sim:
         assert sim.read("rest", 0, 0, 2, 2).shape == (2, 2)
