@@ -40,14 +40,12 @@ __getattr__, __dir__, __all__ = lazy.names(
     other=old_names.serve(__name__),
 )
 
+_blender = lazy.module(".blender", __name__)  # bpy is needed for this half alone
+
 
 def register():
-    from . import blender
-
-    blender.register()
+    _blender.register()
 
 
 def unregister():
-    from . import blender
-
-    blender.unregister()
+    _blender.unregister()

@@ -1,4 +1,4 @@
-"""Names of a package that are looked up when first asked for, so that importing it needs nothing but Python."""
+"""Names and modules that are looked up when first asked for: the one door through which anything is loaded late."""
 
 from importlib import import_module
 
@@ -19,3 +19,21 @@ def names(package, homes, other=lambda name: None):
         return sorted(homes)
 
     return __getattr__, __dir__, sorted(homes)
+
+
+class module:
+    """A module that is imported when it is first asked for an attribute; ImportError then, where it is not there.
+
+    For the core, for what a machine may lack, and for what is another room's work and only named here.
+    """
+
+    def __init__(self, name, package=None):
+        self.__dict__.update(_name=name, _package=package)
+
+    def __getattr__(self, name):
+        return getattr(load(self), name)
+
+
+def load(door):
+    """The module behind a door, imported now; ImportError where it is not there."""
+    return import_module(door._name, door._package)

@@ -9,7 +9,7 @@ from scenes import meshes, people
 from test_bake import refused
 from test_playback import shown
 
-from desire_path.blender import op_walkers, sample
+from desire_path.blender import chosen, sample
 
 RATE = 24
 
@@ -179,4 +179,4 @@ def test_who_is_no_rigid_body_is_told_what_to_do(folder):
     empty = meshes.link(bpy.data.objects.new("Nothing", bpy.data.meshes.new("Nothing")))
     meshes.activate(empty)
     refused(bpy.ops.object.desire_path_walker_add, "no faces")
-    assert op_walkers.walkers(bpy.context.scene, ground) == []
+    assert chosen.walkers(bpy.context.scene, ground) == []

@@ -13,7 +13,7 @@ from test_sample import ids
 
 import desire_path
 from desire_path.bake import output
-from desire_path.blender import axes, compat, home, op_bake, playback
+from desire_path.blender import axes, bake_job, compat, home, playback
 
 
 def keys(obj):
@@ -194,7 +194,7 @@ def test_files_that_are_gone(folder):
 
 def test_soles_of_few_cells_are_told_before_anything_is_written(folder):
     ground, _ = scene(folder, frames=8, cell=0.06)
-    job = op_bake.Job(bpy.context.scene, ground)
+    job = bake_job.Job(bpy.context.scene, ground)
     steps = job.run()
     while not job.early:
         assert job.bake is None
@@ -208,7 +208,7 @@ def test_soles_of_few_cells_are_told_before_anything_is_written(folder):
 
 def stopped(after):
     """Bake, stopped as ESC does after so many steps of writing."""
-    job = op_bake.Job(bpy.context.scene, bpy.context.object)
+    job = bake_job.Job(bpy.context.scene, bpy.context.object)
     steps = job.run()
     while job.fraction < after:
         next(steps)

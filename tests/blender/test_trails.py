@@ -11,7 +11,7 @@ from test_plants import everything, grown, picture, roots
 from test_playback import fresh
 
 from desire_path.bake import bake
-from desire_path.blender import compat, op_bake, plants, playback, stems, way
+from desire_path.blender import compat, home, paths, plants, playback, stems
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
 from desire_path.ground.plants import KINDS
@@ -260,18 +260,18 @@ def test_waypoints_of_curves_meshes_and_empties():
     line.location, line.scale = (1.0, 0.0, 0.5), (2.0, 1.0, 1.0)
     wanted = np.column_stack([np.array(PLACES) * (2.0, 1.0) + (1.0, 0.0), np.full(3, 0.5)])
     bpy.context.view_layer.update()
-    np.testing.assert_allclose(way.waypoints(here, line), wanted, atol=1e-6)
+    np.testing.assert_allclose(paths.waypoints(here, line), wanted, atol=1e-6)
     mesh = bpy.data.meshes.new("edges")
     mesh.from_pydata([(*PLACES[1], 0), (*PLACES[2], 0), (*PLACES[0], 0)], [(0, 1), (2, 0)], [])
     obj = meshes.link(bpy.data.objects.new("edges", mesh))
-    np.testing.assert_allclose(way.waypoints(here, obj)[::-1, :2], PLACES, atol=1e-6)
+    np.testing.assert_allclose(paths.waypoints(here, obj)[::-1, :2], PLACES, atol=1e-6)
     root = meshes.link(bpy.data.objects.new("stations", None))
     for name, at in zip(("b", "a", "c"), (PLACES[1], PLACES[0], PLACES[2])):
         child = meshes.link(bpy.data.objects.new(name, None))
         child.parent, child.location = root, (*at, 0.0)
     bpy.context.view_layer.update()
     here.unit_settings.scale_length = 0.1
-    np.testing.assert_allclose(way.waypoints(here, root)[:, :2], np.array(PLACES) * 0.1, atol=1e-6)
+    np.testing.assert_allclose(paths.waypoints(here, root)[:, :2], np.array(PLACES) * 0.1, atol=1e-6)
     bare = meshes.link(bpy.data.objects.new("bare", bpy.data.curves.new("bare", "CURVE")))
     for at in ((0.0, 5.0), (1.0, 5.0)):  # beside the line that was there, another
         line.data.splines.new("POLY").points[0].co = (*at, 0.0, 1.0)
@@ -280,7 +280,7 @@ def test_waypoints_of_curves_meshes_and_empties():
     net = meshes.grid(4, 4, 0.5, name="net")  # one way leads through all of it, but no line is meant
     for odd, words in ((bare, "no length"), (line, "not one line"), (net, "not one line")):
         try:
-            way.waypoints(here, odd)
+            paths.waypoints(here, odd)
         except DesirePathError as problem:
             assert words in str(problem)
         else:
@@ -332,7 +332,7 @@ def test_walkers_with_and_without_paths_go_in_turn(folder):
     assert bake.read_index(str(folder / "bake")).frames == 3
     told = [each for each in json.loads(ground.desire_path.summary)["warnings"] if "no path" in each]
     assert len(told) == 1 and f"'{walker.name}' has 7 passes" in told[0]
-    assert op_bake.folder(ground) == str(folder / "bake") and not plants.stale(ground)
+    assert home.folder(ground) == str(folder / "bake") and not plants.stale(ground)
 
 
 FRESH = """

@@ -17,7 +17,7 @@ desire_path.register()
 from scenes import meshes, people  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
-from desire_path.blender import op_bake, op_forces, playback, state  # noqa: E402
+from desire_path.blender import bake_job, op_forces, playback, state  # noqa: E402
 from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
@@ -38,7 +38,7 @@ def press_bake():
     screen = window().screen
     with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
         assert bpy.ops.object.desire_path_bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    assert op_bake.running() is not None
+    assert bake_job.running() is not None
     assert not bpy.ops.object.desire_path_free.poll()
 
 
@@ -91,13 +91,13 @@ def story():
     # ESC: what was baked stays and plays
     sim.Film.write_frame = slowly
     press_bake()
-    yield from until(lambda: op_bake.running() is None or op_bake.running().fraction > 0.3)
-    job = op_bake.running()
+    yield from until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.3)
+    job = bake_job.running()
     assert job is not None and job.fraction < 0.9, "it ran in one go"
     shot("baking")
     for value in ("PRESS", "RELEASE"):
         window().event_simulate(type="ESC", value=value, x=10, y=10)
-    yield from until(lambda: op_bake.running() is None)
+    yield from until(lambda: bake_job.running() is None)
     ground = bpy.data.objects["Ground"]
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 18
@@ -107,15 +107,15 @@ def story():
 
     # the Cancel button, then once more to the end
     press_bake()
-    yield from until(lambda: op_bake.running() is None or op_bake.running().fraction > 0.6)
+    yield from until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.6)
     assert bpy.ops.object.desire_path_cancel() == {"FINISHED"}
-    yield from until(lambda: op_bake.running() is None)
+    yield from until(lambda: bake_job.running() is None)
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 36, index
     sim.Film.write_frame = write_frame
     yield 0.3
     press_bake()
-    yield from until(lambda: op_bake.running() is None)
+    yield from until(lambda: bake_job.running() is None)
     ground = bpy.data.objects["Ground"]
     assert bake.read_index(str(FOLDER / "bake")).complete
     assert not ground.desire_path.missing and "contacts" in ground.desire_path.summary

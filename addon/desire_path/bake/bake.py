@@ -27,8 +27,9 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from .. import _native, bounds
+from .. import bounds
 from ..bounds import Limits
+from ..core import _native
 from ..errors import DesirePathError
 from ..ground import parcels as fields
 from ..ground import plant_mesh

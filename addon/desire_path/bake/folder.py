@@ -11,7 +11,7 @@ import os
 import struct
 from dataclasses import dataclass, field
 
-from .. import _native
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)

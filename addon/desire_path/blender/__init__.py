@@ -8,6 +8,7 @@ from . import (
     handlers,
     op_bake,
     op_forces,
+    op_ground,
     op_place,
     op_plants,
     op_walk_it,
@@ -19,7 +20,8 @@ from . import (
 )
 
 _CLASSES = (
-    op_walkers.CLASSES
+    op_ground.CLASSES
+    + op_walkers.CLASSES
     + op_bake.CLASSES
     + op_forces.CLASSES
     + op_place.CLASSES

@@ -3,6 +3,9 @@
 import bpy
 import numpy as np
 
+from ..ground import mesh as meshes
+from .drawing import gpu
+
 # a path property takes Blender's `//` only when it says so, where it can say so
 RELATIVE = (
     {"PATH_SUPPORTS_BLEND_RELATIVE"}
@@ -92,8 +95,6 @@ def _ints(mesh, name, out):
 
 def _are_quads(mesh, corners):
     """Whether all faces are known to be quads; asking each face would take longer than all else."""
-    from ..ground import mesh as meshes  # the core is loaded when it is first needed
-
     around, edges = np.empty(len(corners), np.int32), np.empty((len(mesh.edges), 2), np.int32)
     return (
         _ints(mesh, ".corner_edge", around)
@@ -250,8 +251,6 @@ def use_action(animation, action, slot=None):
 
 def flat_shader():
     """The shader that fills with one colour, and how many numbers its positions have."""
-    import gpu
-
     try:
         return gpu.shader.from_builtin("UNIFORM_COLOR"), 3
     except ValueError:

@@ -8,6 +8,8 @@ import os
 
 import numpy as np
 
+from ..ground import maps
+from ..ground import mesh as meshes
 from . import axes, compat, playback, soils
 
 LEVELS = 1024  # of a weight in a vertex group
@@ -60,8 +62,6 @@ def fill(obj, surface, index, depth, planes, standing=()):
 def values(obj, surface, index, planes, standing):
     """What the planes say at the points of an object that lies as the ground does, by name, float32 (n,) each; those
     that are zero all over are left out."""
-    from ..ground import mesh as meshes
-
     mesh = obj.data
     value = meshes.at_points(
         {name: plane for name, plane in planes.items() if plane.any()},
@@ -155,8 +155,6 @@ def is_of_points(sentence):
 
 def _apart(points, index, printed):
     """How far points lie apart where the prints are, infinite where there is none [cells]."""
-    from ..ground import mesh as meshes
-
     there = np.count_nonzero(
         meshes.at_points({"printed": printed}, index.cell, (index.x0, index.y0), points, still=1.0)["printed"]
     )
@@ -165,8 +163,6 @@ def _apart(points, index, printed):
 
 def planes(index):
     """The maps after the last frame that is there, by name."""
-    from ..ground import maps
-
     final = os.path.join(os.path.dirname(index.folder), "maps_final.exr")
     if index.complete and os.path.exists(final):
         found = maps.read(final).planes

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import compat
+from .drawing import batch, blf, gpu
 
 COLOURS = (
     (0.35, 0.66, 0.95),
@@ -97,10 +98,6 @@ def _step(span, most):
 
 
 def draw(context, name, forces, frame, row):
-    import blf
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
     region, scale = context.region, context.preferences.system.ui_scale
     made = layout(forces, name, frame, (region.width, region.height), scale, row)
     if not made.lines:
@@ -113,14 +110,14 @@ def draw(context, name, forces, frame, row):
         corners = [(*each, 0.0)[:room] for each in corners]
         flat.bind()
         flat.uniform_float("color", colour)
-        batch_for_shader(flat, "TRI_STRIP", {"pos": corners}).draw(flat)
+        batch.batch_for_shader(flat, "TRI_STRIP", {"pos": corners}).draw(flat)
     for points, colour, width in made.lines:
         line.bind()
         line.uniform_float("viewportSize", (region.width, region.height))
         line.uniform_float("lineWidth", width * scale)
         line.uniform_float("color", colour)
         strip = [(float(x), float(y), 0.0) for x, y in points]
-        batch_for_shader(line, "LINE_STRIP", {"pos": strip}).draw(line)
+        batch.batch_for_shader(line, "LINE_STRIP", {"pos": strip}).draw(line)
     gpu.state.blend_set("NONE")
     for x, y, text, colour, where in made.labels:
         blf.size(0, LETTERS * scale)

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..placement import cycle
 from . import axes, clock, compat, moves, posing, sample
 
 SOURCE = "desire_path_carried_from"  # on an action of ours: name of the one it was made from, "" where there was none
@@ -23,8 +24,6 @@ def is_carried(armature):
 
 def carry(scene, armature):
     """Let a character whose clip walks in place go ahead; returns a sentence, empty where there was nothing to do."""
-    from ..placement import cycle  # the core is loaded when it is first needed
-
     if is_carried(armature):
         return ""
     first, last = moves.frame_range(scene, armature)

@@ -11,6 +11,10 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground import mesh as meshes
+from ..ground.sim import Ground, Simulation
+from ..placement import place
+from ..rig import slope
 from . import axes, compat, playback, sample, stack
 from . import soils as soils_of
 
@@ -52,8 +56,6 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     """
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
-    from ..ground.sim import Ground  # the core is loaded when it is first needed
-
     scale = axes.unit_scale(scene)
     warnings = []
     groups = [each.vertex_group for each in obj.desire_path.painted]
@@ -145,15 +147,11 @@ def _same(one, other):
 
 def _near(mesh, place, box):
     """The faces of a mesh that reach into a box; place: from its own space to the world (4, 4) [m]."""
-    from ..ground import mesh as meshes
-
     return meshes.near(compat.positions(mesh), *compat.faces(mesh), place[:3], box)
 
 
 def _mark(mesh, place, weights):
     """A word for all of a mesh, where it is, and what is painted on it."""
-    from ..ground import mesh as meshes
-
     corners, _, _ = compat.faces(mesh)
     there = [each for each in weights if each is not None]
     return meshes.mark([compat.positions(mesh), corners, *there], [len(mesh.polygons), place.tolist()])
@@ -204,15 +202,11 @@ def _cell_corner(vertices, cell):
 
 def smooth(vertices, cell, corner):
     """Whether points lie between the centres of cells, so that playback must interpolate."""
-    from ..ground import mesh as meshes
-
     return not meshes.are_centres(vertices, cell, corner, playback.ALIGNED)
 
 
 def land(surface, cell):
     """A Simulation of a ground's shape alone, to ask for heights and slopes; its soils do not matter."""
-    from ..ground.sim import Ground, Simulation
-
     shape = surface.ground.native[:3]
     return Simulation(Ground((*shape, None), surface.ground.name), cell_size=cell)
 
@@ -221,9 +215,6 @@ def walked(scene, walkers, gait, below, frame_start, frame_end):
     """A recording as it is on a ground, `below` a Simulation of it: feet that lie on slopes have soles that do, and
     the feet of walkers that ask for it are placed."""
     asks = [row for row, each in enumerate(walkers) if each.desire_path.place_feet]
-    from ..placement import place
-    from ..rig import slope
-
     if slope.steep(below, gait):
         gait = sample.gaits(scene, walkers, frame_start, frame_end, below)
     return place.place_feet(gait, below, walkers=asks) if asks else gait

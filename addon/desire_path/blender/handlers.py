@@ -10,16 +10,15 @@ from contextlib import suppress
 import bpy
 from bpy.app.handlers import persistent
 
+from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import ground, home, op_forces, op_plants, overrides, playback, show, soils, state, trash, watch
+from . import ground, home, op_forces, overrides, playback, replant, show, soils, state, trash, watch
 
 _unsaved = False  # whether the file that is being saved never was before
 
 
 def refresh(scene, obj):
     """Let a ground play its bake folder as it is now; nothing to do when it already does."""
-    from ..bake.bake import read_index
-
     settings = obj.desire_path
     if obj.library is not None:  # its own file looks after it
         return
@@ -78,7 +77,7 @@ def after_undo(*_):
                 with suppress(DesirePathError):  # it stays, and nothing shows it
                     trash.again(home.folder(obj), obj.desire_path.bake_id)
             with suppress(DesirePathError):  # the next bake says what is wrong
-                op_plants.refresh(scene, obj)
+                replant.refresh(scene, obj)
         watch.all_of(scene)
 
 

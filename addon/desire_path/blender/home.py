@@ -15,9 +15,10 @@ import uuid
 
 import bpy
 
+from ..bake.folder import owner_of
 from ..errors import DesirePathError
-from . import playback, props
-from .op_walkers import grounds
+from . import auto, playback
+from .chosen import grounds
 
 _temporary = ""  # where bakes of files that were never saved go
 _holder = {}  # id -> the object that had it first in this session, whatever copies are called
@@ -94,8 +95,6 @@ def beside():
 
 def default(obj):
     """Where an object's bake goes when nobody chose: a place that no other bake has."""
-    from ..bake.folder import owner_of
-
     name, own = bpy.path.clean_name(obj.name), obj.desire_path.bake_id
     taken = {
         folder(other)
@@ -114,8 +113,6 @@ def default(obj):
 
 def fits(obj):
     """Whether a folder nobody chose may stay: it is this file's, and no other ground has its bake there."""
-    from ..bake.folder import owner_of
-
     settings = obj.desire_path
     return (
         settings.folder.startswith(f"{beside()}/")
@@ -174,8 +171,6 @@ def _session(obj):
 
 def may_free(obj):
     """Whether the bake in a ground's folder is its own, or nobody's in a folder chosen by hand."""
-    from ..bake.folder import owner_of
-
     if lost(obj) or sharing(obj):
         return False
     owner = owner_of(folder(obj))
@@ -199,7 +194,7 @@ def settle(obj):
     if not is_own(obj):
         settings.bake_id = _fresh_id(obj)
     if not settings.folder or settings.folder_auto and not fits(obj):
-        props.set_auto(settings, folder=default(obj))
+        auto.set_auto(settings, folder=default(obj))
     settings.bake_file, settings.bake_seen = _file(), _seen_from(folder(obj))
     sign(obj)
 
@@ -212,8 +207,6 @@ def sign(obj):
 
 def claim(obj):
     """The folder a ground may bake into, with an id of its own; or a sentence that says whose it is."""
-    from ..bake.folder import owner_of
-
     settings = obj.desire_path
     settle(obj)
     if lost(obj):
@@ -241,8 +234,6 @@ def forget():
 
 def move_in(obj):
     """Let the bake of a ground whose file was just saved for the first time move beside it."""
-    from ..bake.folder import owner_of
-
     settings = obj.desire_path
     old = folder(obj)
     there = owner_of(old) == settings.bake_id and not sharing(obj)
@@ -258,11 +249,9 @@ def move_in(obj):
 
 def find(obj):
     """Go to where the bake was moved, after undo brought back the folder it was in."""
-    from ..bake.folder import owner_of
-
     settings = obj.desire_path
     if settings.folder_auto and settings.bake_id and not fits(obj) and owner_of(folder(obj)) != settings.bake_id:
         old, place = folder(obj), default(obj)
         if owner_of(bpy.path.abspath(place)) == settings.bake_id:
-            props.set_auto(settings, folder=place)
+            auto.set_auto(settings, folder=place)
             playback.repoint(old, place)

@@ -9,9 +9,13 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
+from ..bake.bake import Bake
 from ..errors import DesirePathError
+from ..ground import mesh, parcels
+from ..ground.parcels import Parcel
+from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, ground, plants, reach, sample, way
+from . import axes, ground, paths, plants, reach, sample
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 
@@ -22,10 +26,6 @@ def taken(scene, company, folders, **more):
 
     company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for Bake
     """
-    from ..bake.bake import Bake  # the core is loaded when it is first needed
-    from ..ground.parcels import Parcel
-    from ..ground.sim import check_cell
-
     grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
     settings = grounds[0].desire_path
     check(grounds, walkers)
@@ -33,14 +33,14 @@ def taken(scene, company, folders, **more):
     for each in cells:
         check_cell(each)
     cell = min(cells)
-    if way.goes(walkers):
+    if paths.goes(walkers):
         found = {}
 
         def land(box):
             found.update(_read(scene, company, cell, box))
             return _land(found, None, cell)
 
-        gait = way.carried(scene, walkers, first, last, land)
+        gait = paths.carried(scene, walkers, first, last, land)
         last = None  # every pass is shown
     else:
         gait = company.gait or sample.gaits(scene, walkers, first, last)
@@ -108,8 +108,6 @@ def marks(obj, company, made, found):
 
     made, found: the Bake and its Surfaces, as taken() gives them
     """
-    from ..ground import mesh
-
     gait, settings = made.gait, obj.desire_path
     walk = [
         gait.time,
@@ -188,9 +186,6 @@ def _land(found, gait, cell):
     """A Simulation of the shape of surfaces; of those over each other the ones that feet tread most."""
     if len(found) == 1:
         return ground.land(*found.values(), cell)
-    from ..ground import parcels
-    from ..ground.sim import Simulation
-
     there = [parcels.Parcel(each.ground, name=name) for name, each in found.items()]
     if gait is not None:
         there = [there[number] for number in parcels.storeys(there, gait)[0]]

@@ -12,7 +12,7 @@ import re
 
 import bpy
 
-from . import clock, compat, playback, props
+from . import auto, clock, compat, playback
 
 # modifiers that change a mesh with time, and nodes that do
 BY_TIME = {
@@ -81,7 +81,7 @@ def follow(scene, ground, walkers):
     """The same, shown in the panel from now on."""
     first, last = frames(scene, ground, walkers)
     if ground.desire_path.frames_auto:
-        props.set_auto(ground.desire_path, frame_start=first, frame_end=last)
+        auto.set_auto(ground.desire_path, frame_start=first, frame_end=last)
     return first, last
 
 

@@ -15,8 +15,11 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
+from ..loads import report, walker
 from . import axes, force_graph, ground, moves, reach, ride, sample, soils
-from .op_walkers import WALKERS, Refusal, active, walkers
+from .chosen import WALKERS, walkers
+from .drawing import batch, gpu
+from .ops import Refusal, active
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
 WIDTH = 3.0  # of a line [pixel]
@@ -75,8 +78,6 @@ class Reading:
 
 def read(scene, armature):
     """A Reading of what an armature does now."""
-    from ..loads import walker
-
     settings = armature.desire_path
     land = settings.ground
     first, last = (
@@ -99,8 +100,6 @@ def read(scene, armature):
 
 def limbs(gait, loads, scale, below=None):
     """Loads of parts as Forces of limbs, of a recording of one walker. below: height of the ground at (n, 2)."""
-    from ..loads import report
-
     count = len(gait.limb_walker)
     force = np.zeros((count, len(loads.time), 3))
     touching = np.zeros(force.shape[:2], bool)
@@ -208,16 +207,13 @@ def _draw():
 
 
 def _draw_lines(context, lines, colour):
-    import gpu
-    from gpu_extras.batch import batch_for_shader
-
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("viewportSize", (context.region.width, context.region.height))
     shader.uniform_float("lineWidth", WIDTH * context.preferences.system.ui_scale)
     shader.uniform_float("color", colour)
     gpu.state.blend_set("ALPHA")
-    batch_for_shader(shader, "LINES", {"pos": lines.tolist()}).draw(shader)
+    batch.batch_for_shader(shader, "LINES", {"pos": lines.tolist()}).draw(shader)
     gpu.state.blend_set("NONE")
 
 
@@ -274,8 +270,6 @@ def _redraw():
 
 def keep(obj, reading):
     """Keep what the forces came to on the walker, for the panel."""
-    from ..loads import report
-
     (told,) = report.summary(reading.gait, reading.loads)
     obj.desire_path.forces = json.dumps(told)
     return told
@@ -363,8 +357,6 @@ class _Report(_Forces):
     )
 
     def work(self, context):
-        from ..loads import report, walker
-
         obj = context.object
         reading = self.read(context)
         told = keep(obj, reading)

@@ -14,11 +14,13 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
+from ..bake import bake as baking
 from ..errors import DesirePathError
-from ..placement import place
+from ..loads import walker
+from ..placement import place, settle_feet
 from ..rig import slope
 from . import axes, compat, controls, footing, home, moves, playback, posing, reach, sample
-from .op_walkers import Refusal, active
+from .ops import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
 OFF = 0.02  # a foot this far from its place was held back, in leg lengths
@@ -36,10 +38,6 @@ def frames_of(scene, armature, land):
 
 def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
-    from ..bake import bake as baking
-    from ..loads import walker
-    from ..placement import settle_feet
-
     gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
     below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level

@@ -1,72 +1,18 @@
 """op_plants.py - plants are put on a ground and taken off it."""
 
-import functools
-from contextlib import contextmanager, suppress
-
 import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
-from . import picture, plants, props
-from .op_walkers import Refusal
-
-DELAY = 0.25  # of the grass behind a number that is dragged [s]
-
-
-_waiting = {}  # ground's name -> what the timer calls
-_quiet = False
-
-
-@contextmanager
-def quietly():
-    """Set numbers of plants without putting them anew at each."""
-    global _quiet
-    _quiet = True
-    try:
-        yield
-    finally:
-        _quiet = False
-
-
-def changed(obj):
-    """A number of a ground's plants was changed: put them anew, in a window once it rests."""
-    if _quiet:
-        return
-    if bpy.app.background:
-        _replant(obj.name)
-        return
-    before = _waiting.pop(obj.name, None)
-    if before is not None and bpy.app.timers.is_registered(before):
-        bpy.app.timers.unregister(before)
-    _waiting[obj.name] = functools.partial(_replant, obj.name)
-    bpy.app.timers.register(_waiting[obj.name], first_interval=DELAY)
-
-
-def _replant(name):
-    obj = bpy.data.objects.get(name)
-    if obj is None or not obj.desire_path.is_ground or obj.mode == "EDIT":
-        return
-    with suppress(DesirePathError):  # half typed; the next bake or Update says what is wrong
-        refresh(bpy.context.scene, obj)
-
-
-def refresh(scene, obj):
-    """Put those plants anew whose numbers have changed; returns sentences."""
-    late = plants.stale(obj)
-    if not late:
-        return []
-    told = plants.plant(scene, obj, late)
-    from . import show
-
-    show.show_plants(obj)
-    return told
+from . import picture, plants, props, show
+from .bake_job import idle_ground
+from .ops import Refusal
+from .replant import quietly
 
 
 class _OfGround(Refusal):
     @classmethod
     def poll(cls, context):
-        from .op_bake import idle_ground
-
         if not idle_ground(cls, context):
             return False
         if not context.object.desire_path.is_ground:
@@ -156,8 +102,6 @@ class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
         plants.forget(each)
         each.grass = plants.grass.make(obj, each.kind)
         plants.plant(context.scene, obj, [each])
-        from . import show
-
         show.show_plants(obj)
         return {"FINISHED"}
 
@@ -170,8 +114,6 @@ class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def work(self, context):
-        from . import show
-
         obj = context.object
         context.view_layer.update()
         for sentence in plants.plant(context.scene, obj):

@@ -7,8 +7,11 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..motion import size
+from ..placement import cycle
 from . import axes, forward, ground, moves, sample
-from .op_walkers import Refusal, grounds
+from .chosen import grounds
+from .ops import Refusal
 
 MARGIN = 1.0  # a ground that is made reaches this far beyond the feet, in leg lengths
 CELL = 0.011  # side of a cell, in leg lengths: 1 cm for a person
@@ -120,9 +123,6 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
 
 def make_ground(context, gaits):
     """A plane under recordings, as low as their feet come."""
-    from ..motion import size
-    from ..placement import cycle  # the core is loaded when it is first needed
-
     scale = axes.unit_scale(context.scene)
     boxes = np.array([ground.under(each) for each in gaits])
     floor = min(cycle.floor(each) for each in gaits)
@@ -143,8 +143,6 @@ def make_ground(context, gaits):
 
 def cell_for(gaits):
     """A round cell size that suits the smallest walker of recordings [m]: 1, 2 or 5 times a power of ten."""
-    from ..motion import size
-
     wanted = CELL * min(float(size.legs(each).min()) for each in gaits)
     power = 10.0 ** np.floor(np.log10(wanted))
     return axes.typed(

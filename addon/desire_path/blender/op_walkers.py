@@ -1,128 +1,14 @@
-"""op_walkers.py - grounds and walkers are chosen, and a walk is recorded to a file."""
+"""op_walkers.py - walkers are chosen with their feet, and a walk is recorded to a file."""
 
 import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ..errors import DesirePathError
 from ..rig import rigs
-from . import axes, moves, plants, playback, props, sample, worn
-
-WALKERS = {"ARMATURE", "MESH"}
-
-
-class Refusal:
-    """Operators that tell what is wrong in one sentence."""
-
-    def execute(self, context):
-        try:
-            return self.work(context)
-        except (DesirePathError, OSError, MemoryError) as problem:
-            self.report({"ERROR"}, sentence(problem))
-            return {"CANCELLED"}
-
-
-class AsksFirst:
-    """Operators that give up the bake of the active ground: in a window they ask."""
-
-    def invoke(self, context, event):
-        obj = context.object
-        if bpy.app.background or context.window is None or obj.type != "MESH" or playback.modifier(obj) is None:
-            return self.execute(context)
-        ask = context.window_manager.invoke_confirm
-        words = {
-            "title": f"Free the bake of '{obj.name}'?",
-            "confirm_text": "Free",
-            "message": "Undo brings it back until the file is saved or closed.",
-        }
-        known = bpy.types.WindowManager.bl_rna.functions["invoke_confirm"].parameters
-        return ask(self, event, **{name: text for name, text in words.items() if name in known})
-
-
-def sentence(problem):
-    if isinstance(problem, MemoryError):
-        return "There is not enough memory: choose a larger cell size or fewer frames."
-    return str(problem)
-
-
-def active(cls, context, kind, words, *, changed=True):
-    """Whether the active object is of a type (or of several), not being edited and, where it will be changed, of this
-    file; else poll's message."""
-    obj = context.object
-    if obj is None or obj.type not in kind:
-        cls.poll_message_set(f"Select {words} first")
-        return False
-    if obj.mode == "EDIT":
-        cls.poll_message_set("Leave Edit Mode first")
-        return False
-    if changed and obj.library is not None:
-        cls.poll_message_set(
-            f"'{obj.name}' is linked from another file: make a library override of it "
-            "(Object > Library Override > Make), or open that file"
-        )
-        return False
-    return True
-
-
-def grounds(scene):
-    return [obj for obj in scene.objects if obj.type == "MESH" and obj.desire_path.is_ground]
-
-
-def walkers(scene, ground):
-    """Who walks on a ground: armatures, and meshes that move as rigid bodies, unless renders leave them out."""
-    return [obj for obj in _chosen(scene, ground) if worn.walks(scene, obj)]
-
-
-def absent(scene, ground):
-    """Sentences about walkers of a ground that renders leave out."""
-    return [
-        f"'{obj.name}' is off in renders, by itself or by its collection, and leaves no prints."
-        for obj in _chosen(scene, ground)
-        if not worn.walks(scene, obj)
-    ]
-
-
-def _chosen(scene, ground):
-    return [
-        obj
-        for obj in scene.objects
-        if obj.type in WALKERS and obj.desire_path.is_walker and obj.desire_path.ground == ground
-    ]
-
-
-class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
-    """Make the active mesh a ground in which walkers leave prints"""
-
-    bl_idname = "object.desire_path_ground_add"
-    bl_label = "Add Ground"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        obj = context.object
-        if obj is not None and obj.type == "EMPTY" and obj.instance_collection is not None:
-            cls.poll_message_set(
-                f"'{obj.name}' shows instances of a collection: make them real (Object > Apply > Make "
-                "Instances Real) and select the mesh that is walked on"
-            )
-            return False
-        return active(cls, context, {"MESH"}, "the mesh that is walked on")
-
-    def work(self, context):
-        from . import home
-
-        obj, scene = context.object, context.scene
-        if not len(obj.data.polygons) and not obj.modifiers:
-            raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
-        settings = obj.desire_path
-        settings.is_ground = True
-        home.settle(obj)
-        if settings.frames_auto:
-            props.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
-        text = f"'{obj.name}' is a ground"
-        if not bpy.data.filepath and settings.folder_auto:
-            text += f"; until the file is saved its bake goes to the temporary folder {settings.folder}"
-        self.report({"INFO"}, text + ".")
-        return {"FINISHED"}
+from . import axes, moves, plants, sample
+from .chosen import WALKERS, grounds, walkers
+from .ops import AsksFirst, Refusal, active
+from .show import free
 
 
 def detect(scene, obj, keep=False):
@@ -302,8 +188,6 @@ class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
         return obj is not None and obj.mode != "EDIT" and (obj.desire_path.is_ground or obj.desire_path.is_walker)
 
     def work(self, context):
-        from .op_bake import free
-
         obj = context.object
         settings = obj.desire_path
         if settings.is_ground:
@@ -354,53 +238,11 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_desire_path_paint_add(bpy.types.Operator):
-    """Add a soil that lies where a vertex group is painted"""
-
-    bl_idname = "object.desire_path_paint_add"
-    bl_label = "Add Painted Soil"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"MESH"}, "a ground") and context.object.desire_path.is_ground
-
-    def execute(self, context):
-        obj = context.object
-        settings = obj.desire_path
-        each = settings.painted.add()
-        if obj.vertex_groups.active is not None:
-            each.vertex_group = obj.vertex_groups.active.name
-        settings.painted_index = len(settings.painted) - 1
-        return {"FINISHED"}
-
-
-class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
-    """Remove the painted soil from the list; the vertex group stays"""
-
-    bl_idname = "object.desire_path_paint_remove"
-    bl_label = "Remove Painted Soil"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"MESH"}, "a ground") and bool(context.object.desire_path.painted)
-
-    def execute(self, context):
-        settings = context.object.desire_path
-        settings.painted.remove(settings.painted_index)
-        settings.painted_index = max(0, min(settings.painted_index, len(settings.painted) - 1))
-        return {"FINISHED"}
-
-
 CLASSES = (
-    OBJECT_OT_desire_path_ground_add,
     OBJECT_OT_desire_path_walker_add,
     OBJECT_OT_desire_path_rig_detect,
     OBJECT_OT_desire_path_foot_add,
     OBJECT_OT_desire_path_foot_remove,
     OBJECT_OT_desire_path_remove,
     OBJECT_OT_desire_path_record,
-    OBJECT_OT_desire_path_paint_add,
-    OBJECT_OT_desire_path_paint_remove,
 )

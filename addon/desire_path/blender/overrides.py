@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import bpy
 
-from . import compat, op_plants
+from . import compat, replant
 
 KEPT = "desire_path_overrides"  # on a scene: what each of them was told, as JSON by name
 
@@ -72,7 +72,7 @@ def told(group):
 def tell(group, kept):
     """Set those that differ; whatever follows by itself last, since setting something by hand ends that."""
     kinds = type(group).__annotations__
-    with op_plants.quietly():
+    with replant.quietly():
         for name in sorted((each for each in kinds if each in kept), key=lambda name: name.endswith("_auto")):
             value, kind = kept[name], kinds[name].function
             if kind is bpy.props.CollectionProperty:

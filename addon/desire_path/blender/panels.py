@@ -5,8 +5,8 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import op_bake, plants, soils, state, tufts
-from .op_walkers import walkers
+from . import bake_job, plants, soils, state, tufts
+from .chosen import walkers
 
 
 def _column(layout):
@@ -57,7 +57,7 @@ def draw_ground(layout, context, obj):
     if not there:
         box.label(text="None: select one and press Add Walker", icon="INFO")
 
-    job = op_bake.running()
+    job = bake_job.running()
     if job is not None:
         row = layout.row(align=True)
         if hasattr(row, "progress"):

@@ -4,6 +4,7 @@ import json
 
 import bpy
 
+from ..loads.report import sentences
 from . import op_forces
 from .panels import _column, _letters, _lines, _Physics, _Sidebar
 
@@ -46,8 +47,6 @@ def draw_forces(layout, context, obj):
     row.operator("object.desire_path_forces_write", text="Tables", icon="EXPORT")
     if not settings.forces:
         return
-    from ..loads.report import sentences
-
     told, width = json.loads(settings.forces), _letters(context)
     column = layout.column(align=True)
     for each in sentences(told):

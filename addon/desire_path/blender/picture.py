@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground.sim import Ground, Simulation
 from . import compat
 
 BRIGHT = np.array((0.2126, 0.7152, 0.0722), np.float32)  # of red, green, blue, Rec. 709
@@ -82,8 +83,6 @@ class Lay:
         """Image coordinates (n, 2) of places (n, 2) [m] at which the ground is so high (n,) [m]."""
         if self.uv is None:
             return (at - self.low) / self.size
-        from ..ground.sim import Ground, Simulation
-
         # each face is raised by a hair of its own, so that the height tells which of them is seen from above
         corner = self.vertices[self.triangles]
         hair = 1e-4 / len(corner)

@@ -12,6 +12,8 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..ground import tuft
+from ..ground.plants import KINDS, Kind, Planting
+from ..ground.sim import Ground, Simulation
 from . import axes, compat, grass, ground, picture, playback, sample, stack
 
 MOST = 1_000_000  # plants of one planting that are shown
@@ -22,8 +24,6 @@ SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
 
 def kind(name):
     """A kind by its name, or from the JSON file a user saved one in."""
-    from ..ground.plants import KINDS, Kind  # the core is loaded when it is first needed
-
     if name in KINDS:
         return KINDS[name]
     if not name:
@@ -62,8 +62,6 @@ class Bed:
 
     def __init__(self, scene, obj, chosen, frame):
         """chosen: the plantings it is read for"""
-        from ..ground.sim import Ground, Simulation
-
         self.scale = axes.unit_scale(scene)
         groups = [name for name in dict.fromkeys(each.density_group for each in chosen) if name]
         self.light = {
@@ -129,8 +127,6 @@ class Bed:
         Plants are placed as dense as a power of two times the kind's own density and thinned from
         there, so that another density takes plants away or adds some and leaves the others alone.
         """
-        from ..ground.plants import Planting
-
         weight = self.spread(each).weight
         size = self.high - self.low
         density = axes.typed(each.density)

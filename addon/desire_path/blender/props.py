@@ -11,7 +11,8 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import compat, picture, soils
+from ..ground.plants import KINDS
+from . import compat, forward, picture, replant, soils, state, watch
 
 
 def is_ground(_self, obj):
@@ -35,20 +36,14 @@ def _folder_by_hand(self, _context):
 
 
 def _is_carried(self):
-    from . import forward
-
     return forward.is_carried(self.id_data)
 
 
 def _carry(self, on):
-    from . import forward
-
     forward.switch(self.id_data, on)
 
 
 def _show_anew(self, _context):
-    from . import watch
-
     watch.mark(self.id_data)
 
 
@@ -77,15 +72,11 @@ class DesirePathPaint(bpy.types.PropertyGroup):
 
 
 def kinds(_self, _context, _text):
-    from ..ground.plants import KINDS  # the core is loaded when it is first needed
-
     return list(KINDS)
 
 
 def _replant(self, context):
-    from . import op_plants
-
-    op_plants.changed(self.id_data)
+    replant.changed(self.id_data)
 
 
 @overridable
@@ -275,15 +266,11 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     @property
     def bake_state(self):
         """What has become of the bake, NONE, FRESH, OUTDATED, PARTIAL or MISSING: found anew whenever asked for."""
-        from . import state
-
         return state.ask(self.id_data).state
 
     @property
     def missing(self):
         """The same in a sentence, which says what to do; empty where all is well."""
-        from . import state
-
         return state.ask(self.id_data).text
 
     # ---- a walker
@@ -367,14 +354,6 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     )
     forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
-
-
-def set_auto(settings, **values):
-    """Set what follows by itself, without taking it for a choice made by hand."""
-    for name, value in values.items():
-        setattr(settings, name, value)
-        flag = "folder_auto" if name == "folder" else "frames_auto"
-        setattr(settings, flag, True)
 
 
 overridable(soils.DesirePathSoil)

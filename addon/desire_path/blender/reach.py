@@ -10,9 +10,13 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground import parcels
+from ..ground import parcels as fields
+from ..ground.parcels import Parcel
+from ..ground.sim import Simulation
 from ..motion.gait import Gait
-from . import axes, ground, moves, props, ride, sample, way, worn
-from .op_walkers import grounds, walkers
+from . import auto, axes, ground, moves, paths, ride, sample, worn
+from .chosen import grounds, walkers
 
 ROUGH = 0.5  # a ground this near to the feet is looked at [m]
 LOOKS = 8  # at how many frames grounds are looked at to see whether they move together ..
@@ -138,9 +142,6 @@ def company(scene, obj):
 
 def under(scene, walker, home, gait, frame):
     """(a Simulation of what lies below the recording of a walker of a ground, grounds it treads besides, sentences)."""
-    from ..ground import parcels
-    from ..ground.sim import Simulation
-
     cell = axes.typed(home.desire_path.cell_size)
     near = others(scene, home)
     track = _Track(walker, frame, frame, gait, parcels.around(gait), parcels.length(gait))
@@ -163,7 +164,7 @@ def follow(company):
     """Show the frames of a company in the panels of its grounds from now on, until they are set by hand."""
     for each in company.grounds:
         if each.desire_path.frames_auto:
-            props.set_auto(each.desire_path, frame_start=company.first, frame_end=company.last)
+            auto.set_auto(each.desire_path, frame_start=company.first, frame_end=company.last)
 
 
 def _frames(chosen, crew):
@@ -174,14 +175,12 @@ def _frames(chosen, crew):
 
 
 def _track(scene, walker, home, all_walkers):
-    from ..ground import parcels  # the core is loaded when it is first needed
-
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
         gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
-        line = way.waypoints(scene, walker.desire_path.path, first)
+        line = paths.waypoints(scene, walker.desire_path.path, first)
         return _Track(
             walker,
             first,
@@ -208,8 +207,6 @@ def _beside(line, wide):
 
 def _parcel(scene, obj, tracks):
     """The shape of a ground near the tracks; None: it is not near any."""
-    from ..ground.parcels import Parcel
-
     scale = axes.unit_scale(scene)
     seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     world = np.array(seen.matrix_world, np.float64) * scale
@@ -243,8 +240,6 @@ def _parcel(scene, obj, tracks):
 def _trodden(tracks, parcels):
     """The grounds each walker goes over: those that are nearest to its feet in height somewhere. Of two in the same
     place it treads its own."""
-    from ..ground import parcels as fields
-
     grounds_there = list(parcels)
     found = {}
     for track in tracks:

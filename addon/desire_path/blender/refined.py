@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from ..ground import refine  # the core is loaded with it: this file is imported when a bake is shown
+from ..ground import refine
 from . import axes, compat, cover, ground, private, stack
 
 TAG = "desire_path_refined"  # custom property on our objects

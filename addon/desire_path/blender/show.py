@@ -2,8 +2,10 @@
 
 import os
 
+from ..bake.bake import read_index
+from ..bake.output import MAPS_ALWAYS, is_whole
 from ..errors import DesirePathError
-from . import cover, ground, home, plants, playback, stems, trash
+from . import cover, ground, home, plants, playback, refined, stems, trash
 from .home import folder
 
 
@@ -13,9 +15,6 @@ def play(scene, obj, surface, baked=None):
 
     baked: the final maps by name, where the bake was made just now and is whole
     """
-    from ..bake.bake import read_index
-    from . import refined  # which loads the core
-
     settings = obj.desire_path
     index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
@@ -65,8 +64,6 @@ def play(scene, obj, surface, baked=None):
 def plays_on(obj, index):
     """Whether a ground goes on with what it plays: the whole bake in its folder, whose index this is, or a whole one
     from elsewhere as long as the one in its folder is not."""
-    from ..bake.bake import read_index
-
     ours, place = playback.modifier(obj), home.played(obj)
     if ours is None or not place:
         return False
@@ -80,8 +77,6 @@ def plays_on(obj, index):
 
 def show_plants(obj):
     """Let the grass of a ground follow what it plays."""
-    from ..bake.bake import read_index
-
     plants.show(obj, read_index(folder(obj)) if playback.modifier(obj) is not None else None)
 
 
@@ -100,8 +95,6 @@ def missing(index):
 
 def lost(index):
     """What is gone from beside the frames of a whole bake, in one sentence; empty where nothing is."""
-    from ..bake.output import MAPS_ALWAYS
-
     above = os.path.dirname(index.folder)
     gone = [name for name in MAPS_ALWAYS if not os.path.exists(os.path.join(above, name))]
     return (
@@ -111,8 +104,6 @@ def lost(index):
 
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
-    from ..bake.output import is_whole
-
     return is_whole(index.folder)
 
 

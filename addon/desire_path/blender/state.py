@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
+from ..bake.bake import read_index
 from ..errors import DesirePathError
 from . import compat, home, inputs, playback, show
-from .op_walkers import walkers
+from .chosen import walkers
 from .private import looked_at
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
@@ -44,8 +45,6 @@ class Told:
 
 def found(obj):
     """What has become of the bake of a ground, looked up anew."""
-    from ..bake.bake import read_index
-
     settings = obj.desire_path
     plays = playback.modifier(obj) is not None
     if not settings.is_ground or not plays and (not settings.folder or home.lost(obj)):

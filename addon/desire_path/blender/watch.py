@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
+from ..bake.bake import read_index
 from ..errors import DesirePathError
 from . import axes, compat, cover, ground, home, playback, show, stack
 
@@ -59,8 +60,6 @@ def _applied(obj, made_for, was, before, now):
 
 def _again(scene, obj, world):
     """Play anew, on a ground that was at a place when it was baked."""
-    from ..bake.bake import read_index
-
     try:
         index = read_index(home.played(obj))
         surface = ground.read(scene, obj, index.cell, index.frame_start)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .. import _native
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
 

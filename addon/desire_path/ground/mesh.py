@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import _native
+from ..core import _native
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import DesirePathError
-from ..loads.walker import point_places
+from ..motion.points import point_places
 from .plants import as_plantings
 from .sim import Ground, Simulation, as_soils
 

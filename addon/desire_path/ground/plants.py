@@ -16,9 +16,9 @@ from types import MappingProxyType
 
 import numpy as np
 
-from .. import _native
 from ..arrays import read_only
 from ..bounds import PLANT_BYTES, Limits
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _native
+from ..core import _native
 from ..errors import DesirePathError
 
 BLOCK = 4  # cells on the edge of the squares that wishes are for

@@ -13,9 +13,9 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from .. import _native
 from ..arrays import Record, kept
 from ..bounds import Limits
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion.tracks import TrackArray

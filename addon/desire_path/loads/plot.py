@@ -7,9 +7,12 @@ import os
 
 import numpy as np
 
+from .. import lazy
 from ..errors import DesirePathError
 from ..files import atomic_file
 from .walker import GRAVITY
+
+_figure = lazy.module("matplotlib.figure")  # a machine may lack it
 
 KINDS = (".png", ".pdf", ".svg")
 COLOURS = ("#1f6fb4", "#c4501b", "#2f8f4e", "#8a4fb0", "#a8861a", "#4b8f9c")
@@ -37,7 +40,7 @@ def spans(touching, time):
 def figure(gait, loads):
     """A Matplotlib figure: a graph for each walker, a line for each foot, its contacts shaded."""
     try:
-        from matplotlib.figure import Figure
+        Figure = lazy.load(_figure).Figure
     except ImportError:
         raise DesirePathError(
             "Drawing forces needs Matplotlib, which is not here: install it with "

@@ -10,10 +10,12 @@ from warnings import warn
 import numpy as np
 
 from ..arrays import Record, kept
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion import freeze, jumps, tracks
 from ..motion import size as sizes
+from ..motion.points import point_places
 
 RATE = 240.0  # a person's loads are found at this rate at least, the least multiple of the recording's own [1/s]
 PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carries and takes no print
@@ -102,15 +104,6 @@ def _numbers(defaults, chosen):
     return np.array([float({**defaults, **(chosen or {})}[name]) for name in defaults])
 
 
-def point_places(gait):
-    """World positions of the contact points (K, T, 3)."""
-    pose = gait.pose[gait.point_part]
-    u, w = pose[..., 4:], pose[..., 3:4]
-    p = np.broadcast_to(gait.point[:, None], u.shape)
-    t = 2.0 * np.cross(u, p)
-    return pose[..., :3] + p + w * t + np.cross(u, t)
-
-
 def ground_below(gait, ground):
     """Height of the ground below each contact point (K, T) [m].
 
@@ -156,8 +149,6 @@ def _frames(gait):
 
 
 def _find_contacts(gait, below, limits, frame_rate):
-    from .. import _native
-
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = np.zeros(len(gait.point))
     limits = {"frame_time": 1.0 / frame_rate, **(limits or {})}
@@ -270,8 +261,6 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
 
 def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell):
     """loads() of walkers of one size, in one turn."""
-    from .. import _native
-
     size = gait.leg[0] / sizes.LEG
     even, every = _even(gait, size)
     below = _on_even(gait, even, ground)

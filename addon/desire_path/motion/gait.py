@@ -10,12 +10,18 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from .. import lazy
 from ..arrays import Record, read_only
 from ..bounds import Limits
+from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file, npz
-from . import tracks
+from . import freeze, size, tracks
 from .tracks import TrackArray
+
+# what carries a recording elsewhere knows recordings: Gait.carried and Gait.along only name it
+_cycle = lazy.module("..placement.cycle", __package__)
+_passes = lazy.module("..placement.passes", __package__)
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
 
@@ -373,8 +379,6 @@ class Gait(Record):
     @staticmethod
     def join(gaits):
         """Several walkers of the same time base as one recording."""
-        from . import size
-
         gaits = list(gaits)
         if not gaits:
             raise DesirePathError("There is no walker to record: choose an armature first.")
@@ -422,8 +426,6 @@ class Gait(Record):
 
         A pose that is held in mid-step is held, and the motion on either side of it is one: see freeze.
         """
-        from . import freeze
-
         if not (np.isfinite(rate) and rate > 0):
             raise DesirePathError(f"A rate of {rate:g} samples a second cannot be used: give one above 0.")
         if len(self.cut):
@@ -433,8 +435,6 @@ class Gait(Record):
 
     def evenly(self, rate):
         """resample() of a recording without cuts and holds."""
-        from .. import _native
-
         asked = (self.time[-1] - self.time[0]) * rate + 1.0
         Limits().check("memory", asked * (24.0 * len(self.mass) + 56.0 * len(self.part_limb)))
         count = _native.resample_count(self.time[0], self.time[-1], float(rate))
@@ -446,9 +446,7 @@ class Gait(Record):
 
     def carried(self):
         """Walkers that walk in place carried ahead by their own speed; itself if there are none."""
-        from ..placement import cycle
-
-        return cycle.carried(self)
+        return _cycle.carried(self)
 
     def along(
         self,
@@ -467,9 +465,7 @@ class Gait(Record):
 
         lateral [m], timing, stride: how far passes scatter; pause between them [s]: see passes.along().
         """
-        from ..placement import passes as walked
-
-        return walked.along(
+        return _passes.along(
             self,
             path,
             passes,
@@ -504,8 +500,6 @@ class Gait(Record):
 
     def _resampled_tracks(self, rate):
         """Each piece for those who are there."""
-        from .. import _native
-
         times, coms, poses, at = [], [], [], 0
         owner = self.limb_walker[self.part_limb]
         for first, after in self.pieces():

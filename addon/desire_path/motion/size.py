@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .points import point_places
 from .tracks import TrackArray
 
 LEG = 0.86  # from the hip joints to the ankles of a grown person [m]
@@ -35,8 +36,6 @@ def legs(gait):
 
 def _tall(gait):
     """How high the mass centre of each walker rises over its feet [m]; 0 for a thing."""
-    from ..loads.walker import point_places
-
     height, owner = point_places(gait)[..., 2], gait.limb_walker[gait.part_limb[gait.point_part]]
     return [
         float((gait.com[w, :, 2] - height[owner == w].min(axis=0)).max()) if (gait.limb_walker == w).sum() > 1 else 0.0

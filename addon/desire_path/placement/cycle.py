@@ -13,6 +13,7 @@ from ..errors import DesirePathError
 from ..loads import walker
 from ..motion import rotation
 from ..motion import size as sizes
+from ..motion.points import point_places
 
 RATE = 120.0  # cycles are found at this rate or a finer one [1/s]
 IN_PLACE = 0.25  # feet that slide back faster while they are low belong to a clip in place [m/s]
@@ -56,7 +57,7 @@ def _belt(gait, w):
         gait = gait.resample(RATE)
     mine = np.flatnonzero(gait.limb_walker[gait.part_limb[gait.point_part]] == w)
     leg = sizes.legs(gait)[w] / sizes.LEG
-    at, time, com = walker.point_places(gait)[mine] / leg, gait.time / np.sqrt(leg), gait.com[w] / leg
+    at, time, com = point_places(gait)[mine] / leg, gait.time / np.sqrt(leg), gait.com[w] / leg
     rush = np.gradient(at, time, axis=1)
     rush[:, np.r_[gait.cut, gait.cut - 1]] = np.nan
     limb = gait.part_limb[gait.point_part[mine]]
@@ -210,7 +211,7 @@ def _ahead_axis(gait):
 
 def floor(gait):
     """Height of the ground a clip walks on [m]: where its contact points are at their lowest."""
-    return float(np.median(walker.point_places(gait)[..., 2].min(axis=1)))
+    return float(np.median(point_places(gait)[..., 2].min(axis=1)))
 
 
 def _closed(gait, rate, first, last, touch):
@@ -292,7 +293,7 @@ def _stood(cycle):
     thrice = replace(gait, time=np.arange(3 * count) / cycle.rate, com=com[None], pose=pose, cut=(), warnings=())
     level = floor(thrice)
     on, clearance = walker.contacts(thrice, level)
-    points = walker.point_places(thrice)[..., :2]
+    points = point_places(thrice)[..., :2]
     hold = int(round(HOLD * cycle.rate))
     stand = np.zeros((len(gait.limb_walker), count, 2))
     for limb in range(len(gait.limb_walker)):

@@ -9,9 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground.sim import Ground, Simulation
 from ..loads import walker as walks
 from ..motion import rotation, stays
 from ..motion import size as sizes
+from ..motion.points import point_places
 from ..rig import leg
 
 REACH = 0.20  # d_max: feet this high over the ground are as recorded [m]
@@ -47,8 +49,6 @@ def place_feet(
     feet rest. foot_radius, body_radius: over which the ground is smoothed [m], None: a foot's length, half
     the height of the mass centre. walkers: their indices, None: all.
     """
-    from ..ground.sim import Ground, Simulation
-
     gait.check()
     land = Simulation(ground) if isinstance(ground, Ground) else ground
     if not isinstance(land, Simulation):
@@ -122,7 +122,7 @@ def _calm(values, frames):
 def carries(gait, land, row):
     """Was this walker recorded on a level floor rather than on this ground?"""
     own = _points_of(gait, row)
-    places = walks.point_places(gait)[own]
+    places = point_places(gait)[own]
     flat = places[..., 2]
     over = flat - land.rest_height(places[..., :2].reshape(-1, 2)).reshape(flat.shape)
     small = min(1.0, _foot_length(gait, row) / GROWN)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground import maps
 from ..loads.plot import foot_loads
 from ..motion import rotation
 
@@ -27,8 +28,6 @@ class Film:
 
     def at(self, frame, xy):
         """(height change (n,), compression (n,)) [m] at a scene frame and places (n, 2); zero beside it."""
-        from ..ground import maps
-
         index = self.index
         number = min(max(int(round(frame)) - index.frame_start + 1, 0), index.frames)
         if number != self.number:

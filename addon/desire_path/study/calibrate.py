@@ -15,10 +15,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import _native
+from .. import lazy
+from ..core import _native
 from ..errors import DesirePathError
 from ..ground.plants import YEAR, as_kind, share_below
 from . import trampling
+
+_optimize = lazy.module("scipy.optimize")  # a machine may lack it
 
 TOUGH = 1e6  # a reserve that does not end
 SEEDS = (101, 102)  # of the lanes that are fitted to; use others to judge a fit
@@ -59,7 +62,7 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     stems break by wear alone, and what did not break recovers in two weeks.
     """
     try:
-        from scipy import optimize
+        optimize = lazy.load(_optimize)
     except ImportError:
         raise DesirePathError(
             "Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "

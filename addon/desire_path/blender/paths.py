@@ -1,4 +1,4 @@
-"""way.py - walkers that go along a curve, as often as wanted, instead of where their keys lead them.
+"""paths.py - walkers that go along a curve, as often as wanted, instead of where their keys lead them.
 
 path object --waypoints--> passes.along --in turn--> one recording, baked a frame a pass
 """
@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..placement.passes import in_turn
 from . import axes, clock, ground, sample
 
 BESIDE = 1.0  # ground this far beside the path is read, and five times the scatter [m]
@@ -112,8 +113,6 @@ def carried(scene, walkers, first, last, read):
 
     Who has no path walks once as keyed. The walkers go one after the other, pass by pass.
     """
-    from ..placement.passes import in_turn
-
     alone = [sample.record(scene, each, first, last) for each in walkers]
     lines = [
         waypoints(scene, each.desire_path.path, first) if each.desire_path.path is not None else None

@@ -1,0 +1,171 @@
+"""bake_job.py - one bake of one ground, in steps, and the one that runs in a window.
+
+    walkers --sample--> Gait --\\
+                                Bake --> files --> playback, attributes, vertex groups
+    ground mesh --read---------/
+The mesh is touched once, at the end.
+"""
+
+import json
+import time
+from contextlib import closing
+
+import bpy
+
+from ..bake.bake import read_index
+from ..bake.output import check_idle
+from ..bounds import Limits
+from ..errors import DesirePathError
+from . import home, inputs, moves, paths, reach, replant, sample, trash
+from .chosen import absent, walkers
+from .home import folder
+from .ops import active
+from .show import play, plays_on
+
+NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
+_running = None  # the Job that runs in a window, for the panel and its Cancel button
+
+
+def running():
+    """The Job that runs in a window, or None."""
+    return _running
+
+
+def run(job):
+    """Note which Job runs in a window; None: it has come to its end."""
+    global _running
+    _running = job
+
+
+class Job:
+    """One bake of one ground, in steps. Datablocks are looked up by name: undo replaces them."""
+
+    def __init__(self, scene, obj):
+        self.scene_name, self.name = scene.name, obj.name
+        self.fraction, self.text, self.cancelled = 0.0, "Recording the walkers", False
+        self.warnings, self.early = [], []
+        self.bake = None
+        settings = obj.desire_path
+        if not settings.is_ground:
+            raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
+        there = walkers(scene, obj)
+        if not there and not any(walkers(scene, each) for each in reach.others(scene, obj)):
+            raise DesirePathError(" ".join(absent(scene, obj)) or NOBODY.format(obj.name))
+        self.warnings += absent(scene, obj)
+        inputs.check((obj,), there)
+        first, last = moves.follow(scene, obj, there)
+        if there and last <= first:
+            raise DesirePathError(
+                f"The frames {first} to {last} of '{obj.name}' hold no motion: set an end after the start."
+            )
+        Limits().check("frames", last - first + 1)
+        check_idle(home.claim(obj))
+        self.begun = time.perf_counter()
+        self.walkers = [each.name for each in there]
+
+    def object(self):
+        obj = bpy.data.objects.get(self.name)
+        if obj is None:
+            raise DesirePathError(f"'{self.name}' is gone: bake again when it is back.")
+        return obj
+
+    def run(self):
+        """Steps; between two of them the user may do something else."""
+        yield
+        scene, obj = bpy.data.scenes[self.scene_name], self.object()
+        there = [bpy.data.objects.get(name) for name in self.walkers]
+        if None in there:
+            raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake again.")
+        company = yield from reach.company(scene, obj)
+        if not company.walkers:
+            raise DesirePathError(NOBODY.format(obj.name))
+        folders = [(home.claim(each), each.desire_path.bake_id) for each in company.grounds]
+        for path, _ in folders:
+            check_idle(path)
+        reach.follow(company)
+        for each in company.walkers:
+            sample.poses(each)
+        made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
+        for each, parcel in zip(company.grounds, made.parcels):
+            parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
+        self.early += made.warnings
+        self.warnings += made.warnings  # what is told of the walkers themselves comes before what follows from it
+        for each in self.surfaces.values():
+            self.warnings += each.warnings
+        self.warnings += [*company.warnings, *inputs.told(company), *paths.warnings(company.walkers)]
+        for each in company.grounds:
+            self.warnings += replant.refresh(scene, each)
+        yield
+        for path, _ in folders:
+            trash.drop(path)  # another bake takes its place
+        self.bake = made
+        self.text = "Baking"
+        with closing(self.bake.run()) as frames:
+            for progress in frames:
+                self.fraction = progress.fraction
+                self.text = f"Baking frame {progress.frame}"
+                yield
+
+    def finish(self):
+        """Play what was baked and say what it is; returns a sentence."""
+        if self.bake is None:
+            return "Nothing was baked."
+        settings = self.object().desire_path
+        if self.bake.report is None:
+            self.play()
+            settings.summary = ""
+            return settings.missing or "Stopped."
+        spent = round(time.perf_counter() - self.begun, 3)
+        self.warnings += [each for each in self.bake.report["warnings"] if each not in self.warnings]
+        shares = self.bake.shares
+        for share in shares:
+            obj = bpy.data.objects.get(share.parcel.name)
+            if obj is None:
+                raise DesirePathError(f"'{share.parcel.name}' is gone: bake again when it is back.")
+            index, warnings = play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name], share.final)
+            self.warnings += warnings
+            obj.desire_path.summary = json.dumps(
+                {name: share.report[name] for name in ("contacts", "deepest_m", "pressed_m3", "heaped_m3")}
+                | {
+                    "seconds_in_all": spent,
+                    "frames": [index.frame_start, index.frame_end],
+                    "with": share.report.get("with", []),
+                    "warnings": self.warnings,
+                }
+            )
+        names = [share.parcel.name for share in shares]
+        if self.name not in names:
+            self.warnings.append(f"No foot has trodden '{self.name}': it is as it was.")
+        report = self.bake.report
+        return (
+            f"Baked frames {index.frame_start} to {index.frame_end}{_on(names)} in {spent:.1f} s: "
+            f"{report['contacts']} contacts, deepest print {1000 * report['deepest_m']:.0f} mm; files in "
+            f"{', '.join(share.out.folder for share in shares)}."
+        )
+
+    def play(self):
+        """Play what a bake that was not whole has left, on all its grounds that play no whole one."""
+        for share in self.bake.shares:
+            obj = bpy.data.objects.get(share.parcel.name)
+            if obj is not None:
+                try:
+                    if not plays_on(obj, read_index(folder(obj))):
+                        play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name])
+                except DesirePathError:
+                    pass  # nothing was written
+
+
+def _on(names):
+    """Names of several grounds as a sentence has them; empty for one."""
+    if len(names) < 2:
+        return ""
+    *some, last = (f"'{name}'" for name in names)
+    return f" on {', '.join(some)} and {last}"
+
+
+def idle_ground(operator, context):
+    """Whether a mesh is active and nothing bakes; else the button says why not."""
+    if _running is not None:
+        operator.poll_message_set("A bake is running")
+        return False
+    return active(operator, context, {"MESH"}, "the ground")

@@ -1,0 +1,59 @@
+"""ops.py - what operators have in common: sentences where they refuse, and when they can be pressed."""
+
+import bpy
+
+from ..errors import DesirePathError
+from . import playback
+
+
+class Refusal:
+    """Operators that tell what is wrong in one sentence."""
+
+    def execute(self, context):
+        try:
+            return self.work(context)
+        except (DesirePathError, OSError, MemoryError) as problem:
+            self.report({"ERROR"}, sentence(problem))
+            return {"CANCELLED"}
+
+
+class AsksFirst:
+    """Operators that give up the bake of the active ground: in a window they ask."""
+
+    def invoke(self, context, event):
+        obj = context.object
+        if bpy.app.background or context.window is None or obj.type != "MESH" or playback.modifier(obj) is None:
+            return self.execute(context)
+        ask = context.window_manager.invoke_confirm
+        words = {
+            "title": f"Free the bake of '{obj.name}'?",
+            "confirm_text": "Free",
+            "message": "Undo brings it back until the file is saved or closed.",
+        }
+        known = bpy.types.WindowManager.bl_rna.functions["invoke_confirm"].parameters
+        return ask(self, event, **{name: text for name, text in words.items() if name in known})
+
+
+def sentence(problem):
+    if isinstance(problem, MemoryError):
+        return "There is not enough memory: choose a larger cell size or fewer frames."
+    return str(problem)
+
+
+def active(cls, context, kind, words, *, changed=True):
+    """Whether the active object is of a type (or of several), not being edited and, where it will be changed, of this
+    file; else poll's message."""
+    obj = context.object
+    if obj is None or obj.type not in kind:
+        cls.poll_message_set(f"Select {words} first")
+        return False
+    if obj.mode == "EDIT":
+        cls.poll_message_set("Leave Edit Mode first")
+        return False
+    if changed and obj.library is not None:
+        cls.poll_message_set(
+            f"'{obj.name}' is linked from another file: make a library override of it "
+            "(Object > Library Override > Make), or open that file"
+        )
+        return False
+    return True
