@@ -138,6 +138,10 @@ def test_rooms_hold(tmp_path):
         ("addon/desire_path/ground/sim.py", "from desire_path import maps\n", "import relatively"),
         ("addon/desire_path/blender/a.py", "from .. import _native\n", "leave _native"),
         ("addon/desire_path/blender/a.py", "import threading\n", "threading stays out"),
+        ("addon/desire_path/rig/a.py", "from concurrent.futures import ThreadPoolExecutor\n", "concurrent stays out"),
+        ("addon/desire_path/rig/a.py", "def f():\n    import math\n", "a.py:2: import at the top"),
+        ("addon/desire_path/rig/a.py", 'b = lazy.module("..bake.bake", __package__)\n', "may not come late"),
+        ("addon/desire_path/rig/a.py", 'b = lazy.module("bpy")\n', "stays free of bpy"),
     ],
 )
 def test_rooms_fall(tmp_path, path, text, words):
@@ -175,6 +179,25 @@ def test_names_that_files_share_begin_with_dp(tmp_path, text, code):
     subprocess.run(["ar", "rc", built / "libdp_soil.a", tmp_path / "heap.c.o"], check=True)
     told = run("rooms", "--quiet", "--root", tmp_path)
     assert told.returncode == code and ("heap.c: stray is seen" in told.stderr) == bool(code), told.stderr
+
+
+@pytest.mark.parametrize(
+    "files, words",
+    [
+        ({"rig/a.py": "from . import b\n", "rig/b.py": "from .a import C\n"}, "rig/a.py, addon/desire_path/rig/b.py"),
+        (
+            {"rig/a.py": "from ..bake import b\n", "bake/b.py": "", "bake/c.py": "from ..rig import d\n"},
+            "rooms bake, rig",
+        ),
+    ],
+)
+def test_circles_fall(tmp_path, files, words):
+    for name, text in files.items():
+        file = tmp_path / "addon" / "desire_path" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    told = run("rooms", "--quiet", "--root", tmp_path)
+    assert told.returncode == 1 and words in told.stderr and "each needs the others" in told.stderr
 
 
 def test_every_script_helps():

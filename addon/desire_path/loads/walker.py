@@ -1,16 +1,14 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), MODEL 4.2 and 4.3."""
 
 import csv
-import os
 import re
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from warnings import warn
 
 import numpy as np
 
 from ..arrays import Record, kept
-from ..core import _native
+from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion import freeze, jumps, tracks
@@ -429,8 +427,7 @@ def _side_by_side(turns, find, ground):
     if callable(ground) or len(turns) == 1:
         yield from ((turn, find(turn)) for turn in turns)
         return
-    with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
-        yield from zip(turns, workers.map(find, turns))
+    yield from zip(turns, side_by_side(find, turns))
 
 
 def _standing(gait, turns):

@@ -10,13 +10,12 @@ Needs SciPy, which nothing else here does: pip install desire-path[fit].
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import lazy
-from ..core import _native
+from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..ground.plants import YEAR, as_kind, share_below
 from . import trampling
@@ -118,8 +117,7 @@ class _Lanes:
             if self.progress:
                 self.progress((base + sum(share.values()) / len(share)) / self.all)
 
-        with ThreadPoolExecutor(len(self.seeds)) as workers:
-            return list(workers.map(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds))
+        return list(side_by_side(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds, len(self.seeds)))
 
     def bent(self):
         """For each count, how long each bend and those below it were bent [s], all seeds together."""

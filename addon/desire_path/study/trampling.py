@@ -7,13 +7,12 @@ grows again before it is read.
 
 import csv
 import math
-import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from ..core import side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, table
 from ..ground.plants import MOST_PLANTS, Planting, as_kind, vigour_at
@@ -110,8 +109,7 @@ def measure(
         sim.rest_plants(rest_days * DAY)
         return count, cover(sim)
 
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as workers:
-        return sorted(workers.map(rested, reversed(passes)))
+    return sorted(side_by_side(rested, reversed(passes), threads))
 
 
 def trodden(kind, passes, *, length, width, mass, seed, soil, cell_size, frame_rate, density, threads=0):
