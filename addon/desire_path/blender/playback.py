@@ -144,8 +144,8 @@ def stacked(obj):
             for name in STACKED
             if hasattr(each, name) and not compat.is_keyed(obj.animation_data, of + name)
         }
-        shown = any(values.pop(name, False) for name in ("show_viewport", "show_render"))
-        out.append(f"{each.name} {each.type} {shown} {tree.name if tree is not None else ''} {list(values.values())}")
+        seen = values.pop("show_viewport", False), values.pop("show_render", False)
+        out.append(f"{each.name} {each.type} {any(seen)} {tree.name if tree is not None else ''} {list(values.values())}")
     return "; ".join(out)
 
 
