@@ -145,7 +145,7 @@ def stacked(obj):
             if hasattr(each, name) and not compat.is_keyed(obj.animation_data, of + name)
         }
         seen = values.pop("show_viewport", False), values.pop("show_render", False)
-        out.append(f"{each.name} {each.type} {any(seen)} {tree.name if tree is not None else ''} {list(values.values())}")
+        out.append(f"{each.name} {each.type} {any(seen)} {tree.name if tree is not None else ''} {[*values.values()]}")
     return "; ".join(out)
 
 
