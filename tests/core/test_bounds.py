@@ -167,7 +167,7 @@ def test_the_command_says_what_is_too_much(tmp_path):
 
 STARVED = """
 import resource, sys
-import numpy, desire_path.bake, desire_path.study.trampling
+import numpy, desire_path.bake.bake, desire_path.study.trampling, desire_path._native
 from desire_path.__main__ import main
 pages = int(open("/proc/self/statm").read().split()[0])
 resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + (int(sys.argv[1]) << 20),) * 2)
