@@ -122,6 +122,87 @@ def test_two_characters_walk_one_ground():
     assert summary(one.desire_path.ground)["contacts"] >= 30, summary(one.desire_path.ground)
 
 
+def test_a_clip_that_does_not_loop_goes_as_far_as_it_goes():
+    rig = character()
+    for curve in compat.curves(rig.animation_data, rig):
+        for k in range(len(curve.keyframe_points) - 1, -1, -1):
+            if curve.keyframe_points[k].co[0] > 24.0 and len(curve.keyframe_points) > 2:
+                curve.keyframe_points.remove(curve.keyframe_points[k])
+    rig.desire_path.carried = True
+    assert rig.desire_path.carried
+    assert np.abs(at(rig, 24) - at(rig, 1)).max() > 0.5
+    assert np.abs(at(rig, 100) - at(rig, 33)).max() < 1e-6
+
+
+def test_strips_alone_are_carried_as_far_as_they_go():
+    rig = character()
+    rig.animation_data.action = None
+    for track in rig.animation_data.nla_tracks:
+        track.mute = track.name != "Walk_Loop"
+    rig.desire_path.carried = True
+    assert np.abs(at(rig, 33) - at(rig, 1)).max() > 1.0
+    assert np.abs(at(rig, 200) - at(rig, 34)).max() < 1e-6
+    rig.desire_path.carried = False
+    assert rig.animation_data.action is None and np.abs(at(rig, 33)).max() < 1e-6
+
+
+def test_curves_of_other_lengths_repeat_as_one():
+    rig = character()
+    moving = [each for each in compat.curves(rig.animation_data, rig) if len(each.keyframe_points) > 8]
+    for _ in range(3):
+        moving[7].keyframe_points.remove(moving[7].keyframe_points[-1])
+    rig.desire_path.carried = True
+    ours = [each for each in compat.curves(rig.animation_data, rig) if each.modifiers]
+    assert len({(each.keyframe_points[0].co[0], each.keyframe_points[-1].co[0]) for each in ours}) == 1
+
+
+def test_a_renamed_action_is_gone_back_to_and_work_is_kept():
+    rig = character()
+    first = rig.animation_data.action
+    rig.desire_path.carried = True
+    first.name = "Mine"
+    rig.keyframe_insert("location", frame=5)
+    rig.desire_path.carried = False
+    assert rig.animation_data.action == first
+    kept = [each for each in bpy.data.actions if each.name.endswith("_carried")]
+    assert len(kept) == 1 and kept[0].use_fake_user
+
+
+def test_what_is_held_in_place_is_told_and_nothing_changes():
+    rig = character()
+    post = bpy.data.objects.new("Post", None)
+    bpy.context.scene.collection.objects.link(post)
+    rig.constraints.new("COPY_LOCATION").target = post
+    first, known = rig.animation_data.action, set(bpy.data.objects)
+    select(rig)
+    refused(bpy.ops.object.desire_path_walk_it, "something else holds it there")
+    assert rig.animation_data.action == first and not rig.desire_path.is_walker and set(bpy.data.objects) == known
+
+
+def test_a_rig_that_follows_another_walks_once():
+    control, deform = character(), character()
+    for bone in deform.pose.bones:
+        bone.constraints.new("COPY_TRANSFORMS").target = control
+        bone.constraints[-1].subtarget = bone.name
+    deform.animation_data.action = None
+    select(control, deform)
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert deform.desire_path.is_walker and not control.desire_path.is_walker
+    assert deform.desire_path.carried and 15 <= summary(deform.desire_path.ground)["contacts"] <= 20
+    assert np.abs(at(control, 49) - at(control, 1)).max() > 1.0
+
+
+def test_a_refused_bake_leaves_all_as_it_was():
+    rig = character()
+    ground = plane(side=2.0)
+    ground.location.x = 50.0
+    bpy.context.view_layer.update()
+    first = rig.animation_data.action
+    select(rig, ground)
+    refused(bpy.ops.object.desire_path_walk_it, "beside the ground")
+    assert rig.animation_data.action == first and not rig.desire_path.is_walker and not ground.desire_path.is_ground
+
+
 def test_a_second_time_only_bakes():
     rig = character()
     select(rig)

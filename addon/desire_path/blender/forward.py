@@ -2,8 +2,11 @@
 
     the action in use --a copy, repeated if it loops, delta location at the speed of the feet--> `<action>_carried`
 
-The user's action stays as it is; delta location moves the object wherever its own keys, bones and controls are.
+The user's action stays as it is; delta location moves the object wherever its own keys, bones and controls are. Of a
+character whose bones follow another armature that one is carried.
 """
+
+from collections import Counter
 
 import bpy
 import numpy as np
@@ -12,87 +15,153 @@ from ..errors import DesirePathError
 from ..placement import cycle
 from . import axes, clock, compat, moves, posing, sample
 
-SOURCE = "desire_path_carried_from"  # on an action of ours: name of the one it was made from, "" where there was none
+OURS = "desire_path_carried"  # on an action of ours: how many keys it was made with
+SOURCE = "desire_path_carried_from"  # and the action it was made from, where there was one
+BEFORE = "desire_path_carried_delta"  # and the delta location before
 DELTA = "delta_location"
+SHARE = 0.3  # of its way a carried character may be off
+
+
+def leader(armature):
+    """The armature that most bones of another one follow by constraints; itself where there is none."""
+    led = Counter()
+    for bone in armature.pose.bones if armature.pose is not None else ():
+        for each in bone.constraints:
+            target = getattr(each, "target", None)
+            if target is not None and target != armature and target.type == "ARMATURE" and not each.mute:
+                led[target] += 1
+                break
+    found, count = led.most_common(1)[0] if led else (armature, 0)
+    return found if 2 * count > len(armature.pose.bones) else armature
 
 
 def is_carried(armature):
     """Whether a character goes ahead by an action of ours."""
-    animation = armature.animation_data
-    return animation is not None and animation.action is not None and SOURCE in animation.action
+    animation = leader(armature).animation_data if armature.type == "ARMATURE" else None
+    return animation is not None and animation.action is not None and OURS in animation.action
 
 
 def carry(scene, armature):
-    """Let a character whose clip walks in place go ahead; returns a sentence, empty where there was nothing to do."""
+    """Let a character whose clip walks in place go ahead; returns a sentence about it."""
     if is_carried(armature):
         return ""
     first, last = moves.frame_range(scene, armature)
-    gait = sample.record(scene, armature, first, last)
+    gait = sample.record(scene, armature, first, last, samples=1)
     velocity = cycle.ahead(gait)
     if velocity is None:
-        return ""
-    animation = armature.animation_data or armature.animation_data_create()
+        return f"'{armature.name}' moves by itself or does not walk: it is not carried ahead."
+    rig = leader(armature)
+    animation = rig.animation_data or rig.animation_data_create()
     if animation is None:
-        raise DesirePathError(f"'{armature.name}' cannot be given keys: make its library override editable first.")
-    made = _action(armature, animation)
-    curves = compat.curves(animation, armature)
-    again = cycle.loops(gait)
-    for each in curves if again else ():
-        if not each.modifiers:
-            each.modifiers.new("CYCLES")
-    _go(scene, armature, curves, velocity, first / clock.stretch(scene))
-    armature.update_tag()
+        raise DesirePathError(f"'{rig.name}' cannot be given keys: make its library override editable first.")
+    again = cycle.samples_to_loop(gait)
+    made = _action(rig, animation)
+    curves = compat.curves(animation, rig)
+    goes_on = _repeats(curves) or (again is not None and _repeat(curves, again))
+    stretch = clock.stretch(scene)
+    _go(scene, rig, curves, velocity, first / stretch, last / stretch, goes_on)
+    made[OURS] = _keys(curves)
+    bpy.context.view_layer.update()
+    moved = sample.record(scene, armature, first, last, samples=1).com[0, [0, -1], :2]
+    wanted = velocity * (gait.time[-1] - gait.time[0])
+    if np.linalg.norm(np.diff(moved - gait.com[0, [0, -1], :2], axis=0)[0] - wanted) > SHARE * np.linalg.norm(wanted):
+        switch(armature, False)
+        raise DesirePathError(
+            f"'{armature.name}' walks in place and cannot be carried ahead, since something else holds it there: move "
+            "what its object or its bones follow, by keys or along a curve."
+        )
     text = f"'{armature.name}' walks in place and is carried ahead at {np.hypot(*velocity):.2f} m/s"
-    return text + (", its clip repeated" if again else "") + f": action '{made.name}'; Carried switches it off."
+    return (
+        text
+        + (", its clip repeated" if goes_on else ", as far as its clip goes, which does not loop")
+        + f": action '{made.name}'; Carried switches it off."
+    )
 
 
 def switch(armature, on):
-    """Let a character go ahead, or walk in place as it did."""
+    """Let a character go ahead, or walk in place as it did; an action of ours that was worked on is kept."""
+    rig = leader(armature)
     if on and not is_carried(armature):
-        scene = next(iter(armature.users_scene), bpy.context.scene)
-        carry(scene, armature)
+        carry(next(iter(rig.users_scene), bpy.context.scene), armature)
     elif not on and is_carried(armature):
-        animation, ours = armature.animation_data, armature.animation_data.action
-        first = bpy.data.actions.get(ours[SOURCE])
+        animation, ours = rig.animation_data, rig.animation_data.action
+        changed = _keys(compat.curves(animation, rig)) != ours[OURS]
+        first, before = ours.get(SOURCE), list(ours[BEFORE])
         if first is not None:
             compat.use_action(animation, first, _same_slot(first, getattr(animation, "action_slot", None)))
         else:
             animation.action = None
-        armature.delta_location = ours["desire_path_delta"]
-        if ours.users == 0:
+        rig.delta_location = before
+        if changed:
+            ours.use_fake_user = True
+        elif ours.users == 0:
             bpy.data.actions.remove(ours)
 
 
-def _action(armature, animation):
+def _action(rig, animation):
     """A copy of the action in use, or a new one, in its place."""
     action, slot = animation.action, getattr(animation, "action_slot", None)
-    made = action.copy() if action is not None else bpy.data.actions.new(armature.name)
-    made.name = f"{action.name if action is not None else armature.name}_carried"
-    made[SOURCE] = action.name if action is not None else ""
-    made["desire_path_delta"] = armature.delta_location
+    made = action.copy() if action is not None else bpy.data.actions.new(rig.name)
+    made.name = f"{action.name if action is not None else rig.name}_carried"
+    made[OURS] = 0
+    made[BEFORE] = list(rig.delta_location)
     if action is not None:
+        made[SOURCE] = action
         action.use_fake_user = True  # to go back to, even after saving
+    made.use_fake_user = False
     compat.use_action(animation, made, _same_slot(made, slot))
     return made
 
 
 def _same_slot(action, slot):
     """The slot of an action that another one's stands for."""
-    return next(
-        (each for each in getattr(action, "slots", ()) if slot is not None and each.identifier == slot.identifier), None
+    slots = getattr(action, "slots", ())
+    return next((each for each in slots if slot is not None and each.identifier == slot.identifier), None)
+
+
+def _keys(curves):
+    return sum(len(each.keyframe_points) for each in curves)
+
+
+def _repeats(curves):
+    """Whether all curves that move anything go on by themselves for ever."""
+    moving = [each for each in curves if len(each.keyframe_points) > 1]
+    return bool(moving) and all(
+        any(one.type == "CYCLES" and not one.mute and not one.cycles_after for one in each.modifiers) for each in moving
     )
 
 
-def _go(scene, armature, curves, velocity, start):
-    """Key the delta location so that the object goes on at a velocity (2,) [m/s] of the world from a frame on."""
-    world = axes.matrix(armature.matrix_world, armature.name)
-    above = world @ np.linalg.inv(np.array(armature.matrix_basis, np.float64))  # from its parent's space
+def _repeat(curves, more):
+    """Let curves repeat as one, the first frame again `more` frames after the last; False where they cannot."""
+    moving = [each for each in curves if len(each.keyframe_points) > 1]
+    if not moving or any(each.modifiers for each in curves):
+        return False
+    begin = min(each.keyframe_points[0].co[0] for each in moving)
+    end = max(each.keyframe_points[-1].co[0] for each in moving)
+    for each in moving:
+        first, last = each.evaluate(begin), each.evaluate(end)
+        if each.keyframe_points[0].co[0] > begin:
+            each.keyframe_points.insert(begin, first)
+        if each.keyframe_points[-1].co[0] < end:
+            each.keyframe_points.insert(end, last)
+        if more:
+            each.keyframe_points.insert(end + more, first)
+        each.update()
+        each.modifiers.new("CYCLES")
+    return True
+
+
+def _go(scene, rig, curves, velocity, start, end, goes_on):
+    """Key the delta location so that the object goes at a velocity (2,) [m/s] of the world, for ever or to a frame."""
+    world = axes.matrix(rig.matrix_world, rig.name)
+    above = world @ np.linalg.inv(np.array(rig.matrix_basis, np.float64))  # from its parent's space
     frame = np.array((*velocity, 0.0)) / (axes.unit_scale(scene) * clock.frame_rate(scene) / clock.stretch(scene))
     step = np.linalg.solve(above[:3, :3], frame)
     for axis in range(3):
         old = curves.find(DELTA, index=axis)
         if old is not None:
             curves.remove(old)
-        base = armature.delta_location[axis]
-        posing.set_curve(curves, DELTA, axis, [start, start + 1.0], np.array([base, base + step[axis]], np.float32))
-        curves.find(DELTA, index=axis).extrapolation = "LINEAR"
+        base = rig.delta_location[axis]
+        values = np.array([base, base + step[axis] * (end - start)], np.float32)
+        posing.set_curve(curves, DELTA, axis, [start, end], values)
+        curves.find(DELTA, index=axis).extrapolation = "LINEAR" if goes_on else "CONSTANT"

@@ -24,7 +24,8 @@ def characters(objects):
         rig = rig_of(obj)
         if rig is not None and rig not in found:
             found.append(rig)
-    return found
+    leaders = {forward.leader(each) for each in found if forward.leader(each) != each}
+    return [each for each in found if each not in leaders]
 
 
 def rig_of(obj):
@@ -74,16 +75,31 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         return True
 
     def work(self, context):
+        if context.mode == "POSE":
+            bpy.ops.object.mode_set(mode="OBJECT")
         scene = context.scene
         there = list(context.selected_objects) or [context.object]
         who = characters(there)
         land = chosen_ground(context, there) or self.known(scene, who)
-        for each in who:
+        for each in (*who, *filter(None, [land])):
             if each.library is not None:
                 raise DesirePathError(
                     f"'{each.name}' is linked from another file: make a library override of it (Object > Library "
                     "Override > Make) first."
                 )
+        for each in who:  # who has no feet is refused before anything is changed
+            sample.record(scene, each, *moves.frame_range(scene, each), samples=1)
+        before = _Before(context, who, land)
+        try:
+            self.walk(context, who, land)
+        except BaseException:
+            before.come_back()
+            raise
+        return {"FINISHED"}
+
+    def walk(self, context, who, land):
+        scene = context.scene
+        for each in who:
             told = forward.carry(scene, each)
             if told:
                 self.report({"INFO"}, told)
@@ -98,13 +114,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         for each in who:
             each.desire_path.ground = land
             self.use(context, each, bpy.ops.object.desire_path_walker_add)
-        self.use(
-            context,
-            land,
-            bpy.ops.object.desire_path_bake,
-            "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT",
-        )
-        return {"FINISHED"}
+        how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
+        self.use(context, land, bpy.ops.object.desire_path_bake, how)
 
     @staticmethod
     def known(scene, who):
@@ -119,6 +130,31 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             operator(how)
         except RuntimeError as problem:
             raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
+
+
+class _Before:
+    """What Walk It changes, as it was before."""
+
+    def __init__(self, context, who, land):
+        self.context, self.who, self.land = context, who, land
+        self.active, self.objects = context.object, set(bpy.data.objects)
+        self.carried = [forward.is_carried(each) for each in who]
+        self.walkers = [(each.desire_path.is_walker, each.desire_path.ground) for each in who]
+        self.ground = land is not None and (land.desire_path.is_ground, land.desire_path.cell_size)
+
+    def come_back(self):
+        for each, carried, (walks, trodden) in zip(self.who, self.carried, self.walkers):
+            if forward.is_carried(each) and not carried:
+                forward.switch(each, False)
+            each.desire_path.is_walker, each.desire_path.ground = walks, trodden
+        if self.ground:
+            self.land.desire_path.is_ground, self.land.desire_path.cell_size = self.ground
+        for each in set(bpy.data.objects) - self.objects:
+            if each.type == "MESH" and each.desire_path.is_ground:
+                mesh = each.data
+                bpy.data.objects.remove(each)
+                bpy.data.meshes.remove(mesh)
+        self.context.view_layer.objects.active = self.active
 
 
 def make_ground(context, gaits):

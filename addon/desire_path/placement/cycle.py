@@ -336,6 +336,8 @@ def ahead(gait, walker_row=0):
     return None if slide is None else -slide
 
 
-def loops(gait):
-    """Whether a recording of one walker ends as it began, so that it can be repeated."""
-    return _loop(gait)[1]
+def samples_to_loop(gait):
+    """How many samples after its last one a recording of one walker repeats its first: 0 where the last one does,
+    None where it does not loop."""
+    closed, loops = _loop(gait)
+    return len(closed.time) - len(gait.time) if loops else None
