@@ -181,3 +181,66 @@ def test_modifiers_before_ours_are_in_it(folder):
     untouched = state(ground)
     ground.desire_path.refine = False
     assert state(ground)[:2] == untouched[:2]
+
+
+def test_hair_instances_and_children_keep_the_points_they_stand_on(folder):
+    for number, what in enumerate(("hair", "instances", "child", "scatter", "shape keys")):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        ground = plane(cuts=3)
+        if what == "hair":
+            ground.modifiers.new("Hair", "PARTICLE_SYSTEM")
+        elif what == "instances":
+            ground.instance_type = "VERTS"
+        elif what == "child":
+            child = bpy.data.objects.new("Flag", None)
+            bpy.context.scene.collection.objects.link(child)
+            child.parent, child.parent_type, child.parent_vertices = ground, "VERTEX", (3, 0, 0)
+        elif what == "scatter":
+            tree = compat.geometry_tree("Scatter", bpy.data.node_groups.new)
+            here, there = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+            points = tree.nodes.new("GeometryNodeDistributePointsOnFaces")
+            on, cube = tree.nodes.new("GeometryNodeInstanceOnPoints"), tree.nodes.new("GeometryNodeMeshCube")
+            cube.inputs["Size"].default_value = (0.01, 0.01, 0.01)
+            tree.links.new(points.outputs[0], on.inputs[0])
+            tree.links.new(cube.outputs[0], on.inputs["Instance"])
+            join = tree.nodes.new("GeometryNodeJoinGeometry")
+            tree.links.new(here.outputs[0], points.inputs[0])
+            tree.links.new(here.outputs[0], join.inputs[0])
+            tree.links.new(on.outputs[0], join.inputs[0])
+            tree.links.new(join.outputs[0], there.inputs[0])
+            compat.nodes_modifier(ground, "Scatter", tree)
+        else:
+            ground.shape_key_add(name="Basis")
+            ground.shape_key_add(name="Wave")
+        baked(folder / str(number), ground, frames=12)
+        assert copy_of(ground) is None, what
+        assert "is not refined" in ground.desire_path.summary, what
+
+
+def test_the_copy_follows_materials_and_edits(folder):
+    ground = plane(cuts=1)
+    ground.data.materials.append(bpy.data.materials.new("earth"))
+    baked(folder, ground, frames=12)
+    bpy.context.view_layer.update()
+    ground.data.materials[0] = bpy.data.materials.new("clay")
+    ground.data.update_tag()
+    bpy.context.view_layer.update()
+    assert copy_of(ground).data.materials[0].name == "clay"
+    for each in ground.data.vertices:
+        each.co.z += 0.25
+    ground.data.update_tag()
+    bpy.context.view_layer.update()
+    assert compat.positions(copy_of(ground).data)[:, 2].min() > 0.2
+
+
+def test_a_bake_from_before_is_shown_as_it_was(folder):
+    ground = plane(side=3.0, cuts=60)
+    ground.desire_path.refine = False
+    baked(folder, ground, frames=12)
+    del playback.modifier(ground).node_group[playback.WISHES]
+    ground.desire_path.refine = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "a.blend"))
+    ground = bpy.data.objects["Grid"]
+    bpy.context.view_layer.update()
+    assert copy_of(ground) is None and len(seen(ground).vertices) == 62**2

@@ -260,3 +260,8 @@ def flat_shader():
 def is_group(prop):
     """Whether a property, as a property group's annotation has it, holds properties of its own."""
     return prop.function is bpy.props.PointerProperty and issubclass(prop.keywords["type"], bpy.types.PropertyGroup)
+
+
+def all_curves(animation):
+    """The F-curves of the action an ID plays, none where it plays none."""
+    return curves_played(animation) if animation.action is not None else []

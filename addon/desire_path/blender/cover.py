@@ -153,6 +153,13 @@ def is_of_points(sentence):
     return any(words in sentence for words in (PRINTS, WHERE))
 
 
+def spacing(surface, index, planes):
+    """How far points lie apart where the prints are, in renders or in the viewport, whichever is more [cells]."""
+    printed = planes["compression"] > 0.0
+    render, drawn = (_apart(points, index, printed) for points in (surface.vertices, surface.drawn))
+    return max(render / np.sqrt(surface.finer), drawn)
+
+
 def _apart(points, index, printed):
     """How far points lie apart where the prints are, infinite where there is none [cells]."""
     there = np.count_nonzero(

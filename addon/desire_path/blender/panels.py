@@ -180,8 +180,8 @@ def draw_output(layout, obj):
     column = _column(layout)
     column.prop(settings, "refine")
     if settings.refine:
-        column.prop(settings, "refine_size")
-        column.prop(settings, "refine_pixels")
+        column.prop(settings, "refine_size", text="Size [m]")
+        column.prop(settings, "refine_pixels", text="Pixels")
     column.prop(settings, "attributes")
     column.prop(settings, "vertex_group")
     column.prop(settings, "law")

@@ -20,6 +20,8 @@ from . import axes, clock, compat
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
+COPIED = "desire_path_copied"  # on a tree: which mesh the copy it shows was made of
+WISHES = "desire_path_wishes"  # on a tree: how fine the mesh was wanted; trees of before lack it
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
 STACKED = ("show_viewport", "show_render", "levels", "render_levels", "subdivision_type")  # of modifiers
 MOVED = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
@@ -94,7 +96,14 @@ def interpolates(tree):
 def keep(obj, tree, world):
     """Write down on a tree for which modifiers, points and place of the ground it was made."""
     tree[STACK] = stacked(obj)
+    tree[WISHES] = wishes(obj)
     tree[LIE] = [float(each) for part in (world, samples(obj)) for each in np.asarray(part, np.float64).ravel()]
+
+
+def wishes(obj):
+    """How fine the user wants the mesh shown, in a word."""
+    settings = obj.desire_path
+    return str([settings.refine, settings.refine_size, settings.refine_pixels])
 
 
 def made_for(tree):
@@ -131,8 +140,7 @@ def samples(obj):
 def stacked(obj):
     """All that the place of our modifier, and which points there are, follow from, in a word; what is keyed is not
     among it."""
-    settings = obj.desire_path
-    out = [str(len(obj.data.vertices)), str([settings.refine, settings.refine_size, settings.refine_pixels])]
+    out = [str(len(obj.data.vertices))]
     for each in obj.modifiers:
         tree = each.node_group if each.type == "NODES" else None
         if tree is not None and TAG in tree:

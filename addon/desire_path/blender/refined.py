@@ -12,11 +12,13 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
+from ..ground import mesh as meshes
 from ..ground import refine
-from . import axes, compat, cover, ground, private, stack
+from . import axes, compat, cover, ground, moves, private, stack
 
 TAG = "desire_path_refined"  # custom property on our objects
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
+FINE = 1.5  # cells between points that show prints by themselves
 CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
 WRITTEN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "edge_creases"}
 KINDS = {  # data type of an attribute -> (its property, numbers in it, NumPy's type)
@@ -37,7 +39,7 @@ KINDS = {  # data type of an attribute -> (its property, numbers in it, NumPy's 
 
 @dataclass(frozen=True)
 class Copy:
-    """A refined copy, and what could not be done, in sentences."""
+    """A refined copy, None where there may be none, and what could not be done, in sentences."""
 
     object: bpy.types.Object
     warnings: tuple
@@ -52,8 +54,11 @@ def make(scene, obj, surface, index, planes, standing=()):
     if not settings.refine:
         return None
     changed = (planes["compression"] > 0.0) | (planes["heap"] > 0.0)
-    if not changed.any():
+    if not changed.any() or cover.spacing(surface, index, planes) < FINE:
         return None
+    why = held(scene, obj, surface.place)
+    if why:
+        return Copy(None, (f"The mesh of '{obj.name}' is not refined where the prints are, since {why}.",))
     wanted = refine.wishes(
         planes["heap"] - planes["compression"],
         changed,
@@ -96,6 +101,40 @@ def make(scene, obj, surface, index, planes, standing=()):
             f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
         )
     return Copy(carrier, tuple(warnings))
+
+
+def held(scene, obj, place):
+    """Why a ground has to be shown by its own points, in words that end a sentence; empty where a copy may be."""
+    stack_of = stack.others(obj)
+    shown = [each.show_viewport or each.show_render for each in stack_of]
+    animation = obj.animation_data
+    paths = [each.data_path for each in (*compat.all_curves(animation), *animation.drivers)] if animation else []
+    if any(each.type == "PARTICLE_SYSTEM" for each in stack_of):
+        return "its particles stand on its own points"
+    if obj.instance_type in {"VERTS", "FACES"}:
+        return "it shows instances on its own points or faces"
+    if any(each.parent == obj and each.parent_type in {"VERTEX", "VERTEX_3"} for each in bpy.data.objects):
+        return "objects hang on its own points"
+    if any(seen and each.type == "NODES" for each, seen in zip(stack_of[place.before :], shown[place.before :])):
+        return "geometry nodes after the prints would be given other points"
+    if obj.data.shape_keys is not None:
+        return "it has shape keys, which the copy would not follow"
+    if any(seen and each.type in moves.BY_TIME for each, seen in zip(stack_of[: place.before], shown)) or any(
+        path.startswith("modifiers[") for path in paths
+    ):
+        return "modifiers change its shape in time, which the copy would not follow"
+    if stack.differs(scene, obj, place.before):
+        return "its modifiers make it otherwise in renders than in the viewport"
+    return ""
+
+
+def mark(obj):
+    """A word for all of a ground's own mesh that its copy shows; another one when any of it differs."""
+    mesh, arrays = obj.data, [compat.positions(obj.data)]
+    arrays.append(_numbers(mesh.loops, "vertex_index", 1, np.int32))
+    arrays.append(_numbers(mesh.polygons, "material_index", 1, np.int32))
+    arrays += [compat.uv(mesh, each.name).astype(np.float32) for each in mesh.uv_layers]
+    return meshes.mark(arrays, [len(mesh.polygons), [each.name_full if each else "" for each in mesh.materials]])
 
 
 def _as_seen(scene, obj, surface, index, wanted):
@@ -229,7 +268,7 @@ def _attributes(mesh, source, along):
     left = []
     maps = {each.name for each in source.uv_layers}
     for each in source.attributes:
-        if each.name in WRITTEN or each.name.startswith(".") or each.name in maps:
+        if each.name in WRITTEN or each.name.startswith((".", ground.WEIGHT[:-2])) or each.name in maps:
             continue
         if each.data_type not in KINDS:
             left.append(each.name)

@@ -24,8 +24,9 @@ def play(scene, obj, surface, baked=None):
         frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
         planes = baked or cover.planes(index)
         copy = refined.make(scene, obj, surface, index, planes, standing)
+        carrier = copy and copy.object
         smooth = (
-            copy is not None
+            carrier is not None
             or surface.between
             or any(
                 ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
@@ -43,12 +44,14 @@ def play(scene, obj, surface, baked=None):
             layer_depth=depth,
             standing=standing,
             place=surface.place,
-            copy=copy and copy.object,
+            copy=carrier,
         )
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
+        if carrier is not None:
+            playback.modifier(obj).node_group[playback.COPIED] = refined.mark(obj)
         if copy is not None:
             warnings += copy.warnings
-        elif index.complete:
+        if carrier is None and index.complete:
             warnings += cover.few_points(obj, surface, index, planes)
     else:
         playback.detach(obj)

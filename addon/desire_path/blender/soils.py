@@ -17,16 +17,16 @@ from . import axes, compat
 
 # what people call a number, and what it is
 WORDS = {
-    "layer_depth": ("Depth of Loose Layer [m]", "How thick the soft soil lies over rigid ground, in metres"),
+    "layer_depth": ("Loose [m]", "How thick the soft soil lies over rigid ground, in metres"),
     "young_modulus": ("Stiffness [Pa]", "How hard it resists, in pascal: half of it, prints twice as deep"),
     "poisson_ratio": ("Rim", "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it"),
     "settle_time": ("Yields In [s]", "How long it takes to give way, in seconds"),
-    "rest_angle": ("Steepest Slope", "Loose soil that is steeper slides"),
+    "rest_angle": ("Max Slope", "Loose soil that is steeper slides"),
     "push_threshold": (
-        "One-sided From [N]",
+        "Push [N]",
         "A sideways push this strong leaves the rim on one side alone, in newtons; 0 = half the walker's weight",
     ),
-    "shear_modulus": ("Shear before Grip [m]", "How far it shears before it carries sideways, in metres; 0 = no slip"),
+    "shear_modulus": ("Shear [m]", "How far it shears before it carries sideways, in metres; 0 = no slip"),
 }
 LARGEST = {"layer_depth": 100.0, "young_modulus": 1e12, "settle_time": 1e4, "push_threshold": 1e9, "shear_modulus": 0.1}
 _filling = False

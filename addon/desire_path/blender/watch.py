@@ -16,11 +16,12 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import axes, compat, cover, ground, home, playback, show, stack
+from . import axes, compat, cover, ground, home, playback, refined, show, stack
 
 NEAR = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
 
 _lay = {}  # name of a ground -> its matrix when it was seen last
+_edited = set()  # names of grounds whose mesh was changed somehow since they were looked at
 _waiting = set()  # names of grounds to look at
 _working = False
 
@@ -37,12 +38,25 @@ def look(scene, obj):
     world = _applied(obj, made_for, was, before, now)
     _working = True
     try:
-        if world is not None or tree[playback.STACK] != playback.stacked(obj):
+        if (
+            world is not None
+            or tree[playback.STACK] != playback.stacked(obj)
+            or tree.get(playback.WISHES, playback.wishes(obj)) != playback.wishes(obj)
+            or _edited_since(obj, tree)
+        ):
             _again(scene, obj, made_for if world is None else world)
         elif before is not None and np.array_equal(before, now) and not np.array_equal(was, playback.samples(obj)):
             playback.keep(obj, tree, made_for)  # the mesh was edited
     finally:
         _working = False
+
+
+def _edited_since(obj, tree):
+    """Whether the mesh of a ground that a copy stands for was edited since that was made."""
+    if obj.name_full not in _edited or playback.copy_of(tree) is None:
+        return False
+    _edited.discard(obj.name_full)
+    return tree.get(playback.COPIED) != refined.mark(obj)
 
 
 def _applied(obj, made_for, was, before, now):
@@ -98,15 +112,16 @@ def changed(scene, depsgraph):
     """Something was changed, or another frame is shown."""
     if _working or _renders():
         return
-    for each in depsgraph.updates:
-        obj = each.id.original
-        if (
-            isinstance(obj, bpy.types.Object)
-            and obj.type == "MESH"
-            and obj.library is None
-            and obj.desire_path.is_ground
-            and obj.name in scene.objects
-        ):
+    hit = {each.id.original for each in depsgraph.updates if not isinstance(each.id, bpy.types.Mesh)}
+    shaped = {
+        each.id.original
+        for each in depsgraph.updates
+        if isinstance(each.id, bpy.types.Mesh) and each.is_updated_geometry
+    }
+    for obj in _grounds(scene) if hit or shaped else ():
+        if obj.data in shaped:
+            _edited.add(obj.name_full)
+        if obj in hit or obj.data in shaped:
             if bpy.app.background:
                 look(scene, obj)
             else:
@@ -145,6 +160,7 @@ def forget():
     """Another file was opened."""
     _lay.clear()
     _waiting.clear()
+    _edited.clear()
 
 
 def register():
