@@ -13,7 +13,7 @@ from typing_extensions import Buffer
 
 _Array: TypeAlias = np.ndarray | Buffer
 _Vec3: TypeAlias = tuple[float, float, float]
-_Soil: TypeAlias = dict[str, float]  # numbers by name; others are as soil_numbers() says
+_Soil: TypeAlias = dict[str, float] | Sequence[float]  # numbers by name, or all in the order of soil_numbers()
 _Box: TypeAlias = tuple[int, int, int, int]  # i0, i1, j0, j1
 _Gait: TypeAlias = tuple[  # native_gait(): float64, and int32 where things are counted
     _Array,  # time (T,)
@@ -107,6 +107,7 @@ def imprint_foot(
 def imprint_rings(ring: _Array, rings: int, /) -> None: ...
 
 # ---- soil ----
+def soil_default() -> tuple[float, ...]: ...
 def soil_numbers() -> list[tuple[str, str, float, float, float, str]]: ...
 def soil_anisotropy(push: _Vec3, threshold: float, /) -> float: ...
 def soil_compress(patch: _Patch, imprint: _Imprint, foot: tuple[Any, ...], law: int, dt: float, /) -> _Pressed: ...

@@ -4,35 +4,62 @@
 
 #include <string.h>
 
-// A soil from a dict of its numbers by name; those that are not told are as in dp_soil_default().
-static bool read_soil(PyObject* dict, Py_ssize_t place, DpSoil* soil)
+static float* number_of(DpSoil* soil, const DpSoilNumber* number)
+{
+    return (float*)(void*)((char*)soil + number->offset);
+}
+
+// all numbers of a soil in the order of the table, as soil_default() gives them
+static bool read_row(PyObject* row, Py_ssize_t place, DpSoil* soil)
+{
+    int                 count;
+    const DpSoilNumber* number = dp_soil_numbers(&count);
+    if (!PySequence_Check(row) || PySequence_Size(row) != count) {
+        PyErr_Clear();
+        PyErr_Format(PyExc_TypeError,
+                     "soils: soil %zd is neither a dict of numbers by name nor all %d", place,
+                     count);
+        return false;
+    }
+    for (int n = 0; n < count; ++n) {
+        PyObject*    value = PySequence_GetItem(row, n);
+        const double told = value ? PyFloat_AsDouble(value) : -1.0;
+        Py_XDECREF(value);
+        if (PyErr_Occurred()) return false;
+        *number_of(soil, &number[n]) = (float)told;
+    }
+    return true;
+}
+
+// numbers by name; those that are not told stay as they are
+static bool read_names(PyObject* dict, Py_ssize_t place, DpSoil* soil)
 {
     int                 count;
     const DpSoilNumber* number = dp_soil_numbers(&count);
     Py_ssize_t          known = 0;
-    *soil = dp_soil_default();
-    if (!PyDict_Check(dict)) {
-        PyErr_Format(PyExc_TypeError, "soils: soil %zd is no dict of numbers by name", place);
-        return false;
-    }
     for (int n = 0; n < count; ++n) {
         PyObject* value = PyDict_GetItemString(dict, number[n].name);  // borrowed
         if (!value) continue;
         const double told = PyFloat_AsDouble(value);
         if (PyErr_Occurred()) return false;
-        *(float*)(void*)((char*)soil + number[n].offset) = (float)told;
+        *number_of(soil, &number[n]) = (float)told;
         ++known;
     }
-    if (known != PyDict_Size(dict)) {
-        PyErr_Format(PyExc_ValueError, "soils: soil %zd has a number that no soil has", place);
-        return false;
-    }
+    if (known == PyDict_Size(dict)) return true;
+    PyErr_Format(PyExc_ValueError, "soils: soil %zd has a number that no soil has", place);
+    return false;
+}
+
+static bool read_soil(PyObject* told, Py_ssize_t place, DpSoil* soil)
+{
+    *soil = dp_soil_default();
+    if (!(PyDict_Check(told) ? read_names : read_row)(told, place, soil)) return false;
     if (dp_soil_check(soil) == DP_OK) return true;
     PyErr_Format(PyExc_ValueError, "soils: a number of soil %zd is out of its range", place);
     return false;
 }
 
-// Soils, each a dict of its numbers by name, in a list or a tuple.
+// Soils, each a dict of numbers by name, or all of them in order.
 DpSoil* dp_py_soils(PyObject* object, int* count)
 {
     const Py_ssize_t size = PySequence_Size(object);

@@ -256,6 +256,22 @@ static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
     return PyFloat_FromDouble(dp_soil_anisotropy(push, threshold));
 }
 
+static PyObject* soil_default(PyObject* module, PyObject* arguments)
+{
+    (void)module, (void)arguments;
+    int                 count;
+    const DpSoilNumber* n = dp_soil_numbers(&count);
+    PyObject*           row = PyTuple_New(count);
+    for (int k = 0; row && k < count; ++k) {
+        PyObject* value = PyFloat_FromDouble(n[k].normal);
+        if (!value || PyTuple_SetItem(row, k, value) < 0) {
+            Py_DECREF(row);
+            return NULL;
+        }
+    }
+    return row;
+}
+
 static PyObject* soil_numbers(PyObject* module, PyObject* arguments)
 {
     (void)module, (void)arguments;
@@ -276,6 +292,9 @@ PyMethodDef dp_py_soil_methods[] = {
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
+    {"soil_default", soil_default, METH_NOARGS,
+     "soil_default() -> the numbers of a soil as they are if not told, in the order of "
+     "soil_numbers()."},
     {"soil_numbers", soil_numbers, METH_NOARGS,
      "soil_numbers() -> [(name, unit, lowest, highest, default, meaning)] of a soil, in order."},
     {NULL, NULL, 0, NULL}};

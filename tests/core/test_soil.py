@@ -3,6 +3,7 @@
 import math
 from dataclasses import asdict, fields, replace
 
+import numpy as np
 import pytest
 
 from desire_path import _native
@@ -144,3 +145,16 @@ def test_numbers_are_set_by_name():
             SOILS["mud"].changed([text])
     with pytest.raises(DesirePathError, match="There is no soil 'Mud'"):
         as_soil("Mud")
+
+
+def test_all_numbers_in_order_are_a_soil_too():
+    row = _native.soil_default()
+    assert row == tuple(number[4] for number in _native.soil_numbers())
+    for soils in ([row], np.array([row, row], "f4")):
+        _native.Simulation(("flat", 0.0), soils, 0.01, (0.0, 0.0))
+    with pytest.raises(TypeError, match="neither a dict"):
+        _native.Simulation(("flat", 0.0), [row[:-1]], 0.01, (0.0, 0.0))
+    with pytest.raises(ValueError, match="out of its range"):
+        _native.Simulation(("flat", 0.0), [(-1.0, *row[1:])], 0.01, (0.0, 0.0))
+    with pytest.raises(TypeError):
+        _native.Simulation(("flat", 0.0), [("soft",) * len(row)], 0.01, (0.0, 0.0))
