@@ -1,0 +1,137 @@
+"""What is odd about how a recording stands on its ground, in sentences."""
+
+import numpy as np
+
+from ..errors import DesirePathError
+from .force import ELSEWHERE, GRAVITY, PRESSES
+
+MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
+SLIDE = 0.4  # a person's feet that stand do not slide faster [m/s]
+STILL = 0.25  # who stands moves no foot faster [m/s]
+HOVER = 0.1  # a person's feet that stand do not do so farther from the ground [m]
+TELLING = 0.5  # who stands there for less is not told of [s]
+
+
+class Sunk(DesirePathError):
+    """A walker is under the ground all the time."""
+
+
+def sinks(gait, below):
+    """Refuse a walker that is under the ground all the time."""
+    ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
+    for w in range(len(gait.mass)):
+        if gait.com[w, :, 2].max() < ground:
+            raise Sunk(
+                f"{gait.walker_name[w]} is below the ground all the time, whose highest "
+                "faces count: move the ground down or the walker up, or take roofs "
+                "out of the ground."
+            )
+    return []
+
+
+def hovers(gait, touching, clearance, size):
+    """A sentence for each walker whose feet stand far from the ground."""
+    warnings = []
+    part = gait.point_part
+    for w, name in enumerate(gait.walker_name):
+        mine = (gait.limb_walker[gait.part_limb[part]] == w) & touching[part].any(axis=1)
+        height = float(np.median(clearance[mine])) if mine.any() else 0.0
+        if height > HOVER * size:
+            warnings.append(f"{name} walks {height:.2f} m above the ground: lower it or raise the ground.")
+        elif height < -HOVER * size:
+            warnings.append(f"{name} walks {-height:.2f} m deep in the ground: raise it or lower the ground.")
+    return warnings
+
+
+def slides(gait, places, touching, size):
+    """A sentence for each walker whose feet slide while they carry: it walks in place."""
+    warnings = []
+    if len(gait.time) < 3:
+        return warnings
+    rush = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2)
+    on, pace = touching[gait.point_part] != 0, np.sqrt(size)
+    for w, name in enumerate(gait.walker_name):
+        own = gait.limb_walker[gait.part_limb[gait.point_part]] == w
+        mine = own[:, None] & on
+        still = (rush[own] < STILL * pace).all(axis=0)  # all of it stands: no step is taken
+        mine = mine & ~still if (mine & ~still).any() else mine
+        speed = float(np.median(rush[mine])) if mine.any() else 0.0
+        if speed > SLIDE * pace:
+            warnings.append(
+                f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
+                "that walks in place: move the character forward at that speed."
+            )
+    return warnings
+
+
+def _cycle(on, count):
+    """First and last sample of whole strides of one walker's limbs (L, T); the whole clip if none."""
+    best = (0, count - 1)
+    longest = 0
+    for row in on:
+        down = np.flatnonzero((row[1:] != 0) & (row[:-1] == 0)) + 1
+        if len(down) > 1 and down[-1] - down[0] > longest:
+            longest, best = down[-1] - down[0], (down[0], down[-1])
+    return best
+
+
+def weigh(gait, touching, force):
+    """Mean vertical force in body weights over whole strides, and a sentence where it is odd."""
+    mean, warnings = np.ones(len(gait.mass)), []
+    count = len(gait.time)
+    for w, mass in enumerate(gait.mass):
+        limbs = np.flatnonzero(gait.limb_walker == w)
+        parts = np.flatnonzero(np.isin(gait.part_limb, limbs))
+        on = np.array([touching[gait.part_limb == limb].any(axis=0) for limb in limbs])
+        if not on.any():
+            warnings.append(
+                f"{gait.walker_name[w]} never touches the ground: check its feet, its scale and the frame range."
+            )
+            mean[w] = 0.0
+            continue
+        if count < 5:
+            continue
+        first, last = _cycle(on, count)
+        total = -force[parts, first : last + 1, 2].sum(axis=0) / (mass * GRAVITY)
+        # over whole strides the body neither gains nor loses speed; elsewhere it may
+        z, reach = gait.com[w, :, 2], max(1, int(round(0.05 / (gait.time[1] - gait.time[0]))))
+        slope = [
+            (z[min(k + reach, count - 1)] - z[max(k - reach, 0)])
+            / (gait.time[min(k + reach, count - 1)] - gait.time[max(k - reach, 0)])
+            for k in (first, last)
+        ]
+        gain = (slope[1] - slope[0]) / ((gait.time[last] - gait.time[first]) * GRAVITY)
+        mean[w] = np.mean(total) - gain
+        if not MEAN_FORCE[0] <= mean[w] <= MEAN_FORCE[1]:
+            warnings.append(
+                f"The feet of {gait.walker_name[w]} carry {mean[w]:.2f} of its weight on "
+                "average: check the mass centre, the scale and whether feet float."
+            )
+    return mean, warnings
+
+
+def elsewhere(gait, over, touching, most, size):
+    """Mark parts that stand farther over the ground than `most` [m]; sentences about who does.
+
+    over: height of each contact point over the ground, less its clearance (K, T) [m]
+    """
+    lowest = np.stack(
+        [
+            np.nanmin(np.where(np.isfinite(over), over, np.inf)[gait.point_part == part], axis=0)
+            for part in range(len(gait.part_limb))
+        ]
+    )
+    up = (touching == PRESSES) & (lowest > most)
+    touching[up] = ELSEWHERE
+    told = []
+    for w, name in enumerate(gait.walker_name):
+        when = up[gait.limb_walker[gait.part_limb] == w].any(axis=0)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], when, [0]])))
+        if len(edges) and np.diff(edges)[::2].max() >= TELLING * np.sqrt(size) * (gait.rate() or 1.0):
+            high = float(np.median(lowest[gait.limb_walker[gait.part_limb] == w][:, when].min(axis=0)))
+            told.append(
+                f"{name} stands on something else than the ground, of which there is no print: about {high:.2g} "
+                f"m over it, first at frame {gait.frame(when.argmax()):.0f}; make that a ground if it is to "
+                "take prints."
+            )
+    return told
