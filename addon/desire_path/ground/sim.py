@@ -9,20 +9,24 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from ..arrays import Record, kept
 from ..bounds import Limits
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..motion.tracks import TrackArray
 from ..version import VERSION
-from . import maps, trail
+from . import trail
+from .cast import cast_of, pressing_of, tracks_of
+from .fields import FIELDS, LEAN
+from .film import Closed, Film
+from .ground import Ground, as_soils, check_cell, soil_numbers
 from .plants import as_plantings, seed_of
-from .soil import Soil, as_soil
+
+__all__ = ["Film", "Ground", "HEAPS", "LAWS", "LOAD_MODELS", "Simulation", "TILE", "as_soils", "check_cell"]
+
 
 TILE = 64  # cells along one side of a tile of ground and of a playback frame
 
@@ -30,165 +34,6 @@ LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one st
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 LOAD_MODELS = ("inertia", "impulse")
 ON_EDGE = 1e-6  # a rectangle that ends so near to the edge of a cell ends there [cells]
-HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
-
-_FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
-    "compression": 0,
-    "heap": 1,
-    "pressure_time": 2,
-    "rest": 3,
-    "young_modulus": 4,
-    "soil": 5,
-    "plant_strength": 6,
-    "height_change": 7,
-    "pressure": 67,
-}
-_LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
-_FIRST_LEAN = 64  # the number of the first of them among a map's fields
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Ground(Record):
-    """Where the ground is before anybody walks on it. Use flat(), heights(), mesh() or read()."""
-
-    native: tuple = field(repr=False)
-    name: str = "ground"
-    trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
-
-    def __post_init__(self):
-        object.__setattr__(self, "native", kept(tuple(self.native)))
-
-    def __repr__(self):
-        kind, *numbers = self.native
-        told = kind
-        if kind == "flat":
-            told += f", {numbers[0]:g} m"
-        elif kind == "heights":
-            told += f", {numbers[0].shape[1]} x {numbers[0].shape[0]} samples {numbers[1]:g} m apart"
-        elif kind == "mesh":
-            told += f", {len(numbers[0])} vertices, {len(numbers[1])} triangles"
-        return f"Ground({told}{'' if self.trail is None else f', {self.trail!r}'})"
-
-    @staticmethod
-    def flat(height=0.0):
-        """Level ground without end at `height` [m]."""
-        if not math.isfinite(height):
-            raise DesirePathError("The height of the flat ground is not a number: give it in metres.")
-        return Ground(("flat", float(height)), "flat")
-
-    @staticmethod
-    def heights(heights, spacing, x0=0.0, y0=0.0, kind_weight=None):
-        """Ground from a regular grid.
-
-        heights: (ny, nx) [m], row 0 at the lowest y, NaN = no ground; bilinear between samples.
-        spacing: distance of samples [m] > 0; sample (0, 0) lies at (x0, y0).
-        kind_weight: (kinds, ny, nx) >= 0, how much of each soil; the heaviest wins.
-        """
-        heights, base = np.asarray(heights), 0.0
-        if heights.dtype == np.float64 and heights.size and np.isfinite(heights).any():
-            # what a float32 has no digits for, far up, counts from a height of the ground's own
-            base = 16.0 * round(float(heights[np.isfinite(heights)][0]) / 16.0)
-            heights = heights - base
-        heights = np.ascontiguousarray(heights, np.float32)
-        if heights.ndim != 2 or min(heights.shape) < 2:
-            raise DesirePathError("A ground of heights needs at least 2 x 2 samples.")
-        if np.isinf(heights).any():
-            raise DesirePathError("The ground has infinite heights: mark holes with NaN instead.")
-        if np.isnan(heights).all():
-            raise DesirePathError("The ground has no height anywhere: every sample is NaN.")
-        if not (spacing > 0 and math.isfinite(spacing) and math.isfinite(x0) and math.isfinite(y0)):
-            raise DesirePathError("The ground's sample spacing must be a positive number of metres.")
-        if kind_weight is not None:
-            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
-            if kind_weight.ndim != 3 or kind_weight.shape[1:] != heights.shape:
-                raise DesirePathError(
-                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and height."
-                )
-            kind_weight = kind_weight.reshape(len(kind_weight), -1)
-        native = ("heights", heights, float(spacing), float(x0), float(y0), base, kind_weight)
-        return Ground(native, "heights")
-
-    @staticmethod
-    def mesh(vertices, triangles, kind_weight=None):
-        """Ground from triangles seen from above.
-
-        vertices: (n, 3) world position [m]; triangles: (m, 3) indices.
-        kind_weight: (kinds, n) >= 0, how much of each soil at each vertex; the heaviest wins.
-        """
-        vertices, triangles = np.asarray(vertices, np.float64), np.asarray(triangles)
-        if triangles.size == 0:
-            raise DesirePathError("The ground has no faces: give it at least one.")
-        if vertices.ndim != 2 or triangles.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
-            raise DesirePathError(
-                f"The ground has vertices of shape {vertices.shape} and triangles of shape "
-                f"{triangles.shape}: give (n, 3) positions and (m, 3) indices."
-            )
-        if triangles.min() < 0 or triangles.max() >= len(vertices):
-            raise DesirePathError("A triangle of the ground names a vertex that is not there: mend its indices.")
-        vertices = np.ascontiguousarray(vertices)
-        triangles = np.ascontiguousarray(triangles, np.int32)
-        bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
-        if len(bad):
-            raise DesirePathError(
-                f"Vertex {bad[0]} of the ground is not a finite position: repair the mesh and bake again."
-            )
-        if kind_weight is not None:
-            kind_weight = np.ascontiguousarray(kind_weight, np.float32)
-            if kind_weight.ndim != 2 or kind_weight.shape[1] != len(vertices):
-                raise DesirePathError(
-                    f"The soils' weights have shape {kind_weight.shape}: give one for each soil and vertex."
-                )
-        return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
-
-    @staticmethod
-    def read(path, spacing=None):
-        """Ground from an OpenEXR image: a height map, or the trail in a map of a bake (maps_final.exr, one of maps/).
-
-        A trail goes on as it was left: rest height, compression, heap and pressure_time, not its plants. It lies on
-        level ground without end if it was pressed there, else there is no ground beyond the map. Give the simulation
-        the map's own cell size and origin (`trail.cell`, `trail.x0`, `trail.y0`); on others the trail is averaged.
-        A height map holds its heights [m] in the channel height, Z, V, Y, or in a grey picture; NaN = no ground.
-
-        spacing: distance of a height map's samples [m], if its header does not say
-        """
-        found = trail.read(path, spacing)
-        if not isinstance(found, trail.Trail):
-            return Ground.heights(*found)
-        if found.flat:
-            return Ground(("flat", float(found.rest[0, 0])), "flat", found)
-        half = found.cell / 2
-        ground = Ground.heights(found.rest, found.cell, found.x0 + half, found.y0 + half)
-        return Ground(ground.native, "trail", found)
-
-    def arrays(self):
-        """The arrays the ground is made of, for telling one ground from another."""
-        return [part for part in self.native if isinstance(part, np.ndarray)] + (
-            self.trail.arrays() if self.trail else []
-        )
-
-
-def as_soils(soils):
-    """A list of Soil from one Soil, one preset's name, or a sequence of either."""
-    if isinstance(soils, (str, Soil)):
-        soils = [soils]
-    found = []
-    for soil in soils:
-        found.append(as_soil(soil))
-    if not 1 <= len(found) <= 255:
-        raise DesirePathError("Give the ground between 1 and 255 soils.")
-    return found
-
-
-def _soil_numbers(soils):
-    return [asdict(soil) for soil in soils]  # by name
-
-
-def check_cell(cell_size):
-    """Refuse sides of a cell that cannot be worked with [m]."""
-    if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
-        raise DesirePathError(
-            f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
-        )
 
 
 class Simulation:
@@ -242,7 +87,7 @@ class Simulation:
         try:
             self._core = _native.Simulation(
                 ground.native,
-                _soil_numbers(self.soils),
+                soil_numbers(self.soils),
                 self.cell_size,
                 self.origin,
                 LAWS.index(law),
@@ -331,8 +176,8 @@ class Simulation:
 
     def close(self):
         """Wait until all is written, and give the ground back; OSError when a file could not be."""
-        core, self._core = self._core, _Closed()
-        if not isinstance(core, _Closed):
+        core, self._core = self._core, Closed()
+        if not isinstance(core, Closed):
             core.flush()
 
     def bounds(self):
@@ -379,13 +224,13 @@ class Simulation:
 
     def load(self, gait, loads):
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
-        time, mass, *cast = _cast(gait)
+        time, mass, *cast = cast_of(gait)
         held = getattr(loads, "held", None)
         if isinstance(gait.pose, TrackArray):
-            track, poses, pressing = _tracks(gait, loads, held)
+            track, poses, pressing = tracks_of(gait, loads, held)
             self._core.load_tracks(time, mass, *cast, track, poses, *pressing)
         else:
-            touching = _pressing(np.asarray(loads.touching), None if held is None else np.asarray(held))
+            touching = pressing_of(np.asarray(loads.touching), None if held is None else np.asarray(held))
             force, point = np.ascontiguousarray(loads.force), np.ascontiguousarray(loads.point)
             self._core.load(time, mass, np.ascontiguousarray(gait.pose), *cast, touching, force, point)
         if self.plantings:
@@ -397,7 +242,7 @@ class Simulation:
         Each sample comes by push(); run() steps up to it, and forgets what is behind. Of plants only those in areas of
         their own are there, since nobody knows where the walk will go.
         """
-        time, *cast = _cast(gait)
+        time, *cast = cast_of(gait)
         self._core.load_live(time[:0], *cast)
 
     def push(self, time, pose, touching, force, point, present=None):
@@ -524,15 +369,15 @@ class Simulation:
             nx, ny = i1 - i0, j1 - j0
         elif None in (j0, nx, ny):
             raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
-        if name not in _FIELDS and name not in _LEAN:
-            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*_FIELDS, *_LEAN])}.")
+        if name not in FIELDS and name not in LEAN:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*FIELDS, *LEAN])}.")
         if nx < 1 or ny < 1:
             raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
         out = np.zeros((int(ny), int(nx)), np.float32)
-        if name in _FIELDS:
-            self._core.read(_FIELDS[name], int(i0), int(j0), out)
+        if name in FIELDS:
+            self._core.read(FIELDS[name], int(i0), int(j0), out)
         elif self.plantings:
-            self._core.read_lean(_LEAN.index(name), int(i0), int(j0), out)
+            self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
         return out
 
     def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
@@ -542,90 +387,3 @@ class Simulation:
     def flush(self):
         """Wait until all frames and maps are written; OSError when one could not be."""
         self._core.flush()
-
-
-def _cast(gait):
-    """Times, and who walks, as the core takes them."""
-    vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
-    triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
-    return (
-        np.ascontiguousarray(gait.time),
-        np.ascontiguousarray(gait.mass),
-        np.ascontiguousarray(gait.limb_walker, np.int32),
-        np.ascontiguousarray(gait.part_limb, np.int32),
-        np.ascontiguousarray(vertices),
-        np.array([len(sole.vertices) for sole in gait.soles], np.int32),
-        np.ascontiguousarray(triangles),
-        np.array([len(sole.triangles) for sole in gait.soles], np.int32),
-    )
-
-
-def _pressing(touching, held):
-    """What the core is told of touching parts; what is carried elsewhere presses nothing."""
-    out = (touching == 1).astype(np.uint8)
-    if held is not None:
-        out[held & (out != 0)] |= HELD
-    return np.ascontiguousarray(out)
-
-
-def _tracks(gait, loads, held):
-    """(walker, first sample, samples) (n, 3) of all who are there, their poses (N, 7), and (touching, force, point)."""
-    owner = gait.limb_walker[gait.part_limb]
-    table, poses, touching, force, point = [], [], [], [], []
-    for rows, first, values in gait.pose.blocks:
-        count = values.shape[1]
-        after = first + count
-        for walker in np.unique(owner[rows]):
-            mine = np.flatnonzero(owner == walker)
-            table.append((walker, first, count))
-            poses.append(gait.pose[mine, first:after].reshape(-1, 7))
-            stays = None if held is None else held[mine, first:after]
-            touching.append(_pressing(loads.touching[mine, first:after], stays).reshape(-1))
-            force.append(loads.force[mine, first:after].reshape(-1, 3))
-            point.append(loads.point[mine, first:after].reshape(-1, 3))
-    return (
-        np.array(table, np.int32),
-        np.concatenate(poses),
-        tuple(np.concatenate(each) for each in (touching, force, point)),
-    )
-
-
-class _Closed:
-    """In place of the core of a Simulation that was closed."""
-
-    def __getattr__(self, name):
-        raise DesirePathError("This simulation was closed: make a new one.")
-
-
-class Film:
-    """Frames and maps of a rectangle of tiles of a Simulation, as it changes: Simulation.open_frames() opens one.
-
-    Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
-    """
-
-    def __init__(self, core):
-        self._core = core
-
-    def open_maps(self, names, notes):
-        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
-        and notes (name, text or number)."""
-        fields = {**_FIELDS, **{name: _FIRST_LEAN + k for k, name in enumerate(_LEAN)}}
-        shown = (maps.PICTURE, fields[names[0]])
-        self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
-
-    def list_files(self, path):
-        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it
-        has, and their digest. Before the first frame."""
-        self._core.list_files(str(path))
-
-    def write_frame(self, path, time):
-        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
-        self._core.write_frame(None if path is None else str(path), float(time))
-
-    def write_lean(self, path, time):
-        """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
-        self._core.write_frame(None if path is None else str(path), float(time), True)
-
-    def write_maps(self, path, time):
-        """Write the maps as they are, in the background like frames."""
-        self._core.write_maps(str(path), float(time))

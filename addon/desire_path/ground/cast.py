@@ -1,0 +1,53 @@
+"""A recording as the core takes it: its shape, its loads, and who is there when."""
+
+from __future__ import annotations
+
+import numpy as np
+
+HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
+
+
+def cast_of(gait):
+    """Times, and who walks, as the core takes them."""
+    vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
+    triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
+    return (
+        np.ascontiguousarray(gait.time),
+        np.ascontiguousarray(gait.mass),
+        np.ascontiguousarray(gait.limb_walker, np.int32),
+        np.ascontiguousarray(gait.part_limb, np.int32),
+        np.ascontiguousarray(vertices),
+        np.array([len(sole.vertices) for sole in gait.soles], np.int32),
+        np.ascontiguousarray(triangles),
+        np.array([len(sole.triangles) for sole in gait.soles], np.int32),
+    )
+
+
+def pressing_of(touching, held):
+    """What the core is told of touching parts; what is carried elsewhere presses nothing."""
+    out = (touching == 1).astype(np.uint8)
+    if held is not None:
+        out[held & (out != 0)] |= HELD
+    return np.ascontiguousarray(out)
+
+
+def tracks_of(gait, loads, held):
+    """(walker, first sample, samples) (n, 3) of all who are there, their poses (N, 7), and (touching, force, point)."""
+    owner = gait.limb_walker[gait.part_limb]
+    table, poses, touching, force, point = [], [], [], [], []
+    for rows, first, values in gait.pose.blocks:
+        count = values.shape[1]
+        after = first + count
+        for walker in np.unique(owner[rows]):
+            mine = np.flatnonzero(owner == walker)
+            table.append((walker, first, count))
+            poses.append(gait.pose[mine, first:after].reshape(-1, 7))
+            stays = None if held is None else held[mine, first:after]
+            touching.append(pressing_of(loads.touching[mine, first:after], stays).reshape(-1))
+            force.append(loads.force[mine, first:after].reshape(-1, 3))
+            point.append(loads.point[mine, first:after].reshape(-1, 3))
+    return (
+        np.array(table, np.int32),
+        np.concatenate(poses),
+        tuple(np.concatenate(each) for each in (touching, force, point)),
+    )

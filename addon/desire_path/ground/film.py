@@ -1,0 +1,48 @@
+"""What a simulation writes while it runs: one file a moment, by a thread of the core."""
+
+from __future__ import annotations
+
+from ..errors import DesirePathError
+from . import maps
+from .fields import FIELDS, FIRST_LEAN, LEAN
+
+
+class Closed:
+    """In place of the core of a Simulation that was closed."""
+
+    def __getattr__(self, name):
+        raise DesirePathError("This simulation was closed: make a new one.")
+
+
+class Film:
+    """Frames and maps of a rectangle of tiles of a Simulation, as it changes: Simulation.open_frames() opens one.
+
+    Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
+    """
+
+    def __init__(self, core):
+        self._core = core
+
+    def open_maps(self, names, notes):
+        """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
+        and notes (name, text or number)."""
+        fields = {**FIELDS, **{name: FIRST_LEAN + k for k, name in enumerate(LEAN)}}
+        shown = (maps.PICTURE, fields[names[0]])
+        self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
+
+    def list_files(self, path):
+        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it
+        has, and their digest. Before the first frame."""
+        self._core.list_files(str(path))
+
+    def write_frame(self, path, time):
+        """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
+        self._core.write_frame(None if path is None else str(path), float(time))
+
+    def write_lean(self, path, time):
+        """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
+        self._core.write_frame(None if path is None else str(path), float(time), True)
+
+    def write_maps(self, path, time):
+        """Write the maps as they are, in the background like frames."""
+        self._core.write_maps(str(path), float(time))
