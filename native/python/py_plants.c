@@ -28,7 +28,7 @@ int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind)
     dp_plant_numbers(&count);
     const int     all = BEFORE_NUMBERS + count;
     const double* v = dp_buffers_open(buffers, object, "kind", 'd', DP_SHAPE1(all), false);
-    if (!v || dp_buffers_finite(v, (size_t)all, "kind") < 0) return -1;
+    if (!v || dp_buffers_finite(v, all, "kind") < 0) return -1;
     kind->form = v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE;
     kind->sheets = v[1] > 2.5 ? 3 : 2;
     for (int k = 0; k < count; ++k) *dp_plant_number(kind, k) = (float)v[BEFORE_NUMBERS + k];

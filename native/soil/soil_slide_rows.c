@@ -18,9 +18,9 @@ static inline float at_most_one(float x)
 }
 
 DP_CLONES
-int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
-                    const float* restrict heap, const float* restrict fall,
-                    const float* restrict slack, ptrdiff_t row, int count, float film)
+static int decide(float* restrict share, float* restrict give, const float* restrict h,
+                  const float* restrict heap, const float* restrict fall,
+                  const float* restrict slack, ptrdiff_t row, int count, float film)
 {
     const float one = 1.0f / film;  // an excess as large as a film counts as one neighbour
     int         moves = 0, restless = 0;
@@ -65,9 +65,8 @@ static inline float comes(const float* h, const float* share, const float* fall,
 }
 
 DP_CLONES
-void dp_slide_take(double* restrict sum, const float* restrict give, const float* restrict h,
-                   const float* restrict share, const float* restrict fall, ptrdiff_t row,
-                   int count)
+static void take(double* restrict sum, const float* restrict give, const float* restrict h,
+                 const float* restrict share, const float* restrict fall, ptrdiff_t row, int count)
 {
     for (int i = 0; i < count; ++i) {
         const float *H = h + i, *a = share + i, *f = fall + i;
@@ -83,8 +82,8 @@ void dp_slide_take(double* restrict sum, const float* restrict give, const float
 }
 
 DP_CLONES
-void dp_slide_raise(float* restrict height, float* restrict heap, const float* restrict firm,
-                    const double* restrict sum, int count)
+static void raise_row(float* restrict height, float* restrict heap, const float* restrict firm,
+                      const double* restrict sum, int count)
 {
     for (int i = 0; i < count; ++i) {
         heap[i] = (float)sum[i];
@@ -93,10 +92,10 @@ void dp_slide_raise(float* restrict height, float* restrict heap, const float* r
 }
 
 DP_CLONES
-void dp_slide_fill(const Row* to, const float* restrict base_height,
-                   const float* restrict compression, const float* restrict loose,
-                   const float* restrict rest_slope, const int32_t* restrict ring, int count,
-                   double cell, double level, double tan_slack)
+static void fill(const Row* to, const float* restrict base_height,
+                 const float* restrict compression, const float* restrict loose,
+                 const float* restrict rest_slope, const int32_t* restrict ring, int count,
+                 double cell, double level, double tan_slack)
 {
     float* restrict firm = to->firm, * restrict height = to->height, * restrict heap = to->heap;
     float* restrict fall = to->fall, * restrict slack = to->slack;
@@ -114,4 +113,34 @@ void dp_slide_fill(const Row* to, const float* restrict base_height,
         // tan(gamma + slack) - tan(gamma), from its first order: a little stricter
         slack[i] = open ? (float)(tan_slack * (1.0 + slope * slope) * cell) : 0.0f;
     }
+}
+
+// ---- the doors of those above ------------------------------------------------------------------
+
+int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
+                    const float* restrict heap, const float* restrict fall,
+                    const float* restrict slack, ptrdiff_t row, int count, float film)
+{
+    return decide(share, give, h, heap, fall, slack, row, count, film);
+}
+
+void dp_slide_take(double* restrict sum, const float* restrict give, const float* restrict h,
+                   const float* restrict share, const float* restrict fall, ptrdiff_t row,
+                   int count)
+{
+    take(sum, give, h, share, fall, row, count);
+}
+
+void dp_slide_raise(float* restrict height, float* restrict heap, const float* restrict firm,
+                    const double* restrict sum, int count)
+{
+    raise_row(height, heap, firm, sum, count);
+}
+
+void dp_slide_fill(const Row* to, const float* restrict base_height,
+                   const float* restrict compression, const float* restrict loose,
+                   const float* restrict rest_slope, const int32_t* restrict ring, int count,
+                   double cell, double level, double tan_slack)
+{
+    fill(to, base_height, compression, loose, rest_slope, ring, count, cell, level, tan_slack);
 }
