@@ -184,7 +184,7 @@ def test_modifiers_before_ours_are_in_it(folder):
 
 
 def test_hair_instances_and_children_keep_the_points_they_stand_on(folder):
-    for number, what in enumerate(("hair", "instances", "child", "scatter", "shape keys")):
+    for number, what in enumerate(("hair", "instances", "child", "scatter", "time", "hook", "shape keys")):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         ground = plane(cuts=3)
         if what == "hair":
@@ -209,6 +209,21 @@ def test_hair_instances_and_children_keep_the_points_they_stand_on(folder):
             tree.links.new(on.outputs[0], join.inputs[0])
             tree.links.new(join.outputs[0], there.inputs[0])
             compat.nodes_modifier(ground, "Scatter", tree)
+        elif what == "time":
+            tree = compat.geometry_tree("Time", bpy.data.node_groups.new)
+            here, there = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+            now, move = tree.nodes.new("GeometryNodeInputSceneTime"), tree.nodes.new("GeometryNodeSetPosition")
+            tree.links.new(here.outputs[0], move.inputs[0])
+            tree.links.new(now.outputs["Seconds"], move.inputs["Offset"])
+            tree.links.new(move.outputs[0], there.inputs[0])
+            compat.nodes_modifier(ground, "Time", tree)
+        elif what == "hook":
+            hook = bpy.data.objects.new("Hook", None)
+            bpy.context.scene.collection.objects.link(hook)
+            hook.keyframe_insert("location", frame=1)
+            hook.location.z = 1.0
+            hook.keyframe_insert("location", frame=20)
+            ground.modifiers.new("Hook", "HOOK").object = hook
         else:
             ground.shape_key_add(name="Basis")
             ground.shape_key_add(name="Wave")

@@ -68,6 +68,21 @@ def moves(obj):
     return bool(found.spans or found.goes_on)
 
 
+def by_time(modifier):
+    """Whether a modifier makes another mesh as time goes on, by itself."""
+    tree = modifier.node_group if modifier.type == "NODES" else None
+    nodes = tree.nodes if tree is not None else ()
+    return modifier.type in BY_TIME or any(node.bl_idname in NODES_BY_TIME for node in nodes)
+
+
+def shapes_by_time(modifier):
+    """Whether it does, or takes after an object that moves."""
+    others = (
+        getattr(modifier, name, None) for name in ("object", "target", "mirror_object", "offset_object", "origin")
+    )
+    return by_time(modifier) or any(isinstance(each, bpy.types.Object) and moves(each) for each in others)
+
+
 def frames(scene, ground, walkers):
     """First and last frame a ground is baked over: those of all its walkers, until they are set by hand."""
     settings = ground.desire_path
@@ -135,10 +150,9 @@ class _Movers:
         if tree is not None and playback.TAG in tree:
             return  # a bake of ours
         self.tied += _tied(modifier)
-        self.goes_on |= modifier.type in BY_TIME
+        self.goes_on |= by_time(modifier)
         if tree is not None:
             self.tied.append(tree)
-            self.goes_on |= any(node.bl_idname in NODES_BY_TIME for node in tree.nodes)
 
     def _animation(self, animation):
         tracks = list(animation.nla_tracks) if animation.use_nla else []

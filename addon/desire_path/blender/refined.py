@@ -119,7 +119,7 @@ def held(scene, obj, place):
         return "geometry nodes after the prints would be given other points"
     if obj.data.shape_keys is not None:
         return "it has shape keys, which the copy would not follow"
-    if any(seen and each.type in moves.BY_TIME for each, seen in zip(stack_of[: place.before], shown)) or any(
+    if any(seen and moves.shapes_by_time(each) for each, seen in zip(stack_of[: place.before], shown)) or any(
         path.startswith("modifiers[") for path in paths
     ):
         return "modifiers change its shape in time, which the copy would not follow"
