@@ -31,6 +31,8 @@ class module:
         self.__dict__.update(_name=name, _package=package)
 
     def __getattr__(self, name):
+        if name.startswith("__") and name.endswith("__"):
+            raise AttributeError(name)  # who looks at the door, as makers of pages do, does not open it
         return getattr(load(self), name)
 
 

@@ -5,20 +5,24 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import asdict, fields
-from typing import TYPE_CHECKING, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from ..errors import DesirePathError
 from . import atomic_file
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
 MAX_TEXT = 1 << 16  # bytes of a file
 
-Record = TypeVar("Record", bound="DataclassInstance")
+
+class Dataclass(Protocol):
+    """What dataclasses have in common."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
 
 
-def save(record: DataclassInstance, path: str | os.PathLike[str], tag: str, version: int, what: str) -> None:
+Record = TypeVar("Record", bound=Dataclass)
+
+
+def save(record: Dataclass, path: str | os.PathLike[str], tag: str, version: int, what: str) -> None:
     """Write a dataclass as JSON, whole or not at all.
 
     tag, version: say in the file what it is; what: the same for people, "soil"
