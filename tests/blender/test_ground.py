@@ -8,6 +8,7 @@ from test_sample import ids, refused
 
 from desire_path.blender import compat, ground, playback
 from desire_path.ground.sim import Simulation
+from desire_path.ground.soil import SOILS
 
 
 def read(obj, cell=0.02, **more):
@@ -81,7 +82,7 @@ def test_painted_soils_through_modifiers():
     assert (winner[x < 0.32] == 0).all()
     assert (winner[(x > 0.38) & (x < 0.72)] == 1).all()
     assert (winner[x > 0.78] == 2).all()
-    assert ground.soils(obj) == ["dry-sand", "snow", "mud"]
+    assert ground.soils(obj) == [SOILS[name] for name in ("dry-sand", "snow", "mud")]
     obj.desire_path.painted[0].vertex_group = "lost"
     refused(lambda: read(obj), "lost", "vertex group")
     assert ids() == before
