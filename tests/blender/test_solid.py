@@ -33,7 +33,7 @@ def sand(folder, size=4.0, cell=0.02):
     ground = meshes.grid(count + 1, count + 1, 0.04, -size / 2, -size / 2)
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
-    ground.desire_path.cell_size = cell
+    ground.desire_path.cell_size, ground.desire_path.refine = cell, False  # depths are read at its own points
     ground.desire_path.folder = str(folder / "bake")
     return ground
 
