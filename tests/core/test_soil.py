@@ -39,9 +39,8 @@ def test_a_soil_has_the_numbers_of_the_core():
         assert unit and meaning
         for value in (lowest, highest):
             assert getattr(replace(Soil(), **{name: value}), name) == value
-        if name != "push_threshold":  # any force
-            with pytest.raises(DesirePathError, match=name):
-                replace(Soil(), **{name: highest * 1.001})
+        with pytest.raises(DesirePathError, match=name):
+            replace(Soil(), **{name: highest * 1.001})
         with pytest.raises(DesirePathError, match=name):
             replace(Soil(), **{name: lowest - 0.001 * (lowest or 1.0)})
 
@@ -125,7 +124,7 @@ def test_a_soil_is_saved_and_comes_back(tmp_path):
         ('{"desire_path_soil": 1, "young_modulus": NaN}', "young_modulus"),
         ('{"desire_path_soil": 1, "young_modulus": "soft"}', "is no number"),
         ('{"desire_path_soil": 1, "rest_angle": null}', "is no number"),
-        ('{"desire_path_soil": 1, "rest_angle": 1' + 400 * "0" + "}", "too large"),
+        ('{"desire_path_soil": 1, "rest_angle": 1' + 400 * "0" + "}", "more than 1e300"),
         ('{"desire_path_soil": 1, "rest_angle": true}', "is no number"),
         ('{"desire_path_soil": 1, "settle_time": [1, 2]}', "is no number"),
     ],

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..errors import DesirePathError
-from ..ground.soil import SOILS, Soil
+from ..ground.soil import RANGES, SOILS, Soil
 from . import axes, compat
 
 # what people call a number, and what it is
@@ -28,7 +28,6 @@ WORDS = {
     ),
     "shear_modulus": ("Shear [m]", "How far it shears before it carries sideways, in metres; 0 = no slip"),
 }
-LARGEST = {"layer_depth": 100.0, "young_modulus": 1e12, "settle_time": 1e4, "push_threshold": 1e9, "shear_modulus": 0.1}
 _filling = False
 
 
@@ -74,13 +73,13 @@ def _by_hand(self, _context):
 
 def _number(name):
     label, words = WORDS[name]
-    most = {"rest_angle": math.radians(89.0), "poisson_ratio": 0.5}.get(name) or LARGEST[name]
+    low, high = RANGES[name]
     return FloatProperty(
         name=label,
         description=words,
         default=getattr(SOILS[ITEMS[0][0]], name),
-        min=0.0,
-        max=most,
+        min=low,
+        max=high,
         precision=4 if name in {"layer_depth", "shear_modulus", "settle_time"} else 2,
         step=1,
         subtype="ANGLE" if name == "rest_angle" else "NONE",
