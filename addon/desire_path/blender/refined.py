@@ -16,7 +16,6 @@ from ..ground import mesh as meshes
 from ..ground import refine
 from . import axes, compat, cover, ground, moves, private, stack
 
-TAG = "desire_path_refined"  # custom property on our objects
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
 CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
@@ -79,7 +78,6 @@ def make(scene, obj, surface, index, planes, standing=()):
         weights = [compat.float_attribute(mesh, ground.WEIGHT.format(k)) for k in range(len(groups))]
         copied, left = _mesh(f"Desire Path {obj.name}", mesh, made)
     carrier = bpy.data.objects.new(copied.name, copied)
-    carrier[TAG] = 1
     for name, weight in zip(groups, weights):
         group = carrier.vertex_groups.new(name=name)
         if weight is not None and weight.any():
@@ -202,7 +200,7 @@ def _mesh(name, source, made):
     sizes = made.sizes.astype(np.int32)
     mesh.polygons.add(len(sizes))
     mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
-    if not mesh.polygons.bl_rna.properties or not _read_only(mesh):
+    if not mesh.polygons[0].bl_rna.properties["loop_total"].is_readonly:  # later Blenders read it off loop_start
         mesh.polygons.foreach_set("loop_total", sizes)
     mesh.polygons.foreach_set("material_index", made.on_faces(_numbers(source.polygons, "material_index", 1, np.int32)))
     smooth = _numbers(source.polygons, "use_smooth", 1, bool)
@@ -249,11 +247,6 @@ def _creased(mesh, smooth):
 def _starts(mesh):
     """First corner of each face, and how many corners there are, int32 (f + 1,)."""
     return np.append(_numbers(mesh.polygons, "loop_start", 1, np.int32), np.int32(len(mesh.loops)))
-
-
-def _read_only(mesh):
-    """Whether this Blender finds the corners of a face by where the next one's begin."""
-    return mesh.polygons[0].bl_rna.properties["loop_total"].is_readonly
 
 
 def _corner_normals(mesh):

@@ -142,6 +142,8 @@ def _numbers(group):
     """The plain properties of a property group, and of those in its lists."""
     out = []
     for name, each in type(group).__annotations__.items():
+        if "get" in each.keywords:
+            continue  # found out each time it is asked for, from what is looked at anyway
         if each.function is bpy.props.CollectionProperty:
             out += [_numbers(one) for one in getattr(group, name)]
         elif compat.is_group(each):

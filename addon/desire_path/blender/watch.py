@@ -53,8 +53,8 @@ def look(scene, obj):
 
 def _edited_since(obj, tree):
     """Whether the mesh of a ground that a copy stands for was edited since that was made."""
-    if obj.name_full not in _edited or playback.copy_of(tree) is None:
-        return False
+    if obj.name_full not in _edited or obj.mode != "OBJECT" or playback.copy_of(tree) is None:
+        return False  # while it is sculpted or painted, it is not asked after every stroke
     _edited.discard(obj.name_full)
     return tree.get(playback.COPIED) != refined.mark(obj)
 
@@ -97,8 +97,12 @@ def _again(scene, obj, world):
 # ---- handlers -----------------------------------------------------------------------------------------
 
 
+def _is_ground(obj):
+    return obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground
+
+
 def _grounds(scene):
-    return [obj for obj in scene.objects if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground]
+    return [obj for obj in scene.objects if _is_ground(obj)]
 
 
 def all_of(scene):
@@ -112,25 +116,24 @@ def changed(scene, depsgraph):
     """Something was changed, or another frame is shown."""
     if _working or _renders():
         return
-    hit = {each.id.original for each in depsgraph.updates if not isinstance(each.id, bpy.types.Mesh)}
+    hit = {each.id.original for each in depsgraph.updates if isinstance(each.id, bpy.types.Object)}
     shaped = {
         each.id.original
         for each in depsgraph.updates
         if isinstance(each.id, bpy.types.Mesh) and each.is_updated_geometry
     }
-    for obj in _grounds(scene) if hit or shaped else ():
-        if obj.data in shaped:
-            _edited.add(obj.name_full)
-        if obj in hit or obj.data in shaped:
-            if bpy.app.background:
-                look(scene, obj)
-            else:
-                _wait_for(scene, obj)
+    edited = [obj for obj in _grounds(scene) if obj.data in shaped] if shaped else []
+    _edited.update(obj.name_full for obj in edited)
+    for obj in {*edited, *(obj for obj in hit if _is_ground(obj) and obj.name in scene.objects)}:
+        if bpy.app.background:
+            look(scene, obj)
+        else:
+            _wait_for(scene, obj)
 
 
 def mark(obj):
     """Something of a ground was set that its tree is made for; a window looks at it as soon as Blender rests."""
-    for scene in () if _working or obj.library is not None or not obj.desire_path.is_ground else obj.users_scene:
+    for scene in () if _working or not _is_ground(obj) else obj.users_scene:
         if bpy.app.background:
             look(scene, obj)
         else:
