@@ -37,7 +37,10 @@ class Soil:
             if isinstance(value, bool) or not isinstance(value, numbers.Real):
                 raise DesirePathError(f"A soil's {name} of {str(value)[:40]!r} is no number: give one.")
             if not low <= value <= high:
-                told = "more than 1e300" if value >= 1e300 or value <= -1e300 else f"{value:g}"
+                try:
+                    told = f"{value:g}"
+                except OverflowError:  # a whole number of hundreds of digits
+                    told = "more than 1e300"
                 raise DesirePathError(
                     f"A soil's {name} of {told} cannot be used: choose one from {low:.4g} to {high:.4g}."
                 )
