@@ -14,7 +14,7 @@ from tests.fuzz import mutate, parsers
 @pytest.mark.parametrize("name", parsers.PARSERS)
 def test_damaged_files_are_read_or_told(name, tmp_path):
     (tmp_path / "place").mkdir()
-    assert parsers.fuzz(name, 150, 2, tmp_path / "place", tmp_path) == []
+    assert parsers.fuzz(name, 150, 2, tmp_path / "place", tmp_path) == ([], 150)
 
 
 def raises(path):
@@ -40,7 +40,7 @@ def test_faults_are_found_and_their_files_kept(fault, words, tmp_path, monkeypat
         trampling, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path)
     )
     (tmp_path / "place").mkdir()
-    (found,) = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
+    (found,), _ = parsers.fuzz("cover", 500, 1, tmp_path / "place", tmp_path, most=1)
     assert words in found
     (kept,) = tmp_path.glob("fuzz_cover_*")
     assert b"25,86.3" not in kept.read_bytes()

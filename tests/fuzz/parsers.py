@@ -4,6 +4,7 @@ memory.
     python tests/fuzz/parsers.py                       20,000 files for every parser
     python tests/fuzz/parsers.py --runs 1000000 index  so many for one
     python tests/fuzz/parsers.py --seed 7 ..           other files; the same seed makes the same ones
+    python tests/fuzz/parsers.py --longest 60 ..       no new file after a minute of one parser
 
 A find is any exception but DesirePathError, a crash, more than 5 s or 400 MB for one file. It is kept in
 the folder --finds. The run closes with `N passed, N failed`.
@@ -12,6 +13,7 @@ the folder --finds. The run closes with `N passed, N failed`.
 import argparse
 import faulthandler
 import json
+import math
 import os
 import pathlib
 import random
@@ -21,6 +23,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import traceback
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -221,8 +224,12 @@ def attempt(call):
     return wrong or (f"took {taken >> 20} MB" if taken > MUCH else None), read
 
 
-def fuzz(name, runs, seed, place, finds, most=3):
-    """Damage the good files of a parser `runs` times in the folder `place`; what was found, at most `most`."""
+def fuzz(name, runs, seed, place, finds, longest=math.inf, most=3):
+    """Damage the good files of a parser in the folder `place`, `runs` times or for `longest` seconds.
+
+    What was found, at most `most`, and how many files were tried.
+    """
+    end = time.monotonic() + longest
     signal.signal(signal.SIGALRM, _late)
     warnings.simplefilter("ignore")
     chance = random.Random(f"{name} {seed}")
@@ -231,9 +238,10 @@ def fuzz(name, runs, seed, place, finds, most=3):
         at.write_bytes(data)
         wrong, read = attempt(call)
         if wrong or not read:
-            return [f"a good file is not read: {wrong}"]
+            return [f"a good file is not read: {wrong}"], 0
     pool, found = list(good), []
-    for run in range(runs):
+    run = 0
+    while run < runs and time.monotonic() < end and len(found) < most:
         data = chance.choice(pool)
         for _ in range(chance.choice((1, 1, 2, 3, 8))):
             data = change(chance, data, chance.choice(good))
@@ -247,9 +255,8 @@ def fuzz(name, runs, seed, place, finds, most=3):
         if wrong:
             shutil.copy(at, finds / f"fuzz_{name}_{run}")
             found.append(f"file {run}, kept as fuzz_{name}_{run}: {wrong}")
-            if len(found) == most:
-                break
-    return found
+        run += 1
+    return found, run
 
 
 def crashed(name, place, finds):
@@ -263,6 +270,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("parsers", nargs="*", choices=[[], *PARSERS], help="all, if none is named")
     parser.add_argument("--runs", type=int, default=20000, help="damaged files for each (20000)")
+    parser.add_argument("--longest", type=float, default=math.inf, help="seconds for each (no limit)")
     parser.add_argument("--seed", type=int, default=1, help="of the damage (1)")
     parser.add_argument(
         "--finds", type=pathlib.Path, default=pathlib.Path(), help="folder for what was found (this one)"
@@ -273,8 +281,8 @@ def main():
     if args.place:
         faulthandler.enable()
         resource.setrlimit(resource.RLIMIT_AS, (ROOM, ROOM))
-        found = fuzz(names[0], args.runs, args.seed, args.place, args.finds)
-        print("\n".join(found))
+        found, tried = fuzz(names[0], args.runs, args.seed, args.place, args.finds, args.longest)
+        print("\n".join([*found, f"{tried} files"]))
         sys.exit(1 if found else 0)
 
     def one(name):
@@ -290,6 +298,8 @@ def main():
                     args.finds,
                     "--runs",
                     str(args.runs),
+                    "--longest",
+                    str(args.longest),
                     "--seed",
                     str(args.seed),
                 ],
@@ -305,7 +315,8 @@ def main():
         for name, done in zip(names, pool.map(one, names)):
             bad = done.returncode != 0
             failed += bad
-            print(f"{'FAIL' if bad else 'ok  '} {name}, {args.runs} files", flush=True)
+            tried = done.stdout.splitlines()[-1] if done.returncode in (0, 1) and done.stdout else "no count of files"
+            print(f"{'FAIL' if bad else 'ok  '} {name}, {tried}", flush=True)
             if bad:
                 print(f"{done.stdout}{done.stderr}ended with code {done.returncode}", flush=True)
     print(f"{len(names) - failed} passed, {failed} failed")
