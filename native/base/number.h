@@ -1,7 +1,13 @@
-// base/number.h - a number that people choose, as its room declares it once; and what is wrong with one.
+// base/number.h - numbers that people choose, as their room declares them once; and what is wrong with one.
+//
+// A room lists the numbers of a record as lines X(name, unit, low, high, usual, meaning). Its members, its table, its
+// default and its check follow from the list, and so do panels, files, bindings and sentences.
 #pragma once
+#include <stdbool.h>
+#include <stddef.h>
 
-// Panels, files, bindings and checks read it from here.
+#include "base/status.h"
+
 typedef struct DpNumber
 {
     const char* name;
@@ -9,13 +15,19 @@ typedef struct DpNumber
     double      low, high;  // low <= value <= high
     double      usual;      // where to start from
     const char* meaning;    // half a line
+    size_t      offset;     // of the member in its record
+    size_t      size;       // of a float or of a double
 } DpNumber;
 
-// Is a value within its range, as floats are? NaN is not.
-static inline int dp_number_holds(const DpNumber* number, float value)
-{
-    return value >= (float)number->low && value <= (float)number->high;
-}
+// A row of the table of `Record`, from its line.
+#define DP_NUMBER_ROW(Record, name, unit, low, high, usual, meaning) \
+    {#name, unit, low, high, usual, meaning, offsetof(Record, name), sizeof(((Record*)0)->name)},
+
+double dp_number_get(const void* record, const DpNumber* number);
+void   dp_number_set(void* record, const DpNumber* number, double value);
+
+// Is a value within its range, at the precision of its member? NaN is not.
+bool dp_number_holds(const DpNumber* number, double value);
 
 // Which argument cannot be worked with, and why: a clause for people, as "root 3 is not a number".
 typedef struct DpReason
@@ -28,3 +40,8 @@ typedef struct DpReason
 __attribute__((format(printf, 2, 3)))
 #endif
 void dp_reason(DpReason* reason, const char* format, ...);
+
+// All numbers of a record as they usually are, and whether each is within its range: else DP_BAD_ARGUMENT, and which
+// one it is, if `reason` is there.
+void     dp_numbers_usual(void* record, const DpNumber* table, int count);
+DpStatus dp_numbers_check(const void* record, const DpNumber* table, int count, DpReason* reason);

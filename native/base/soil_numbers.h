@@ -1,6 +1,6 @@
 // base/soil_numbers.h - the numbers of a soil, each told once: a new one is a line here.
 //
-// DpSoil, dp_soil_default, dp_soil_check, and Python's reading of soils by name come from this table.
+// DpSoil, dp_soil_default, dp_soil_check and Python's Soil come from this table, base/number.h.
 #pragma once
 
 // (name, unit, lowest, highest, default, meaning); both ends are possible

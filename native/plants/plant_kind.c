@@ -3,17 +3,9 @@
 
 #define MAX_STEMS 96
 
-static const DpNumber numbers[] = {
-#define NUMBER(name, unit, low, high, usual, meaning) {#name, unit, low, high, usual, meaning},
-    DP_PLANT_NUMBERS(NUMBER)
-#undef NUMBER
-};
-static const size_t offsets[] = {
-#define OFFSET(name, unit, low, high, usual, meaning) offsetof(DpPlantKind, name),
-    DP_PLANT_NUMBERS(OFFSET)
-#undef OFFSET
-};
-#define COUNT ((int)(sizeof numbers / sizeof numbers[0]))
+#define NUMBER(...) DP_NUMBER_ROW(DpPlantKind, __VA_ARGS__)
+static const DpNumber numbers[] = {DP_PLANT_NUMBERS(NUMBER)};
+#define COUNT ((int)(sizeof numbers / sizeof *numbers))
 
 const DpNumber* dp_plant_numbers(int* count)
 {
@@ -21,15 +13,10 @@ const DpNumber* dp_plant_numbers(int* count)
     return numbers;
 }
 
-float* dp_plant_number(DpPlantKind* kind, int k)
-{
-    return (float*)(void*)((char*)kind + offsets[k]);
-}
-
 DpPlantKind dp_plant_kind_default(void)
 {
     DpPlantKind kind = {.form = DP_PLANT_SURFACE, .sheets = 2};
-    for (int k = 0; k < COUNT; ++k) *dp_plant_number(&kind, k) = (float)numbers[k].usual;
+    dp_numbers_usual(&kind, numbers, COUNT);
     return kind;
 }
 
@@ -45,14 +32,7 @@ DpStatus dp_plant_kind_check(const DpPlantKind* kind, DpReason* reason)
         dp_reason(reason, "a plant is a surface, or a tuft of 2 or 3 sheets");
         return DP_BAD_ARGUMENT;
     }
-    DpPlantKind copy = *kind;
-    for (int k = 0; k < COUNT; ++k) {
-        const float value = *dp_plant_number(&copy, k);
-        if (dp_number_holds(&numbers[k], value)) continue;
-        dp_reason(reason, "%s of %g %s is out of its range, %g to %g", numbers[k].name,
-                  (double)value, numbers[k].unit, numbers[k].low, numbers[k].high);
-        return DP_BAD_ARGUMENT;
-    }
+    if (dp_numbers_check(kind, numbers, COUNT, reason) != DP_OK) return DP_BAD_ARGUMENT;
     if (kind->break_angle < kind->degrade_angle) {
         dp_reason(reason, "break_angle of %g is out of its range: it lies below degrade_angle, %g",
                   (double)kind->break_angle, (double)kind->degrade_angle);

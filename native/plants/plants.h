@@ -65,8 +65,6 @@ typedef struct DpPlantKind
 
 // The table above, in the order of the members; *count of them.
 const DpNumber* dp_plant_numbers(int* count);
-// Number k of a kind.
-float* dp_plant_number(DpPlantKind* kind, int k);
 
 DpPlantKind dp_plant_kind_default(void);  // Carex pensylvanica, TRAIL Table 1
 // Can a plant be built of these numbers? Else DP_BAD_ARGUMENT, and why, if `reason` is there.

@@ -54,6 +54,7 @@ int       dp_py_block_type(PyObject* module);  // adds the type to the module; 0
 extern PyMethodDef dp_py_walker_methods[];
 extern PyMethodDef dp_py_imprint_methods[];
 extern PyMethodDef dp_py_soil_methods[];
+extern PyMethodDef dp_py_kind_methods[];
 extern PyMethodDef dp_py_plants_methods[];
 extern PyMethodDef dp_py_terrain_methods[];
 extern PyMethodDef dp_py_maps_methods[];

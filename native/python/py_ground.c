@@ -1,62 +1,24 @@
 // python/py_ground.c - the ground and its soils as Python gives them.
 #include "base/alloc.h"
+#include "python/numbers.h"
 #include "python/py_inside.h"
 
+#include <stdio.h>
 #include <string.h>
 
-static float* number_of(DpSoil* soil, const DpSoilNumber* number)
+// a dict of its numbers by name, or all in the order of soil_numbers(); those that are not given are as usual
+static int read_soil(PyObject* object, Py_ssize_t place, DpSoil* soil)
 {
-    return (float*)(void*)((char*)soil + number->offset);
-}
-
-// all numbers of a soil in the order of the table, as soil_default() gives them
-static bool read_row(PyObject* row, Py_ssize_t place, DpSoil* soil)
-{
-    int                 count;
-    const DpSoilNumber* number = dp_soil_numbers(&count);
-    if (!PySequence_Check(row) || PySequence_Size(row) != count) {
-        PyErr_Clear();
-        PyErr_Format(PyExc_TypeError,
-                     "soils: soil %zd is neither a dict of numbers by name nor all %d", place,
-                     count);
-        return false;
-    }
-    for (int n = 0; n < count; ++n) {
-        PyObject*    value = PySequence_GetItem(row, n);
-        const double told = value ? PyFloat_AsDouble(value) : -1.0;
-        Py_XDECREF(value);
-        if (PyErr_Occurred()) return false;
-        *number_of(soil, &number[n]) = (float)told;
-    }
-    return true;
-}
-
-// numbers by name; those that are not told stay as they are
-static bool read_names(PyObject* dict, Py_ssize_t place, DpSoil* soil)
-{
-    int                 count;
-    const DpSoilNumber* number = dp_soil_numbers(&count);
-    Py_ssize_t          known = 0;
-    for (int n = 0; n < count; ++n) {
-        PyObject* value = PyDict_GetItemString(dict, number[n].name);  // borrowed
-        if (!value) continue;
-        const double told = PyFloat_AsDouble(value);
-        if (PyErr_Occurred()) return false;
-        *number_of(soil, &number[n]) = (float)told;
-        ++known;
-    }
-    if (known == PyDict_Size(dict)) return true;
-    PyErr_Format(PyExc_ValueError, "soils: soil %zd has a number that no soil has", place);
-    return false;
-}
-
-static bool read_soil(PyObject* told, Py_ssize_t place, DpSoil* soil)
-{
+    char            what[48];
+    int             count;
+    DpReason        reason;
+    const DpNumber* table = dp_soil_numbers(&count);
+    snprintf(what, sizeof what, "soils: soil %ld", (long)place);
     *soil = dp_soil_default();
-    if (!(PyDict_Check(told) ? read_names : read_row)(told, place, soil)) return false;
-    if (dp_soil_check(soil) == DP_OK) return true;
-    PyErr_Format(PyExc_ValueError, "soils: a number of soil %zd is out of its range", place);
-    return false;
+    if (dp_py_read_numbers(object, what, table, count, soil) < 0) return -1;
+    if (dp_soil_check(soil, &reason) == DP_OK) return 0;
+    PyErr_Format(PyExc_ValueError, "%s: %s", what, reason.text);
+    return -1;
 }
 
 // Soils, each a dict of numbers by name, or all of them in order.
@@ -75,10 +37,10 @@ DpSoil* dp_py_soils(PyObject* object, int* count)
         return NULL;
     }
     for (Py_ssize_t s = 0; s < size; ++s) {
-        PyObject*  dict = PySequence_GetItem(object, s);
-        const bool read = dict && read_soil(dict, s, &soils[s]);
-        Py_XDECREF(dict);
-        if (read) continue;
+        PyObject* one = PySequence_GetItem(object, s);
+        const int read = one ? read_soil(one, s, &soils[s]) : -1;
+        Py_XDECREF(one);
+        if (read == 0) continue;
         dp_free(soils);
         return NULL;
     }

@@ -27,13 +27,13 @@ static inline bool dp_py_enter(Simulation* self)
 }
 
 // py_ground.c: what arrays and tuples say; NULL or false with an exception.
-// Soils are rows of six floats in the order of DpSoil; the caller frees them. A ground is
+// Soils are dicts of numbers by name, or rows of all; the caller frees them. A ground is
 // ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds).
 DpSoil* dp_py_soils(PyObject* object, int* count);
 bool    dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
 
-// py_plants.c: 21 numbers of DpPlantKind; 0 or -1 with an exception.
-int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind);
+// py_kind.c: a kind by its numbers' names, or all in order; 0 or -1 with an exception.
+int dp_py_kind(PyObject* object, DpPlantKind* kind);
 
 // py_planting.c
 PyObject* dp_py_open_plants(PyObject* object, PyObject* args);

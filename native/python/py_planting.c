@@ -40,7 +40,7 @@ PyObject* dp_py_plant(PyObject* object, PyObject* args)
     DpPlantKind  kind;
     const float* root = NULL;
     PyObject*    result = NULL;
-    if (dp_py_kind(&buffers, o_kind, &kind) == 0)
+    if (dp_py_kind(o_kind, &kind) == 0)
         root = dp_buffers_open(&buffers, o_root, "root", 'f', &list, false);
     if (root && enter(self)) {
         int      stand = -1, grown = 0;

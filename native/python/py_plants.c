@@ -1,16 +1,11 @@
 // python/py_plants.c - the plants' kernels, one by one, for tests and for fitting kinds.
 //
-//   plants_default() -> (form, sheets, numbers ..)
-//   plants_numbers() -> ((name, unit, low, high, of Carex pensylvanica, meaning), ..)
-//   plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)
-//   plants_wear(kind, reserve, strength, angle, dt) -> strength
-//   plants_regrow(kind, alpha, seconds) -> alpha
 //   plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given) -> count
 //   plants_step(kind, seed, root, heading, position, velocity, strength, ground | None,
 //               colliders, dt, steps, workers) -> dict of DpPlantsReport
 //   plants_cover(kind, root, strength, (x0, y0, cell), law, alpha, modulus)
 //
-// kind: float64, its form, its sheets, and plants_numbers. Stands are float32 (n, particles, 3), strength float64
+// kind: as in py_kind.c. Stands are float32 (n, particles, 3), strength float64
 // (n, bends). ground = (x0, y0, cell, height); a collider is (x0, y0, cell, bottom, thickness,
 // velocity, friction) or (from, to, radius, velocity, friction); grids are float32 (ny, nx).
 #include <math.h>
@@ -18,114 +13,8 @@
 #include "base/alloc.h"
 #include "python/py_inside.h"
 
-#define BEFORE_NUMBERS 2  // of a kind: its form, its sheets
 #define COLLIDERS_MOST 16
 #define MOST_STEPS 1000000  // of one call, which nothing can stop
-
-int dp_py_kind(DpBuffers* buffers, PyObject* object, DpPlantKind* kind)
-{
-    int count;
-    dp_plant_numbers(&count);
-    const int     all = BEFORE_NUMBERS + count;
-    const double* v = dp_buffers_open(buffers, object, "kind", 'd', DP_SHAPE1(all), false);
-    if (!v || dp_buffers_finite(v, all, "kind") < 0) return -1;
-    kind->form = v[0] > 0.5 ? DP_PLANT_TUFT : DP_PLANT_SURFACE;
-    kind->sheets = v[1] > 2.5 ? 3 : 2;
-    for (int k = 0; k < count; ++k) *dp_plant_number(kind, k) = (float)v[BEFORE_NUMBERS + k];
-    DpReason reason;
-    if (dp_plant_kind_check(kind, &reason) == DP_OK) return 0;
-    PyErr_Format(PyExc_ValueError, "kind: %s", reason.text);
-    return -1;
-}
-
-static PyObject* plants_numbers(PyObject* module, PyObject* none)
-{
-    (void)module, (void)none;
-    int             count;
-    const DpNumber* number = dp_plant_numbers(&count);
-    PyObject*       list = PyTuple_New(count);
-    for (int k = 0; list && k < count; ++k, ++number) {
-        PyObject* one = Py_BuildValue("(ssddds)", number->name, number->unit, number->low,
-                                      number->high, number->usual, number->meaning);
-        if (!one || PyTuple_SetItem(list, k, one) < 0) {
-            Py_DECREF(list);
-            return NULL;
-        }
-    }
-    return list;
-}
-
-static PyObject* plants_default(PyObject* module, PyObject* none)
-{
-    (void)module, (void)none;
-    int         count;
-    DpPlantKind kind = dp_plant_kind_default();
-    dp_plant_numbers(&count);
-    PyObject* list = PyTuple_New(BEFORE_NUMBERS + count);
-    for (int k = 0; list && k < BEFORE_NUMBERS + count; ++k) {
-        const int form = k == 0 ? kind.form : kind.sheets, n = k - BEFORE_NUMBERS;
-        PyObject* one =
-            n < 0 ? PyLong_FromLong(form) : PyFloat_FromDouble((double)*dp_plant_number(&kind, n));
-        if (!one || PyTuple_SetItem(list, k, one) < 0) {
-            Py_DECREF(list);
-            return NULL;
-        }
-    }
-    return list;
-}
-
-static PyObject* plants_shape(PyObject* module, PyObject* object)
-{
-    (void)module;
-    DpBuffers   buffers = {0};
-    DpPlantKind kind;
-    PyObject*   answer = NULL;
-    if (dp_py_kind(&buffers, object, &kind) == 0) {
-        const DpPlantShape s = dp_plant_shape(&kind);
-        answer = Py_BuildValue("(iiiii)", s.rows, s.stems, s.stems_a_sheet, s.particles, s.bends);
-    }
-    dp_buffers_close(&buffers);
-    return answer;
-}
-
-static PyObject* plants_wear(PyObject* module, PyObject* arguments)
-{
-    (void)module;
-    PyObject *  object, *answer = NULL;
-    double      reserve, strength, angle, dt;
-    DpBuffers   buffers = {0};
-    DpPlantKind kind;
-    if (!PyArg_ParseTuple(arguments, "Odddd:plants_wear", &object, &reserve, &strength, &angle,
-                          &dt))
-        return NULL;
-    if (dp_py_kind(&buffers, object, &kind) == 0) {
-        if (!(reserve > 0.0) || !(strength >= 0.0) || !isfinite(angle) || !(dt >= 0.0))
-            PyErr_SetString(PyExc_ValueError,
-                            "reserve, strength, angle, dt: one is out of its range");
-        else
-            answer = PyFloat_FromDouble(dp_plant_wear(&kind, reserve, strength, angle, dt));
-    }
-    dp_buffers_close(&buffers);
-    return answer;
-}
-
-static PyObject* plants_regrow(PyObject* module, PyObject* arguments)
-{
-    (void)module;
-    PyObject *  object, *answer = NULL;
-    double      alpha, seconds;
-    DpBuffers   buffers = {0};
-    DpPlantKind kind;
-    if (!PyArg_ParseTuple(arguments, "Odd:plants_regrow", &object, &alpha, &seconds)) return NULL;
-    if (dp_py_kind(&buffers, object, &kind) == 0) {
-        if (!(alpha >= 0.0 && alpha <= 1.0) || !(seconds >= 0.0))
-            PyErr_SetString(PyExc_ValueError, "alpha must be 0 to 1, seconds 0 or more");
-        else
-            answer = PyFloat_FromDouble(dp_plant_regrow(&kind, alpha, seconds));
-    }
-    dp_buffers_close(&buffers);
-    return answer;
-}
 
 static PyObject* plants_place(PyObject* module, PyObject* arguments)
 {
@@ -187,7 +76,7 @@ static int open_stand(Stand* stand, PyObject* kind, unsigned long long seed, PyO
 {
     DpShape      list = {2, {-1, 3}}, row = {1, {-1}};
     const float *root, *heading = NULL;
-    if (dp_py_kind(&stand->buffers, kind, &stand->kind) < 0) return -1;
+    if (dp_py_kind(kind, &stand->kind) < 0) return -1;
     stand->shape = dp_plant_shape(&stand->kind);
     if (!(root = dp_buffers_open(&stand->buffers, roots, "root", 'f', &list, false))) return -1;
     row.n[0] = list.n[0];
@@ -389,18 +278,6 @@ done:
 }
 
 PyMethodDef dp_py_plants_methods[] = {
-    {"plants_default", plants_default, METH_NOARGS,
-     "plants_default() -> form, sheets and numbers of Carex pensylvanica, TRAIL Table 1."},
-    {"plants_numbers", plants_numbers, METH_NOARGS,
-     "plants_numbers() -> ((name, unit, low, high, of Carex pensylvanica, meaning), ..)\n\n"
-     "The numbers of a kind of plant, in the order in which the core reads them."},
-    {"plants_shape", plants_shape, METH_O,
-     "plants_shape(kind) -> (rows, stems, stems of a sheet, particles, bends)."},
-    {"plants_wear", plants_wear, METH_VARARGS,
-     "plants_wear(kind, reserve, strength, angle, dt) -> strength of a bend held at angle. TRAIL "
-     "(6)"},
-    {"plants_regrow", plants_regrow, METH_VARARGS,
-     "plants_regrow(kind, alpha, seconds) -> share of cover after so long without walkers."},
     {"plants_place", plants_place, METH_VARARGS,
      "plants_place(x0, y0, x1, y1, density, weight | None, seed, root, given=0) -> count\n\n"
      "Poisson-disc: fills root, float32 (most, 2) [m], after the `given` ones it holds; weight "

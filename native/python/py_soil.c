@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "python/numbers.h"
 #include "python/py_inside.h"
 #include "soil/soil.h"
 
@@ -259,15 +260,12 @@ static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
 static PyObject* soil_default(PyObject* module, PyObject* arguments)
 {
     (void)module, (void)arguments;
-    int                 count;
-    const DpSoilNumber* n = dp_soil_numbers(&count);
-    PyObject*           row = PyTuple_New(count);
+    int             count;
+    const DpNumber* number = dp_soil_numbers(&count);
+    PyObject*       row = PyTuple_New(count);
     for (int k = 0; row && k < count; ++k) {
-        PyObject* value = PyFloat_FromDouble(n[k].normal);
-        if (!value || PyTuple_SetItem(row, k, value) < 0) {
-            Py_DECREF(row);
-            return NULL;
-        }
+        PyObject* value = PyFloat_FromDouble(number[k].usual);
+        if (!value || PyTuple_SetItem(row, k, value) < 0) Py_CLEAR(row);
     }
     return row;
 }
@@ -275,16 +273,9 @@ static PyObject* soil_default(PyObject* module, PyObject* arguments)
 static PyObject* soil_numbers(PyObject* module, PyObject* arguments)
 {
     (void)module, (void)arguments;
-    int                 count;
-    const DpSoilNumber* n = dp_soil_numbers(&count);
-    PyObject*           list = PyList_New(0);
-    for (; list && count-- > 0; ++n) {
-        PyObject* one = Py_BuildValue("(ssddds)", n->name, n->unit, n->lowest, n->highest,
-                                      n->normal, n->meaning);
-        if (!one || PyList_Append(list, one) < 0) Py_CLEAR(list);
-        Py_XDECREF(one);
-    }
-    return list;
+    int             count;
+    const DpNumber* table = dp_soil_numbers(&count);
+    return dp_py_numbers(table, count);
 }
 
 PyMethodDef dp_py_soil_methods[] = {
@@ -296,5 +287,5 @@ PyMethodDef dp_py_soil_methods[] = {
      "soil_default() -> the numbers of a soil as they are if not told, in the order of "
      "soil_numbers()."},
     {"soil_numbers", soil_numbers, METH_NOARGS,
-     "soil_numbers() -> [(name, unit, lowest, highest, default, meaning)] of a soil, in order."},
+     "soil_numbers() -> ((name, unit, low, high, default, meaning), ..) of a soil, in order."},
     {NULL, NULL, 0, NULL}};

@@ -8,27 +8,18 @@
 // caller's DpSoilScratch.
 #pragma once
 #include "base/grid.h"
+#include "base/number.h"
 #include "base/status.h"
 #include "base/types.h"
 
 // Soil between firm and soft, the defaults of base/soil_numbers.h.
 DpSoil dp_soil_default(void);
 
-// DP_OK if every number of the soil is in its range.
-DpStatus dp_soil_check(const DpSoil* soil);
+// The table of base/soil_numbers.h, in the order of DpSoil; *count of them.
+const DpNumber* dp_soil_numbers(int* count);
 
-// A number of a soil, as base/soil_numbers.h tells it.
-typedef struct DpSoilNumber
-{
-    const char* name;
-    const char* unit;
-    double      lowest, highest, normal;  // range, both ends included; the default
-    const char* meaning;
-    size_t      offset;  // of the float in DpSoil
-} DpSoilNumber;
-
-// All of them, in the order of DpSoil; *count how many.
-const DpSoilNumber* dp_soil_numbers(int* count);
+// DP_OK if every number of the soil is in its range; else which is not, if `reason` is there.
+DpStatus dp_soil_check(const DpSoil* soil, DpReason* reason);
 
 // Scratch memory of one thread; it grows and is kept.
 typedef struct DpSoilScratch DpSoilScratch;

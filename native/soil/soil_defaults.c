@@ -2,35 +2,28 @@
 #include "base/alloc.h"
 #include "soil/soil_inside.h"
 
-#define NUMBER(name, unit, lowest, highest, normal, meaning) \
-    {#name, unit, lowest, highest, normal, meaning, offsetof(DpSoil, name)},
-static const DpSoilNumber numbers[] = {DP_SOIL_NUMBERS(NUMBER)};
+#define NUMBER(...) DP_NUMBER_ROW(DpSoil, __VA_ARGS__)
+static const DpNumber numbers[] = {DP_SOIL_NUMBERS(NUMBER)};
+#define COUNT ((int)(sizeof numbers / sizeof *numbers))
 
-const DpSoilNumber* dp_soil_numbers(int* count)
+const DpNumber* dp_soil_numbers(int* count)
 {
-    *count = (int)(sizeof numbers / sizeof *numbers);
+    *count = COUNT;
     return numbers;
 }
 
-#define DEFAULT(name, unit, lowest, highest, normal, meaning) .name = (float)(normal),
-
 DpSoil dp_soil_default(void)
 {
-    const DpSoil soil = {DP_SOIL_NUMBERS(DEFAULT)};
+    DpSoil soil;
+    dp_numbers_usual(&soil, numbers, COUNT);
     return soil;
 }
 
-static bool in_range(float value, double lowest, double highest)
+DpStatus dp_soil_check(const DpSoil* soil, DpReason* reason)
 {
-    return value >= (float)lowest && value <= (float)highest;  // false for NaN
-}
-
-#define IN_RANGE(name, unit, lowest, highest, normal, meaning) \
-    &&in_range(soil->name, lowest, highest)
-
-DpStatus dp_soil_check(const DpSoil* soil)
-{
-    return soil DP_SOIL_NUMBERS(IN_RANGE) ? DP_OK : DP_BAD_ARGUMENT;
+    if (soil) return dp_numbers_check(soil, numbers, COUNT, reason);
+    dp_reason(reason, "there is no soil");
+    return DP_BAD_ARGUMENT;
 }
 
 DpSoilScratch* dp_soil_scratch_create(void)

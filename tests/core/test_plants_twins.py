@@ -223,10 +223,18 @@ def test_placement():
 def test_the_door_checks_what_comes_in():
     stand = Stand(KINDS["carex"], 1)
     numbers = stand.kind.numbers()
-    with pytest.raises(ValueError, match="kind"):
-        _native.plants_shape(0 * numbers)
-    with pytest.raises(ValueError, match="kind: expected 22"):
-        _native.plants_shape(numbers[1:])
+    with pytest.raises(ValueError, match="kind: height of 11 m is out of its range, 0 to 10"):
+        _native.plants_shape({**numbers, "height": 11.0})
+    with pytest.raises(ValueError, match="kind: it has no number 'hight'"):
+        _native.plants_shape({**numbers, "hight": 0.1})
+    with pytest.raises(TypeError, match="kind: height is no number"):
+        _native.plants_shape({**numbers, "height": "tall"})
+    with pytest.raises(ValueError, match="kind: sheets is neither 2 nor 3"):
+        _native.plants_shape({**numbers, "sheets": 4})
+    assert _native.plants_shape({}) == _native.plants_shape(_native.plants_default())
+    for row in (_native.plants_default()[1:], 7, None, ()):
+        with pytest.raises(TypeError, match="kind: neither a dict"):
+            _native.plants_shape(row)
     with pytest.raises(ValueError, match="strength"):
         stand.strength *= 2
         stand.step(0.1)
@@ -250,7 +258,7 @@ def test_kinds_are_the_papers_and_what_a_film_needs():
     degrees = [round(math.degrees(a), 6) for k in (carex, lycopodium) for a in (k.degrade_angle, k.break_angle)]
     assert degrees == [10, 70, 5, 50]
     assert (carex.strength, lycopodium.strength) == (0.1, 0.08)
-    np.testing.assert_allclose(carex.numbers(), _native.plants_default(), rtol=1e-6)
+    np.testing.assert_allclose(list(carex.numbers().values()), _native.plants_default(), rtol=1e-6)
     assert _native.plants_shape(carex.numbers())[3] == 28
     for kind in KINDS.values():
         assert kind.density > kind.full_density

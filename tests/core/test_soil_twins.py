@@ -260,7 +260,7 @@ def test_the_door_checks_what_comes_in():
     for soils, words in (
         ([{"layer_depth": 0.0}], "out of its range"),
         ([{"rest_angle": float("nan")}], "out of its range"),
-        ([{"layer_dept": 0.3}], "no soil has"),
+        ([{"layer_dept": 0.3}], "no number 'layer_dept'"),
         ([], "1 to 255"),
     ):
         with pytest.raises(ValueError, match="soils: .*" + words):

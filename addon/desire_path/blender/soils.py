@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..errors import DesirePathError
-from ..ground.soil import RANGES, SOILS, Soil
+from ..ground.soil import NUMBERS, SOILS, Soil
 from . import axes, compat
 
 # what people call a number, and what it is
@@ -73,13 +73,13 @@ def _by_hand(self, _context):
 
 def _number(name):
     label, words = WORDS[name]
-    low, high = RANGES[name]
+    of = NUMBERS[name]
     return FloatProperty(
         name=label,
         description=words,
         default=getattr(SOILS[ITEMS[0][0]], name),
-        min=low,
-        max=high,
+        min=of.low,
+        max=of.high,
         precision=4 if name in {"layer_depth", "shear_modulus", "settle_time"} else 2,
         step=1,
         subtype="ANGLE" if name == "rest_angle" else "NONE",

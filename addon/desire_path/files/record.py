@@ -27,7 +27,7 @@ def save(record: Dataclass, path: str | os.PathLike[str], tag: str, version: int
 
     tag, version: say in the file what it is; what: the same for people, "soil"
     """
-    text = json.dumps({tag: version, **asdict(record)}, indent=2) + "\n"
+    text = json.dumps({tag: version, **asdict(record)}, indent=2, default=float) + "\n"
     with atomic_file.file(path, f"The {what}", "w", encoding="utf-8") as stream:
         stream.write(text)
 

@@ -13,6 +13,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,86 +22,43 @@ from ..bounds import PLANT_BYTES, Limits
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
+from .numbers import Number, check, table, with_numbers
 
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
 _TAG, _VERSION = "desire_path_plant", 1  # of a kind's file
 
 
-@dataclass(frozen=True)
-class Number:
-    """One number of a kind of plant, as the core declares it."""
-
-    unit: str  # "m", "rad", "1/s" .., "-" of a share
-    low: float  # low <= value <= high
-    high: float
-    usual: float  # of a kind that does not say
-    meaning: str
-
-
-_NAMES = {"root_radius": "reach"}  # which say the same
-NUMBERS = MappingProxyType(  # by name, in the order in which the core reads them
-    {_NAMES.get(name, name): Number(*of) for name, *of in _native.plants_numbers()}
+_NAMES = {"root_radius": "reach"}  # of the core's numbers, which say the same
+_CORE = table(_native.plants_numbers())
+# by name, in the core's order, and what it does not read
+NUMBERS = MappingProxyType(
+    {
+        **table(_native.plants_numbers(), _NAMES),
+        "density": Number("1/m^2", 1e-6, 1e9, 80.0, "of a stand, unless told otherwise"),
+    }
 )
-_DENSITY = Number("1/m^2", 1e-6, 1e9, 80.0, "of a stand, unless told otherwise")  # what the core does not read
-
-
-def _usual(name: str) -> float:
-    return NUMBERS[name].usual
-
-
-def _with_numbers(kind: type) -> type:
-    """A kind has every number that the core reads, be it listed here or not, and tells what it means."""
-    for name, number in NUMBERS.items():
-        if name not in kind.__annotations__:
-            kind.__annotations__[name] = "float"
-            setattr(kind, name, number.usual)
-    table = (*NUMBERS.items(), ("density", _DENSITY))
-    lines = [f"    {name} [{of.unit}], {of.low:g} to {of.high:g}: {of.meaning}" for name, of in table]
-    kind.__doc__ = "\n".join([f"{kind.__doc__}\n", *lines])
-    return kind
 
 
 @dataclass(frozen=True)
-@_with_numbers
+@with_numbers(NUMBERS)
 class Kind:
     """One kind of plant. Its form is a "surface", the paper's, or a "tuft" of 2 or 3 crossed sheets of stems."""
 
     form: str = "surface"
     sheets: int = 2
-    height: float = _usual("height")
-    width: float = _usual("width")
-    depth: float = _usual("depth")
-    spacing: float = _usual("spacing")
-    radius: float = _usual("radius")
-    curl: float = _usual("curl")
-    sway: float = _usual("sway")
-    across: float = _usual("across")
-    damping: float = _usual("damping")
-    strength: float = _usual("strength")
-    degrade_angle: float = _usual("degrade_angle")
-    break_angle: float = _usual("break_angle")
-    degrade_rate: float = _usual("degrade_rate")
-    recover_rate: float = _usual("recover_rate")
-    spread: float = _usual("spread")
-    regrow_rate: float = _usual("regrow_rate")
-    seed_share: float = _usual("seed_share")
-    reach: float = _usual("reach")
-    full_density: float = _usual("full_density")
-    modulus: float = _usual("modulus")
-    density: float = _DENSITY.usual
+
+    if TYPE_CHECKING:
+
+        def __init__(self, form: str = "surface", sheets: int = 2, *numbers: float, **by_name: Any) -> None: ...
+        def __getattr__(self, name: str) -> float: ...
 
     def __post_init__(self):
         if self.form not in FORMS:
             raise DesirePathError(f'There is no plant form "{str(self.form)[:40]}": choose surface or tuft.')
         if not isinstance(self.sheets, (int, np.integer)) or self.sheets not in (2, 3):
             raise DesirePathError(f"A tuft of {str(self.sheets)[:40]} sheets cannot be built: choose 2 or 3.")
-        for name, of in (*NUMBERS.items(), ("density", _DENSITY)):
-            value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not of.low <= value <= of.high:
-                raise DesirePathError(
-                    f"A plant's {name} of {_told(value)} cannot be used: choose one from {of.low:.4g} to {of.high:.4g}."
-                )
+        check(self, NUMBERS, "A plant's")
         if self.break_angle < self.degrade_angle:
             raise DesirePathError("A plant's break_angle lies below its degrade_angle: raise it.")
         rows, stems = self.height / self.spacing + 1, self.width / self.spacing + 1
@@ -110,9 +68,10 @@ class Kind:
                 f"{self.spacing:g} m apart: raise its spacing."
             )
 
-    def numbers(self):
-        """What the core reads: float64, its form, its sheets, and NUMBERS."""
-        return np.array([FORMS.index(self.form), self.sheets, *(getattr(self, name) for name in NUMBERS)], float)
+    def numbers(self) -> dict[str, float]:
+        """What the core reads of it, by the core's names; `form` is its place in FORMS."""
+        numbers = {name: float(getattr(self, _NAMES.get(name, name))) for name in _CORE}
+        return {"form": FORMS.index(self.form), "sheets": int(self.sheets), **numbers}
 
     def save(self, path):
         """Write this kind as JSON, whole or not at all."""
@@ -462,13 +421,6 @@ def seed_of(plantings):
     for planting in plantings:
         seed = _mixed(seed, int(planting.seed), 0)
     return seed
-
-
-def _told(value):
-    """A value as a sentence shows it."""
-    if isinstance(value, (int, float)):
-        return f"{float(value):g}" if not abs(value) >= 1e300 else "more than 1e300"
-    return repr(value)[:40]
 
 
 def _is_number(value):

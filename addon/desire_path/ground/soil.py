@@ -3,47 +3,33 @@
 from __future__ import annotations
 
 import math
-import numbers
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
+from .numbers import check, table, with_numbers
 
 _TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
-RANGES = MappingProxyType(  # (lowest, highest) of each number, as the core's table says
-    {name: (lowest, highest) for name, _, lowest, highest, *_ in _native.soil_numbers()}
-)
+NUMBERS = table(_native.soil_numbers())  # of a soil, by name: base/soil_numbers.h
 
 
 @dataclass(frozen=True)
+@with_numbers(NUMBERS)
 class Soil:
-    """One kind of ground; names, units and ranges as in DpSoil of native/base/types.h."""
+    """One kind of ground: SI units, angles in radians."""
 
-    layer_depth: float = 0.3  # L0, loose layer over rigid ground [m] > 0
-    young_modulus: float = 1.0e6  # E_g, without roots [Pa] > 0
-    poisson_ratio: float = 0.35  # nu, share pushed sideways, SOFT22 (12) 0..0.5
-    settle_time: float = 0.1  # tau, time to yield fully, SOFT22 (11) [s] > 0
-    rest_angle: float = math.radians(30)  # gamma_r, steepest slope that stays [rad] > 0, up to 89 degrees
-    push_threshold: float = 0.0  # F_threshold, TRAIL (13) [N]; 0 = half the walker's weight
-    shear_modulus: float = 0.0  # K, how far it shears before it carries sideways [m] 0..0.1; 0: soles do not slip
+    if TYPE_CHECKING:
+
+        def __init__(self, *numbers: float, **by_name: float) -> None: ...
+        def __getattr__(self, name: str) -> float: ...
 
     def __post_init__(self) -> None:
-        for name, (low, high) in RANGES.items():
-            value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, numbers.Real):
-                raise DesirePathError(f"A soil's {name} of {str(value)[:40]!r} is no number: give one.")
-            if not low <= value <= high:
-                try:
-                    told = f"{value:g}"
-                except OverflowError:  # a whole number of hundreds of digits
-                    told = "more than 1e300"
-                raise DesirePathError(
-                    f"A soil's {name} of {told} cannot be used: choose one from {low:.4g} to {high:.4g}."
-                )
+        check(self, NUMBERS, "A soil's")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write this soil as JSON, whole or not at all; angles in radians, all else in SI units."""
@@ -59,8 +45,8 @@ class Soil:
         found = {}
         for text in texts:
             name, _, value = text.partition("=")
-            if name not in {each.name for each in fields(self)}:
-                names = ", ".join(each.name for each in fields(self))
+            if name not in NUMBERS:
+                names = ", ".join(NUMBERS)
                 raise DesirePathError(f"No soil has '{name[:40]}': choose one of {names}, as in young_modulus=2e6.")
             try:
                 found[name] = float(value)

@@ -335,24 +335,24 @@ TEST(bad_arguments)
 
 TEST(soil_ranges)
 {
-    DpSoil soil = dp_soil_default();
-    CHECK(dp_soil_check(&soil) == DP_OK && dp_soil_check(NULL) == DP_BAD_ARGUMENT);
+    DpReason reason;
+    DpSoil   soil = dp_soil_default();
+    CHECK(dp_soil_check(&soil, NULL) == DP_OK && dp_soil_check(NULL, NULL) == DP_BAD_ARGUMENT);
     soil.poisson_ratio = 0.51f;
-    CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_check(&soil, &reason) == DP_BAD_ARGUMENT);
+    CHECK(strcmp(reason.text, "poisson_ratio of 0.51 - is out of its range, 0 to 0.5") == 0);
     soil = dp_soil_default(), soil.rest_angle = NAN;
-    CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
-    soil = dp_soil_default(), soil.layer_depth = 0.0f;
-    CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_check(&soil, NULL) == DP_BAD_ARGUMENT);
     int count;
-    for (const DpSoilNumber* n = dp_soil_numbers(&count); count-- > 0; ++n) {  // each has its ends
+    for (const DpNumber* n = dp_soil_numbers(&count); count-- > 0; ++n) {  // each has its ends
         soil = dp_soil_default();
-        float* value = (float*)(void*)((char*)&soil + n->offset);
-        CHECK(n->lowest <= (double)*value && (double)*value <= n->highest);
+        CHECK(dp_number_holds(n, dp_number_get(&soil, n)));
         for (int end = 0; end < 2; ++end) {
-            *value = (float)(end ? n->highest : n->lowest);
-            CHECK(dp_soil_check(&soil) == DP_OK);
-            *value = nextafterf(*value, end ? INFINITY : -INFINITY);
-            CHECK(dp_soil_check(&soil) == DP_BAD_ARGUMENT);
+            const float at = (float)(end ? n->high : n->low);
+            dp_number_set(&soil, n, (double)at);
+            CHECK(dp_soil_check(&soil, NULL) == DP_OK);
+            dp_number_set(&soil, n, (double)nextafterf(at, end ? INFINITY : -INFINITY));
+            CHECK(dp_soil_check(&soil, NULL) == DP_BAD_ARGUMENT);
         }
     }
 }
