@@ -177,6 +177,7 @@ def plants_cover(
 ) -> None: ...
 
 # ---- terrain ----
+def fields() -> tuple[tuple[str, int, str, str, str], ...]: ...  # name, number, unit, equation, meaning
 def terrain_rest(vertices: _Array, triangles: _Array, xy: _Array, height: _Array, /) -> None: ...
 def mesh_cut(
     points: _Array,  # (n, 3) f4

@@ -1,7 +1,7 @@
 // python/py_terrain.c - ground meshes: what of them lies near a walk, and their rest heights.
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "python/buffers.h"
+#include "python/py_inside.h"
 #include "soil/soil.h"
 #include "terrain/terrain.h"
 
@@ -163,7 +163,24 @@ static PyObject* are_centres(PyObject* module, PyObject* arguments)
     return answer;
 }
 
+static PyObject* fields(PyObject* module, PyObject* none)
+{
+    (void)module, (void)none;
+    int                count;
+    const DpFieldInfo* field = dp_sim_fields(&count);
+    PyObject*          rows = PyTuple_New(count);
+    for (int k = 0; rows && k < count; ++k, ++field) {
+        PyObject* row = Py_BuildValue("(sisss)", field->name, field->field, field->unit,
+                                      field->equation, field->meaning);
+        if (!row || PyTuple_SetItem(rows, k, row) < 0) Py_CLEAR(rows);
+    }
+    return rows;
+}
+
 PyMethodDef dp_py_terrain_methods[] = {
+    {"fields", fields, METH_NOARGS,
+     "fields() -> ((name, number, unit, equation, meaning), ..): what a simulation can be read "
+     "by."},
     {"mesh_cut", mesh_cut, METH_VARARGS,
      "mesh_cut(points, corners, starts or None, sides, place, box or None)\n\n"
      "Faces near a walk as triangles of the world: points float32 (n, 3), corners int32 (c,), "

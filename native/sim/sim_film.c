@@ -42,7 +42,7 @@ static void fill_tile(const DpFilm* film, int index, float* value)
     const long   tx = film->tile_x + index % film->tiles_x;
     const long   ty = film->tile_y + index / film->tiles_x;
     for (int f = 0; f < film->fields; ++f) {
-        const int axis = film->field[f] - DP_FIELD_LEAN;
+        const int axis = film->field[f] - DP_FIELD_LEAN_X;
         if (axis < 0) {
             dp_terrain_tile(sim->terrain, tx, ty, (DpField)film->field[f], value + f, film->fields);
             continue;
@@ -202,9 +202,20 @@ static bool are_tiles(long first, int count)
            dp_terrain_has(first * DP_TILE, 0, (long)count * DP_TILE, 1);
 }
 
+#define FIELD_INFO(ID, name, number, unit, equation, meaning) \
+    {DP_FIELD_##ID, #name, unit, equation, meaning},
+static const DpFieldInfo fields[] = {DP_TERRAIN_FIELDS(FIELD_INFO, FIELD_INFO)
+                                         DP_SIM_FIELDS(FIELD_INFO)};
+
+const DpFieldInfo* dp_sim_fields(int* count)
+{
+    *count = (int)(sizeof fields / sizeof *fields);
+    return fields;
+}
+
 bool dp_film_shows(const DpSim* sim, int field)
 {
-    if (field >= DP_FIELD_LEAN && field < DP_FIELD_LEAN + 3) return dp_sim_grass(sim) != NULL;
+    if (field >= DP_FIELD_LEAN_X && field <= DP_FIELD_CRUSHED) return dp_sim_grass(sim) != NULL;
     return field == DP_FIELD_PRESSURE ||
            (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE);
 }
@@ -254,9 +265,9 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
         const int field = created->field[f] = options->field[f];
         created->of_soles = created->of_soles || field == DP_FIELD_PRESSURE;
         created->of_grass =
-            created->of_grass || (field >= DP_FIELD_LEAN && field != DP_FIELD_PRESSURE);
+            created->of_grass || (field >= DP_FIELD_LEAN_X && field != DP_FIELD_PRESSURE);
         created->of_ground =
-            created->of_ground || (field < DP_FIELD_LEAN && field != DP_FIELD_PLANT_STRENGTH);
+            created->of_ground || (field < DP_FIELD_LEAN_X && field != DP_FIELD_PLANT_STRENGTH);
     }
     const DpStatus status = begin(created, options);
     if (status != DP_OK) {
@@ -279,7 +290,7 @@ DpStatus dp_film_open_playback(DpReel* reel, const DpFilmOptions* options, DpPla
     static const int         field[2][4] = {
                 {DP_FIELD_HEIGHT_CHANGE, DP_FIELD_PLANT_STRENGTH, DP_FIELD_COMPRESSION,
                  DP_FIELD_PRESSURE_TIME},
-                {DP_FIELD_LEAN, DP_FIELD_LEAN + 1, DP_FIELD_LEAN + 2, DP_FIELD_PLANT_STRENGTH}};
+                {DP_FIELD_LEAN_X, DP_FIELD_LEAN_Y, DP_FIELD_CRUSHED, DP_FIELD_PLANT_STRENGTH}};
     static const char* const name[2][4] = {
         {"height change [m]", "plant strength [-]", "compression [m]", "pressure_time [Pa s]"},
         {"lean_x [-]", "lean_y [-]", "crushed [-]", "plant strength [-]"}};

@@ -9,8 +9,20 @@
 #include "terrain/terrain.h"
 
 #define DP_FILM_FIELDS 16
-#define DP_FIELD_LEAN 64      // lean_x, lean_y, crushed: beyond the terrain's own fields
-#define DP_FIELD_PRESSURE 67  // under the soles now, see dp_sim_pressure
+
+// Fields beyond the terrain's own, as terrain_fields.h has those.
+#define DP_SIM_FIELDS(X)                                                                \
+    X(LEAN_X, lean_x, 64, "-", "", "how far grass leans along x, by its height, -1..1") \
+    X(LEAN_Y, lean_y, 65, "-", "", "how far it leans along y")                          \
+    X(CRUSHED, crushed, 66, "-", "", "share of its height that is pressed down, 0..1")  \
+    X(PRESSURE, pressure, 67, "Pa", "", "stress under the soles at that moment")
+enum
+{
+    DP_SIM_FIELDS(DP_FIELD_NUMBER)
+};
+
+// All fields of a simulation, the terrain's and these; *count how many.
+const DpFieldInfo* dp_sim_fields(int* count);
 
 typedef struct DpSim  DpSim;
 typedef struct DpReel DpReel;  // all films of one simulation, and the thread that writes them
@@ -21,9 +33,8 @@ typedef struct DpFilmOptions
     long tile_x, tile_y;    // lowest tile
     int  tiles_x, tiles_y;  // >= 1
 
-    int fields;  // 1..DP_FILM_FIELDS
-    int field
-        [DP_FILM_FIELDS];  // a DpField, DP_FIELD_PRESSURE, or DP_FIELD_LEAN + 0, 1, 2 on planted ground
+    int         fields;                   // 1..DP_FILM_FIELDS
+    int         field[DP_FILM_FIELDS];    // of dp_sim_fields; how grass lies on planted ground only
     const char* channel[DP_FILM_FIELDS];  // the name of each in the files
 
     const DpNote* notes;  // of every file's header

@@ -126,7 +126,7 @@ void dp_terrain_refresh_cover(DpTerrain* terrain, DpCellRect cells);
 bool dp_terrain_has(long i0, long j0, long nx, long ny);
 
 // terrain_fields.h has the meaning and unit of each.
-#define DP_FIELD_NUMBER(ID, name, number, unit, meaning) DP_FIELD_##ID = number,
+#define DP_FIELD_NUMBER(ID, name, number, unit, equation, meaning) DP_FIELD_##ID = number,
 typedef enum DpField
 {
     DP_TERRAIN_FIELDS(DP_FIELD_NUMBER, DP_FIELD_NUMBER)
@@ -134,8 +134,8 @@ typedef enum DpField
 
 typedef struct DpFieldInfo
 {
-    DpField     field;
-    const char *name, *unit, *meaning;
+    int         field;  // a DpField, or one that only a simulation knows
+    const char *name, *unit, *equation, *meaning;
 } DpFieldInfo;
 
 // All of them, ascending; *count how many.

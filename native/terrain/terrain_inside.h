@@ -90,10 +90,10 @@ uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const 
 
 // ---- tiles: terrain_tiles.c --------------------------------------------------------------------
 
-#define KEPT_ONE(ID, name, number, unit, meaning) +1
+#define KEPT_ONE(ID, name, number, unit, equation, meaning) +1
 #define KEPT_FIELDS (DP_TERRAIN_FIELDS(KEPT_ONE, DP_FIELD_NONE))
 
-#define TILE_GRID(ID, name, number, unit, meaning) float name[TILE_CELLS];
+#define TILE_GRID(ID, name, number, unit, equation, meaning) float name[TILE_CELLS];
 typedef struct Tile
 {
     float base_height[TILE_CELLS];  // over the datum, NaN = no ground [m]
@@ -125,7 +125,7 @@ struct DpTerrain
 };
 
 // the kept grids of a tile, in the order of their fields
-#define TILE_KEPT(ID, name, number, unit, meaning) tile->name,
+#define TILE_KEPT(ID, name, number, unit, equation, meaning) tile->name,
 static inline float* tile_kept(Tile* tile, int k)
 {
     float* const grid[] = {DP_TERRAIN_FIELDS(TILE_KEPT, DP_FIELD_NONE)};

@@ -92,7 +92,7 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* 
     }
 }
 
-#define PATCH_GRID(ID, name, number, unit, meaning) .name = grid[number + 1],
+#define PATCH_GRID(ID, name, number, unit, equation, meaning) .name = grid[number + 1],
 
 DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells,
                             DpSoilPatch** patch)
@@ -153,7 +153,7 @@ static bool copy_out(const DpLease* lease, size_t from, Tile* tile, size_t to, i
     const DpSoilPatch* patch = &lease->patch;
     const float*       base_height = tile->base_height + to;
     int                differs = 0;
-#define COPY_OUT(ID, name, number, unit, meaning) \
+#define COPY_OUT(ID, name, number, unit, equation, meaning) \
     differs |= copy_row(tile->name + to, patch->name + from, base_height, count);
     DP_TERRAIN_FIELDS(COPY_OUT, DP_FIELD_NONE)
     return differs != 0;

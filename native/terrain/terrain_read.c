@@ -15,7 +15,8 @@ typedef struct Reading
     float*           out;
 } Reading;
 
-#define FIELD_INFO(ID, name, number, unit, meaning) {DP_FIELD_##ID, #name, unit, meaning},
+#define FIELD_INFO(ID, name, number, unit, equation, meaning) \
+    {DP_FIELD_##ID, #name, unit, equation, meaning},
 static const DpFieldInfo fields[] = {DP_TERRAIN_FIELDS(FIELD_INFO, FIELD_INFO)};
 
 const DpFieldInfo* dp_terrain_fields(int* count)
@@ -27,7 +28,7 @@ const DpFieldInfo* dp_terrain_fields(int* count)
 // the grid of a tile that a field is copied from; NULL where it is worked out from the soil
 static const float* grid_of(const Tile* tile, const float* base_height, DpField field)
 {
-#define GRID_OF(ID, name, number, unit, meaning) \
+#define GRID_OF(ID, name, number, unit, equation, meaning) \
     if (field == DP_FIELD_##ID) return tile->name;
     DP_TERRAIN_FIELDS(GRID_OF, DP_FIELD_NONE)
     return field == DP_FIELD_BASE_HEIGHT ? base_height : NULL;

@@ -3,6 +3,7 @@
 import hashlib
 import os
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -237,3 +238,19 @@ def test_the_table_names_every_map_once():
     names = [entry.name for entry in maps.MAPS]
     assert names == ["compression", "heap", "pressure_time", "plant_strength"]
     assert all(entry.unit and entry.equation.startswith("TRAIL (") and entry.meaning for entry in maps.MAPS)
+    fields = {name: of for name, *of in _native.fields()}
+    assert len(fields) == len(_native.fields()) == len({number for number, *_ in fields.values()})
+    for entry in maps.MAPS + maps.GROUND + maps.LEAN:
+        assert entry[1:] == tuple(fields[entry.name][1:])
+
+
+@pytest.mark.parametrize("page, row", [("README.md", "| `maps_final.exr` |"), ("native/model.md", "| every second,")])
+def test_pages_name_every_map_with_its_unit(page, row):
+    text = (Path(__file__).resolve().parents[2] / page).read_text("utf-8")
+    line = next(line for line in text.splitlines() if line.startswith(row)).split("|", 2)[2]
+    told = line.split("`")[1:]
+    units = {name.removesuffix(maps.LAYER): behind for name, behind in zip(told[::2], told[1::2])}
+    known = {entry.name: entry.unit for entry in maps.MAPS + maps.GROUND + maps.LEAN}
+    assert set(units) == set(known)
+    for name, unit in known.items():
+        assert (f"[{unit}]" in units[name]) == (unit != "-"), name

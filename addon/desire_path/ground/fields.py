@@ -1,17 +1,22 @@
-"""The fields a simulation can be asked for, by name."""
+"""The fields a simulation can be asked for, by name, as the core declares them."""
 
 from __future__ import annotations
 
-FIELDS = {  # name -> number in native/terrain/terrain.h, DpField
-    "compression": 0,
-    "heap": 1,
-    "pressure_time": 2,
-    "rest": 3,
-    "young_modulus": 4,
-    "soil": 5,
-    "plant_strength": 6,
-    "height_change": 7,
-    "pressure": 67,
-}
-LEAN = ("lean_x", "lean_y", "crushed")  # axes of the core's read_lean
-FIRST_LEAN = 64  # the number of the first of them among a map's fields
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from ..core import _native
+
+
+class Field(NamedTuple):
+    """One of them."""
+
+    number: int  # by which the core knows it
+    unit: str  # "m", "Pa s" .., "-" of a share
+    equation: str  # of a paper, "TRAIL (10)", or ""
+    meaning: str
+
+
+FIELDS: Mapping[str, Field] = MappingProxyType({name: Field(*of) for name, *of in _native.fields()})
+LEAN = ("lean_x", "lean_y", "crushed")  # how grass lies, axes of the core's read_lean: on planted ground only

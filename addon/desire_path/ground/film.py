@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import DesirePathError
 from . import maps
-from .fields import FIELDS, FIRST_LEAN, LEAN
+from .fields import FIELDS
 
 
 class Closed:
@@ -26,9 +26,8 @@ class Film:
     def open_maps(self, names, notes):
         """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
         and notes (name, text or number)."""
-        fields = {**FIELDS, **{name: FIRST_LEAN + k for k, name in enumerate(LEAN)}}
-        shown = (maps.PICTURE, fields[names[0]])
-        self._core.open_maps((shown, *((maps.channel(name), fields[name]) for name in names)), tuple(notes))
+        shown = (maps.PICTURE, FIELDS[names[0]].number)
+        self._core.open_maps((shown, *((maps.channel(name), FIELDS[name].number) for name in names)), tuple(notes))
 
     def list_files(self, path):
         """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it

@@ -22,6 +22,8 @@ import numpy as np
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
+from . import fields
+from .fields import FIELDS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -37,22 +39,17 @@ class Map(NamedTuple):
 
 
 LAYER = ".V"  # the one channel of a layer, as Blender calls a value
-MAPS = (  # name, unit, equation, meaning; float32 (ny, nx) each
-    Map("compression", "m", "TRAIL (10)", "pressed below the first height, >= 0"),
-    Map("heap", "m", "TRAIL (12)", "loose soil piled above it, >= 0"),
-    Map("pressure_time", "Pa s", "TRAIL (17)", "stress summed over the walk"),
-    Map("plant_strength", "-", "TRAIL (7)", "1 = whole stand, 0 = bare"),
-)
 PICTURE = "Y"  # the channel that every program shows, grey
-GROUND = (  # beside them: what another bake goes on from, and what is no sum
-    Map("rest", "m", "", "height before anybody walked; NaN = no ground"),
-    Map("pressure", "Pa", "", "stress under the soles at that moment"),
-)
-LEAN = (  # beside them where plants grow
-    Map("lean_x", "-", "", "how far grass leans along x, by its height, -1..1"),
-    Map("lean_y", "-", "", "how far it leans along y"),
-    Map("crushed", "-", "", "share of its height that is pressed down, 0..1"),
-)
+
+
+def _maps(*names: str) -> tuple[Map, ...]:
+    return tuple(Map(name, *FIELDS[name][1:]) for name in names)
+
+
+# float32 (ny, nx) each; what they mean stands in native/terrain/terrain_fields.h and native/sim/sim_film.h
+MAPS = _maps("compression", "heap", "pressure_time", "plant_strength")
+GROUND = _maps("rest", "pressure")  # beside them: what another bake goes on from, and what is no sum
+LEAN = _maps(*fields.LEAN)  # beside them where plants grow
 
 
 def channel(name: str) -> str:

@@ -369,13 +369,13 @@ class Simulation:
             nx, ny = i1 - i0, j1 - j0
         elif None in (j0, nx, ny):
             raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
-        if name not in FIELDS and name not in LEAN:
-            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join([*FIELDS, *LEAN])}.")
+        if name not in FIELDS:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(FIELDS)}.")
         if nx < 1 or ny < 1:
             raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
         out = np.zeros((int(ny), int(nx)), np.float32)
-        if name in FIELDS:
-            self._core.read(FIELDS[name], int(i0), int(j0), out)
+        if name not in LEAN:
+            self._core.read(FIELDS[name].number, int(i0), int(j0), out)
         elif self.plantings:
             self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
         return out

@@ -143,7 +143,7 @@ TEST(what_cannot_be_filmed_is_refused)
     options.channel[0] = "Y";
     CHECK(world_make(&world, NULL, 0.0, 0.0, 0.0, 1.0, 0.02, 1) == DP_OK);
     CHECK(dp_reel_create(&reel, world.sim, 1) == DP_OK);
-    options.field[0] = DP_FIELD_LEAN;  // nothing grows here
+    options.field[0] = DP_FIELD_LEAN_X;  // nothing grows here
     CHECK(dp_film_open(reel, &options, &film) == DP_BAD_ARGUMENT && !film);
     options.field[0] = DP_FIELD_BASE_HEIGHT, options.tiles_x = 0;
     CHECK(dp_film_open(reel, &options, &film) == DP_BAD_ARGUMENT && !film);
