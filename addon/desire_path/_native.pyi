@@ -15,6 +15,7 @@ _Array: TypeAlias = np.ndarray | Buffer
 _Vec3: TypeAlias = tuple[float, float, float]
 _Soil: TypeAlias = dict[str, float] | Sequence[float]  # numbers by name, or all in the order of soil_numbers()
 _Kind: TypeAlias = dict[str, float] | Sequence[float]  # form, sheets, plants_numbers(): by name, or all in order
+_Numbers: TypeAlias = tuple[tuple[str, str, float, float, float, str], ...]  # name, unit, low, high, usual, meaning
 _Box: TypeAlias = tuple[int, int, int, int]  # i0, i1, j0, j1
 _Gait: TypeAlias = tuple[  # native_gait(): float64, and int32 where things are counted
     _Array,  # time (T,)
@@ -66,6 +67,9 @@ def bytes_live() -> int: ...
 def bytes_peak() -> int: ...
 
 # ---- walker ----
+def place_numbers() -> _Numbers: ...
+def contact_numbers() -> _Numbers: ...
+def load_numbers() -> _Numbers: ...
 def resample_count(first: float, last: float, rate: float, /) -> int: ...
 def resample(
     time: _Array, com: _Array, pose: _Array, rate: float, new_time: _Array, new_com: _Array, new_pose: _Array, /
@@ -75,7 +79,7 @@ def foot_contact(
     ground: _Array,  # (K, T) f8
     touching: _Array,  # filled (P, T) u1
     clearance: _Array,  # filled (K,) f8
-    limits: _Array | None = None,  # f8
+    limits: dict[str, float] | Sequence[float] | None = None,
     /,
 ) -> None: ...
 def foot_force(
@@ -87,7 +91,7 @@ def foot_force(
     half_sine: bool,
     force: _Array,  # filled (P, T, 3) f8
     point: _Array,  # filled (P, T, 3) f8
-    options: _Array | None = None,  # f8
+    options: dict[str, float] | Sequence[float] | None = None,
     settle: _Array | None = None,  # (K, T) f8
     /,
 ) -> None: ...
@@ -109,9 +113,7 @@ def imprint_rings(ring: _Array, rings: int, /) -> None: ...
 
 # ---- soil ----
 def soil_default() -> tuple[float, ...]: ...
-def soil_numbers() -> tuple[
-    tuple[str, str, float, float, float, str], ...
-]: ...  # name, unit, low, high, default, meaning
+def soil_numbers() -> _Numbers: ...
 def soil_anisotropy(push: _Vec3, threshold: float, /) -> float: ...
 def soil_compress(patch: _Patch, imprint: _Imprint, foot: tuple[Any, ...], law: int, dt: float, /) -> _Pressed: ...
 def soil_accumulate(
@@ -131,9 +133,7 @@ def soil_stabilize(
 
 # ---- plants ----
 def plants_default() -> tuple[float, ...]: ...
-def plants_numbers() -> tuple[
-    tuple[str, str, float, float, float, str], ...
-]: ...  # name, unit, low, high, of a kind that does not say, meaning
+def plants_numbers() -> _Numbers: ...
 def plants_shape(kind: _Kind, /) -> tuple[int, int, int, int, int]: ...
 def plants_wear(kind: _Kind, reserve: float, strength: float, angle: float, dt: float, /) -> float: ...
 def plants_regrow(kind: _Kind, alpha: float, seconds: float, /) -> float: ...
@@ -257,7 +257,7 @@ class Simulation:
         walker: int,
         flat: bool,
         carry: bool,
-        numbers: _Array,
+        numbers: dict[str, float] | Sequence[float],
         clearance: _Array,
         pose: _Array,  # changed (P, T, 7) f8
         com: _Array,  # changed (W, T, 3) f8

@@ -23,6 +23,10 @@ typedef struct DpNumber
 #define DP_NUMBER_ROW(Record, name, unit, low, high, usual, meaning) \
     {#name, unit, low, high, usual, meaning, offsetof(Record, name), sizeof(((Record*)0)->name)},
 
+// The member of a record, from its line.
+#define DP_FLOAT_MEMBER(name, ...) float name;
+#define DP_DOUBLE_MEMBER(name, ...) double name;
+
 double dp_number_get(const void* record, const DpNumber* number);
 void   dp_number_set(void* record, const DpNumber* number, double value);
 

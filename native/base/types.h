@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/number.h"
 #include "base/soil_numbers.h"
 
 #define DP_GRAVITY 9.81  // g [m/s^2]
@@ -71,10 +72,9 @@ typedef struct DpGait
 
 // One kind of ground. Start from dp_soil_default() and change what you know.
 // base/soil_numbers.h has the meaning, unit and range of each number.
-#define DP_SOIL_MEMBER(name, unit, lowest, highest, normal, meaning) float name;
 typedef struct DpSoil
 {
-    DP_SOIL_NUMBERS(DP_SOIL_MEMBER)
+    DP_SOIL_NUMBERS(DP_FLOAT_MEMBER)
 } DpSoil;
 
 // A dense window of ground, acquired from the terrain by a lease and committed when kernels have changed it.

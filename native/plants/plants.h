@@ -58,9 +58,7 @@ typedef struct DpPlantKind
 {
     int form;    // DpPlantForm
     int sheets;  // crossed sheets of a tuft, 2..3; a surface has one
-#define DP_PLANT_MEMBER(name, unit, low, high, usual, meaning) float name;
-    DP_PLANT_NUMBERS(DP_PLANT_MEMBER)
-#undef DP_PLANT_MEMBER
+    DP_PLANT_NUMBERS(DP_FLOAT_MEMBER)
 } DpPlantKind;
 
 // The table above, in the order of the members; *count of them.

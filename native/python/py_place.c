@@ -1,7 +1,18 @@
 // python/py_place.c - Simulation.place: feet put on the ground the simulation holds. TRAIL (1) (2)
+#include "python/numbers.h"
 #include "python/py_inside.h"
+#include "walker/walker.h"
 
-#define NUMBERS 5  // reach, toe_slope, foot_radius, body_radius, floor
+static int read_options(PyObject* numbers, DpPlaceOptions* options)
+{
+    int             count;
+    DpReason        reason;
+    const DpNumber* table = dp_place_numbers(&count);
+    if (dp_py_read_numbers(numbers, "numbers", table, count, options) < 0) return -1;
+    if (dp_place_options_check(options, &reason) == DP_OK) return 0;
+    PyErr_Format(PyExc_ValueError, "numbers: %s", reason.text);
+    return -1;
+}
 
 PyObject* dp_py_place(PyObject* object, PyObject* args)
 {
@@ -11,13 +22,13 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     if (!PyArg_ParseTuple(args, "OippOOOO:place", &o_gait, &walker, &flat, &carry, &o_numbers,
                           &o_clearance, &o_pose, &o_com))
         return NULL;
-    DpBuffers buffers = {.count = 0};
-    DpGait    gait = {0};
-    PyObject* result = NULL;
+    DpBuffers      buffers = {.count = 0};
+    DpGait         gait = {0};
+    PyObject*      result = NULL;
+    DpPlaceOptions options = dp_place_options_default();
+    options.flat = flat != 0, options.carry = carry != 0;
     if (dp_py_gait(&buffers, o_gait, &gait) < 0) goto done;
-    const double* number =
-        dp_buffers_open(&buffers, o_numbers, "numbers", 'd', DP_SHAPE1(NUMBERS), false);
-    if (!number || dp_buffers_finite(number, NUMBERS, "numbers") < 0) goto done;
+    if (read_options(o_numbers, &options) < 0) goto done;
     const double* clearance =
         dp_buffers_open(&buffers, o_clearance, "clearance", 'd', DP_SHAPE1(gait.points), false);
     if (!clearance || dp_buffers_finite(clearance, gait.points, "clearance") < 0) goto done;
@@ -27,14 +38,7 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     double* com =
         dp_buffers_open(&buffers, o_com, "com", 'd', DP_SHAPE3(gait.walkers, gait.times, 3), true);
     if (!com || !dp_py_enter(self)) goto done;
-    const DpPlaceOptions options = {.max_clearance = number[0],
-                                    .toe_slope = number[1],
-                                    .foot_radius = number[2],
-                                    .body_radius = number[3],
-                                    .flat = flat != 0,
-                                    .carry = carry != 0,
-                                    .floor = number[4]};
-    DpStatus             status;
+    DpStatus status;
     Py_BEGIN_ALLOW_THREADS
     status = dp_sim_place(self->terrain, &gait, walker, &options, clearance, pose, com);
     Py_END_ALLOW_THREADS

@@ -232,7 +232,7 @@ static PyMethodDef methods[] = {
     {"bounds", (PyCFunction)simulation_bounds, METH_NOARGS,
      "bounds() -> (x0, y0, x1, y1): world box of the ground [m]; infinite for flat ground."},
     {"place", dp_py_place, METH_VARARGS,
-     "place(gait, walker, flat, carry, numbers (5,) f8, clearance (K,) f8, pose, com): turn a"
+     "place(gait, walker, flat, carry, numbers by name, clearance (K,) f8, pose, com): turn a"
      " walker's feet to the rest ground, changing pose and com. TRAIL (1) (2)"},
     {"load", dp_py_load, METH_VARARGS,
      "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
@@ -271,7 +271,7 @@ static PyMethodDef methods[] = {
     {"open_plants", dp_py_open_plants, METH_VARARGS,
      "open_plants(seed): something may grow here; before anything is loaded or read."},
     {"plant", dp_py_plant, METH_VARARGS,
-     "plant(kind (21,) f8, root (n, 2) f4) -> (stand, plants): its name from now on, and how many "
+     "plant(kind, root (n, 2) f4) -> (stand, plants): its name from now on, and how many "
      "came"
      " up: those on the ground; (-1, 0) if none."},
     {"vary_plants", dp_py_vary_plants, METH_VARARGS,

@@ -2,7 +2,7 @@
 // types are checked here, meaning in walker/walker.h.
 #include <math.h>
 
-#include "python/buffers.h"
+#include "python/numbers.h"
 #include "walker/walker.h"
 
 int dp_py_gait(DpBuffers* buffers, PyObject* tuple, DpGait* gait)
@@ -102,21 +102,35 @@ done:
     return result;
 }
 
-// numbers of a plain struct of doubles, or its defaults where None stands
-static int read_numbers(DpBuffers* buffers, PyObject* object, const char* name, double* number,
-                        int count)
+// numbers of a record by name, or its defaults where None stands
+static int read_numbers(PyObject* object, const char* what, const DpNumber* table, int count,
+                        void* record)
 {
-    if (object == Py_None) return 0;
-    const double* given = dp_buffers_open(buffers, object, name, 'd', DP_SHAPE1(count), false);
-    if (!given) return -1;
-    for (int k = 0; k < count; ++k) {
-        if (!isfinite(given[k]) || given[k] < 0.0) {
-            PyErr_Format(PyExc_ValueError, "%s: element %d is not a number of 0 or more", name, k);
-            return -1;
-        }
-        number[k] = given[k];
-    }
-    return 0;
+    return object == Py_None ? 0 : dp_py_read_numbers(object, what, table, count, record);
+}
+
+static int read_limits(PyObject* object, DpContactLimits* limits)
+{
+    int             count;
+    DpReason        reason;
+    const DpNumber* table = dp_contact_numbers(&count);
+    *limits = dp_contact_limits_default();
+    if (read_numbers(object, "limits", table, count, limits) < 0) return -1;
+    if (dp_contact_limits_check(limits, &reason) == DP_OK) return 0;
+    PyErr_Format(PyExc_ValueError, "limits: %s", reason.text);
+    return -1;
+}
+
+// model, settle_time and half_sine are there
+static int read_options(PyObject* object, DpLoadOptions* options)
+{
+    int             count;
+    DpReason        reason;
+    const DpNumber* table = dp_load_numbers(&count);
+    if (read_numbers(object, "options", table, count, options) < 0) return -1;
+    if (dp_load_options_check(options, &reason) == DP_OK) return 0;
+    PyErr_Format(PyExc_ValueError, "options: %s", reason.text);
+    return -1;
 }
 
 static PyObject* foot_contact(PyObject* self, PyObject* args)
@@ -127,11 +141,8 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
         return NULL;
     DpBuffers       buffers = {0};
     DpGait          gait = {0};
-    DpContactLimits l = dp_contact_limits_default();
-    double    n[12] = {l.touch_height,      l.release_height, l.release_height_toe, l.touch_speed,
-                       l.touch_speed_share, l.release_speed,  l.slow_speed,         l.shortest,
-                       l.point_cutoff,      l.com_cutoff,     l.support_fall,       l.frame_time};
-    PyObject* result = NULL;
+    DpContactLimits limits;
+    PyObject*       result = NULL;
     if (dp_py_gait(&buffers, tuple, &gait) < 0) goto done;
     const double* below =
         dp_buffers_open(&buffers, ground, "ground", 'd', DP_SHAPE2(gait.points, gait.times), false);
@@ -141,11 +152,10 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     double*  rest =
         on ? dp_buffers_open(&buffers, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true)
             : NULL;
-    if (!rest || read_numbers(&buffers, numbers, "limits", n, 12) < 0) goto done;
-    l = (DpContactLimits){n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11]};
+    if (!rest || read_limits(numbers, &limits) < 0) goto done;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_foot_contact(&gait, below, &l, on, rest);
+    status = dp_foot_contact(&gait, below, &limits, on, rest);
     Py_END_ALLOW_THREADS
     result = dp_py_result(status, "finding contacts");
 done:
@@ -164,12 +174,9 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
         return NULL;
     DpBuffers     buffers = {0};
     DpGait        gait = {0};
-    DpLoadOptions o = dp_load_options_default();
-    double n[13] = {o.cutoff_share, o.cutoff_low,   o.cutoff_high, o.cutoff_flight, o.cutoff_knock,
-                    o.noise_share,  o.cutoff_level, o.max_overlap, o.ramp_standing, o.ramp_alone,
-                    o.ramp_trust,   o.support_span, o.frame_time};
-    PyObject* result = NULL;
-    double *  out_force = NULL, *out_point = NULL;
+    DpLoadOptions options = dp_load_options_default();
+    PyObject*     result = NULL;
+    double *      out_force = NULL, *out_point = NULL;
     if (dp_py_gait(&buffers, tuple, &gait) < 0) goto done;
     const uint8_t* on = dp_buffers_open(&buffers, touching, "touching", 'B',
                                         DP_SHAPE2(gait.parts, gait.times), false);
@@ -180,7 +187,6 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     DpShape shape = {3, {gait.parts, gait.times, 3}};
     if (!(out_force = dp_buffers_open(&buffers, force, "force", 'd', &shape, true))) goto done;
     if (!(out_point = dp_buffers_open(&buffers, point, "point", 'd', &shape, true))) goto done;
-    if (read_numbers(&buffers, numbers, "options", n, 13) < 0) goto done;
     const double* taus = NULL;
     if (settle != Py_None) {
         const size_t count = (size_t)gait.points * (size_t)gait.times;
@@ -188,30 +194,12 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
                                false);
         if (!taus || dp_buffers_finite(taus, (Py_ssize_t)count, "settle") < 0) goto done;
     }
-    o = (DpLoadOptions){model == 1 ? DP_LOAD_IMPULSE : DP_LOAD_INERTIA,
-                        settle_time,
-                        taus,
-                        half_sine != 0,
-                        n[0],
-                        n[1],
-                        n[2],
-                        n[3],
-                        n[4],
-                        n[5],
-                        n[6],
-                        n[7],
-                        n[8],
-                        n[9],
-                        n[10],
-                        n[11],
-                        n[12]};
-    if (model != 0 && model != 1) {
-        PyErr_SetString(PyExc_ValueError, "model: expected 0 (inertia) or 1 (impulse)");
-        goto done;
-    }
+    options.model = (DpLoadModel)model, options.settle_time = settle_time;
+    options.settle = taus, options.half_sine = half_sine != 0;
+    if (read_options(numbers, &options) < 0) goto done;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_foot_force(&gait, on, below, &o, out_force, out_point);
+    status = dp_foot_force(&gait, on, below, &options, out_force, out_point);
     Py_END_ALLOW_THREADS
     result = dp_py_result(status, "finding loads");
 done:
@@ -229,7 +217,37 @@ static PyObject* foot_share(PyObject* self, PyObject* args)
     return PyFloat_FromDouble(dp_foot_share(c, l, r));
 }
 
+static PyObject* place_numbers(PyObject* self, PyObject* unused)
+{
+    (void)self, (void)unused;
+    int             count;
+    const DpNumber* table = dp_place_numbers(&count);
+    return dp_py_numbers(table, count);
+}
+
+static PyObject* contact_numbers(PyObject* self, PyObject* unused)
+{
+    (void)self, (void)unused;
+    int             count;
+    const DpNumber* table = dp_contact_numbers(&count);
+    return dp_py_numbers(table, count);
+}
+
+static PyObject* load_numbers(PyObject* self, PyObject* unused)
+{
+    (void)self, (void)unused;
+    int             count;
+    const DpNumber* table = dp_load_numbers(&count);
+    return dp_py_numbers(table, count);
+}
+
 PyMethodDef dp_py_walker_methods[] = {
+    {"place_numbers", place_numbers, METH_NOARGS,
+     "place_numbers() -> ((name, unit, low, high, default, meaning), ..): of Simulation.place."},
+    {"contact_numbers", contact_numbers, METH_NOARGS,
+     "contact_numbers() -> the same of foot_contact's limits."},
+    {"load_numbers", load_numbers, METH_NOARGS,
+     "load_numbers() -> the same of foot_force's options."},
     {"resample_count", resample_count, METH_VARARGS,
      "resample_count(first, last, rate): samples an even recording of that span has"},
     {"resample", resample, METH_VARARGS,

@@ -18,23 +18,6 @@
 #include "base/vec.h"
 #include "walker/foot_watch.h"
 
-DpContactLimits dp_contact_limits_default(void)
-{
-    const DpContactLimits limits = {.touch_height = 0.03,
-                                    .release_height = 0.03,
-                                    .release_height_toe = 0.05,
-                                    .touch_speed = 0.3,
-                                    .touch_speed_share = 0.4,
-                                    .release_speed = 1.2,
-                                    .slow_speed = 0.25,
-                                    .shortest = 0.03,
-                                    .point_cutoff = 20.0,
-                                    .com_cutoff = 3.0,
-                                    .support_fall = 0.5,
-                                    .frame_time = 0.0};
-    return limits;
-}
-
 static void touch_point(DpWatch* w, int k, double clearance)
 {
     const DpContactLimits* limits = w->limits;
@@ -83,7 +66,8 @@ static void tidy(uint8_t* on, int times, double shortest)
 DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpContactLimits* limits,
                          uint8_t* touching, double* clearance)
 {
-    if (!dp_walker_gait_ok(gait) || !ground || !limits || !touching || !clearance)
+    if (!dp_walker_gait_ok(gait) || !ground || dp_contact_limits_check(limits, NULL) != DP_OK ||
+        !touching || !clearance)
         return DP_BAD_ARGUMENT;
     DpWatch w = {.gait = gait, .limits = limits, .rate = dp_walker_rate(gait)};
     if (gait->times > 1 && w.rate <= 0.0) return DP_BAD_ARGUMENT;

@@ -22,27 +22,6 @@
 #define TRAVEL 0.5    // who moves this fast is under way                  [m/s]
 #define GRIP 0.6      // feet oppose each other by no more of their load   [-]
 
-DpLoadOptions dp_load_options_default(void)
-{
-    const DpLoadOptions options = {.model = DP_LOAD_INERTIA,
-                                   .settle_time = 0.2,
-                                   .half_sine = false,
-                                   .cutoff_share = 3.0,
-                                   .cutoff_low = 5.0,
-                                   .cutoff_high = 10.0,
-                                   .cutoff_flight = 8.0,
-                                   .cutoff_knock = 20.0,
-                                   .noise_share = 2.0,
-                                   .cutoff_level = 2.0 / 3.0,
-                                   .max_overlap = 0.3,
-                                   .ramp_standing = 0.1,
-                                   .ramp_alone = 0.03,
-                                   .ramp_trust = 0.25,
-                                   .support_span = 0.3,
-                                   .frame_time = 0.0};
-    return options;
-}
-
 #define MAX_SUPPORTS 64  // limbs of a walker, or points of a limb, that share at one time
 
 // ---- landing -------------------------------------------------------------------------------------
@@ -255,22 +234,12 @@ static void load_sample(DpLoad* l, int t, double* out_force, double* out_point)
     }
 }
 
-static bool options_ok(const DpLoadOptions* o)
-{
-    return o && o->settle_time > 0.0 && isfinite(o->settle_time) && o->cutoff_share > 0.0 &&
-           o->cutoff_low > 0.0 && o->cutoff_high >= o->cutoff_low && o->cutoff_flight > 0.0 &&
-           o->cutoff_knock > 0.0 && o->noise_share > 0.0 && o->frame_time >= 0.0 &&
-           o->cutoff_level > 0.0 && o->max_overlap > 0.0 && o->ramp_standing > 0.0 &&
-           o->ramp_alone > 0.0 && o->ramp_trust >= 0.0 && o->support_span > 0.0 &&
-           (o->model == DP_LOAD_INERTIA || o->model == DP_LOAD_IMPULSE);
-}
-
 DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double* ground,
                        const DpLoadOptions* options, double* force, double* pressure_point)
 {
     if (!dp_walker_gait_ok(gait) || !touching || !ground || !force || !pressure_point)
         return DP_BAD_ARGUMENT;
-    if (!options_ok(options)) return DP_BAD_ARGUMENT;
+    if (dp_load_options_check(options, NULL) != DP_OK) return DP_BAD_ARGUMENT;
     DpLoad l = {.gait = gait, .options = options, .ground = ground, .rate = dp_walker_rate(gait)};
     if (gait->times > 1 && l.rate <= 0.0) return DP_BAD_ARGUMENT;
     if (gait->times == 1) l.rate = 1.0;

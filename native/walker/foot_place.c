@@ -20,15 +20,6 @@
 
 #define LATTICE 6  // points from the middle of the disc to its rim, along each axis
 
-DpPlaceOptions dp_place_options_default(void)
-{
-    const DpPlaceOptions options = {.max_clearance = 0.20,
-                                    .toe_slope = 15.0 * DP_PI / 180.0,
-                                    .foot_radius = 0.25,
-                                    .body_radius = 0.5};
-    return options;
-}
-
 // mean height of the ground about a place, less and less towards the rim; NaN where there is none
 static double smooth_height(const DpGroundBelow* below, DpVec3 at, double radius)
 {
@@ -252,19 +243,13 @@ static double first_rise(const DpGait* gait, const Limb* limb, int walker,
     return held;
 }
 
-static bool options_ok(const DpPlaceOptions* o)
-{
-    return o && o->max_clearance > 0.0 && isfinite(o->max_clearance) && o->toe_slope >= 0.0 &&
-           isfinite(o->toe_slope) && o->foot_radius > 0.0 && isfinite(o->foot_radius) &&
-           o->body_radius > 0.0 && isfinite(o->body_radius) && isfinite(o->floor);
-}
-
 DpStatus dp_foot_place(const DpGait* gait, int walker, const DpGroundBelow* below,
                        const DpPlaceOptions* options, const double* clearance, double* pose,
                        double* com)
 {
     if (!dp_walker_gait_ok(gait) || walker < 0 || walker >= gait->walkers || !below ||
-        !below->height || !below->normal || !options_ok(options) || !clearance || !pose || !com)
+        !below->height || !below->normal || dp_place_options_check(options, NULL) != DP_OK ||
+        !clearance || !pose || !com)
         return DP_BAD_ARGUMENT;
     for (int l = 0; l < gait->limbs; ++l) {
         if (gait->limb_walker[l] != walker) continue;

@@ -8,6 +8,7 @@
 // These are whole-clip functions: forces are filtered without phase, so they need what comes after.
 // They know no terrain; the height of the ground below each contact point is given, or asked for.
 #pragma once
+#include "base/number.h"
 #include "base/status.h"
 #include "base/types.h"
 
@@ -33,17 +34,23 @@ typedef struct DpGroundBelow
     DpVec3 (*normal)(const void* ground, double x, double y, double radius);  // unit, smoothed
 } DpGroundBelow;
 
+// X(name, unit, low, high, usual, meaning), as base/number.h has them
+// clang-format off
+#define DP_PLACE_NUMBERS(X) \
+    X(max_clearance, "m", 1e-6, 1e6, 0.20, "d_max, feet this high over the ground are as recorded") \
+    X(toe_slope, "rad", 0.0, 0.5 * DP_PI, 15.0 * DP_PI / 180.0, "theta_0, up steeper slopes only the toes carry") \
+    X(foot_radius, "m", 1e-6, 1e6, 0.25, "the ground is smoothed over this under a foot") \
+    X(body_radius, "m", 1e-6, 1e6, 0.5, "and over this under the body") \
+    X(floor, "m", -1e9, 1e9, 0.0, "height of the floor it was recorded on, of who is carried")
+// clang-format on
+
 // Start from dp_place_options_default().
 typedef struct DpPlaceOptions
 {
-    double max_clearance;  // d_max, feet this high over the ground are as recorded     [m]   > 0
-    double toe_slope;      // theta_0, up steeper slopes only the toes carry            [rad] >= 0
-    double foot_radius;    // the ground is smoothed over this under a foot             [m]   > 0
-    double body_radius;    // and over this under the body                              [m]   > 0
-    bool   flat;           // near the ground feet lie flat on it, as printed; else they keep their
-                           //   roll: they stand on the slope as they stood on the floor [-]
-    bool   carry;  // recorded on level floor: feet and body rise and sink with the ground [-]
-    double floor;  // height of that floor                                      [m]
+    DP_PLACE_NUMBERS(DP_DOUBLE_MEMBER)
+    bool flat;   // near the ground feet lie flat on it, as printed; else they keep their roll: they
+                 //   stand on the slope as they stood on the floor [-]
+    bool carry;  // recorded on level floor: feet and body rise and sink with the ground [-]
 } DpPlaceOptions;
 
 DpPlaceOptions dp_place_options_default(void);
@@ -60,21 +67,26 @@ DpStatus dp_foot_place(const DpGait* gait, int walker, const DpGroundBelow* belo
 
 // ---- TRAIL (4): which part touches when ---------------------------------------------------------
 
+// clang-format off
+#define DP_CONTACT_NUMBERS(X) \
+    X(touch_height, "m", 0.0, 1e6, 0.03, "d below which it may touch") \
+    X(release_height, "m", 0.0, 1e6, 0.03, "d above which a heel lets go") \
+    X(release_height_toe, "m", 0.0, 1e6, 0.05, "d above which a ball or tip lets go") \
+    X(touch_speed, "m/s", 0.0, 1e6, 0.3, "|v| below which it may touch: this + share * |v_com|") \
+    X(touch_speed_share, "-", 0.0, 1e6, 0.4, "that share") \
+    X(release_speed, "m/s", 0.0, 1e6, 1.2, "|v| above which it lets go") \
+    X(slow_speed, "m/s", 0.0, 1e6, 0.25, "calibration looks at samples slower than this") \
+    X(shortest, "s", 0.0, 1e6, 0.03, "ticks and gaps below this are closed") \
+    X(point_cutoff, "Hz", 1e-3, 1e6, 20.0, "low-pass of a point's speed") \
+    X(com_cutoff, "Hz", 1e-3, 1e6, 3.0, "low-pass of the centre's speed") \
+    X(support_fall, "-", 0.0, 1e6, 0.5, "nobody touches and a_z > -this * g: somebody carries") \
+    X(frame_time, "s", 0.0, 1e6, 0.0, "frames lay so far apart before it was resampled")
+// clang-format on
+
 // When a contact point touches and lets go. Start from dp_contact_limits_default().
 typedef struct DpContactLimits
 {
-    double touch_height;        // d below which it may touch                          [m]   > 0
-    double release_height;      // d above which a heel lets go                        [m]   > 0
-    double release_height_toe;  // d above which a ball or tip lets go                 [m]   > 0
-    double touch_speed;         // |v| below which it may touch: this + share * |v_com| [m/s] > 0
-    double touch_speed_share;   //                                                     [-]   >= 0
-    double release_speed;       // |v| above which it lets go                          [m/s] > 0
-    double slow_speed;          // calibration looks at samples slower than this       [m/s] > 0
-    double shortest;            // ticks and gaps below this are closed                [s]   >= 0
-    double point_cutoff;        // low-pass of a point's speed                         [Hz]  > 0
-    double com_cutoff;          // low-pass of the centre's speed                      [Hz]  > 0
-    double support_fall;        // nobody touches and a_z > -this * g: somebody carries [-]  > 0
-    double frame_time;          // frames lay so far apart before it was resampled     [s]   >= 0
+    DP_CONTACT_NUMBERS(DP_DOUBLE_MEMBER)
 } DpContactLimits;
 
 DpContactLimits dp_contact_limits_default(void);
@@ -95,6 +107,24 @@ typedef enum DpLoadModel
     DP_LOAD_IMPULSE = 1   // weight shares and a landing impulse over tau, as in the papers
 } DpLoadModel;
 
+// of `inertia`, MODEL 4.3
+// clang-format off
+#define DP_LOAD_NUMBERS(X) \
+    X(cutoff_share, "-", 1e-3, 1e6, 3.0, "low-pass of a_com in step frequencies") \
+    X(cutoff_low, "Hz", 1e-3, 1e6, 5.0, "its lower bound") \
+    X(cutoff_high, "Hz", 1e-3, 1e6, 10.0, "its upper bound, no lower than that") \
+    X(cutoff_flight, "Hz", 1e-3, 1e6, 8.0, "the lower one of who flies") \
+    X(cutoff_knock, "Hz", 1e-3, 1e6, 20.0, "the upper one of a landing whose flight shows no noise") \
+    X(noise_share, "-", 1e-3, 1e6, 2.0, "so many times the noise of flights may be smoothed away") \
+    X(cutoff_level, "-", 1e-3, 1e6, 2.0 / 3.0, "of a_com over the ground, in shares of that upward") \
+    X(max_overlap, "s", 1e-3, 1e6, 0.3, "longer overlaps are standing, not a change of feet") \
+    X(ramp_standing, "s", 1e-3, 1e6, 0.1, "ramp of a limb that joins others that stay") \
+    X(ramp_alone, "s", 1e-3, 1e6, 0.03, "ramp of a limb that relieves none") \
+    X(ramp_trust, "-", 0.0, 1e6, 0.25, "mu, trust in ramps against the zero-moment point") \
+    X(support_span, "m", 1e-3, 1e6, 0.3, "spread at which that point gets half its say") \
+    X(frame_time, "s", 0.0, 1e6, 0.0, "frames lay so far apart before it was resampled")
+// clang-format on
+
 typedef struct DpLoadOptions
 {
     DpLoadModel   model;
@@ -103,20 +133,7 @@ typedef struct DpLoadOptions
                                 //                                                 [s] > 0 (K, T)
     bool half_sine;             // `impulse`: spread J as a half-sine, else evenly [-]
 
-    // `inertia`, MODEL 4.3
-    double cutoff_share;   // low-pass of a_com in step frequencies               [-]  > 0
-    double cutoff_low;     // and its bounds                                      [Hz] > 0
-    double cutoff_high;    //                                                     [Hz] >= cutoff_low
-    double cutoff_flight;  // and the lower one of who flies                      [Hz] > 0
-    double cutoff_knock;   // the upper one of a landing whose flight shows no noise [Hz] > 0
-    double noise_share;    // so many times the noise of flights may be smoothed away [-] > 0
-    double cutoff_level;   // of a_com over the ground, in shares of that upward  [-]  > 0
-    double max_overlap;    // longer overlaps are standing, not a change of feet  [s]  > 0
-    double ramp_standing;  // ramp of a limb that joins others that stay          [s]  > 0
-    double ramp_alone;     // ramp of a limb that relieves none                   [s]  > 0
-    double ramp_trust;     // mu, trust in ramps against the zero-moment point    [-]  >= 0
-    double support_span;   // spread at which that point gets half its say        [m]  > 0
-    double frame_time;     // frames lay so far apart before it was resampled     [s]  >= 0
+    DP_LOAD_NUMBERS(DP_DOUBLE_MEMBER)
 } DpLoadOptions;
 
 DpLoadOptions dp_load_options_default(void);
@@ -133,3 +150,15 @@ DpStatus dp_foot_force(const DpGait* gait, const uint8_t* touching, const double
 // between the feet, 0..1; feet on one spot share evenly.
 // Departures: as printed it is a cosine and always 1; the denominator is |p_R - p_L|^2.
 double dp_foot_share(DpVec3 com, DpVec3 left, DpVec3 right);
+
+// ---- the tables of their numbers ------------------------------------------------------------------
+
+// In the order of the members; *count of them.
+const DpNumber* dp_place_numbers(int* count);
+const DpNumber* dp_contact_numbers(int* count);
+const DpNumber* dp_load_numbers(int* count);
+
+// DP_OK if each is in its range; else which is not, if `reason` is there.
+DpStatus dp_place_options_check(const DpPlaceOptions* options, DpReason* reason);
+DpStatus dp_contact_limits_check(const DpContactLimits* limits, DpReason* reason);
+DpStatus dp_load_options_check(const DpLoadOptions* options, DpReason* reason);

@@ -435,8 +435,33 @@ def test_bad_words_get_a_sentence():
         walker.loads(gait, "impulse", settle_time=0)
     with pytest.raises(DesirePathError, match="no setting"):
         walker.loads(gait, options={"mu": 1})
+    with pytest.raises(DesirePathError, match="An option's ramp_alone of 0 cannot be used: choose one from 0.001"):
+        walker.loads(gait, options={"ramp_alone": 0.0})
+    with pytest.raises(DesirePathError, match="A limit's shortest of 'long' is no number"):
+        walker.loads(gait, limits={"shortest": "long"})
     with pytest.raises(DesirePathError, match="heights have shape"):
         walker.loads(gait, ground=np.zeros((3, 3)))
+
+
+def test_limits_and_options_are_those_of_the_core():
+    """By their names or all in order, at its door too; old names still do, and warn."""
+    for known, rows in ((walker.LIMITS, _native.contact_numbers()), (walker.OPTIONS, _native.load_numbers())):
+        assert known == {name: usual for name, _, _, _, usual, _ in rows}
+    gait = two_feet(1).check()
+    native, (parts, samples) = walker.native_gait(gait), gait.pose.shape[:2]
+    below, on = np.zeros((len(gait.point), samples)), np.zeros((parts, samples), "u1")
+    for given, kind, words in (
+        ({"shortest": -1.0}, ValueError, "limits: shortest of -1 s is out of its range"),
+        ({"shortness": 1.0}, ValueError, "limits: it has no number 'shortness'"),
+        ({"shortest": "long"}, TypeError, "limits: shortest is no number"),
+        (np.zeros(5), TypeError, "limits: neither a dict"),
+    ):
+        with pytest.raises(kind, match=words):
+            _native.foot_contact(native, below, on, np.zeros(len(gait.point)), given)
+    _native.foot_contact(native, below, on, np.zeros(len(gait.point)), np.array(list(walker.LIMITS.values())))
+    with pytest.warns(DeprecationWarning, match="call it max_overlap"):
+        old = walker.loads(gait, options={"overlap_most": 0.2})
+    assert old == walker.loads(gait, options={"max_overlap": 0.2})
 
 
 def test_table_has_a_row_a_part_and_sample(tmp_path):

@@ -22,7 +22,7 @@ from ..bounds import PLANT_BYTES, Limits
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
-from .numbers import Number, check, table, with_numbers
+from ..tables import Number, check, is_number, table, with_numbers
 
 FORMS = ("surface", "tuft")
 YEAR = 365.25 * 86400.0  # [s]
@@ -284,7 +284,7 @@ class Planting:
     def __post_init__(self):
         put = functools.partial(object.__setattr__, self)
         put("kind", as_kind(self.kind))
-        if self.density is not None and not (_is_number(self.density) and 1e-6 <= self.density <= 1e5):
+        if self.density is not None and not (is_number(self.density) and 1e-6 <= self.density <= 1e5):
             raise DesirePathError(
                 f"A density of {self.density} plants a m^2 cannot be planted: choose one from 1e-6 "
                 "to 100000, or None for the kind's own."
@@ -421,10 +421,6 @@ def seed_of(plantings):
     for planting in plantings:
         seed = _mixed(seed, int(planting.seed), 0)
     return seed
-
-
-def _is_number(value):
-    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
 
 
 def _mixed(seed, a, b):

@@ -209,14 +209,14 @@ class Simulation:
     def place(self, gait, walker, numbers, clearance, pose, com, *, flat, carry):
         """Turn a walker's feet to the ground, changing pose and com: place.place_feet is the door.
 
-        gait: walker.native_gait() of one.
+        gait: walker.native_gait() of one. numbers: of DpPlaceOptions, by name.
         """
         self._core.place(
             gait,
             int(walker),
             bool(flat),
             bool(carry),
-            np.ascontiguousarray(numbers, np.float64),
+            {name: float(value) for name, value in numbers.items()},
             np.ascontiguousarray(clearance, np.float64),
             pose,
             com,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
-from .numbers import check, table, with_numbers
+from ..tables import check, table, with_numbers
 
 _TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
 NUMBERS = table(_native.soil_numbers())  # of a soil, by name: base/soil_numbers.h

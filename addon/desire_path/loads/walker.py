@@ -1,6 +1,7 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), MODEL 4.2 and 4.3."""
 
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from warnings import warn
 
 import numpy as np
@@ -10,6 +11,7 @@ from ..errors import DesirePathError
 from ..motion import jumps
 from ..motion import size as sizes
 from ..motion.points import point_places
+from ..tables import check_some, table
 from .below import carried_on, ground_below, heights_of, off_ground, on_even
 from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, sinks, slides, weigh
 from .force import ELSEWHERE, GRAVITY, PRESSES, FootForce, native_gait, write_loads
@@ -42,50 +44,32 @@ MODELS = {"inertia": 0, "impulse": 1}
 BESIDE = "Some steps land beside the ground and leave no print there."
 
 # Those of a grown person: lengths go with a walker's leg, times and speeds with its root (see size).
-# Names and defaults of DpContactLimits and DpLoadOptions in native/walker/walker.h, in their order.
-LIMITS = {
-    "touch_height": 0.03,
-    "release_height": 0.03,
-    "release_height_toe": 0.05,
-    "touch_speed": 0.3,
-    "touch_speed_share": 0.4,
-    "release_speed": 1.2,
-    "slow_speed": 0.25,
-    "shortest": 0.03,
-    "point_cutoff": 20.0,
-    "com_cutoff": 3.0,
-    "support_fall": 0.5,
-    "frame_time": 0.0,
-}
-OPTIONS = {
-    "cutoff_share": 3.0,
-    "cutoff_low": 5.0,
-    "cutoff_high": 10.0,
-    "cutoff_flight": 8.0,
-    "cutoff_knock": 20.0,
-    "noise_share": 2.0,
-    "cutoff_level": 2.0 / 3.0,
-    "overlap_most": 0.3,
-    "ramp_standing": 0.1,
-    "ramp_alone": 0.03,
-    "ramp_trust": 0.25,
-    "reach": 0.3,
-    "frame_time": 0.0,
-}
+_LIMITS, _OPTIONS = table(_native.contact_numbers()), table(_native.load_numbers())
+LIMITS = MappingProxyType({name: of.usual for name, of in _LIMITS.items()})  # to be read: give others by name
+OPTIONS = MappingProxyType({name: of.usual for name, of in _OPTIONS.items()})
+_RENAMED = {"overlap_most": "max_overlap", "reach": "support_span"}  # old names of options
 
 
-def _numbers(defaults, chosen):
-    unknown = set(chosen or ()) - set(defaults)
+def _numbers(known, chosen, whose):
+    """Chosen numbers, by the core's names."""
+    told = {}
+    for name, value in (chosen or {}).items():
+        if name not in known and _RENAMED.get(name) in known:
+            warn(f"{name} is an old name: call it {_RENAMED[name]}.", DeprecationWarning, stacklevel=4)
+            name = _RENAMED[name]
+        told[name] = value
+    unknown = sorted(set(told) - set(known))
     if unknown:
-        raise DesirePathError(f"There is no setting {sorted(unknown)[0]}: use one of " + ", ".join(defaults) + ".")
-    return np.array([float({**defaults, **(chosen or {})}[name]) for name in defaults])
+        raise DesirePathError(f"There is no setting {unknown[0]}: use one of " + ", ".join(known) + ".")
+    check_some(told, known, whose)
+    return {name: float(value) for name, value in told.items()}
 
 
 def _find_contacts(gait, below, limits, frame_rate):
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = np.zeros(len(gait.point))
     limits = {"frame_time": 1.0 / frame_rate, **(limits or {})}
-    _native.foot_contact(native_gait(gait), below, touching, clearance, _numbers(LIMITS, limits))
+    _native.foot_contact(native_gait(gait), below, touching, clearance, _numbers(_LIMITS, limits, "A limit's"))
     return touching, clearance
 
 
@@ -177,7 +161,7 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
         bool(half_sine),
         force,
         point,
-        _numbers(OPTIONS, options),
+        _numbers(_OPTIONS, options, "An option's"),
         taus,
     )
     point, clearance = point * size, clearance * size

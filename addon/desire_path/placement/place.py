@@ -74,7 +74,13 @@ def place_feet(
             continue
         clearance, stood = _stands(gait, land, row, carried, floor)
         high = sizes.TALL * float(sizes.legs(gait)[row])
-        numbers = (reach, toe_slope, foot_radius or _foot_length(gait, row), body_radius or BODY * high, stood)
+        numbers = {
+            "max_clearance": reach,
+            "toe_slope": toe_slope,
+            "foot_radius": foot_radius or _foot_length(gait, row),
+            "body_radius": body_radius or BODY * high,
+            "floor": stood,
+        }
         try:
             land.place(walks.native_gait(gait), row, numbers, clearance, pose, com, flat=not roll, carry=carried)
         except ValueError as problem:

@@ -1,4 +1,4 @@
-"""Records of numbers that people choose, as soils and kinds of plant: what the core tells of them, and checks."""
+"""Tables of numbers that people choose, as the core declares them: of soils, kinds of plant, contacts and loads."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numbers
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, TypeGuard, TypeVar
 
-from ..errors import DesirePathError
+from .errors import DesirePathError
 
 Made = TypeVar("Made", bound=type)
 
@@ -45,17 +45,27 @@ def with_numbers(known: Mapping[str, Number]):
 
 def check(record: object, known: Mapping[str, Number], whose: str) -> None:
     """DesirePathError if one of a record's numbers is none, or not within its range; whose: "A soil's"."""
-    for name, of in known.items():
-        value = getattr(record, name)
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+    check_some({name: getattr(record, name) for name in known}, known, whose)
+
+
+def check_some(values: Mapping[str, object], known: Mapping[str, Number], whose: str) -> None:
+    """The same for some of the numbers, by name."""
+    for name, value in values.items():
+        of = known[name]
+        if not is_number(value):
             raise DesirePathError(f"{whose} {name} of {str(value)[:40]!r} is no number: give one.")
-        if not of.low <= value <= of.high:  # type: ignore[operator]
+        if not of.low <= value <= of.high:
             raise DesirePathError(
                 f"{whose} {name} of {in_words(value)} cannot be used: choose one from {of.low:.4g} to {of.high:.4g}."
             )
 
 
-def in_words(value: numbers.Real) -> str:
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether it can be counted with; True and False cannot."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def in_words(value: float) -> str:
     """A number as a sentence shows it."""
     try:
         return f"{float(value):g}"
