@@ -9,6 +9,7 @@ from . import (
     op_bake,
     op_forces,
     op_ground,
+    op_material,
     op_place,
     op_plants,
     op_walk_it,
@@ -27,6 +28,7 @@ _CLASSES = (
     + op_place.CLASSES
     + op_plants.CLASSES
     + op_walk_it.CLASSES
+    + op_material.CLASSES
     + soils.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES

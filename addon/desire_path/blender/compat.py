@@ -128,15 +128,18 @@ def colour_attribute(mesh, name):
 def geometry_tree(name, new_tree):
     """A node tree with one geometry going in and one coming out."""
     tree = new_tree(name, "GeometryNodeTree")
-    if hasattr(tree, "interface"):
-        for way in ("INPUT", "OUTPUT"):
-            tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
-    else:
-        tree.inputs.new("NodeSocketGeometry", "Geometry")
-        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    for way in ("INPUT", "OUTPUT"):
+        group_socket(tree, way, "NodeSocketGeometry", "Geometry")
     if hasattr(tree, "is_modifier"):
         tree.is_modifier = True
     return tree
+
+
+def group_socket(tree, way, kind, name):
+    """A new socket of a node group, way "INPUT" or "OUTPUT"."""
+    if hasattr(tree, "interface"):
+        return tree.interface.new_socket(name, in_out=way, socket_type=kind)
+    return (tree.inputs if way == "INPUT" else tree.outputs).new(kind, name)
 
 
 def nodes_modifier(obj, name, tree):

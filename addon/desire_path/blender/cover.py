@@ -74,31 +74,41 @@ def values(obj, surface, index, planes, standing):
     if "plant_strength" in value and standing:
         at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
         off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
-        value["plant_strength"] = np.where(off, _grown(obj, surface, standing), value["plant_strength"]).astype(
-            np.float32
-        )
+        value["plant_strength"] = np.where(
+            off, grown(obj, surface.world, surface.scale, standing), value["plant_strength"]
+        ).astype(np.float32)
     return value
 
 
-def _grown(obj, surface, standing):
-    """Cover of every vertex where nobody walked, from (vertex group, attribute or Spread, cover where it is 1)."""
+def grown(obj, world, scale, standing):
+    """Cover of every vertex where nobody walked, from (vertex group, attribute or Spread, cover where it is 1);
+    world: the object's matrix (4, 4), scale: metres in a unit [m]"""
     out = np.zeros(len(obj.data.vertices), np.float32)
     for name, full in standing:
         if hasattr(name, "at"):
-            at = axes.points(surface.world, compat.positions(obj.data), surface.scale)
+            at = axes.points(world, compat.positions(obj.data), scale)
             out += np.float32(full) * name.at(at[:, :2]).astype(np.float32)
             continue
-        weight = compat.float_attribute(obj.data, name) if name else np.float32(1.0)
-        group = obj.vertex_groups.get(name) if name else None
-        if group is not None:
-            weight = np.zeros(len(out), np.float32)
-            for vertex in obj.data.vertices:
-                for member in vertex.groups:
-                    if member.group == group.index:
-                        weight[vertex.index] = member.weight
+        weight = np.float32(1.0)
+        if name:
+            painted = group_weights(obj, name)
+            weight = compat.float_attribute(obj.data, name) if painted is None else painted
         if weight is not None:
             out += np.float32(full) * weight
     return np.minimum(out, 1.0)
+
+
+def group_weights(obj, name):
+    """Weights of a vertex group, float32 (n,), or None where there is none of that name."""
+    group = obj.vertex_groups.get(name)
+    if group is None:
+        return None
+    weight = np.zeros(len(obj.data.vertices), np.float32)
+    for vertex in obj.data.vertices:
+        for member in vertex.groups:
+            if member.group == group.index:
+                weight[vertex.index] = member.weight
+    return weight
 
 
 def remove(obj):

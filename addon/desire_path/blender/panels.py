@@ -37,6 +37,7 @@ def draw_ground(layout, context, obj):
         return
     column = _column(layout)
     column.prop(settings, "soil")
+    column.operator("object.desire_path_material_add", icon="MATERIAL")
     column.prop(settings, "cell_size", text="Cell [m]")  # all that fits into the sidebar
     frames = column.column(align=True)
     frames.prop(settings, "frame_start", text="Frame Start")

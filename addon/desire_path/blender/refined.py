@@ -14,7 +14,7 @@ import numpy as np
 
 from ..ground import mesh as meshes
 from ..ground import refine
-from . import axes, compat, cover, ground, moves, private, stack
+from . import axes, compat, cover, ground, looks, moves, private, stack
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
@@ -132,6 +132,8 @@ def mark(obj):
     arrays.append(_numbers(mesh.loops, "vertex_index", 1, np.int32))
     arrays.append(_numbers(mesh.polygons, "material_index", 1, np.int32))
     arrays += [compat.uv(mesh, each.name).astype(np.float32) for each in mesh.uv_layers]
+    shares = sorted(each.name for each in mesh.attributes if each.name.startswith(looks.SHARE[:-2]))
+    arrays += [each for each in (compat.float_attribute(mesh, name) for name in shares) if each is not None]
     return meshes.mark(arrays, [len(mesh.polygons), [each.name_full if each else "" for each in mesh.materials]])
 
 

@@ -5,7 +5,7 @@ import os
 from ..bake.bake import read_index
 from ..bake.output import MAPS_ALWAYS, is_whole
 from ..errors import DesirePathError
-from . import cover, ground, home, plants, playback, refined, stems, trash
+from . import cover, ground, home, materials, plants, playback, refined, stems, trash
 from .home import folder
 
 
@@ -18,6 +18,7 @@ def play(scene, obj, surface, baked=None):
     settings = obj.desire_path
     index = read_index(folder(obj), just_baked=baked is not None)
     cover.remove(obj)
+    materials.refresh(obj)
     if index.frames:
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
@@ -119,4 +120,5 @@ def free(obj):
     plants.show(obj)
     stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
+    materials.forget(obj)
     settings.summary = ""

@@ -51,6 +51,13 @@ def look(scene, obj):
         _working = False
 
 
+def renew(scene, obj):
+    """Something that lies on a ground's mesh was changed: a copy that stands for it is made anew."""
+    if _is_ground(obj):
+        _edited.add(obj.name_full)
+        look(scene, obj)
+
+
 def _edited_since(obj, tree):
     """Whether the mesh of a ground that a copy stands for was edited since that was made."""
     if obj.name_full not in _edited or obj.mode != "OBJECT" or playback.copy_of(tree) is None:

@@ -1,0 +1,276 @@
+"""materials.py - a ground is given a material of what it is made of; a material of the user's stays as it is.
+
+    soils, painted soils, plants --recipe--> node groups (looks.py) --> empty slots, or slots of ours
+                                                                   --> a group in a material of the user's, to plug in
+
+What is painted is a vertex group, which no shader reads: its shares are kept as float attributes of the mesh, and
+written anew by every bake.
+"""
+
+import bpy
+import numpy as np
+
+from ..errors import DesirePathError
+from . import axes, compat, cover, looks, plants, playback
+
+SOILS = {  # soil -> (look, how wet)
+    "dry-sand": ("SAND", 0.0),
+    "wet-sand": ("SAND", 0.85),
+    "mud": ("MUD", 0.35),
+    "wet-soil": ("EARTH", 0.7),
+    "dry-soil": ("EARTH", 0.0),
+}
+WORDS = (("snow", "SNOW"), ("sand", "SAND"), ("mud", "MUD"), ("clay", "MUD"))  # in other names; else it is earth
+WET = 0.7  # what has that word in its name
+KINDS = (
+    ("AUTO", "Of Its Soils", "What the ground's soils look like, the painted ones where they lie"),
+    ("SAND", "Sand", "Grains, a little damp below the surface"),
+    ("SNOW", "Snow", "White and a little translucent, bluer where it was pressed"),
+    ("MUD", "Mud", "Damp lumps that shine where they were pressed"),
+    ("EARTH", "Earth", "Dark crumbs, darker and flat where feet went"),
+    ("GRASS", "Grass Floor", "Moss and dead leaves between plants, bare earth where the cover is gone"),
+)
+FLOORED = {"EARTH", "MUD"}  # what has a grass floor where plants grow
+
+
+def look_of(name):
+    """(look, wetness 0..1) of a soil by its name."""
+    known = SOILS.get(name)
+    if known is not None:
+        return known
+    found = next((each for word, each in WORDS if word in name), "EARTH")
+    return found, WET if "wet" in name and found != "SNOW" else 0.0
+
+
+def _soil_name(settings):
+    """What the soil of a ground's settings, or of a painted one, is called."""
+    if settings.soil_file:
+        return bpy.path.display_name_from_filepath(settings.soil_file).lower().replace(" ", "-")
+    return settings.soil
+
+
+def recipe(scene, obj, kind):
+    """The looks.Recipe of a ground; kind: one of KINDS."""
+    settings = obj.desire_path
+    base, painted = look_of(_soil_name(settings)), ()
+    if kind == "AUTO":
+        its = [(_share(each), *look_of(_soil_name(each))) for each in settings.painted]
+        painted = tuple(dict.fromkeys(its))
+    else:
+        base = ("EARTH", base[1] if base[0] == "EARTH" else 0.0) if kind == "GRASS" else (kind, _wet_as(kind, base))
+    floor = ""
+    if kind == "GRASS" or kind == "AUTO" and settings.plants and base[0] in FLOORED:
+        floor = "plants" if settings.plants else "trodden"
+    unit = axes.unit_scale(scene)
+    scale = tuple(float(np.float32(each * unit)) for each in obj.matrix_world.to_scale())
+    return looks.Recipe(base, painted, floor, scale, float(unit))
+
+
+def _wet_as(kind, base):
+    """How wet a look is that was asked for by name: as the soil has it, where that is the same."""
+    return base[1] if base[0] == kind else {"MUD": SOILS["mud"][1]}.get(kind, 0.0)
+
+
+def _share(painted):
+    return looks.SHARE.format(_soil_name(painted))
+
+
+def is_ours(material):
+    """Whether we made a material."""
+    return material is not None and looks.TAG in material
+
+
+def _called(made):
+    names = dict.fromkeys(looks.LOOKS[look][0] for look in (made.base[0], *(each[1] for each in made.painted)))
+    if made.floor:
+        names["Grass"] = None
+    wet = "Wet " if made.base[0] in {"SAND", "EARTH"} and made.base[1] > 0.5 else ""
+    return f"Desire Path {wet}{', '.join(names)}"
+
+
+# ---- materials ----------------------------------------------------------------------------------------
+
+
+def add(scene, obj, kind="AUTO", replace=False):
+    """Give a ground its material; returns a sentence that tells what was done.
+
+    kind: one of KINDS; replace: in place of the user's own materials
+    Raises DesirePathError where nothing can be done; then nothing has changed.
+    """
+    made = recipe(scene, obj, kind)
+    own = [] if replace else _of_the_user(obj)
+    _check(obj, own)
+    _shares(obj)
+    _grown(obj)
+    group = looks.ground(made, _called(made))
+    told = []
+    if own:
+        told += [_offer(each, group) for each in own]
+    free = [k for k, slot in enumerate(obj.material_slots) if replace or not _is_users(slot.material)]
+    if free or not len(obj.material_slots):
+        material = _material(made, group)
+        _fill(obj, free, material)
+        told.append(f"'{obj.name}' is made of '{material.name}'.")
+    _tidy()
+    return " ".join(told)
+
+
+def _is_users(material):
+    return material is not None and not is_ours(material)
+
+
+def _of_the_user(obj):
+    """The user's own materials on an object, each once."""
+    return list(dict.fromkeys(slot.material for slot in obj.material_slots if _is_users(slot.material)))
+
+
+def _check(obj, own):
+    """Say beforehand what cannot be done."""
+    if obj.data.library is not None and not len(obj.material_slots):
+        raise DesirePathError(
+            f"The mesh of '{obj.name}' is linked from another file and has no material slot: make a library override "
+            "of it, or give it a material in that file."
+        )
+    for each in own:
+        if each.library is not None:
+            raise DesirePathError(
+                f"The material '{each.name}' of '{obj.name}' is linked from another file: make it local, or tick "
+                "Replace to use another one in its place."
+            )
+        if not each.use_nodes or each.node_tree is None:
+            raise DesirePathError(
+                f"The material '{each.name}' of '{obj.name}' uses no nodes: turn on Use Nodes in its tab, or tick "
+                "Replace to use another one in its place."
+            )
+
+
+def _material(made, group):
+    """The material of this file that shows a group, made where there is none."""
+    mark = group[looks.TAG]
+    for each in bpy.data.materials:
+        if each.library is None and each.get(looks.TAG) == mark and _shows(each, group):
+            return each
+    material = bpy.data.materials.new(_called(made))
+    if not material.use_nodes:
+        material.use_nodes = True
+    material[looks.TAG] = mark
+    tree = material.node_tree
+    tree.nodes.clear()
+    n = looks.Shade(tree)
+    node = n.add("ShaderNodeGroup", {"node_tree": group, "width": 240.0})
+    leave = n.add("ShaderNodeOutputMaterial", Surface=node.outputs["Shader"])
+    leave.location = (300.0, 0.0)
+    base = {"SAND": (0.45, 0.32, 0.19), "SNOW": (0.85, 0.88, 0.92), "MUD": (0.09, 0.057, 0.035)}
+    material.diffuse_color = (*base.get(made.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
+    return material
+
+
+def _shows(material, group):
+    tree = material.node_tree
+    return tree is not None and any(getattr(each, "node_tree", None) == group for each in tree.nodes)
+
+
+def _offer(material, group):
+    """Put the group into a material of the user's, unconnected."""
+    tree = material.node_tree
+    old = [each for each in tree.nodes if each.bl_idname == "ShaderNodeGroup" and _is_grounds(each.node_tree)]
+    if old:
+        for each in old:
+            each.node_tree = group  # links stay, by the names of sockets
+        return f"'{material.name}' is yours: its node group shows the soils as they are now."
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree, node.width = group, 240.0
+    places = [each.location for each in tree.nodes if each != node]
+    if places:
+        node.location = (min(each.x for each in places), min(each.y for each in places) - 400.0)
+    for each in tree.nodes:
+        each.select = each == node
+    tree.nodes.active = node
+    return f"'{material.name}' is yours and stays as it is: the node group '{group.name}' in it can be plugged in."
+
+
+def _is_grounds(tree):
+    return tree is not None and looks.TAG in tree and "Normal" in _outputs(tree)
+
+
+def _outputs(tree):
+    if hasattr(tree, "interface"):
+        return {each.name for each in tree.interface.items_tree if getattr(each, "in_out", "") == "OUTPUT"}
+    return set(tree.outputs.keys())
+
+
+def _fill(obj, free, material):
+    """Put a material into slots; those of a linked mesh are the object's own from then on."""
+    if not len(obj.material_slots):
+        obj.data.materials.append(material)
+        return
+    for k in free:
+        slot = obj.material_slots[k]
+        if slot.link == "DATA" and obj.data.library is not None:
+            slot.link = "OBJECT"
+        slot.material = material
+
+
+def _tidy():
+    """Remove what was ours and is used no more."""
+    for each in list(bpy.data.materials):
+        if each.library is None and is_ours(each) and each.users == 0:
+            bpy.data.materials.remove(each)
+    for _ in range(2):  # grounds, then looks
+        for each in list(bpy.data.node_groups):
+            if each.library is None and looks.TAG in each and each.users == 0:
+                bpy.data.node_groups.remove(each)
+
+
+# ---- attributes that the materials read ------------------------------------------------------------------
+
+
+def refresh(obj):
+    """Write what a ground's material reads beside what was baked; nothing where it has none of ours."""
+    if any(is_ours(each) or each is not None and _holds(each) for each in obj.data.materials):
+        _shares(obj)
+
+
+def forget(obj):
+    """A bake was freed: plants stand again as they grew."""
+    if any(is_ours(each) or each is not None and _holds(each) for each in obj.data.materials):
+        _grown(obj)
+
+
+def _holds(material):
+    tree = material.node_tree
+    return tree is not None and any(_is_grounds(getattr(each, "node_tree", None)) for each in tree.nodes)
+
+
+def shares(obj):
+    """The share of each painted soil at the points of a mesh, by attribute, float32 (n,)."""
+    count, found = len(obj.data.vertices), {}
+    for each in obj.desire_path.painted:
+        weight = cover.group_weights(obj, each.vertex_group)
+        name = _share(each)
+        found[name] = found.get(name, np.zeros(count, np.float32)) + (0.0 if weight is None else weight)
+    whole = np.maximum(sum(found.values(), np.zeros(count, np.float32)), 1.0)
+    return {name: (weight / whole).astype(np.float32) for name, weight in found.items()}
+
+
+def _shares(obj):
+    mesh = obj.data
+    if mesh.library is not None:
+        return
+    for name, values in shares(obj).items():
+        there = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT", "POINT")
+        if compat.float_attribute(mesh, there.name) is not None:
+            there.data.foreach_set("value", values)
+
+
+def _grown(obj):
+    """Plants as they grew, where no bake says how they are."""
+    mesh, settings = obj.data, obj.desire_path
+    name = playback.STRENGTH
+    if not settings.plants or playback.modifier(obj) is not None or mesh.library is not None or name in mesh.attributes:
+        return
+    scene = obj.users_scene[0] if obj.users_scene else bpy.context.scene
+    world = axes.matrix(obj.matrix_world, obj.name)
+    values = cover.grown(obj, world, axes.unit_scale(scene), plants.standing(obj))
+    mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
+    settings.made_attributes = ",".join(filter(None, (settings.made_attributes, name)))

@@ -1,0 +1,55 @@
+"""op_material.py - a ground is shown as what it is made of."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty
+
+from ..errors import DesirePathError
+from . import materials, watch
+from .ops import Refusal, active
+
+
+class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
+    """Give the selected grounds a material of what they are made of: darker, wetter or bare where feet went. Materials
+    of your own stay as they are, and get a node group to plug in"""
+
+    bl_idname = "object.desire_path_material_add"
+    bl_label = "Make Material"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: EnumProperty(name="Kind", description="What the ground looks like", items=materials.KINDS)
+    replace: BoolProperty(name="Replace", description="Use it in place of materials of your own, too")
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, {"MESH"}, "a ground")
+
+    def work(self, context):
+        obj = context.object
+        if not obj.desire_path.is_ground:
+            raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
+        beside = [
+            each
+            for each in context.selected_objects
+            if each != obj
+            and each.type == "MESH"
+            and each.mode != "EDIT"
+            and each.library is None
+            and each.desire_path.is_ground
+        ]
+        told, wrong = [], []
+        for each in (obj, *beside):
+            try:
+                told.append(materials.add(context.scene, each, self.kind, self.replace))
+            except DesirePathError as problem:
+                wrong.append(str(problem))
+                continue
+            watch.renew(context.scene, each)
+        if not told:
+            raise DesirePathError(" ".join(wrong))
+        for kind, sentences in (("INFO", told), ("WARNING", wrong)):
+            if sentences:
+                self.report({kind}, " ".join(sentences))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_desire_path_material_add,)

@@ -1,0 +1,315 @@
+"""A ground looks like what it is made of, and a material of the user's stays as it is."""
+
+import bpy
+import numpy as np
+from scenes import meshes
+from test_bake import refused
+from test_plants import add as plant
+from test_refined import baked, copy_of, plane
+
+from desire_path.blender import compat, looks, materials, playback
+from desire_path.ground.soil import SOILS
+
+SIZE = 24  # pixels of a picture along each side
+KEEP = ("materials", "node_groups")
+
+
+def ground(soil="dry-sand", name="Ground", side=0.2, **settings):
+    """A square of four points that is a ground."""
+    obj = meshes.grid(2, 2, side, -side / 2, -side / 2, name=name)
+    bpy.ops.object.desire_path_ground_add()
+    obj.desire_path.soil = soil
+    for key, value in settings.items():
+        setattr(obj.desire_path, key, value)
+    return obj
+
+
+def make(*grounds, **options):
+    meshes.activate(grounds[0])
+    for each in grounds:
+        each.select_set(True)
+    assert bpy.ops.object.desire_path_material_add(**options) == {"FINISHED"}
+    return grounds[0].material_slots[0].material
+
+
+def counts():
+    return {name: len(getattr(bpy.data, name)) for name in KEEP}
+
+
+def bake_by_hand(obj, compression, heap=0.0):
+    """What the playback would store, a value for each half: y below zero, y above."""
+    mesh = obj.data
+    low = compat.positions(mesh)[:, 1] < 0.0
+    value = np.zeros((len(low), 4), np.float32)
+    value[:, 2] = np.where(low, 0.0, compression)
+    value[:, 0] = np.where(low, 0.0, heap) - value[:, 2]
+    mesh.attributes.new(playback.ATTRIBUTE, "FLOAT_COLOR", "POINT").data.foreach_set("color", value.ravel())
+
+
+def two_halves(obj):
+    """Six points in place of four: each half is of one value, with a sharp border between them."""
+    mesh = bpy.data.meshes.new("Halves")
+    a, h = 0.1, 1e-4
+    rows = [(-a, -a, 0), (a, -a, 0), (a, -h, 0), (-a, -h, 0), (a, h, 0), (-a, h, 0), (a, a, 0), (-a, a, 0)]
+    mesh.from_pydata(rows, [], [(0, 1, 2, 3), (3, 2, 4, 5), (5, 4, 6, 7)])
+    obj.data = mesh
+    return obj
+
+
+def _lit():
+    """The scene, seen from straight above in even light."""
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type, camera.data.ortho_scale, camera.location = "ORTHO", 0.19, (0.0, 0.0, 1.0)
+    scene.collection.objects.link(camera)
+    world = bpy.data.worlds.new("World")
+    if not world.use_nodes:
+        world.use_nodes = True
+    world.node_tree.nodes.clear()
+    light = world.node_tree.nodes.new("ShaderNodeBackground")
+    leave = world.node_tree.nodes.new("ShaderNodeOutputWorld")
+    world.node_tree.links.new(light.outputs[0], leave.inputs[0])
+    light.inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+    scene.world, scene.camera = world, camera
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.seed = 16, False, 1
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_mode = "RGB"
+    return scene
+
+
+def rendered(folder, name="picture"):
+    """Its picture, light in (rows, columns, 3), row 0 below."""
+    scene = _lit()
+    scene.render.filepath = str(folder / name)
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(str(folder / f"{name}.exr"))
+    pixels = np.empty(SIZE * SIZE * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(SIZE, SIZE, 4)[..., :3]
+
+
+def halves(folder, name="picture"):
+    """Mean colours of the half that lies as it was and of the other one."""
+    seen = rendered(folder, name)
+    return seen[: SIZE // 2 - 1].mean(axis=(0, 1)), seen[SIZE // 2 + 1 :].mean(axis=(0, 1))
+
+
+def test_every_soil_has_a_look():
+    known = {"dry-sand": "SAND", "snow": "SNOW", "mud": "MUD", "soil": "EARTH", "wet-soil": "EARTH"}
+    for name in SOILS:
+        look, wet = materials.look_of(name)
+        assert look in looks.LOOKS and known.get(name, look) == look and 0.0 <= wet <= 1.0
+    assert materials.look_of("deep-snow")[0] == "SNOW" and materials.look_of("wet-sand")[0] == "SAND"
+    assert materials.look_of("wet-soil")[1] > materials.look_of("soil")[1]
+    for name in ("dry-sand", "snow", "mud", "soil"):
+        material = make(ground(name, name))
+        assert materials.look_of(name)[0].capitalize() in material.name
+    assert len(bpy.data.materials) == 4
+
+
+def test_pressed_ground_is_seen_in_a_picture(folder):
+    for kind in ("SAND", "EARTH", "SNOW", "GRASS"):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = two_halves(ground())
+        bake_by_hand(obj, 0.03)
+        make(obj, kind=kind)
+        level, pressed = halves(folder, kind)
+        assert (level > 0.005).all(), kind
+        darker = pressed.mean() / level.mean()
+        if kind == "GRASS":  # the earth below it shows, which is no green
+            assert level[1] > level[0] and pressed[0] > pressed[1]
+        else:
+            assert darker < (0.97 if kind == "SNOW" else 0.85), (kind, darker)
+
+
+def test_mud_shines_where_it_was_pressed(folder):
+    obj = two_halves(ground("mud"))
+    bake_by_hand(obj, 0.03)
+    tree = make(obj).node_tree
+    group, leave = (
+        next(n for n in tree.nodes if n.bl_idname == f"ShaderNode{kind}") for kind in ("Group", "OutputMaterial")
+    )
+    for output, most in (("Roughness", 0.6), ("Color", 0.8)):
+        tree.links.new(group.outputs[output], leave.inputs["Surface"])  # it glows by that value
+        level, pressed = halves(folder, output)
+        assert 0.0 < pressed.mean() < most * level.mean()
+
+
+def test_without_a_bake_it_is_as_nobody_walked(folder):
+    obj = two_halves(ground("mud"))
+    make(obj)
+    first, second = halves(folder)
+    assert np.allclose(first, second, rtol=0.25)
+
+
+def test_painted_soils_lie_where_they_are_painted(folder):
+    obj = two_halves(ground("soil"))
+    group = obj.vertex_groups.new(name="drift")
+    group.add([4, 5, 6, 7], 1.0, "REPLACE")
+    each = obj.desire_path.painted.add()
+    each.vertex_group, each.soil = "drift", "snow"
+    make(obj)
+    name = looks.SHARE.format("snow")
+    assert compat.float_attribute(obj.data, name).tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
+    earth, snow = halves(folder)
+    assert earth.max() < 0.2 and snow.min() > 0.5
+    # painted anew: pressed again, the material follows
+    group.add([4, 5, 6, 7], 0.0, "REPLACE")
+    make(obj)
+    assert not compat.float_attribute(obj.data, name).any() and counts()["materials"] == 1
+
+
+def test_shares_of_groups_that_overlap_sum_to_one():
+    obj = two_halves(ground("soil"))
+    for name, soil, weight in (("a", "snow", 1.0), ("b", "mud", 1.0), ("c", "snow", 0.5)):
+        obj.vertex_groups.new(name=name).add([0, 1], weight, "REPLACE")
+        each = obj.desire_path.painted.add()
+        each.vertex_group, each.soil = name, soil
+    found = materials.shares(obj)
+    assert len(found) == 2  # snow painted twice is snow
+    assert np.allclose(found[looks.SHARE.format("snow")][:3], (0.6, 0.6, 0.0))
+    assert np.allclose(sum(found.values())[:3], (1.0, 1.0, 0.0))
+    obj.desire_path.painted[0].vertex_group = "gone"
+    make(obj)
+
+
+def test_a_material_of_the_users_stays_and_gets_a_group():
+    obj = ground("mud")
+    mine = bpy.data.materials.new("Mine")
+    if not mine.use_nodes:
+        mine.use_nodes = True
+    obj.data.materials.append(mine)
+    before = [(each.from_node.name, each.to_node.name) for each in mine.node_tree.links]
+    nodes = set(mine.node_tree.nodes.keys())
+    assert make(obj) == mine
+    assert [(each.from_node.name, each.to_node.name) for each in mine.node_tree.links] == before
+    (added,) = (each for each in mine.node_tree.nodes if each.name not in nodes)
+    assert added.node_tree[looks.TAG] and not any(each.is_linked for each in added.outputs)
+    assert {"Shader", "Color", "Roughness", "Normal", "Pressed", "Loose", "Disturbed"} <= set(added.outputs.keys())
+    # plugged in it stays so when the soil changes
+    leave = next(each for each in mine.node_tree.nodes if each.bl_idname == "ShaderNodeOutputMaterial")
+    mine.node_tree.links.new(added.outputs["Shader"], leave.inputs["Surface"])
+    obj.desire_path.soil = "snow"
+    make(obj)
+    assert len(mine.node_tree.nodes) == len(nodes) + 1 and "Snow" in added.node_tree.name
+    assert leave.inputs["Surface"].links[0].from_socket == added.outputs["Shader"]
+    assert counts() == {"materials": 1, "node_groups": 2}
+    # asked for, ours takes its place
+    assert make(obj, replace=True) != mine and mine.name in bpy.data.materials
+
+
+def test_empty_slots_are_filled_and_others_are_not():
+    obj = ground()
+    mine = bpy.data.materials.new("Mine")
+    if not mine.use_nodes:
+        mine.use_nodes = True
+    for each in (mine, None, mine):
+        obj.data.materials.append(each)
+    make(obj)
+    assert [materials.is_ours(slot.material) for slot in obj.material_slots] == [False, True, False]
+    assert [slot.material for slot in obj.material_slots][::2] == [mine, mine]
+
+
+def test_what_cannot_be_done_is_told_and_nothing_changes():
+    obj = bpy.data.objects.new("Plain", ground().data)
+    meshes.link(obj)
+    meshes.activate(obj)
+    refused(bpy.ops.object.desire_path_material_add, "'Plain' is no ground yet")
+    bpy.ops.object.desire_path_ground_add()
+    if "use_nodes" in bpy.types.Material.bl_rna.properties:
+        mine = bpy.data.materials.new("Mine")
+        mine.use_nodes = False
+        if not mine.use_nodes:  # later Blenders know no others
+            obj.data.materials.append(mine)
+            before = counts()
+            refused(bpy.ops.object.desire_path_material_add, "'Mine'", "Use Nodes")
+            assert counts() == before and not mine.use_nodes
+            make(obj, replace=True)
+
+
+def test_linked_data_is_told_or_kept(folder):
+    bpy.context.preferences.filepaths.save_version = 0
+    bare, slotted = ground(name="Bare"), ground(name="Slotted")
+    slotted.data.materials.append(None)
+    path = str(folder / "library.blend")
+    bpy.data.libraries.write(path, {bare.data, slotted.data})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (there, here):
+        here.meshes = there.meshes
+    bare, slotted = (
+        meshes.link(bpy.data.objects.new(each.name, each)) for each in sorted(here.meshes, key=lambda each: each.name)
+    )
+    for each in (bare, slotted):
+        meshes.activate(each)
+        bpy.ops.object.desire_path_ground_add()
+    meshes.activate(bare)
+    refused(bpy.ops.object.desire_path_material_add, "linked from another file", "no material slot")
+    assert counts() == {"materials": 0, "node_groups": 0}
+    material = make(slotted)
+    assert materials.is_ours(material) and slotted.material_slots[0].link == "OBJECT"
+
+
+def test_grounds_of_the_same_soils_share_a_material():
+    one, other = ground(name="One"), ground(name="Other")
+    assert make(one, other) == other.material_slots[0].material
+    other.scale = (2.0, 2.0, 2.0)  # grains stay as large as they are
+    bpy.context.view_layer.update()
+    make(one, other)
+    assert one.material_slots[0].material != other.material_slots[0].material
+
+
+def test_pressed_twice_there_is_one_and_another_soil_takes_its_place():
+    obj = ground()
+    sand = make(obj)
+    before = counts()
+    assert make(obj) == sand and counts() == before
+    obj.desire_path.soil = "snow"
+    snow = make(obj)
+    assert "Snow" in snow.name and len(obj.material_slots) == 1 and counts() == before
+    assert "Mud" in make(obj, kind="MUD").name and counts() == before
+
+
+def test_a_bake_that_is_shown_by_a_copy_has_it(folder):
+    obj = plane()
+    group = obj.vertex_groups.new(name="drift")
+    group.add([0, 1], 1.0, "REPLACE")
+    each = obj.desire_path.painted.add()
+    each.vertex_group, each.soil = "drift", "snow"
+    baked(folder, obj)
+    material = make(obj)
+    name = looks.SHARE.format("snow")
+    copy = copy_of(obj).data
+    at = compat.positions(copy)
+    assert [each.name for each in copy.materials] == [material.name]
+    assert np.allclose(compat.float_attribute(copy, name), (3.0 - at[:, 1]) / 6.0, atol=1e-5)
+    assert obj.desire_path.bake_state == "FRESH"
+    # painted elsewhere and baked again
+    group.add([0, 1], 0.0, "REPLACE")
+    meshes.activate(obj)
+    bpy.ops.object.desire_path_bake()
+    assert not compat.float_attribute(copy_of(obj).data, name).any()
+
+
+def test_plants_stand_before_and_after_a_bake(folder):
+    obj = meshes.grid(9, 9, 0.05, -0.2, -0.2)
+    bpy.ops.object.desire_path_ground_add()
+    obj.desire_path.soil = "soil"
+    plant(obj, "carex", density=200.0)
+    make(obj)
+    assert "Grass" in obj.material_slots[0].material.name
+    grown = compat.float_attribute(obj.data, playback.STRENGTH)
+    assert grown.min() > 0.3 and obj.desire_path.made_attributes == playback.STRENGTH
+    seen = rendered(folder).mean(axis=(0, 1))
+    assert seen[1] > seen[0]
+
+
+def test_undo_takes_it_back():
+    obj = ground()
+    bpy.ops.ed.undo_push(message="before")
+    make(obj)
+    bpy.ops.ed.undo_push(message="made")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Ground"]
+    assert not len(obj.material_slots) and counts() == {"materials": 0, "node_groups": 0}
