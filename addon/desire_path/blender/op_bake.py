@@ -7,9 +7,10 @@ slices, so that Blender stays awake and ESC stops them.
 import time
 
 import bpy
+from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import bake_job
+from . import bake_job, framing
 from .bake_job import Job, idle_ground
 from .ops import AsksFirst, Refusal, sentence
 from .show import free
@@ -23,6 +24,12 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
     bl_idname = "object.desire_path_bake"
     bl_label = "Bake Trail"
     bl_options = {"REGISTER", "UNDO"}
+
+    look: BoolProperty(
+        name="Look",
+        options={"HIDDEN", "SKIP_SAVE"},
+        description="Play the walk when it is baked, seen from near enough",
+    )
 
     @classmethod
     def poll(cls, context):
@@ -90,6 +97,8 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             except DesirePathError as problem:
                 self.report({"ERROR"}, str(problem))
                 return {"CANCELLED"}
+            if self.look:
+                framing.look(context, job.object(), job.bake, context.scene.frame_start)
             return {"FINISHED"}
         except (DesirePathError, OSError, MemoryError) as problem:
             self.leave(context)

@@ -115,7 +115,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             each.desire_path.ground = land
             self.use(context, each, bpy.ops.object.desire_path_walker_add)
         how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
-        self.use(context, land, bpy.ops.object.desire_path_bake, how)
+        self.use(context, land, bpy.ops.object.desire_path_bake, how, look=True)
 
     @staticmethod
     def known(scene, who):
@@ -123,11 +123,11 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         found = {each.desire_path.ground for each in who} & set(grounds(scene))
         return found.pop() if len(found) == 1 else None
 
-    def use(self, context, obj, operator, how="EXEC_DEFAULT"):
+    def use(self, context, obj, operator, how="EXEC_DEFAULT", **given):
         """Call an operator with an object as the active one; what it refuses is refused here."""
         context.view_layer.objects.active = obj
         try:
-            operator(how)
+            operator(how, **given)
         except RuntimeError as problem:
             raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
 

@@ -1,0 +1,76 @@
+"""window_walk_it.py - run by test_window.py in a Blender with a window: from an imported clip and a default plane to
+prints that are seen, and what a user does next."""
+
+import pathlib
+import sys
+
+import bpy
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
+bpy.context.preferences.view.show_splash = False
+import desire_path  # noqa: E402
+
+desire_path.register()
+from scenes import first_minute  # noqa: E402
+from scenes.hands import Hands, tell, until  # noqa: E402
+
+from desire_path.bake import bake  # noqa: E402
+from desire_path.blender import bake_job  # noqa: E402
+
+FOLDER = pathlib.Path(sys.argv[-1])
+
+
+def object_of(name):
+    return bpy.data.objects[name]
+
+
+def stop_playing(hands):
+    yield from hands.key("ESC", hands.place((0.0, 0.0, 0.0)))
+    yield from until(lambda: not hands.window.screen.is_animation_playing)
+
+
+def seen(hands, name, points, frame):
+    """How much the picture changes around points of the world from before the walk to a frame, the most."""
+    shots = []
+    for each in (-1, frame):
+        bpy.context.scene.frame_set(each)
+        yield 0.7
+        shots.append(hands.shot(f"{name}_{each}"))
+    most = 0.0
+    for point in points:
+        x, y = (int(each) for each in hands.place(point))
+        a, b = (shot[y - 12 : y + 13, x - 20 : x + 21] for shot in shots)
+        most = max(most, float(np.abs(a - b).max()))
+    return most
+
+
+def story(hands):
+    first_minute.setting(hands, plane=True)
+    yield 0.5
+    yield from hands.click(hands.place((0.8, -0.8, 0.0)), shift=True)
+    assert bpy.context.object == object_of("Plane") and object_of("Rig").select_get()
+    yield from first_minute.walk_it(hands)
+    yield from first_minute.pressed(hands)
+    assert hands.clicks <= 3 and hands.digits == 0 and hands.keys == 0, (hands.clicks, hands.digits, hands.keys)
+    yield from until(lambda: hands.window.screen.is_animation_playing)
+    yield 1.0
+    yield from stop_playing(hands)
+
+    # the plane has its four corners, and prints are seen on it where the view has gone
+    plane = object_of("Plane")
+    assert len(plane.data.vertices) == 4 and not bake_job.running()
+    folder = bpy.path.abspath(plane.desire_path.folder)
+    assert bake.read_index(folder).complete
+    object_of("Rig").select_set(False)
+    object_of("Mannequin").hide_set(True)
+    object_of("Rig").hide_set(True)
+    steps = [(0.08 * side, 0.1 * k, 0.0) for k in range(-9, 4) for side in (-1, 0, 1)]
+    change = yield from seen(hands, "prints", steps, 60)
+    assert change > 0.15, f"prints change the picture by {change:.2f}"
+    for name in ("Mannequin", "Rig"):
+        object_of(name).hide_set(False)
+
+
+tell(story(Hands(FOLDER)))

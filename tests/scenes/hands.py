@@ -1,0 +1,110 @@
+"""hands.py - a user's hands, for scripts in a Blender with a window: they point, click, type, wait and take pictures.
+
+    blender --factory-startup --enable-event-simulate -noaudio -p 0 0 1280 800 --python-exit-code 1 -P SCRIPT -- FOLDER
+
+A story is a generator that yields how long to wait [s]; `tell` runs it and closes Blender at its end.
+"""
+
+import sys
+import time
+import traceback
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+KEYS = {" ": "SPACE", "\n": "RET"}
+
+
+class Hands:
+    """What they did is counted: clicks, keys, digits among these."""
+
+    def __init__(self, folder):
+        self.folder, self.clicks, self.keys, self.digits = folder, 0, 0, 0
+
+    @property
+    def window(self):
+        return bpy.context.window_manager.windows[0]
+
+    def area(self, kind):
+        return next(area for area in self.window.screen.areas if area.type == kind)
+
+    def region(self, kind, name="WINDOW"):
+        return next(region for region in self.area(kind).regions if region.type == name)
+
+    def within(self, kind, name="WINDOW"):
+        """A context in which operators run as if pressed there."""
+        return bpy.context.temp_override(window=self.window, area=self.area(kind), region=self.region(kind, name))
+
+    def event(self, kind, value, at, **more):
+        self.window.event_simulate(type=kind, value=value, x=int(at[0]), y=int(at[1]), **more)
+
+    def click(self, at, button="LEFTMOUSE", **more):
+        """Press a button of the mouse at a pixel (x, y) of the window, counted from below."""
+        self.clicks += 1
+        self.event("MOUSEMOVE", "NOTHING", at)
+        yield 0.3
+        self.event(button, "PRESS", at, **more)
+        yield 0.1
+        self.event(button, "RELEASE", at, **more)
+        yield 0.5
+
+    def key(self, kind, at, **more):
+        self.keys += 1
+        for value in ("PRESS", "RELEASE"):
+            self.event(kind, value, at, **more)
+        yield 0.3
+
+    def type(self, text, at):
+        for letter in text:
+            self.keys += 1
+            self.digits += letter.isdigit()
+            shown = {} if letter == "\n" else {"unicode": letter}
+            self.event(KEYS.get(letter, letter.upper()), "PRESS", at, **shown)
+            self.event(KEYS.get(letter, letter.upper()), "RELEASE", at)
+            yield 0.05
+
+    def place(self, point):
+        """The pixel of the window at which a point of the world is seen in the 3D view."""
+        region = self.region("VIEW_3D")
+        seen = location_3d_to_region_2d(region, self.area("VIEW_3D").spaces[0].region_3d, point)
+        return region.x + seen.x, region.y + seen.y
+
+    def shot(self, name):
+        with bpy.context.temp_override(window=self.window, screen=self.window.screen):
+            bpy.ops.screen.screenshot(filepath=str(self.folder / f"{name}.png"))
+        return self.pixels(name)
+
+    def pixels(self, name):
+        """A picture that was taken, (height, width, 3), from below."""
+        image = bpy.data.images.load(str(self.folder / f"{name}.png"))
+        found = np.empty(len(image.pixels), np.float32)
+        image.pixels.foreach_get(found)
+        width, height = image.size
+        bpy.data.images.remove(image)
+        return found.reshape(height, width, 4)[:, :, :3]
+
+
+def until(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited too long"
+        yield 0.05
+
+
+def tell(story):
+    """Run a story; Blender ends with it, and says `all seen` where it came to its end."""
+    steps = iter(story)
+
+    def tick():
+        try:
+            return next(steps)
+        except StopIteration:
+            print("all seen", flush=True)
+        except Exception:
+            traceback.print_exc()
+        sys.stdout.flush()
+        bpy.ops.wm.quit_blender()
+        return None
+
+    bpy.app.timers.register(tick, first_interval=1.0, persistent=True)
