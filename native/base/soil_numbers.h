@@ -14,4 +14,9 @@
     X(push_threshold, "N", 0.0, 1e15, 0.0,                                          \
       "F_threshold, TRAIL (13); 0 = half the walker's weight")                      \
     X(shear_modulus, "m", 0.0, 0.1, 0.0,                                            \
-      "K, shear before it carries sideways; 0 = soles do not slip")
+      "K, shear before it carries sideways; 0 = soles do not slip")                 \
+    X(wall_angle, "rad", 1e-3, 1.5707963705062866, 1.5707963705062866,              \
+      "gamma_w, steepest firm wall that stands once it is cut; 90 degrees = all")   \
+    X(roughness, "-", 0.0, 1.0, 0.0,                                                \
+      "rho, by how much walls, rest and rims differ from place to place")           \
+    X(grain_size, "m", 1e-4, 10.0, 0.012, "how far apart such places are")

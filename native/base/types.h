@@ -98,6 +98,9 @@ typedef struct DpSoilPatch
     int           soil_count;
 
     float* pressure;  // sigma under the sole at hand, where it presses; NULL = not asked for [Pa]
+
+    const float* wall_slope;  // tan(gamma_w), +inf = walls stand; NULL = all do [-] > 0
+    const float* uneven;      // rho n, MODEL 6.7; NULL = 0                       [-]
 } DpSoilPatch;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

@@ -4,15 +4,19 @@
 //   soil_compress(patch, imprint, foot, law, dt)                          -> dict of DpPressed
 //   soil_accumulate(patch, imprint, foot, volume, law, rim_width, threshold, height) -> height
 //   soil_stabilize(patch, imprint | None, within | None, tolerance, most)  -> dict of DpSettled
+//   soil_noise(cell, x0, y0, i0, j0, longest, shortest, seed, out)
 //   soil_anisotropy((x, y, z), threshold) -> beta;   soil_numbers() -> the table of base/soil_numbers.h
 //
 // patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
-// soils) imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
+// soils[, wall_slope[, uneven]])
+// imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
 // float32 (ny, nx), kind uint8, ring int32, soils a list of dicts of numbers by name.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/noise.h"
 #include "python/numbers.h"
 #include "python/py_inside.h"
 #include "soil/soil.h"
@@ -55,6 +59,8 @@ static int check_grids(const DpSoilPatch* patch)
         if (!(patch->modulus[k] > 0.0f) || isinf(patch->modulus[k])) bad = "modulus";
         if (!(patch->rest_slope[k] > 0.0f) || isinf(patch->rest_slope[k])) bad = "rest_slope";
         if (patch->kind[k] >= patch->soil_count) bad = "kind";
+        if (patch->wall_slope && !(patch->wall_slope[k] > 0.0f)) bad = "wall_slope";
+        if (patch->uneven && !isfinite(patch->uneven[k])) bad = "uneven";
         if (!bad) continue;
         PyErr_Format(PyExc_ValueError, "%s: element %zu is out of its range", bad, k);
         return -1;
@@ -67,13 +73,14 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
     DpSoilPatch* patch = &call->patch;
     DpBuffers*   buffers = &call->buffers;
     PyObject *   rest, *compression, *heap, *pressure_time, *modulus, *rest_slope, *kind, *soils;
+    PyObject *   walls = NULL, *uneven = NULL;
     if (!PyTuple_Check(object)) {
         PyErr_SetString(PyExc_TypeError, "patch: expected a tuple");
         return -1;
     }
-    if (!PyArg_ParseTuple(object, "dddOOOOOOOO:patch", &patch->cell, &patch->x0, &patch->y0, &rest,
-                          &compression, &heap, &pressure_time, &modulus, &rest_slope, &kind,
-                          &soils))
+    if (!PyArg_ParseTuple(object, "dddOOOOOOOO|OO:patch", &patch->cell, &patch->x0, &patch->y0,
+                          &rest, &compression, &heap, &pressure_time, &modulus, &rest_slope, &kind,
+                          &soils, &walls, &uneven))
         return -1;
     if (!(patch->cell > 0.0) || !isfinite(patch->cell) || !isfinite(patch->x0) ||
         !isfinite(patch->y0)) {
@@ -89,7 +96,11 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
         !(patch->modulus = dp_buffers_open(buffers, modulus, "modulus", 'f', shape, false)) ||
         !(patch->rest_slope =
               dp_buffers_open(buffers, rest_slope, "rest_slope", 'f', shape, false)) ||
-        !(patch->kind = dp_buffers_open(buffers, kind, "kind", 'B', shape, false)))
+        !(patch->kind = dp_buffers_open(buffers, kind, "kind", 'B', shape, false)) ||
+        (walls &&
+         !(patch->wall_slope = dp_buffers_open(buffers, walls, "wall_slope", 'f', shape, false))) ||
+        (uneven &&
+         !(patch->uneven = dp_buffers_open(buffers, uneven, "uneven", 'f', shape, false))))
         return -1;
     if (shape->n[0] < 1 || shape->n[1] < 1 || shape->n[0] > 32768 || shape->n[1] > 32768) {
         PyErr_SetString(PyExc_ValueError, "rest: expected 1 to 32768 cells a side");
@@ -235,12 +246,12 @@ static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
             dp_soil_stabilize(&call.patch, stands ? &call.imprint : NULL,
                               within == Py_None ? NULL : &box, tolerance, most, call.scratch, &s);
         Py_END_ALLOW_THREADS
-        result =
-            status != DP_OK
-                ? dp_py_result(status, "letting soil come to rest")
-                : Py_BuildValue("{s:i,s:N,s:N,s:(llll)}", "sweeps", s.sweeps, "at_rest",
-                                PyBool_FromLong(s.at_rest), "at_edge", PyBool_FromLong(s.at_edge),
-                                "changed", s.changed.i0, s.changed.i1, s.changed.j0, s.changed.j1);
+        result = status != DP_OK
+                     ? dp_py_result(status, "letting soil come to rest")
+                     : Py_BuildValue("{s:i,s:N,s:N,s:d,s:(llll)}", "sweeps", s.sweeps, "at_rest",
+                                     PyBool_FromLong(s.at_rest), "at_edge",
+                                     PyBool_FromLong(s.at_edge), "loosened", s.loosened, "changed",
+                                     s.changed.i0, s.changed.i1, s.changed.j0, s.changed.j1);
     }
     close_call(&call);
     return result;
@@ -255,6 +266,37 @@ static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
                           &threshold))
         return NULL;
     return PyFloat_FromDouble(dp_soil_anisotropy(push, threshold));
+}
+
+static PyObject* soil_noise(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    DpGrid    grid;
+    long      i0, j0;
+    double    longest, shortest;
+    int       seed;
+    PyObject* object;
+    if (!PyArg_ParseTuple(arguments, "dddllddiO:soil_noise", &grid.cell, &grid.x0, &grid.y0, &i0,
+                          &j0, &longest, &shortest, &seed, &object))
+        return NULL;
+    const bool bounded = fabs(grid.x0) < 1e9 && fabs(grid.y0) < 1e9 && labs(i0) < 1000000000 &&
+                         labs(j0) < 1000000000 && grid.cell <= 100.0 && longest <= 1e4;
+    if (!(grid.cell >= 1e-4 && longest >= 1e-4 && shortest >= 0.0) || !bounded)
+        return PyErr_Format(PyExc_ValueError,
+                            "soil_noise: cells or lengths are out of their range");
+    DpBuffers buffers = {.count = 0};
+    DpShape   shape = {2, {-1, -1}};
+    float*    out = dp_buffers_open(&buffers, object, "out", 'f', &shape, true);
+    if (out) {
+        const DpCellRect cells = dp_cells(i0, j0, (long)shape.n[1], (long)shape.n[0]);
+        if (shortest > 0.0)
+            dp_noise_waves(&grid, cells, longest, fmax(shortest, 1e-4), (uint32_t)seed, out);
+        else
+            dp_noise_pieces(&grid, cells, longest, (uint32_t)seed, out);
+    }
+    dp_buffers_close(&buffers);
+    if (!out) return NULL;
+    Py_RETURN_NONE;
 }
 
 static PyObject* soil_default(PyObject* module, PyObject* arguments)
@@ -283,6 +325,9 @@ PyMethodDef dp_py_soil_methods[] = {
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
+    {"soil_noise", soil_noise, METH_VARARGS,
+     "soil_noise(cell, x0, y0, i0, j0, longest, shortest, seed, out): waves of a place's chance on "
+     "cells (ny, nx) from (i0, j0) on, or of pieces `longest` wide where shortest is 0."},
     {"soil_default", soil_default, METH_NOARGS,
      "soil_default() -> the numbers of a soil as they are if not told, in the order of "
      "soil_numbers()."},

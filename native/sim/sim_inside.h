@@ -28,6 +28,7 @@ typedef struct Limb
     bool       lifts;   // has let go: its rim comes to rest
     bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
     double     firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
+    double     loosened;                    // .. of walls, and when it settles     [m^3]
     bool       off_ground;                  // pressed where there is no ground
 } Limb;
 

@@ -33,7 +33,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;
-    limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
+    limb->firm = limb->loose = limb->laid = limb->deepest = limb->loosened = 0.0;
     if (presses && !limb->stands) {
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);

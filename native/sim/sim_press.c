@@ -156,6 +156,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                                sim->options.tolerance, sweeps, scratch->soil_scratch, &settled);
     if (status != DP_OK) return status;
     limb->spills = settled.at_edge;
+    limb->loosened += settled.loosened;
     limb->trodden = dp_cells_join(limb->trodden, limb->patch);
     return DP_OK;
 }
@@ -175,6 +176,7 @@ DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch)
                                    sim->options.max_sweeps, scratch->soil_scratch, &settled);
         if (status != DP_OK) return status;
         dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
+        limb->loosened += settled.loosened;
         if (!settled.at_edge) return DP_OK;
         at = dp_cells_grown(at, SETTLE_GROWTH);
     }

@@ -14,7 +14,8 @@
 
 #define NAME "sim "
 #define SHOWN "show"  // whether it is remembered how soles laid the stems
-#define VERSION 1
+#define VERSION 2     // 1 tells nothing of walls
+#define SHOWN_VERSION 1
 #define FARTHEST ((int64_t)1 << 40)  // cells
 #define WIDEST ((int64_t)1 << 24)    // cells along one side of what a limb presses on
 #define LARGEST ((int64_t)1 << 26)   // and in all
@@ -59,6 +60,7 @@ static void write_report(DpStateWriter* writer, const DpSimReport* report)
     dp_write_f64(writer, report->deepest), dp_write_f64(writer, report->pressed);
     dp_write_f64(writer, report->pressed_heap), dp_write_f64(writer, report->displaced);
     dp_write_i64(writer, report->broke), dp_write_i64(writer, report->awake);
+    dp_write_f64(writer, report->loosened);
 }
 
 // what another simulation has to share with this one to go on from its state
@@ -95,7 +97,7 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     if (sim->stage.plants) {
         dp_plants_save(sim->stage.plants, writer);
         dp_grass_save(sim->stage.grass, writer);
-        dp_write_chunk(writer, SHOWN, VERSION);
+        dp_write_chunk(writer, SHOWN, SHOWN_VERSION);
         dp_write_u8(writer, sim->stage.display != NULL);
         dp_write_end(writer);
         if (sim->stage.display) dp_plant_display_save(sim->stage.display, writer);
@@ -191,7 +193,7 @@ static void read_limb(DpStateReader* reader, Limb* limb, Pressing* pressing, boo
     pressing->room = (size_t)pressing->row * (size_t)(pressing->at.j1 - pressing->at.j0);
 }
 
-static DpSimReport read_report(DpStateReader* reader)
+static DpSimReport read_report(DpStateReader* reader, uint32_t version)
 {
     DpSimReport report = {0};
     report.contacts = (int)dp_read_int(reader, 0, INT32_MAX);
@@ -202,6 +204,7 @@ static DpSimReport read_report(DpStateReader* reader)
     report.displaced = dp_read_number(reader, 0.0, 1e30);
     report.broke = (long)dp_read_int(reader, 0, INT64_MAX);
     report.awake = (int)dp_read_int(reader, 0, INT32_MAX);
+    if (version > 1) report.loosened = dp_read_number(reader, 0.0, 1e30);
     return report;
 }
 
@@ -209,7 +212,7 @@ static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
 {
     double number[8], here[8];
     identity(sim, here);
-    dp_read_chunk(reader, NAME, VERSION);
+    const uint32_t version = dp_read_chunk(reader, NAME, VERSION);
     dp_read_doubles(reader, number, 8);
     dp_read_check(reader, memcmp(number, here, sizeof here) == 0);
     dp_read_check(reader, dp_read_u64(reader) == (uint64_t)sim->cast.walkers);
@@ -217,7 +220,7 @@ static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
     const int samples = sim->motion ? dp_motion_samples(sim->motion) : 1;
     state->next = (int)dp_read_int(reader, 0, samples - 1);
     dp_read_check(reader, dp_read_f64(reader) == time_of(sim, state->next));
-    state->report = read_report(reader);
+    state->report = read_report(reader, version);
     state->limbs = (int)dp_read_count(reader, (size_t)sim->cast.limbs, MIN_LIMB);
     dp_read_check(reader, state->limbs == sim->cast.limbs);
     if (reader->status != DP_OK) return reader->status;
@@ -251,7 +254,7 @@ static DpStatus read_stage(const PlantStage* stage, DpStateReader* reader, State
     DpStatus status = dp_plants_load(stage->plants, reader, &state->plants);
     if (status == DP_OK) status = dp_grass_load(stage->grass, reader, &state->grass);
     if (status != DP_OK) return status;
-    dp_read_chunk(reader, SHOWN, VERSION);
+    dp_read_chunk(reader, SHOWN, SHOWN_VERSION);
     const uint8_t shown = dp_read_u8(reader);
     dp_read_check(reader, shown <= 1);
     dp_read_end(reader);

@@ -57,6 +57,7 @@ static void count(DpSim* sim)
         sim->report.pressed += limb->firm;
         sim->report.pressed_heap += limb->loose;
         sim->report.displaced += limb->laid;
+        sim->report.loosened += limb->loosened;
         sim->report.deepest = fmax(sim->report.deepest, limb->deepest);
         sim->report.off_ground += limb->off_ground;
     }
@@ -115,7 +116,9 @@ DpStatus dp_sim_settle(DpSim* sim)
         Limb* limb = &sim->limb[l];
         if (!limb->stands) continue;
         limb->stands = false;
+        limb->loosened = 0.0;
         DpStatus status = dp_limb_settle(sim, limb, &sim->scratch[0]);
+        sim->report.loosened += limb->loosened;
         if (status == DP_OK) status = dp_stage_settled(sim, limb);
         if (status != DP_OK) return status;
     }

@@ -97,13 +97,15 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
 typedef struct DpSettled
 {
-    int        sweeps;   // sweeps done                                            [-]
-    bool       at_rest;  // no loose slope exceeds the rest angle by more than the tolerance
-    bool       at_edge;  // loose soil wants to leave the patch: acquire a larger one
-    DpCellRect changed;  // cells of the patch
+    int        sweeps;    // sweeps done                                            [-]
+    bool       at_rest;   // no loose slope exceeds the rest angle by more than the tolerance
+    bool       at_edge;   // loose soil wants to leave the patch: acquire a larger one
+    DpCellRect changed;   // cells of the patch
+    double     loosened;  // firm ground that fell from walls and is loose now, MODEL 6.8 [m^3] >= 0
 } DpSettled;
 
-// Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], or for `max_sweeps`.
+// Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], and firm walls until none that
+// was cut exceeds gamma_w + tolerance, or for `max_sweeps`.
 // Nothing slides onto or off the cells with ring == 0 of `imprint` (a sole stands there);
 // imprint may be NULL. Volume is conserved and the order of cells does not matter.
 // Only cells of the patch `within` are looked at first; NULL = all of it.

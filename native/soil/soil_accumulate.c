@@ -21,7 +21,7 @@ static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, H
             const size_t p = soil_at(patch, i, j);
             if (imprint->ring[p] != 1 || !soil_is_ground(patch->base_height[p])) continue;
             any = true;
-            ahead = ahead || dp_soil_heap_share(shares, i, j) > 0.0;
+            ahead = ahead || dp_soil_heap_share(shares, patch, i, j) > 0.0;
         }
     shares->even = !ahead;
     return any;
@@ -32,7 +32,10 @@ static double slope_under(const DpSoilPatch* patch, const HeapShares* shares)
 {
     const double i = fmin(fmax(floor(shares->from_x + 0.5), 0.0), patch->nx - 1.0);
     const double j = fmin(fmax(floor(shares->from_y + 0.5), 0.0), patch->ny - 1.0);
-    return (double)patch->rest_slope[soil_at(patch, (int)i, (int)j)];
+    const size_t p = soil_at(patch, (int)i, (int)j);
+    if (patch->uneven)  // not that of the place, which differs from step to step
+        return (double)(float)tan((double)patch->soils[patch->kind[p]].rest_angle);
+    return (double)patch->rest_slope[p];
 }
 
 DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const DpFootForce* foot,

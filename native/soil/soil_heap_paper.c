@@ -109,7 +109,8 @@ DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const 
                 if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
                 const double full = falloff(*far_at(&reach, i, j), wide);
                 if (!(full > 0.0)) continue;
-                const double weight = soil_on_grid(dp_soil_heap_share(shares, i, j) * full, coarse);
+                const double weight =
+                    soil_on_grid(dp_soil_heap_share(shares, patch, i, j) * full, coarse);
                 if (pass == 0)
                     total += weight;
                 else if (total > 0.0)

@@ -159,7 +159,7 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, DpC
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (imprint->ring[p] != 1 || !takes_soil(heap, p)) continue;
-            const double share = dp_soil_heap_share(shares, i, j);
+            const double share = dp_soil_heap_share(shares, patch, i, j);
             if (!(share > 0.0)) continue;
             const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
             heap->apex[count++] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};

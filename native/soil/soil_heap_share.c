@@ -5,7 +5,10 @@
 //     border cells share alike; as printed the sum would be zero. test_soil_accumulate.c, nobody_ahead.
 //   Shares are rounded to 2^-30, so that a mirrored foot gets mirrored shares even where its mirrored
 //     coordinates differ in their last bits.
+#include "base/noise.h"
 #include "soil/soil_heaps.h"
+
+#define RIM_SHARE 1.6  // how much rims differ from place to place, by the soil's roughness
 
 // max(F_par . u, 0)/|F_par|, u the unit vector from the point of force to the cell
 static double ahead_of(const HeapShares* shares, int i, int j)
@@ -16,11 +19,13 @@ static double ahead_of(const HeapShares* shares, int i, int j)
     return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
 }
 
-double dp_soil_heap_share(const HeapShares* shares, int i, int j)
+double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
 {
     const double coarse = ldexp(1.5, 52 - 30);
-    if (shares->even) return 1.0;
-    const double share =
-        shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    double       share = 1.0;
+    if (!shares->even)
+        share = shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    if (patch->uneven)
+        share *= dp_noise_growth(RIM_SHARE * (double)patch->uneven[soil_at(patch, i, j)]);
     return soil_on_grid(share, coarse);
 }

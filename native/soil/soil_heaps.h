@@ -11,8 +11,8 @@ typedef struct HeapShares
     bool   even;            // no border cell lies ahead: all share alike
 } HeapShares;
 
-// omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12).
-double dp_soil_heap_share(const HeapShares* shares, int i, int j);
+// omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12); MODEL 6.7.
+double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j);
 
 // Lay `volume` [m^3] > 0 in its resting shape; slope = tan(gamma_r).
 DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,

@@ -30,6 +30,33 @@ void dp_slide_take(double* restrict sum, const float* restrict give, const float
 void dp_slide_raise(float* restrict height, float* restrict heap, const float* restrict firm,
                     const double* restrict sum, int count);
 
+// Firm walls of a row, or of a window: soil_slide_walls.c.
+typedef struct Walls
+{
+    float* base;   // ground before any walker; 0 where a sole stands or none is        [m]
+    float* steep;  // tan(gamma_w) cell: by how much a wall may be higher; INFINITY: any [m]
+    float* slack;  // what may stand above that                                         [m]
+} Walls;
+
+// First stencil: what each firm cell of a row lets fall, MODEL 6.8; returns ROW_ bits.
+int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict give,
+                    const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                    int count, float film);
+
+// Second stencil: it falls from the firm ground, `floor`, on the heaps of the neighbours, `sum`.
+void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict floor,
+                   const float* restrict share, const float* restrict give,
+                   const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                   int count);
+
+// Firm ground of a row as its floors say.
+void dp_walls_lower(float* restrict firm, const double* restrict floor, int count);
+
+// Read the walls of a row of a patch.
+void dp_walls_fill(const Walls* to, const float* restrict base_height,
+                   const float* restrict wall_slope, const int32_t* restrict ring, int count,
+                   double cell, double level, double tan_slack);
+
 // Read a row of a patch; `ring` tells where a sole stands (0).
 void dp_slide_fill(const Row* to, const float* restrict base_height,
                    const float* restrict compression, const float* restrict loose,

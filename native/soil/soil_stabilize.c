@@ -43,7 +43,16 @@ typedef struct Window
     float*     slack;   // what may stand above that and still count as rest   [m]
     float*     share;   // a, share of the excess that is given               [-]
     float*     give;    // a * sum of excess                                  [m]
+
+    bool    slides;  // firm walls can fall: the rest is there         MODEL 6.8
+    Walls   walls;
+    double* floor;       // firm ground, kept finer than a float             [m]
+    float*  wall_share;  // share of the excess that falls                   [-]
+    float*  wall_give;   // .. times the sum of excess                       [m]
 } Window;
+
+#define GRIDS 7       // of floats
+#define WALL_GRIDS 5  // .. and more, where walls slide
 
 static size_t cell_of(const Window* window, long i, long j)
 {
@@ -52,6 +61,18 @@ static size_t cell_of(const Window* window, long i, long j)
 }
 
 // ---- window ----------------------------------------------------------------------------------
+
+// firm ground of a cell of the patch
+static double floor_of(const DpSoilPatch* patch, size_t p, double level)
+{
+    return (double)patch->base_height[p] - (double)patch->compression[p] - level;
+}
+
+static Walls walls_at(const Window* window, size_t cell)
+{
+    const Walls* walls = &window->walls;
+    return (Walls){walls->base + cell, walls->steep + cell, walls->slack + cell};
+}
 
 // `sole` tells where one stands (0), as imprint->ring does
 static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, long j,
@@ -63,6 +84,13 @@ static void read_row(const Window* window, const DpSoilPatch* patch, const int32
     dp_slide_fill(&row, patch->base_height + p, patch->compression + p, patch->heap + p,
                   patch->rest_slope + p, sole, (int)(window->box.i1 - window->box.i0), patch->cell,
                   level, tan_slack);
+    if (!window->slides) return;
+    const Walls walls = walls_at(window, w);
+    dp_walls_fill(&walls, patch->base_height + p, patch->wall_slope + p, sole,
+                  (int)(window->box.i1 - window->box.i0), patch->cell, level, tan_slack);
+    for (size_t i = 0; i < (size_t)(window->box.i1 - window->box.i0); ++i)
+        window->floor[w + i] =
+            window->firm[w + i] < BARRIER ? floor_of(patch, p + i, level) : (double)BARRIER;
 }
 
 static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
@@ -72,14 +100,25 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     window->box = box;
     window->row = (nx + 2 * FRAME + 15) / 16 * 16;
     const size_t cells = window->row * (ny + 2 * FRAME);
-    double* doubles = dp_soil_scratch_block(scratch, cells * (sizeof(double) + 7 * sizeof(float)));
+    window->slides = patch->wall_slope != NULL;
+    const size_t floats = window->slides ? GRIDS + WALL_GRIDS : GRIDS;
+    const size_t fine = window->slides ? 2 : 1;
+    double*      doubles =
+        dp_soil_scratch_block(scratch, cells * (fine * sizeof(double) + floats * sizeof(float)));
     if (!doubles) return false;
     window->sum = doubles;
-    float*        block = (float*)(void*)(doubles + cells);
-    float** const grid[7] = {&window->firm,  &window->height, &window->heap, &window->fall,
-                             &window->slack, &window->share,  &window->give};
-    for (size_t g = 0; g < 7; ++g) *grid[g] = block + g * cells;
+    window->floor = doubles + cells;
+    float*        block = (float*)(void*)(doubles + fine * cells);
+    float** const grid[GRIDS + WALL_GRIDS] = {
+        &window->firm,        &window->height,      &window->heap,       &window->fall,
+        &window->slack,       &window->share,       &window->give,       &window->walls.base,
+        &window->walls.steep, &window->walls.slack, &window->wall_share, &window->wall_give};
+    for (size_t g = 0; g < floats; ++g) *grid[g] = block + g * cells;
     for (size_t k = 0; k < cells; ++k) window->firm[k] = window->height[k] = BARRIER;
+    for (size_t k = 0; window->slides && k < cells; ++k) {
+        window->walls.steep[k] = INFINITY;
+        window->walls.base[k] = window->wall_share[k] = 0.0f;
+    }
     memset(window->sum, 0, cells * sizeof(double));
     memset(window->heap, 0, 5 * cells * sizeof(float));
     int32_t* nobody = (int32_t*)(void*)window->share;  // a row of cells where no sole stands
@@ -92,16 +131,33 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     return true;
 }
 
-static void write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint,
-                       DpCellRect box)
+// returns how much firm ground has come loose [m * cells]
+static double write_back(const Window* window, DpSoilPatch* patch, const DpImprint* imprint,
+                         DpCellRect box, double level)
 {
+    double loosened = 0.0;
     for (long j = box.j0; j < box.j1; ++j)
         for (long i = box.i0; i < box.i1; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (!soil_is_ground(patch->base_height[p]) || (imprint && imprint->ring[p] == 0))
                 continue;
             patch->heap[p] = window->heap[cell_of(window, i, j)];
+            if (!window->slides) continue;
+            const double fell = floor_of(patch, p, level) - window->floor[cell_of(window, i, j)];
+            if (!(fell > 0.0)) continue;
+            const float was = patch->compression[p];
+            patch->compression[p] = (float)((double)was + fell);
+            loosened += (double)patch->compression[p] - (double)was;
         }
+    return loosened;
+}
+
+// heights of a row as its sums and floors say
+static void raise_row(const Window* window, size_t at, int count)
+{
+    if (window->slides) dp_walls_lower(window->firm + at, window->floor + at, count);
+    dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
+                   count);
 }
 
 // a larger window around `box`, which holds the old one; fine sums move along
@@ -110,17 +166,18 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
 {
     const Window old = *window;
     const size_t cells = old.row * (size_t)(old.box.j1 - old.box.j0 + 2 * FRAME);
-    double*      kept = dp_alloc(cells, sizeof(double));
+    const size_t fine = old.slides ? 2 : 1;  // sums, and floors after them
+    double*      kept = dp_alloc(fine * cells, sizeof(double));
     if (!kept) return false;
-    memcpy(kept, old.sum, cells * sizeof(double));
+    memcpy(kept, old.sum, fine * cells * sizeof(double));
     const bool open = open_window(window, patch, imprint, box, level, tan_slack, scratch);
     for (long j = old.box.j0; open && j < old.box.j1; ++j) {
-        const size_t at = cell_of(window, old.box.i0, j);
-        const int    count = (int)(old.box.i1 - old.box.i0);
-        memcpy(window->sum + at, kept + cell_of(&old, old.box.i0, j),
-               (size_t)count * sizeof(double));
-        dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
-                       count);
+        const size_t  at = cell_of(window, old.box.i0, j);
+        const int     count = (int)(old.box.i1 - old.box.i0);
+        const double* from = kept + cell_of(&old, old.box.i0, j);
+        memcpy(window->sum + at, from, (size_t)count * sizeof(double));
+        if (old.slides) memcpy(window->floor + at, from + cells, (size_t)count * sizeof(double));
+        raise_row(window, at, count);
     }
     dp_free(kept);
     if (!open) *window = old;
@@ -159,12 +216,12 @@ static int any_loose(const float* heap, int count)
     return loose;
 }
 
-// the cells of a box between which loose soil lies: nothing else can move; empty without any
-static DpCellRect loose_in(const DpSoilPatch* patch, DpCellRect box)
+// the cells of a box between which `heap` is not 0; empty without any
+static DpCellRect loose_in(const DpSoilPatch* patch, DpCellRect box, const float* grid)
 {
     DpCellRect loose = {box.i1, box.i0, box.j1, box.j0};
     for (long j = box.j0; j < box.j1; ++j) {
-        const float* heap = patch->heap + soil_at(patch, 0, j);
+        const float* heap = grid + soil_at(patch, 0, j);
         long         first = box.i0, last = box.i1 - 1;
         if (!any_loose(heap + first, (int)(box.i1 - first))) continue;
         while (!(heap[first] > 0.0f)) ++first;
@@ -177,7 +234,48 @@ static DpCellRect loose_in(const DpSoilPatch* patch, DpCellRect box)
     return loose;
 }
 
+// the cells of a box that can move: loose soil, and firm ground beside what was pressed
+static DpCellRect movable_in(const DpSoilPatch* patch, DpCellRect box)
+{
+    const DpCellRect loose = loose_in(patch, box, patch->heap);
+    if (!patch->wall_slope) return loose;
+    const DpCellRect pressed = loose_in(patch, box, patch->compression);
+    if (dp_cells_empty(pressed)) return loose;
+    return dp_cells_join(loose, soil_grown(pressed, 1, patch));
+}
+
 // ---- sweeps ----------------------------------------------------------------------------------
+
+static void clear_sides(float* at, int count)
+{
+    memset(at - 2, 0, 2 * sizeof(float));
+    memset(at + count, 0, 2 * sizeof(float));
+}
+
+// the same for the walls of a row; returns ROW_ bits
+static int decide_walls(const Window* window, size_t at, int count, float film)
+{
+    const Walls  walls = walls_at(window, at);
+    float *const share = window->wall_share + at, *const give = window->wall_give + at;
+    const int wish = dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
+                                     (ptrdiff_t)window->row, count, film);
+    clear_sides(share, count);
+    clear_sides(give, count);
+    return wish;
+}
+
+// what the cells of a row that give reach from and to
+static DpCellRect with_givers(DpCellRect movers, const float* give, long i0, int count, long j)
+{
+    int first = 0, last = count - 1;
+    while (!(give[first] > 0.0f)) ++first;
+    while (!(give[last] > 0.0f)) --last;
+    movers.i0 = movers.i0 < i0 + first ? movers.i0 : i0 + first;
+    movers.i1 = movers.i1 > i0 + last ? movers.i1 : i0 + last + 1;
+    movers.j0 = movers.j0 < j ? movers.j0 : j;
+    movers.j1 = j + 1;
+    return movers;
+}
 
 // first stencil over `look`; returns the cells that give, and whether one of them must
 static DpCellRect decide(const Window* window, DpCellRect look, float film, bool* restless)
@@ -190,26 +288,21 @@ static DpCellRect decide(const Window* window, DpCellRect look, float film, bool
         if (j < look.j0 || j >= look.j1) {  // nothing is given from outside
             memset(window->share + at - 2, 0, wide * sizeof(float));
             memset(window->give + at - 2, 0, wide * sizeof(float));
+            if (window->slides) memset(window->wall_share + at - 2, 0, wide * sizeof(float));
+            if (window->slides) memset(window->wall_give + at - 2, 0, wide * sizeof(float));
             continue;
         }
         const int count = (int)(look.i1 - look.i0);
         const int wish = dp_slide_decide(window->share + at, window->give + at, window->height + at,
                                          window->heap + at, window->fall + at, window->slack + at,
                                          (ptrdiff_t)window->row, count, film);
-        memset(window->share + at - 2, 0, 2 * sizeof(float));
-        memset(window->give + at - 2, 0, 2 * sizeof(float));
-        memset(window->share + at + count, 0, 2 * sizeof(float));
-        memset(window->give + at + count, 0, 2 * sizeof(float));
-        *restless = *restless || (wish & ROW_RESTLESS);
-        if (!(wish & ROW_MOVES)) continue;
-        const float* give = window->give + at;
-        int          first = 0, last = count - 1;
-        while (!(give[first] > 0.0f)) ++first;
-        while (!(give[last] > 0.0f)) --last;
-        movers.i0 = movers.i0 < look.i0 + first ? movers.i0 : look.i0 + first;
-        movers.i1 = movers.i1 > look.i0 + last ? movers.i1 : look.i0 + last + 1;
-        movers.j0 = movers.j0 < j ? movers.j0 : j;
-        movers.j1 = j + 1;
+        clear_sides(window->share + at, count);
+        clear_sides(window->give + at, count);
+        const int falls = window->slides ? decide_walls(window, at, count, film) : 0;
+        *restless = *restless || ((wish | falls) & ROW_RESTLESS);
+        if (wish & ROW_MOVES) movers = with_givers(movers, window->give + at, look.i0, count, j);
+        if (falls & ROW_MOVES)
+            movers = with_givers(movers, window->wall_give + at, look.i0, count, j);
     }
     return movers;
 }
@@ -222,11 +315,15 @@ static void take(const Window* window, DpCellRect change)
         const size_t at = cell_of(window, change.i0, j);
         dp_slide_take(window->sum + at, window->give + at, window->height + at, window->share + at,
                       window->fall + at, (ptrdiff_t)window->row, count);
+        if (!window->slides) continue;
+        const Walls walls = walls_at(window, at);
+        dp_walls_take(&walls, window->sum + at, window->floor + at, window->wall_share + at,
+                      window->wall_give + at, window->firm + at, window->height + at,
+                      (ptrdiff_t)window->row, count);
     }
     for (long j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
-        dp_slide_raise(window->height + at, window->heap + at, window->firm + at, window->sum + at,
-                       count);
+        raise_row(window, at, count);
     }
 }
 
@@ -256,7 +353,7 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const D
     if (dp_cells_empty(look)) return DP_OK;
 
     const DpCellRect asked = look;
-    look = loose_in(patch, look);
+    look = movable_in(patch, look);
     if (look.i0 >= look.i1) return DP_OK;
     const double tan_slack = tan(tolerance), level = level_of(patch, asked);
     const float  film = (float)(0.1 * tan_slack * patch->cell);
@@ -288,7 +385,8 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const D
         }
     }
     if (changed.i0 < changed.i1) {
-        write_back(&window, patch, imprint, changed);
+        settled->loosened =
+            write_back(&window, patch, imprint, changed, level) * patch->cell * patch->cell;
         settled->changed = changed;
         settled->at_edge = at_edge(patch, changed, film);
     }

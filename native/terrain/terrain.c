@@ -12,7 +12,8 @@
 static bool is_soil(const DpSoil* soil)
 {
     return isfinite(soil->young_modulus) && soil->young_modulus > 0.0f && soil->rest_angle > 0.0f &&
-           (double)soil->rest_angle < acos(0.0);
+           (double)soil->rest_angle < acos(0.0) && soil->wall_angle > 0.0f &&
+           soil->roughness >= 0.0f && soil->roughness <= 1.0f && soil->grain_size > 0.0f;
 }
 
 static bool are_options(const DpTerrainOptions* options)
@@ -39,17 +40,16 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     created->workers = options->workers < 1 ? 1 : options->workers;
     created->soil_count = options->soil_count;
     created->soils = dp_alloc(soils, sizeof *created->soils);
-    created->slope = dp_alloc(soils, sizeof *created->slope);
-    DpStatus status = created->soils && created->slope
-                          ? dp_source_create(&created->source, ground, created->workers)
-                          : DP_NO_MEMORY;
+    DpStatus status = created->soils ? dp_source_create(&created->source, ground, created->workers)
+                                     : DP_NO_MEMORY;
+    if (status == DP_OK) {
+        memcpy(created->soils, options->soils, soils * sizeof *created->soils);
+        status = dp_rough_soils(created) ? DP_OK : DP_NO_MEMORY;
+    }
     if (status != DP_OK) {
         dp_terrain_destroy(created);
         return status;
     }
-    memcpy(created->soils, options->soils, soils * sizeof *created->soils);
-    for (size_t s = 0; s < soils; ++s)
-        created->slope[s] = (float)tan((double)created->soils[s].rest_angle);
     *terrain = created;
     dp_terrain_move_datum(created, created->source.somewhere);
     return DP_OK;
@@ -65,6 +65,7 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_source_destroy(&terrain->source);
     dp_free(terrain->soils);
     dp_free(terrain->slope);
+    dp_free(terrain->wall);
     dp_free(terrain);
 }
 

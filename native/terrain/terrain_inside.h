@@ -101,7 +101,7 @@ typedef struct Tile
     uint8_t    kind[TILE_CELLS];
     long       tx, ty;
     atomic_int changed;
-    float      plant[];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS)
+    float plant[];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough
 } Tile;
 
 struct DpTerrain
@@ -111,6 +111,9 @@ struct DpTerrain
     int     soil_count, workers;
     DpSoil* soils;
     float*  slope;  // tan(rest_angle) of each soil
+    float*  wall;   // tan(wall_angle) of each soil, +inf = walls stand
+    bool    walls;  // those of some soil do not stand
+    bool    rough;  // some soil differs from place to place
     Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
@@ -137,6 +140,17 @@ static inline const float* tile_kept_in(const Tile* tile, int k)
     const float* const grid[] = {DP_TERRAIN_FIELDS(TILE_KEPT, DP_FIELD_NONE)};
     return grid[k];
 }
+
+// on rough ground rest slopes, wall slopes and unevenness of a tile, (ROUGH_GRIDS, TILE_CELLS)
+#define ROUGH_GRIDS 3
+static inline float* tile_rough(const DpTerrain* terrain, Tile* tile)
+{
+    return tile->plant + (terrain->cover ? 2 * TILE_CELLS : 0);
+}
+
+// terrain_rough.c: what soils are like at rest; and from place to place, of a tile whose kinds are known
+bool dp_rough_soils(DpTerrain* terrain);
+void dp_rough_tile(const DpTerrain* terrain, Tile* tile);
 
 // strength and E_v of all of a tile, (2, TILE_CELLS)
 void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant);

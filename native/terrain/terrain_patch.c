@@ -7,9 +7,11 @@
 #include "base/wide.h"
 #include "terrain/terrain_inside.h"
 
-#define ROW_STEP 16                    // cells; whole cache lines of floats
-#define MAX_CELLS (1L << 28)           // of one patch
-#define FLOAT_GRIDS (KEPT_FIELDS + 3)  // base height, those that are kept, modulus, rest slope
+#define ROW_STEP 16              // cells; whole cache lines of floats
+#define MAX_CELLS (1L << 28)     // of one patch
+#define WALLS (KEPT_FIELDS + 3)  // after base height, those that are kept, modulus, rest slope
+#define UNEVEN (KEPT_FIELDS + 4)
+#define FLOAT_GRIDS (KEPT_FIELDS + 5)
 
 struct DpLease
 {
@@ -59,17 +61,33 @@ static void fill_padding(const DpTerrain* terrain, DpLease* lease, float* const*
     float              pad[FLOAT_GRIDS] = {NAN};
     pad[KEPT_FIELDS + 1] = terrain->soils[0].young_modulus;
     pad[KEPT_FIELDS + 2] = terrain->slope[0];
+    pad[WALLS] = INFINITY;
+    const int grids = terrain->rough ? UNEVEN + 1 : terrain->walls ? UNEVEN : WALLS;
     for (int j = 0; j < patch->ny; ++j) {
         const size_t row = (size_t)j * (size_t)patch->row;
         for (int i = patch->nx; i < patch->row; ++i) {
-            for (int g = 0; g < FLOAT_GRIDS; ++g) grid[g][row + (size_t)i] = pad[g];
+            for (int g = 0; g < grids; ++g) grid[g][row + (size_t)i] = pad[g];
             lease->kind[row + (size_t)i] = 0;
         }
     }
 }
 
-static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* part,
-                    DpLease* lease, float* const* grid)
+// what rests and stands where soils differ from place to place, or let walls slide
+static void copy_rough(const DpTerrain* terrain, Tile* tile, size_t at, size_t to, size_t wide,
+                       float* const* grid)
+{
+    if (!terrain->rough) {
+        for (size_t i = 0; i < wide; ++i)
+            grid[WALLS][to + i] = terrain->wall[terrain->soil_count > 1 ? tile->kind[at + i] : 0];
+        return;
+    }
+    const float* rough = tile_rough(terrain, tile) + at;
+    for (int k = 0; k < ROUGH_GRIDS; ++k)
+        memcpy(grid[KEPT_FIELDS + 2 + k] + to, rough + k * TILE_CELLS, wide * sizeof(float));
+}
+
+static void copy_in(const DpTerrain* terrain, Tile* tile, const TilePart* part, DpLease* lease,
+                    float* const* grid)
 {
     const size_t wide = (size_t)part->nx;
     float*       modulus = grid[KEPT_FIELDS + 1];
@@ -86,6 +104,7 @@ static void copy_in(const DpTerrain* terrain, const Tile* tile, const TilePart* 
             modulus[to + i] = terrain->soils[kind].young_modulus;  // TRAIL (9), E_g
             grid[KEPT_FIELDS + 2][to + i] = terrain->slope[kind];
         }
+        if (terrain->walls || terrain->rough) copy_rough(terrain, tile, at, to, wide, grid);
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;
         for (size_t i = 0; i < wide; ++i) modulus[to + i] += roots[i];  // TRAIL (9), E_v
@@ -119,6 +138,8 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
                                   .kind = lease->kind,
                                   .soils = terrain->soils,
                                   .soil_count = terrain->soil_count,
+                                  .wall_slope = terrain->walls ? grid[WALLS] : NULL,
+                                  .uneven = terrain->rough ? grid[UNEVEN] : NULL,
                                   DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};
     lease->patch = acquired;
     lease->i0 = cells.i0;

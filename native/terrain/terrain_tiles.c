@@ -118,13 +118,14 @@ static void fill_tile(void* context, int index, int worker)
     const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
     dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
+    if (terrain->rough) dp_rough_tile(terrain, tile);
     if (filling->covered) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
 }
 
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 {
-    const size_t cover = terrain->cover ? 2 * TILE_CELLS * sizeof(float) : 0;
-    Tile*        tile = dp_alloc(1, sizeof(Tile) + cover);
+    const size_t grids = (terrain->cover ? 2u : 0u) + (terrain->rough ? ROUGH_GRIDS : 0u);
+    Tile*        tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
     if (tile) tile->tx = tx, tile->ty = ty;
     return tile;
 }

@@ -87,7 +87,13 @@ static void bench_imprint(void)
 
 static DpTerrain* terrain_on(const DpGround* ground, double* seconds)
 {
-    const DpSoil           soil = {0.3f, 1e6f, 0.1f, 0.2f, 0.5f, 0.0f, 0.0f};
+    const DpSoil           soil = {.layer_depth = 0.3f,
+                                   .young_modulus = 1e6f,
+                                   .poisson_ratio = 0.1f,
+                                   .settle_time = 0.2f,
+                                   .rest_angle = 0.5f,
+                                   .wall_angle = 1.5707964f,
+                                   .grain_size = 0.012f};
     const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1};
     DpTerrain*             terrain = NULL;
     const double           from = bench_now();

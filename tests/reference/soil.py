@@ -336,3 +336,40 @@ def sweep(patch, touched=None, tolerance=1e-5):
                 moved[q] += a * over
                 moved[j, i] -= a * over
     patch["heap"] += moved
+
+
+# ---- ours: walls that slide, MODEL 6.8 ----------------------------------------------------------
+
+
+def walls(patch, touched=None, tolerance=1e-5):
+    """What one sweep lets fall from firm walls: (off each cell, onto each cell) [m]; the patch stays."""
+    ny, nx = patch["rest"].shape
+    slack = math.tan(tolerance) * patch["cell"]
+    firm = patch["rest"] - patch["compression"]
+    height = firm + patch["heap"]
+    stands = np.isnan(patch["rest"]) | (touched if touched is not None else False)
+    off, onto = np.zeros((ny, nx)), np.zeros((ny, nx))
+    for j in range(ny):
+        for i in range(nx):
+            if stands[j, i] or not np.isfinite(patch["wall_slope"][j, i]):
+                continue
+            excess = {}
+            for dj in (-1, 0, 1):
+                for di in (-1, 0, 1):
+                    q = (j + dj, i + di)
+                    if not (dj or di) or not (0 <= q[0] < ny and 0 <= q[1] < nx) or stands[q]:
+                        continue
+                    steep = patch["wall_slope"][j, i] * patch["cell"] * math.hypot(dj, di)
+                    over = firm[j, i] - height[q] - max(steep, patch["rest"][j, i] - patch["rest"][q])
+                    if over > 0:
+                        excess[q] = over
+            if not excess:
+                continue
+            steepest = max(over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items())
+            hold = 0.25 * slack * (1 + patch["wall_slope"][j, i] ** 2)
+            n = sum(min(1.0, over / (0.1 * slack)) for over in excess.values())
+            a = 0.5 / (n + 1) * min(max(steepest - hold, 0.0) / hold, 1.0)
+            for q, over in excess.items():
+                off[j, i] += a * over
+                onto[q] += a * over
+    return off, onto

@@ -23,7 +23,7 @@ import hashlib
 import math
 import time
 import weakref
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -167,7 +167,7 @@ class Bake:
             "frame_end": self.frame_end,
             "frame_rate": self.frame_rate,
             "load_model": self.load_model,
-            "soils": [asdict(soil) for soil in parcel.soils],
+            "soils": [soil.told() for soil in parcel.soils],
             "ground": parcel.ground.name,
             **({"trail": parcel.ground.trail.path} if parcel.ground.trail else {}),
             "walkers": list(self.gait.walker_name),

@@ -5,7 +5,7 @@
     plants, settings --> Parcels ----------/
 """
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -125,7 +125,7 @@ def marks(obj, company, made, found):
     plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
-    soils = sorted(([asdict(soil) for soil in parcel.soils] for parcel in made.parcels), key=repr)
+    soils = sorted(([soil.told() for soil in parcel.soils] for parcel in made.parcels), key=repr)
     chosen = [
         made.cell_size,
         made.frame_start,

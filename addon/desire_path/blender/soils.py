@@ -27,6 +27,9 @@ WORDS = {
         "A sideways push this strong leaves the rim on one side alone, in newtons; 0 = half the walker's weight",
     ),
     "shear_modulus": ("Shear [m]", "How far it shears before it carries sideways, in metres; 0 = no slip"),
+    "wall_angle": ("Max Wall", "Firm walls of prints that are steeper come loose and slide; 90 degrees = all stand"),
+    "roughness": ("Ragged", "By how much walls, slopes and rims differ from place to place; 0 = as from a mould"),
+    "grain_size": ("Lumps [m]", "How far apart places are that differ, in metres"),
 }
 _filling = False
 
@@ -80,9 +83,9 @@ def _number(name):
         default=getattr(SOILS[ITEMS[0][0]], name),
         min=of.low,
         max=of.high,
-        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time"} else 2,
+        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size"} else 2,
         step=1,
-        subtype="ANGLE" if name == "rest_angle" else "NONE",
+        subtype="ANGLE" if name.endswith("_angle") else "NONE",
         options=set(),  # no keys: a bake has one soil
         update=_by_hand,
     )

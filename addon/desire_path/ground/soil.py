@@ -15,6 +15,7 @@ from ..files import record
 from ..tables import check, table, with_numbers
 
 _TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
+_ALWAYS = 7  # numbers of every soil; those that came later are told where they matter
 NUMBERS = table(_native.soil_numbers())  # of a soil, by name: base/soil_numbers.h
 
 
@@ -30,6 +31,15 @@ class Soil:
 
     def __post_init__(self) -> None:
         check(self, NUMBERS, "A soil's")
+
+    def told(self) -> dict[str, float]:
+        """The numbers by name that tell this soil from others: those after the first seven where they are not usual."""
+        usual = Soil()
+        return {
+            name: getattr(self, name)
+            for place, name in enumerate(NUMBERS)
+            if place < _ALWAYS or not math.isclose(getattr(self, name), getattr(usual, name), rel_tol=1e-6)
+        }
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write this soil as JSON, whole or not at all; angles in radians, all else in SI units."""

@@ -325,7 +325,13 @@ TEST(mirrored_to_the_bit)
 TEST(over_an_edge)
 {
     const BoxSole flat = {.length = 0.24, .width = 0.10};
-    const DpSoil  soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
+    const DpSoil  soil = {.layer_depth = 0.3f,
+                          .young_modulus = 0.5e6f,
+                          .poisson_ratio = 0.35f,
+                          .settle_time = 0.1f,
+                          .rest_angle = 0.5f,
+                          .wall_angle = 1.5707964f,
+                          .grain_size = 0.012f};
     for (int law = 0; law < 2; ++law)
         for (int tilted = 0; tilted < 2; ++tilted) {
             Ground  whole = ground_make(50, 40, 0.01, soil), half = ground_make(50, 40, 0.01, soil);
@@ -355,7 +361,13 @@ TEST(over_an_edge)
 // lower ground beside a step carries nothing: what stands on the step goes as much deeper as it is less
 TEST(over_a_step)
 {
-    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
+    const DpSoil soil = {.layer_depth = 0.3f,
+                         .young_modulus = 0.5e6f,
+                         .poisson_ratio = 0.35f,
+                         .settle_time = 0.1f,
+                         .rest_angle = 0.5f,
+                         .wall_angle = 1.5707964f,
+                         .grain_size = 0.012f};
     for (int law = 0; law < 2; ++law)
         for (int from = 17; from <= 25; from += 4) {
             Ground whole = ground_make(50, 40, 0.01, soil), step = ground_make(50, 40, 0.01, soil);
@@ -381,7 +393,13 @@ TEST(over_a_step)
 // `uniform` asks where the body meets the ground that was there before it came
 TEST(met_ground_counts)
 {
-    const DpSoil soil = {0.3f, 0.5e6f, 0.35f, 0.1f, 0.5f, 0.0f, 0.0f};
+    const DpSoil soil = {.layer_depth = 0.3f,
+                         .young_modulus = 0.5e6f,
+                         .poisson_ratio = 0.35f,
+                         .settle_time = 0.1f,
+                         .rest_angle = 0.5f,
+                         .wall_angle = 1.5707964f,
+                         .grain_size = 0.012f};
     Ground       ground = ground_make(50, 40, 0.01, soil);
     float        met[2000] = {0.0f};
     ground_sole(&ground, (BoxSole){.length = 0.24, .width = 0.10});

@@ -3,9 +3,27 @@
 #include "check.h"
 #include "terrain/terrain.h"
 
-static const DpSoil ground_soils[3] = {{0.3f, 2e6f, 0.05f, 0.2f, 0.5585f, 0.0f, 0.0f},
-                                       {0.3f, 4e5f, 0.05f, 0.2f, 0.6632f, 0.0f, 0.0f},
-                                       {0.3f, 6e5f, 0.35f, 0.2f, 0.2618f, 0.0f, 0.0f}};
+static const DpSoil ground_soils[3] = {{.layer_depth = 0.3f,
+                                        .young_modulus = 2e6f,
+                                        .poisson_ratio = 0.05f,
+                                        .settle_time = 0.2f,
+                                        .rest_angle = 0.5585f,
+                                        .wall_angle = 1.5707964f,
+                                        .grain_size = 0.012f},
+                                       {.layer_depth = 0.3f,
+                                        .young_modulus = 4e5f,
+                                        .poisson_ratio = 0.05f,
+                                        .settle_time = 0.2f,
+                                        .rest_angle = 0.6632f,
+                                        .wall_angle = 1.5707964f,
+                                        .grain_size = 0.012f},
+                                       {.layer_depth = 0.3f,
+                                        .young_modulus = 6e5f,
+                                        .poisson_ratio = 0.35f,
+                                        .settle_time = 0.2f,
+                                        .rest_angle = 0.2618f,
+                                        .wall_angle = 1.5707964f,
+                                        .grain_size = 0.012f}};
 
 static inline DpTerrainOptions ground_options(double cell, double origin_x, double origin_y)
 {

@@ -1,0 +1,130 @@
+// soil/soil_slide_walls.c - firm walls that are too steep come loose and slide, row by row. Ours; MODEL 6.8
+//
+// Opposite neighbours are added in pairs, as in soil_slide_rows.c.
+#include "base/wide.h"  // first: it says how loops may be widened
+#include "soil/soil_slide.h"
+
+#define ROOT2 1.41421356f
+#define HOLD 0.25f  // share of the tolerance below which a wall gives nothing; twice that: all
+
+static inline float above_zero(float x)
+{
+    return x > 0.0f ? x : 0.0f;
+}
+
+static inline float at_most_one(float x)
+{
+    return x < 1.0f ? x : 1.0f;
+}
+
+// How much higher firm ground stands over a neighbour's surface than it may: than its wall, or than
+// the ground before any walker. A wall of soil that stands may be as high as it likes.
+static inline float over(float firm, float base, float steep, float surface, float rest)
+{
+    const float drop = base - rest, may = steep > drop ? steep : drop;
+    return above_zero((firm - surface) - may);
+}
+
+DP_CLONES
+static int decide(const Walls* walls, float* restrict share, float* restrict give,
+                  const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                  int count, float film)
+{
+    const float* restrict base = walls->base, * restrict steep = walls->steep;
+    const float* restrict slack = walls->slack;
+    const float one = 1.0f / film;
+    int         moves = 0, restless = 0;
+    for (int i = 0; i < count; ++i) {
+        const float *h = height + i, *z = base + i;
+        const float  at = firm[i], rest = *z, straight = steep[i], diagonal = steep[i] * ROOT2;
+        const float  e = over(at, rest, straight, h[1], z[1]);  // MODEL 6.8
+        const float  w = over(at, rest, straight, h[-1], z[-1]);
+        const float  n = over(at, rest, straight, h[row], z[row]);
+        const float  s = over(at, rest, straight, h[-row], z[-row]);
+        const float  ne = over(at, rest, diagonal, h[row + 1], z[row + 1]);
+        const float  sw = over(at, rest, diagonal, h[-row - 1], z[-row - 1]);
+        const float  nw = over(at, rest, diagonal, h[row - 1], z[row - 1]);
+        const float  se = over(at, rest, diagonal, h[-row + 1], z[-row + 1]);
+        const float  sum = ((e + w) + (n + s)) + ((ne + sw) + (nw + se));
+        const float  sides = (at_most_one(e * one) + at_most_one(w * one)) +
+                            (at_most_one(n * one) + at_most_one(s * one));
+        const float corners = (at_most_one(ne * one) + at_most_one(sw * one)) +
+                              (at_most_one(nw * one) + at_most_one(se * one));
+        const float ew = e > w ? e : w, ns = n > s ? n : s;
+        const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
+        const float side = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
+        const float worst = side > across ? side : across, hold = HOLD * slack[i];
+        const float eager = at_most_one(above_zero(worst - hold) / (hold + 1e-35f));
+        const float a = eager * 0.5f / ((sides + corners) + 1.0f);
+        share[i] = a;
+        give[i] = a * sum;
+        restless |= worst > slack[i] ? 1 : 0;
+        moves |= a * sum > 0.0f ? 1 : 0;
+    }
+    return (moves ? ROW_MOVES : 0) | (restless ? ROW_RESTLESS : 0);
+}
+
+DP_CLONES
+static void take(const Walls* walls, double* restrict sum, double* restrict floor,
+                 const float* restrict share, const float* restrict give,
+                 const float* restrict firm, const float* restrict height, ptrdiff_t row, int count)
+{
+    const float* restrict base = walls->base, * restrict steep = walls->steep;
+    for (int i = 0; i < count; ++i) {
+        const float *F = firm + i, *a = share + i, *t = steep + i, *z = base + i;
+        const float  at = height[i], rest = *z;
+#define COMES(k) (a[k] * over(F[k], z[k], t[k], at, rest))
+#define ACROSS(k) (a[k] * over(F[k], z[k], t[k] * ROOT2, at, rest))
+        const float sides = (COMES(1) + COMES(-1)) + (COMES(row) + COMES(-row));
+        const float corners =
+            (ACROSS(row + 1) + ACROSS(-row - 1)) + (ACROSS(row - 1) + ACROSS(-row + 1));
+        floor[i] -= (double)give[i];
+        sum[i] += (double)(sides + corners);
+    }
+}
+
+DP_CLONES
+static void fill(const Walls* to, const float* restrict base_height,
+                 const float* restrict wall_slope, const int32_t* restrict ring, int count,
+                 double cell, double level, double tan_slack)
+{
+    float* restrict base = to->base, * restrict steep = to->steep, * restrict slack = to->slack;
+    for (int i = 0; i < count; ++i) {
+        const int    open = (base_height[i] == base_height[i]) & (ring[i] != 0);
+        const double slope = (double)wall_slope[i];
+        const int    falls = open & (slope < 1e6);
+        const double fall = falls ? slope : 0.0;
+        base[i] = open ? (float)((double)base_height[i] - level) : 0.0f;
+        steep[i] = falls ? (float)(fall * cell) : INFINITY;
+        slack[i] = (float)(tan_slack * (1.0 + fall * fall) * cell);
+    }
+}
+
+// ---- the doors of those above ------------------------------------------------------------------
+
+int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict give,
+                    const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                    int count, float film)
+{
+    return decide(walls, share, give, firm, height, row, count, film);
+}
+
+void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict floor,
+                   const float* restrict share, const float* restrict give,
+                   const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                   int count)
+{
+    take(walls, sum, floor, share, give, firm, height, row, count);
+}
+
+void dp_walls_fill(const Walls* to, const float* restrict base_height,
+                   const float* restrict wall_slope, const int32_t* restrict ring, int count,
+                   double cell, double level, double tan_slack)
+{
+    fill(to, base_height, wall_slope, ring, count, cell, level, tan_slack);
+}
+
+void dp_walls_lower(float* restrict firm, const double* restrict floor, int count)
+{
+    for (int i = 0; i < count; ++i) firm[i] = (float)floor[i];
+}

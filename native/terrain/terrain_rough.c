@@ -1,0 +1,69 @@
+// What soils are like at rest, and how that differs from place to place. MODEL 6.7
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/noise.h"
+#include "terrain/terrain_inside.h"
+
+#define STANDS 1.57    // walls of soils with a larger wall angle all stand [rad]
+#define WALL_SEED 11u  // of what differs: walls ..
+#define PIECE_SEED 31u
+#define REST_SEED 47u     // .. rest angle, rims and rebound
+#define EACH 0.70710678f  // waves and pieces count alike: 1/sqrt(2)
+#define REST_SHARE 0.5f   // of rho, by which the rest slope differs
+#define FLATTEST 0.3f     // .. and no further than by these factors
+#define STEEPEST 2.0f
+
+bool dp_rough_soils(DpTerrain* terrain)
+{
+    const size_t soils = (size_t)terrain->soil_count;
+    terrain->slope = dp_alloc(soils, sizeof *terrain->slope);
+    terrain->wall = dp_alloc(soils, sizeof *terrain->wall);
+    if (!terrain->slope || !terrain->wall) return false;
+    for (size_t s = 0; s < soils; ++s) {
+        const DpSoil* soil = &terrain->soils[s];
+        const double  wall = (double)soil->wall_angle;
+        terrain->slope[s] = (float)tan((double)soil->rest_angle);
+        terrain->wall[s] = wall > STANDS ? INFINITY : (float)tan(wall);
+        terrain->walls = terrain->walls || wall <= STANDS;
+        terrain->rough = terrain->rough || soil->roughness > 0.0f;
+    }
+    return true;
+}
+
+// the cells of one kind: as their soil is, times what their place makes of it
+static void rough_kind(const DpTerrain* terrain, const Tile* tile, int kind, const float* walls,
+                       const float* rests, float* rough)
+{
+    const float rho = terrain->soils[kind].roughness;
+    for (int n = 0; n < TILE_CELLS; ++n) {
+        if (terrain->soil_count > 1 && tile->kind[n] != kind) continue;
+        const float rest = 1.0f + REST_SHARE * rho * rests[n];
+        const float held = rest < FLATTEST ? FLATTEST : rest > STEEPEST ? STEEPEST : rest;
+        const float wall = (float)dp_noise_growth((double)(rho * walls[n]));
+        rough[n] = terrain->slope[kind] * held;
+        rough[TILE_CELLS + n] = terrain->wall[kind] * wall;
+        rough[2 * TILE_CELLS + n] = rho * rests[n];
+    }
+}
+
+void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
+{
+    const DpCellRect cells = dp_cells(tile->tx * DP_TILE, tile->ty * DP_TILE, DP_TILE, DP_TILE);
+    bool             there[256] = {false};
+    float            walls[TILE_CELLS], rests[TILE_CELLS], pieces[TILE_CELLS];
+    for (int n = 0; n < TILE_CELLS; ++n) there[terrain->soil_count > 1 ? tile->kind[n] : 0] = true;
+    for (int kind = 0; kind < terrain->soil_count; ++kind) {
+        if (!there[kind]) continue;
+        const double grain = (double)terrain->soils[kind].grain_size;
+        if (terrain->soils[kind].roughness > 0.0f) {
+            dp_noise_waves(&terrain->grid, cells, 4.0 * grain, 0.5 * grain, WALL_SEED, walls);
+            dp_noise_pieces(&terrain->grid, cells, 2.0 * grain, PIECE_SEED, pieces);
+            dp_noise_waves(&terrain->grid, cells, 2.0 * grain, 0.5 * grain, REST_SEED, rests);
+            for (int n = 0; n < TILE_CELLS; ++n) walls[n] = EACH * (walls[n] + pieces[n]);
+        } else {
+            for (int n = 0; n < TILE_CELLS; ++n) walls[n] = rests[n] = 0.0f;
+        }
+        rough_kind(terrain, tile, kind, walls, rests, tile_rough(terrain, tile));
+    }
+}
