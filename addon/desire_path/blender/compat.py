@@ -196,6 +196,13 @@ def socket(sockets, name):
     return None
 
 
+def set_default(socket, value):
+    """Give a socket a default value, unless it has it: Blender takes whatever is set for a change."""
+    same = lambda one: tuple(one) if hasattr(one, "__len__") and not isinstance(one, str) else one
+    if same(socket.default_value) != same(value):
+        socket.default_value = value
+
+
 def curves_played(animation):
     """The F-curves of the action an ID plays, of the slot it plays of it."""
     action = animation.action

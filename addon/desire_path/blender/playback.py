@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 from ..bake.output import NEW
-from . import axes, clock, compat
+from . import axes, clock, compat, tree_numbers
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
@@ -77,15 +77,45 @@ def attach(
     """
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
-    detach(obj)
     shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(index)]}
     tree = _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy)
+    if _taken_over(obj, tree):
+        discard(tree)
+        ours, tree = old, old.node_group
+    else:
+        detach(obj)
+        tree.name = f"{MODIFIER} {obj.name}"
+        for name, image in shown.items():
+            image.name = f"desire_path {name}"
+        ours = compat.nodes_modifier(obj, MODIFIER, tree)
+        ours.show_expanded = False
     tree[TAG] = mark(frames, index, count)
-    ours = compat.nodes_modifier(obj, MODIFIER, tree)
-    ours.show_expanded = False
     compat.move_modifier(obj, ours, place.before if place is not None else before)
     keep(obj, tree, world)
     return ours
+
+
+def _taken_over(obj, tree):
+    """Let the tree an object plays show what another one would, where they differ by numbers alone; returns whether it
+    does. Undo steps know the datablocks that were there before, and none that came between two of them."""
+    there = [each for each in obj.modifiers if each.type == "NODES" and each.node_group and TAG in each.node_group]
+    if len(there) != 1 or there[0].node_group.users != 1:
+        return False
+    old, played, wanted = there[0].node_group, images(there[0].node_group), images(tree)
+    if (
+        played.keys() != wanted.keys()
+        or "grown" in wanted
+        or any(each.filepath != wanted[name].filepath for name, each in played.items())
+        or copy_of(old) != copy_of(tree)
+        or tree_numbers.form(old) != tree_numbers.form(tree)
+    ):
+        return False
+    tree_numbers.copy(tree, old)
+    for each in played.values():
+        each.reload()
+    old.update_tag()
+    obj.update_tag(refresh={"DATA"})
+    return True
 
 
 def interpolates(tree):

@@ -44,10 +44,11 @@ class Copy:
     warnings: tuple
 
 
-def make(scene, obj, surface, index, planes, standing=()):
+def make(scene, obj, surface, index, planes, standing=(), into=None):
     """The refined Copy of a ground for a bake, or None where its mesh is fine enough, or it is not asked for.
 
     planes: the maps after the last frame by name; surface: the ground as it was baked; standing: see playback.attach
+    into: the object of an earlier copy, which is made anew then
     """
     settings = obj.desire_path
     if not settings.refine:
@@ -76,8 +77,15 @@ def make(scene, obj, surface, index, planes, standing=()):
         if not len(made.triangles):
             return None
         weights = [compat.float_attribute(mesh, ground.WEIGHT.format(k)) for k in range(len(groups))]
-        copied, left = _mesh(f"Desire Path {obj.name}", mesh, made)
-    carrier = bpy.data.objects.new(copied.name, copied)
+        if into is not None:
+            into.data.clear_geometry()
+            into.data.materials.clear()
+            into.vertex_groups.clear()
+        carrier = into or bpy.data.objects.new(
+            f"Desire Path {obj.name}", bpy.data.meshes.new(f"Desire Path {obj.name}")
+        )
+        copied = carrier.data
+        left = _fill(copied, mesh, made)
     for name, weight in zip(groups, weights):
         group = carrier.vertex_groups.new(name=name)
         if weight is not None and weight.any():
@@ -190,9 +198,8 @@ def _triangles(mesh, surface):
     )
 
 
-def _mesh(name, source, made):
-    """(a mesh as `made` cuts another one, names of attributes that could not be carried over)."""
-    mesh = bpy.data.meshes.new(name)
+def _fill(mesh, source, made):
+    """Fill an empty mesh as `made` cuts another one; returns the names of attributes that could not be carried over."""
     points = made.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
     mesh.vertices.add(len(points))
     mesh.vertices.foreach_set("co", points.ravel())
@@ -227,7 +234,7 @@ def _mesh(name, source, made):
         mesh.auto_smooth_angle = source.auto_smooth_angle if source.use_auto_smooth else np.pi
     if source.has_custom_normals:
         mesh.normals_split_custom_set(made.on_corners(_corner_normals(source)))
-    return mesh, left
+    return left
 
 
 def _creased(mesh, smooth):

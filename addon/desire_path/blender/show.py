@@ -24,7 +24,7 @@ def play(scene, obj, surface, baked=None):
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
         planes = baked or cover.planes(index)
-        copy = refined.make(scene, obj, surface, index, planes, standing)
+        copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj))
         carrier = copy and copy.object
         smooth = (
             carrier is not None
@@ -63,6 +63,13 @@ def play(scene, obj, surface, baked=None):
         stems.show(obj, settings.folder, folder(obj), index.frame_start, surface.scale) if index.complete else None
     )
     return index, warnings
+
+
+def _copy(obj):
+    """The refined copy a ground shows that nothing else does, or None."""
+    ours = playback.modifier(obj)
+    copy = playback.copy_of(ours.node_group) if ours is not None and ours.node_group.users == 1 else None
+    return copy if copy is not None and copy.users == 1 and copy.data.users == 1 else None
 
 
 def plays_on(obj, index):
