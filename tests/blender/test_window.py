@@ -1,5 +1,5 @@
-"""In a window: the bake runs in slices, shows how far it is, and ESC or Cancel stops it; the first print takes three
-clicks and no number."""
+"""In a window: the bake runs in slices, shows how far it is, and ESC or Cancel stops it; Auto Update takes no key; the
+first print takes three clicks and no number."""
 
 import pathlib
 
@@ -10,6 +10,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def test_modal_bake(folder):
     windowed.story(HERE / "window.py", folder, seconds=180)
+
+
+def test_auto_update(folder):
+    windowed.story(HERE / "window_live.py", folder, seconds=180)
 
 
 def test_first_print(folder):

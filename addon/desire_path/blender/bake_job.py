@@ -20,7 +20,7 @@ from . import home, inputs, moves, paths, reach, replant, sample, trash
 from .chosen import absent, walkers
 from .home import folder
 from .ops import active
-from .show import play, plays_on
+from .show import lost, play, plays_on
 
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 _running = None  # the Job that runs in a window, for the panel and its Cancel button
@@ -38,10 +38,14 @@ def run(job):
 
 
 class Job:
-    """One bake of one ground, in steps. Datablocks are looked up by name: undo replaces them."""
+    """One bake of one ground, in steps. Datablocks are looked up by name: undo replaces them.
 
-    def __init__(self, scene, obj):
+    unless_fresh: nothing is baked where the bakes that are there were made from the same; `fresh` tells it then
+    """
+
+    def __init__(self, scene, obj, *, unless_fresh=False):
         self.scene_name, self.name = scene.name, obj.name
+        self.unless_fresh, self.fresh = unless_fresh, False
         self.fraction, self.text, self.cancelled = 0.0, "Recording the walkers", False
         self.warnings, self.early = [], []
         self.bake = None
@@ -88,6 +92,9 @@ class Job:
         made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
         for each, parcel in zip(company.grounds, made.parcels):
             parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
+        self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, made.parcels))
+        if self.fresh:
+            return
         self.early += made.warnings
         self.warnings += made.warnings  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
@@ -153,6 +160,16 @@ class Job:
                         play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name])
                 except DesirePathError:
                     pass  # nothing was written
+
+
+def _is_fresh(obj, parcel):
+    """Whether a ground plays a whole bake that was made from what this one would be made from."""
+    try:
+        index = read_index(folder(obj))
+    except DesirePathError:
+        return False
+    whole = index.complete and not lost(index)
+    return whole and home.played(obj) == folder(obj) and {**index.inputs, **parcel.inputs} == index.inputs
 
 
 def _on(names):

@@ -12,7 +12,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import ground, home, op_forces, overrides, playback, replant, show, soils, state, trash, watch
+from . import ground, home, live, op_forces, overrides, playback, replant, show, soils, state, trash, watch
 
 _unsaved = False  # whether the file that is being saved never was before
 
@@ -62,6 +62,7 @@ def after_load(*_):
                     soils.refill(obj)
                 refresh(scene, obj)
         watch.all_of(scene)
+    live.loaded()
 
 
 @persistent
@@ -133,6 +134,7 @@ def register():
 
 
 def unregister():
+    live.end()
     state.unregister()
     watch.unregister()
     bpy.app.handlers.redo_post.remove(after_undo)

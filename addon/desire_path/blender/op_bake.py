@@ -10,9 +10,9 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import bake_job, framing
+from . import bake_job, framing, live
 from .bake_job import Job, idle_ground
-from .ops import AsksFirst, Refusal, sentence
+from .ops import AsksFirst, Refusal, begins, sentence
 from .show import free
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
@@ -64,6 +64,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
     def invoke(self, context, _event):
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        begins()
         context.view_layer.update()
         try:
             self.job = Job(context.scene, context.object)
@@ -127,6 +128,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
 
     def leave(self, context):
         bake_job.run(None)
+        live.rest()
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
@@ -171,6 +173,7 @@ class OBJECT_OT_desire_path_free(AsksFirst, Refusal, bpy.types.Operator):
         if not obj.desire_path.is_ground:
             raise DesirePathError(f"'{obj.name}' is no ground, so there is nothing to free.")
         free(obj)
+        obj.desire_path.auto_update = False  # else it would be baked again
         return {"FINISHED"}
 
 

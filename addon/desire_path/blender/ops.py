@@ -5,11 +5,20 @@ import bpy
 from ..errors import DesirePathError
 from . import playback
 
+before = []  # called before an operator of ours does its work
+
+
+def begins():
+    """An operator of ours begins its work."""
+    for each in before:
+        each()
+
 
 class Refusal:
     """Operators that tell what is wrong in one sentence."""
 
     def execute(self, context):
+        begins()
         try:
             return self.work(context)
         except (DesirePathError, OSError, MemoryError) as problem:

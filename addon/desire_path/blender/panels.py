@@ -70,6 +70,7 @@ def draw_ground(layout, context, obj):
         row = layout.row()
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
+        _column(layout).prop(settings, "auto_update")
         layout.operator("object.desire_path_free", icon="TRASH")
         draw_state(layout, context, obj)
     draw_result(layout, context, settings)

@@ -12,7 +12,7 @@ from bpy.props import (
 )
 
 from ..ground.plants import KINDS
-from . import compat, forward, picture, replant, soils, state, watch
+from . import compat, forward, live, picture, replant, soils, state, watch
 
 
 def is_ground(_self, obj):
@@ -59,6 +59,24 @@ def overridable(group):
     return group
 
 
+def _changed(_self, _context):
+    state.doubt()
+
+
+def _switched(self, _context):
+    live.switched(self.id_data)
+
+
+def followed(group):
+    """Let what is set of a group count as a change, as what is moved in the scene does."""
+    for each in group.__annotations__.values():
+        hidden = "HIDDEN" in each.keywords.get("options", ()) or "get" in each.keywords
+        if not hidden and each.function is not CollectionProperty and not compat.is_group(each):
+            each.keywords.setdefault("update", _changed)
+    return group
+
+
+@followed
 @overridable
 class DesirePathPaint(bpy.types.PropertyGroup):
     """A soil painted by a vertex group."""
@@ -79,6 +97,7 @@ def _replant(self, context):
     replant.changed(self.id_data)
 
 
+@followed
 @overridable
 class DesirePathPlants(bpy.types.PropertyGroup):
     """Plants of one kind that grow on a ground."""
@@ -128,6 +147,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
     )
 
 
+@followed
 @overridable
 class DesirePathFoot(bpy.types.PropertyGroup):
     """The bones of one foot."""
@@ -146,6 +166,7 @@ class DesirePathFoot(bpy.types.PropertyGroup):
     shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
 
 
+@followed
 @overridable
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
@@ -228,6 +249,12 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         name="Vertex Groups",
         description="Also fill vertex groups with plant strength and "
         "compression (1 = the loose layer pressed flat), for hair and modifiers; slower to play",
+    )
+    auto_update: BoolProperty(
+        name="Auto Update",
+        update=_switched,
+        description="Bake again by itself, while you go on working, once the walk, the soil, the mesh or a setting was "
+        "changed; what was baked before plays until then",
     )
     attributes: BoolProperty(
         name="Attributes",

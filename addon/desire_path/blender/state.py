@@ -8,6 +8,7 @@ answer, and once something has changed a timer looks again as soon as Blender re
 
 import os
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -20,12 +21,14 @@ from .chosen import walkers
 from .private import looked_at
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
+BAKING = "BAKING"  # of what is baked again by itself; for panels
 LOOKS = {  # the word and the icon of each in the panel
     NONE: ("Not Baked", "RADIOBUT_OFF"),
     FRESH: ("Baked", "CHECKMARK"),
     OUTDATED: ("Outdated", "FILE_REFRESH"),
     PARTIAL: ("Partly Baked", "PAUSE"),
     MISSING: ("Files Missing", "ERROR"),
+    BAKING: ("Updating", "TIME"),
 }
 PARTS = {"walk": "the walk", "ground": "the ground", "plants": "the plants", "settings": "the settings"}
 REST = 0.3  # without a change before the timer looks [s]
@@ -96,7 +99,10 @@ def ask(obj):
     if obj.is_evaluated:
         return _last.get(obj.name_full, (Told(NONE),))[0]
     told = found(obj)
-    _last[obj.name_full] = told, _changes, _glance(obj)
+    changes, sentence = refused.get(obj.name_full, (-1, ""))
+    if changes == _changes and not told.text and told.state != FRESH:
+        told = Told(told.state, sentence)
+    note(obj, told)
     return told
 
 
@@ -106,18 +112,72 @@ _last = {}  # name of a ground -> what was found, after which change of the scen
 _changes, _changed_at = 0, 0.0  # of the scene, since a panel was drawn first
 _waiting = set()  # names of grounds to look at
 _not_before = 0.0
+_deaf = False  # while what happens is no change of the user's
+_listener = None  # called after a change
+baking = {}  # name of a ground that is baked again by itself -> how far that is
+refused = {}  # name of a ground that could not be baked by itself -> after which change of the scene, and why not
+held = False  # while live.py looks itself
 
 
 def last(obj):
     """What was found last, or None where the timer has to look first. Quick, and changes nothing."""
+    if obj.name_full in baking:
+        return Told(BAKING, baking[obj.name_full])
     told, changes, glance = _last.get(obj.name_full, (None, -1, None))
     if changes == _changes and glance == _glance(obj):
         return told
     _waiting.add(obj.name_full)
-    if _scene_changed not in bpy.app.handlers.depsgraph_update_post:
-        bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
+    _hear()
     _wake()
     return None
+
+
+def note(obj, told):
+    """Somebody else has looked."""
+    _last[obj.name_full] = told, _changes, _glance(obj)
+
+
+def _hear():
+    if _scene_changed not in bpy.app.handlers.depsgraph_update_post:
+        bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
+
+
+def listen(listener):
+    """Have a function called after every change of a scene; None: no more."""
+    global _listener
+    _listener = listener
+    if listener is not None:
+        _hear()
+
+
+def changes():
+    """A number that is another one after every change of a scene, as far as somebody listens."""
+    return _changes
+
+
+def quiet_for():
+    """How long nothing was changed [s]."""
+    return time.monotonic() - _changed_at
+
+
+@contextmanager
+def unseen():
+    """What is done inside is no change of the user's."""
+    global _deaf
+    _flush()
+    _deaf = True
+    try:
+        yield
+    finally:
+        _flush()
+        _deaf = False
+
+
+def _flush():
+    """Let handlers hear now of what was changed."""
+    windows = bpy.context.window_manager.windows
+    for layer in {window.view_layer for window in windows} if len(windows) else (bpy.context.view_layer,):
+        layer.update()
 
 
 def _wake():
@@ -156,27 +216,30 @@ def _numbers(group):
 @persistent
 def _scene_changed(_scene, depsgraph):
     """Whether anything was changed that may move, shape or time something; a frame that is shown is no change."""
-    global _changes, _changed_at
+    if _deaf:
+        return
     for each in depsgraph.updates:
         if isinstance(each.id, (bpy.types.Scene, bpy.types.Collection)):
             continue
         if each.is_updated_geometry or each.is_updated_transform or not isinstance(each.id, bpy.types.Object):
-            _changes, _changed_at = _changes + 1, time.monotonic()
+            doubt()
             _wake()
             return
 
 
 def doubt():
-    """Anything may have changed: undo, another file."""
-    global _changes
-    _changes += 1
+    """Anything may have changed: undo, another file, a setting."""
+    global _changes, _changed_at
+    _changes, _changed_at = _changes + 1, time.monotonic()
+    if _listener is not None:
+        _listener()
 
 
 def _look():
     """Look at one ground that waits, when Blender rests."""
     global _not_before
     now = time.monotonic()
-    if now < max(_not_before, _changed_at + REST) or _busy():
+    if now < max(_not_before, _changed_at + REST) or held or busy():
         return REST
     obj = bpy.data.objects.get(_waiting.pop()) if _waiting else None
     if obj is not None:
@@ -189,7 +252,7 @@ def _look():
     return REST if _waiting else None
 
 
-def _busy():
+def busy():
     """Whether the user is in the middle of something."""
     for window in bpy.context.window_manager.windows:
         active = window.view_layer.objects.active
@@ -208,5 +271,8 @@ def unregister():
         bpy.app.timers.unregister(_look)
     if _scene_changed in bpy.app.handlers.depsgraph_update_post:
         bpy.app.handlers.depsgraph_update_post.remove(_scene_changed)
+    listen(None)
     _last.clear()
     _waiting.clear()
+    baking.clear()
+    refused.clear()

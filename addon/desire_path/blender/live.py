@@ -1,0 +1,281 @@
+"""live.py - Auto Update: a ground that was changed is baked again by itself, and plays on until that is done.
+
+    a change --state.changes()--> REST without another --Job, in slices of a timer--> the same: nothing is to be done
+                     ^                                   |                      \\--> outdated: bake, play
+                     '------- another change ------------'
+The timer takes SLICE of each turn of Blender's main loop and no key or mouse button. It waits while something is
+dragged, edited, played or rendered, and while a bake runs that the user has started; whatever goes before undo, redo,
+save and load stops it, and what it was at begins anew. There is a handler and a timer only while a ground wants it.
+"""
+
+import atexit
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import DesirePathError
+from . import bake_job, ops, state
+from .chosen import grounds
+
+REST = 0.2  # without a change before anything is done [s]
+SLICE = 0.03  # of work in one turn of Blender's main loop [s]
+DRAWN = 0.3  # between two pictures of how far it is [s]
+SHOWING = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("DOPESHEET_EDITOR", "WINDOW"), ("GRAPH_EDITOR", "WINDOW")}
+FAILED = (DesirePathError, OSError, MemoryError, ReferenceError)
+
+_work = None  # the Job on its way, its steps, and after which change of the scene it began
+_done = {}  # name of a ground -> the change of the scene after which it was as wanted, or could not be baked
+_drawn = 0.0
+_calm = False  # whether all is as wanted as it is now
+
+
+class _Work:
+    """One Job on its way."""
+
+    def __init__(self, scene, obj):
+        self.name = obj.name_full
+        self.job = bake_job.Job(scene, obj, unless_fresh=True)
+        self.steps = self.job.run()
+        self.changes = state.changes()
+
+
+# ---- for others ---------------------------------------------------------------------------------------------
+
+
+def wants(obj):
+    """Whether a ground is to be baked again by itself."""
+    settings = obj.desire_path
+    return obj.type == "MESH" and settings.is_ground and settings.auto_update and obj.library is None
+
+
+def switched(obj):
+    """Auto Update of a ground was switched on or off."""
+    _done.pop(obj.name_full, None)
+    if wants(obj):
+        begin()
+    elif _work is not None and _work.name == obj.name_full:
+        drop()
+
+
+def drop():
+    """Stop what is on its way, without a trace; it begins anew when Blender rests, if it is still to be done."""
+    global _work
+    if _work is not None:
+        work, _work = _work, None
+        work.steps.close()
+        state.baking.pop(work.name, None)
+
+
+def rest():
+    """All is as the user wants it, now: nothing is done before another change."""
+    global _calm
+    drop()
+    _calm = True
+    _wake()
+
+
+def update(scene):
+    """Bake all grounds of a scene that want it and are outdated, at once; returns sentences about what went wrong.
+    Where no window is, nobody else does."""
+    wrong = []
+    for obj in [each for each in grounds(scene) if wants(each)]:
+        drop()
+        try:
+            work = _Work(scene, obj)
+            with state.unseen():
+                for _ in work.steps:
+                    pass
+                _show(work)
+        except FAILED as problem:
+            wrong.append(ops.sentence(problem))
+    return wrong
+
+
+# ---- the timer ----------------------------------------------------------------------------------------------
+
+
+def _wake():
+    if begun() and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=REST)
+
+
+def _wanted():
+    """Scenes that windows show, and their grounds to look after."""
+    scenes = dict.fromkeys(window.scene for window in bpy.context.window_manager.windows)
+    return [(scene, obj) for scene in scenes for obj in grounds(scene) if wants(obj)]
+
+
+def _tick():
+    """One turn: wait, look for a ground that may be outdated, or go on with one."""
+    global _calm, _work
+    wanted = _wanted()
+    if not wanted and _work is None:
+        state.held = False
+        return None
+    state.held = True
+    quiet = state.quiet_for()
+    if _work is not None and _work.changes != state.changes():
+        drop()
+    if bake_job.running() is not None or bpy.app.is_job_running("RENDER") or state.busy():
+        return REST
+    if quiet < REST:
+        return REST - quiet
+    if _calm:
+        _calm = False
+        _done.update((obj.name_full, state.changes()) for _, obj in wanted)
+    if _work is None:
+        late = [each for each in wanted if _done.get(each[1].name_full) != state.changes()]
+        if not late:
+            state.held = False
+            return None
+        _begin(*late[0])
+    if _work is not None:
+        _go_on()
+    _redraw()
+    return 0.0
+
+
+def _begin(scene, obj):
+    global _work
+    try:
+        with state.unseen():
+            _work = _Work(scene, obj)
+        state.baking[obj.name_full] = ""
+    except FAILED as problem:
+        _fail(obj.name_full, problem)
+
+
+def _go_on():
+    """Work for a while."""
+    global _work
+    work, until = _work, time.perf_counter() + SLICE
+    try:
+        with state.unseen():
+            while time.perf_counter() < until:
+                try:
+                    next(work.steps)
+                except StopIteration:
+                    _work = None
+                    _show(work)
+                    break
+        if _work is not None:
+            made = work.job.bake is not None
+            state.baking[work.name] = f"{work.job.text} ({100 * work.job.fraction:.0f} %)" if made else ""
+    except FAILED as problem:
+        drop()
+        _fail(work.name, problem)
+
+
+def _show(work):
+    """Play what was baked, and remember that it is as wanted."""
+    state.baking.pop(work.name, None)
+    before = _datablocks()
+    if not work.job.fresh:
+        work.job.finish()
+    if _datablocks() != before and not bpy.app.background:
+        # undo would go back to an object that is the same and look for what it had in the meantime
+        bpy.ops.ed.undo_push(message="Auto Update")
+    obj = bpy.data.objects.get(work.job.name)
+    if obj is not None:
+        _done[obj.name_full] = work.changes
+        state.note(obj, state.Told(state.FRESH))
+
+
+def _fail(name, problem):
+    """Remember that a ground cannot be baked as it is, and why."""
+    _done[name] = state.changes()
+    state.baking.pop(name, None)
+    obj = bpy.data.objects.get(name)
+    if obj is not None:
+        state.refused[name] = state.changes(), ops.sentence(problem)
+        state.ask(obj)
+
+
+def _datablocks():
+    """All that a bake may exchange."""
+    lists = (bpy.data.node_groups, bpy.data.images, bpy.data.objects, bpy.data.meshes, bpy.data.materials)
+    return [{each.as_pointer() for each in found} for found in lists]
+
+
+def _redraw():
+    """Show how far it is, now and then: drawing takes time, too."""
+    global _drawn
+    now = time.monotonic()
+    if _work is not None and now < _drawn + DRAWN:
+        return
+    _drawn = now
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if (area.type, region.type) in SHOWING:
+                    region.tag_redraw()
+
+
+# ---- handlers -----------------------------------------------------------------------------------------------
+
+
+@persistent
+def _before(*_):
+    """Something goes through all data: nothing of ours is on its way then."""
+    drop()
+
+
+@persistent
+def _after(*_):
+    _wake()
+
+
+HANDLERS = (
+    ("undo_pre", _before),
+    ("redo_pre", _before),
+    ("save_pre", _before),
+    ("load_pre", _before),
+    ("undo_post", _after),
+    ("redo_post", _after),
+    ("save_post", _after),
+)
+
+
+def begun():
+    """Whether changes are listened to."""
+    return _before in bpy.app.handlers.load_pre
+
+
+def begin():
+    """Listen to changes, if a window is there for them."""
+    if bpy.app.background:
+        return
+    if not begun():
+        for name, handler in HANDLERS:
+            getattr(bpy.app.handlers, name).append(handler)
+        ops.before.append(drop)
+        atexit.register(drop)
+        state.listen(_wake)
+    _wake()
+
+
+def loaded():
+    """Another file was read, whose grounds stay as they are until something is changed."""
+    _done.clear()
+    if any(wants(obj) for scene in bpy.data.scenes for obj in scene.objects):
+        begin()
+        if begun():
+            rest()
+    else:
+        end()
+
+
+def end():
+    """Listen no more."""
+    drop()
+    _done.clear()
+    state.held = False
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)
+    if begun():
+        state.listen(None)
+        ops.before.remove(drop)
+        atexit.unregister(drop)
+        for name, handler in HANDLERS:
+            getattr(bpy.app.handlers, name).remove(handler)

@@ -1,0 +1,150 @@
+"""Auto Update bakes what was changed, and only that; what plays keeps its datablocks, so that undo finds them."""
+
+import bpy
+import numpy as np
+from scenes import meshes, people
+
+from desire_path.blender import compat, live, playback, state
+
+FRAMES = 24
+
+
+def scene(folder, ground=None):
+    """A plane of one face that follows what is changed, and somebody who has walked over it."""
+    ground = ground or meshes.grid(2, 2, 8.0, -4.0, -6.0)
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    settings = ground.desire_path
+    settings.folder, settings.cell_size, settings.auto_update = str(folder), 0.02, True
+    walker = people.walk(people.biped(), frames=FRAMES)
+    meshes.activate(walker)
+    bpy.ops.object.desire_path_walker_add()
+    meshes.activate(ground)
+    assert live.update(bpy.context.scene) == []
+    return ground, walker
+
+
+def datablocks():
+    lists = (bpy.data.node_groups, bpy.data.images, bpy.data.objects, bpy.data.meshes)
+    return [sorted(each.as_pointer() for each in found) for found in lists]
+
+
+def deepest(ground):
+    bpy.context.scene.frame_set(FRAMES)
+    found = ground.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return float(compat.positions(found.data)[:, 2].min())
+
+
+def test_nothing_happens_by_itself_without_a_window(folder):
+    ground, _ = scene(folder)
+    assert ground.desire_path.bake_state == "FRESH" and not live.begun()
+    ground.desire_path.soil = "mud"
+    assert ground.desire_path.bake_state == "OUTDATED" and state.last(ground) != state.Told("FRESH")
+    ground.desire_path.auto_update = False
+    assert live.update(bpy.context.scene) == [] and ground.desire_path.bake_state == "OUTDATED"
+
+
+def follows(folder, ground):
+    ground, walker = scene(folder, ground)
+    shallow, before = deepest(ground), datablocks()
+    assert shallow < -0.001
+    settings = ground.desire_path
+    for who, what, value in (
+        (settings, "soil", "snow"),
+        (walker.desire_path, "mass", 150.0),
+        (settings.soil_numbers, "layer_depth", 0.3),
+        (settings, "cell_size", 0.016),
+        (walker.location, "x", 0.05),
+        (settings, "frame_end", FRAMES - 2),
+        (settings, "attributes", False),
+    ):
+        setattr(who, what, value)
+        bpy.context.view_layer.update()
+        assert settings.bake_state == "OUTDATED"
+        assert live.update(bpy.context.scene) == []
+        assert settings.bake_state == "FRESH" and state.last(ground) == state.Told("FRESH"), what
+        assert datablocks() == before, what
+    assert deepest(ground) < 3.0 * shallow
+    return ground
+
+
+def test_a_refined_ground_follows_with_the_datablocks_it_has(folder):
+    ground = follows(folder, None)
+    copy = playback.copy_of(playback.modifier(ground).node_group)
+    assert copy is not None and len(copy.data.vertices) > 1000
+
+
+def test_a_fine_ground_follows_with_the_datablocks_it_has(folder):
+    ground = follows(folder, meshes.grid(200, 300, 0.02, -2.0, -4.0))
+    assert playback.copy_of(playback.modifier(ground).node_group) is None
+
+
+def test_what_plays_is_what_a_bake_of_its_own_would_show(folder):
+    """Numbers that a tree has taken over are those it would have been made with."""
+    ground, walker = scene(folder / "one")
+    settings = ground.desire_path
+    settings.soil, settings.cell_size, settings.frame_end = "snow", 0.025, FRAMES - 3
+    walker.location.y = 0.3
+    assert live.update(bpy.context.scene) == []
+    taken = compat.positions(ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data)
+    playback.detach(ground)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    made = compat.positions(ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data)
+    np.testing.assert_array_equal(taken, made)
+
+
+def test_undo_finds_what_was_there(folder):
+    scene(folder)
+    bpy.ops.ed.undo_push(message="Scene")
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.collection.objects.link(other)
+    for step in range(3):
+        bpy.data.objects["Other"].location.x = step
+        bpy.ops.ed.undo_push(message=f"Step {step}")
+    for soil in ("snow", "mud"):
+        bpy.data.objects["Ground"].desire_path.soil = soil
+        assert live.update(bpy.context.scene) == []
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.undo, bpy.ops.ed.redo):
+        assert step() == {"FINISHED"}
+        ground = bpy.data.objects["Ground"]
+        assert deepest(ground) < -0.001 and len(ground.modifiers) == 1
+        ground.desire_path.soil = "soil"
+        assert live.update(bpy.context.scene) == []
+
+
+def test_a_bake_that_is_fresh_is_not_made_again(folder):
+    ground, _ = scene(folder)
+    stamp = (folder / "report.json").stat().st_mtime_ns
+    bpy.data.objects.new("Other", None)
+    assert live.update(bpy.context.scene) == []
+    assert (folder / "report.json").stat().st_mtime_ns == stamp
+    ground.desire_path.soil = "mud"
+    assert live.update(bpy.context.scene) == []
+    assert (folder / "report.json").stat().st_mtime_ns != stamp
+
+
+def test_what_cannot_be_baked_is_told_and_the_earlier_bake_plays_on(folder):
+    ground, walker = scene(folder)
+    before = deepest(ground)
+    walker.location.x = 100.0
+    (wrong,) = live.update(bpy.context.scene)
+    assert "beside the ground" in wrong
+    assert deepest(ground) == before and ground.desire_path.bake_state == "OUTDATED"
+
+
+def test_free_switches_it_off(folder):
+    ground, _ = scene(folder)
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    assert not ground.desire_path.auto_update and live.update(bpy.context.scene) == []
+    assert playback.modifier(ground) is None
+
+
+def test_a_tree_that_others_use_is_left_to_them(folder):
+    ground, _ = scene(folder / "one")
+    other = ground.copy()
+    bpy.context.collection.objects.link(other)
+    other.desire_path.is_ground = False
+    tree = playback.modifier(other).node_group
+    ground.desire_path.soil = "snow"
+    assert live.update(bpy.context.scene) == []
+    assert playback.modifier(other).node_group == tree != playback.modifier(ground).node_group

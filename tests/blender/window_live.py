@@ -1,0 +1,209 @@
+"""window_live.py - run by test_window.py in a Blender with a window: a ground that is changed is baked again."""
+
+import pathlib
+import sys
+import time
+import traceback
+
+import bpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests"), str(ROOT / "tests" / "blender")]
+bpy.context.preferences.view.show_splash = False
+import desire_path  # noqa: E402
+
+desire_path.register()
+from scenes import meshes, people  # noqa: E402
+
+from desire_path.bake import bake  # noqa: E402
+from desire_path.blender import bake_job, live, playback, state  # noqa: E402
+from desire_path.ground import sim  # noqa: E402
+
+FOLDER = pathlib.Path(sys.argv[-1])
+write_frame = sim.Film.write_frame
+
+
+def slowly(self, path, moment):
+    write_frame(self, path, moment)
+    time.sleep(0.02)
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def ground():
+    return bpy.data.objects["Ground"]
+
+
+def until(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"waited too long: {told()}"
+        yield 0.02
+
+
+def told():
+    """What is on its way, for who reads a failure."""
+    return (
+        state.last(ground()),
+        state.ask(ground()),
+        live._work,
+        live._done,
+        state.changes(),
+        state.baking,
+        state.held,
+        state.busy(),
+        state.quiet_for(),
+        live._calm,
+    )
+
+
+def shot(name):
+    with bpy.context.temp_override(window=window(), screen=window().screen):
+        bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
+
+
+def made():
+    """What the bake that is there was made from."""
+    return dict(bake.read_index(str(FOLDER / "bake")).inputs)
+
+
+def push(message):
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message=message)
+
+
+def settled(before):
+    """Wait until another bake plays and a panel would show a tick; what it shows until then is no tick."""
+    seen = set()
+
+    def done():
+        told = state.last(ground())
+        seen.add(told and told.state)
+        fresh = told == state.Told("FRESH")
+        assert not fresh or made() != before, "a tick for what is outdated"
+        assert playback.modifier(ground()) is not None
+        return fresh and made() != before
+
+    yield from until(done)
+    assert ground().desire_path.bake_state == "FRESH"
+    return seen
+
+
+def story():
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    meshes.activate(meshes.grid(2, 2, 8.0, -4.0, -6.0))
+    assert not live.begun()
+    bpy.ops.object.desire_path_ground_add()
+    ground().desire_path.folder = str(FOLDER / "bake")
+    meshes.activate(people.walk(people.biped(), frames=60))
+    bpy.ops.object.desire_path_walker_add()
+    meshes.activate(ground())
+    for area in window().screen.areas:
+        if area.type == "PROPERTIES":
+            area.spaces[0].context = "PHYSICS"
+    push("Scene")
+    assert not live.begun()
+
+    # switched on, it bakes what was not baked yet; the file is listened to from now on
+    ground().desire_path.auto_update = True
+    push("Auto Update")
+    assert live.begun()
+    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    assert playback.modifier(ground()) is not None
+    yield 1.0
+    assert not bpy.app.timers.is_registered(live._tick), "it looks for ever"
+
+    # another soil, a mass, a key, the mesh and its place are baked again; no datablock is exchanged
+    before, old = made(), playback.modifier(ground()).node_group
+    begun = time.monotonic()
+    ground().desire_path.soil = "mud"
+    push("Mud")
+    assert state.last(ground()) != state.Told("FRESH")
+    seen = yield from settled(before)
+    print(f"again after {time.monotonic() - begun:.2f} s", seen, flush=True)
+    assert "BAKING" in seen, seen
+    assert playback.modifier(ground()).node_group == old
+    shot("fresh")
+    for change in (
+        lambda: setattr(bpy.data.objects["Walker"].desire_path, "mass", 40.0),
+        lambda: setattr(ground().data.vertices[0].co, "z", 0.4) or ground().data.update(),
+    ):
+        before = made()
+        change()
+        push("Change")
+        yield from settled(before)
+
+    # undo and redo are followed, too
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
+        before = made()
+        with bpy.context.temp_override(window=window()):
+            assert step() == {"FINISHED"}
+        yield from settled(before)
+
+    # a change while it bakes: it begins anew, and takes no key
+    sim.Film.write_frame = slowly
+    before = made()
+    ground().desire_path.soil = "snow"
+    push("Snow")
+    yield from until(lambda: live._work is not None and live._work.job.fraction > 0.2)
+    assert made() == before and not len(getattr(window(), "modal_operators", ()))
+    shot("updating")
+    assert bake_job.running() is None and bpy.ops.object.desire_path_bake.poll()
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type="ESC", value=value, x=10, y=10)
+    yield 0.1
+    assert live._work is not None
+    first = live._work
+    ground().desire_path.soil = "wet-soil"
+    push("Wet Soil")
+    yield from until(lambda: live._work is not None and live._work is not first)
+    assert first.job.bake.report is None and made() == before
+    sim.Film.write_frame = write_frame
+    yield from settled(before)
+
+    # a bake that was asked for has the right of way, one that is freed is not made again
+    sim.Film.write_frame = slowly
+    ground().desire_path.soil = "snow"
+    push("Snow")
+    yield from until(lambda: live._work is not None and live._work.job.fraction > 0.1)
+    screen = window().screen
+    with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
+        assert bpy.ops.object.desire_path_bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    assert live._work is None
+    sim.Film.write_frame = write_frame
+    yield from until(lambda: bake_job.running() is None)
+    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    with bpy.context.temp_override(window=window(), area=screen.areas[0]):
+        bpy.ops.object.desire_path_free("EXEC_DEFAULT")
+    assert not ground().desire_path.auto_update
+    ground().location.z = 0.0
+    yield 1.0
+    yield from until(lambda: state.last(ground()) == state.Told("NONE"))
+    assert playback.modifier(ground()) is None
+
+    # another file listens no more
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 0.5
+    assert not live.begun() and not bpy.app.timers.is_registered(live._tick)
+    print("all seen", flush=True)
+
+
+steps = story()
+
+
+def tick():
+    try:
+        return next(steps)
+    except StopIteration:
+        pass
+    except Exception:
+        traceback.print_exc()
+    sys.stdout.flush()
+    bpy.ops.wm.quit_blender()
+    return None
+
+
+bpy.app.timers.register(tick, first_interval=1.0, persistent=True)
