@@ -59,6 +59,17 @@ void* dp_realloc(void* block, size_t count, size_t size)
     return fresh;
 }
 
+bool dp_make_room(void* array, size_t count, size_t size)
+{
+    void* block;
+    memcpy(&block, array, sizeof block);
+    if (count == 0 || (block && *size_of(block) / size >= count)) return true;
+    void* more = count <= SIZE_MAX / 2 ? dp_realloc(block, count + count / 2, size) : NULL;
+    if (!more) return false;
+    memcpy(array, &more, sizeof more);
+    return true;
+}
+
 void dp_free(void* block)
 {
     if (!block) return;

@@ -50,16 +50,10 @@ void dp_write_drop(DpStateWriter* writer)
 static unsigned char* extend(DpStateWriter* writer, size_t count)
 {
     if (writer->status != DP_OK) return NULL;
-    if (count > writer->room - writer->size) {
-        const size_t   room = (writer->size + count) / 2 * 3 + 4096;
-        unsigned char* more = count < SIZE_MAX / 4 && writer->size < SIZE_MAX / 4
-                                  ? dp_realloc(writer->bytes, room, 1)
-                                  : NULL;
-        if (!more) {
-            writer->status = DP_NO_MEMORY;
-            return NULL;
-        }
-        writer->bytes = more, writer->room = room;
+    const bool countable = count < SIZE_MAX / 4 && writer->size < SIZE_MAX / 4;
+    if (!countable || !dp_make_room(&writer->bytes, writer->size + count, 1)) {
+        writer->status = DP_NO_MEMORY;
+        return NULL;
     }
     writer->size += count;
     return writer->bytes + writer->size - count;

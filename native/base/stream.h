@@ -16,7 +16,7 @@
 typedef struct DpStateWriter
 {
     unsigned char* bytes;  // what was written (size); NULL before
-    size_t         size, room;
+    size_t         size;
     size_t         chunk;   // where the open chunk begins
     bool           open;    // a chunk is open
     DpStatus       status;  // DP_OK, DP_NO_MEMORY

@@ -35,7 +35,6 @@ typedef struct GrassPrint
     int32_t *              across, *up;  // to the nearest cell of the other kind, sole or no sole
     float*                 bottom;       // +inf where there is no sole
     uint8_t*               under;        // is there a sole?
-    size_t                 room;
 } GrassPrint;
 
 struct DpGrass
@@ -44,7 +43,7 @@ struct DpGrass
     DpGrid          grid;
     int32_t         step;
     GrassTile**     tile;  // ascending (ty, tx)
-    int             tiles, room;
+    int             tiles;
     GrassPrint*     print;  // of soles, in their order (print_room)
     int             prints, print_room;
 };

@@ -198,25 +198,19 @@ static void meet(DpGrass* grass, const GrassPrint* print, const DpPlantGround* g
         part(grass, print, ground, tile, pi, pj, ti, tj);
 }
 
-static bool make_room(GrassPrint* print)
+static bool fit_print(GrassPrint* print)
 {
     const size_t cells = (size_t)(print->nx + 2) * (size_t)(print->ny + 2);
-    if (cells <= print->room) return true;
-    dp_grass_print_drop(print);
-    print->room = cells + cells / 4;
-    print->across = dp_alloc(print->room, sizeof(int32_t));
-    print->up = dp_alloc(print->room, sizeof(int32_t));
-    print->bottom = dp_alloc(print->room, sizeof(float));
-    print->under = dp_alloc(print->room, 1);
-    if (print->across && print->up && print->bottom && print->under) return true;
-    dp_grass_print_drop(print);
-    return false;
+    return dp_make_room(&print->across, cells, sizeof *print->across) &&
+           dp_make_room(&print->up, cells, sizeof *print->up) &&
+           dp_make_room(&print->bottom, cells, sizeof *print->bottom) &&
+           dp_make_room(&print->under, cells, sizeof *print->under);
 }
 
 void dp_grass_print_drop(GrassPrint* print)
 {
     dp_free(print->across), dp_free(print->up), dp_free(print->bottom), dp_free(print->under);
-    print->across = print->up = NULL, print->bottom = NULL, print->under = NULL, print->room = 0;
+    print->across = print->up = NULL, print->bottom = NULL, print->under = NULL;
 }
 
 // The sole on the grass's own cells; false if it is nowhere less than `tallest` over the ground.
@@ -279,7 +273,7 @@ DpStatus dp_grass_look_at(const DpGrass* grass, GrassPrint* print, const DpPlant
     const double speed = sqrt(c->velocity.x * c->velocity.x + c->velocity.y * c->velocity.y);
     print->motion[0] = c->velocity.x / (speed + SLOW),
     print->motion[1] = c->velocity.y / (speed + SLOW);
-    const bool room = make_room(print);
+    const bool room = fit_print(print);
     if (room && lay_out(grass, print, ground, dp_plants_height(grass->plants)))
         find_edges(print);
     else

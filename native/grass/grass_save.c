@@ -155,7 +155,7 @@ void dp_grass_restore(DpGrass* grass, DpGrassState* state)
     DP_ASSERT(state->grass == grass);
     for (int t = 0; t < grass->tiles; ++t) dp_free(grass->tile[t]);
     dp_free(grass->tile);
-    grass->tile = state->tile, grass->tiles = grass->room = state->tiles;
+    grass->tile = state->tile, grass->tiles = state->tiles;
     grass->step = state->step, grass->prints = 0;
     state->tile = NULL, state->tiles = 0;  // they are the grass's now
     dp_grass_state_destroy(state);

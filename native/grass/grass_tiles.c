@@ -47,12 +47,7 @@ GrassTile* dp_grass_touch(DpGrass* grass, long tx, long ty)
 {
     GrassTile* tile = dp_grass_find(grass, tx, ty);
     if (tile) return tile;
-    if (grass->tiles == grass->room) {
-        const int   room = grass->room ? 2 * grass->room : 16;
-        GrassTile** more = dp_realloc(grass->tile, (size_t)room, sizeof *more);
-        if (!more) return NULL;
-        grass->tile = more, grass->room = room;
-    }
+    if (!dp_make_room(&grass->tile, (size_t)grass->tiles + 1, sizeof *grass->tile)) return NULL;
     tile = dp_alloc(1, sizeof *tile);
     if (!tile) return NULL;
     tile->tx = tx, tile->ty = ty;

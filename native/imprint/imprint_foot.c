@@ -22,7 +22,6 @@ struct DpImprintScratch
     float*   sum;      // one row of cells: heights summed down each column of samples
     float*   covered;  // and how many there were
     DpReach* due;      // triangles of one sole
-    size_t   corners, lows, sums, covereds, dues;  // room
 };
 
 DpImprintScratch* dp_imprint_scratch_create(void)
@@ -39,19 +38,6 @@ void dp_imprint_scratch_destroy(DpImprintScratch* scratch)
     dp_free(scratch->covered);
     dp_free(scratch->due);
     dp_free(scratch);
-}
-
-// room for at least `count` items; what was there need not be kept
-static bool make_room(void** block, size_t* room, size_t count, size_t size)
-{
-    if (count <= *room) return true;
-    const size_t wanted = count + count / 2;
-    void*        fresh = dp_alloc(wanted, size);
-    if (!fresh) return false;
-    dp_free(*block);
-    *block = fresh;
-    *room = wanted;
-    return true;
 }
 
 DpBox dp_imprint_box(const DpMesh* sole, DpPose pose)
@@ -248,9 +234,7 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
         const size_t triangles = (size_t)soles[s].triangle_count;
         most = triangles > most ? triangles : most;
     }
-    if (corners &&
-        !make_room((void**)&scratch->corner, &scratch->corners, corners, 3 * sizeof(double)))
-        return DP_NO_MEMORY;
+    if (!dp_make_room(&scratch->corner, corners, 3 * sizeof *scratch->corner)) return DP_NO_MEMORY;
 
     const Frame frame = {patch->x0 + 0.5 * (double)(patch->nx - 1) * patch->cell,
                          patch->y0 + 0.5 * (double)(patch->ny - 1) * patch->cell,
@@ -282,11 +266,11 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
     window.row = (window.p1 - window.p0 + 15) / 8 * 8;
 
     const size_t size = (size_t)window.row * (size_t)(window.q1 - window.q0);
-    if (!make_room((void**)&scratch->low, &scratch->lows, size, sizeof(float)) ||
-        !make_room((void**)&scratch->sum, &scratch->sums, (size_t)window.row, sizeof(float)) ||
-        !make_room((void**)&scratch->covered, &scratch->covereds, (size_t)window.row,
-                   sizeof(float)) ||
-        (most && !make_room((void**)&scratch->due, &scratch->dues, most, sizeof(DpReach))))
+    const size_t row = (size_t)window.row;
+    if (!dp_make_room(&scratch->low, size, sizeof *scratch->low) ||
+        !dp_make_room(&scratch->sum, row, sizeof *scratch->sum) ||
+        !dp_make_room(&scratch->covered, row, sizeof *scratch->covered) ||
+        !dp_make_room(&scratch->due, most, sizeof *scratch->due))
         return DP_NO_MEMORY;
     window.low = scratch->low;
     for (size_t n = 0; n < size; ++n) window.low[n] = INFINITY;

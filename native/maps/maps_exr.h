@@ -8,9 +8,8 @@
 // Memory that grows at its end.
 typedef struct DpBytes
 {
-    unsigned char* at;    // (room), the first `size` are filled
+    unsigned char* at;    // the first `size` are filled
     size_t         size;  // [bytes]
-    size_t         room;
 } DpBytes;
 
 // Place count bytes at `offset`; what lies between the end and there is zero.

@@ -14,13 +14,7 @@ DpStatus dp_bytes_put(DpBytes* bytes, size_t offset, const void* from, size_t co
 {
     if (offset > SIZE_MAX / 4 || count > SIZE_MAX / 4) return DP_NO_MEMORY;
     const size_t end = offset + count;
-    if (end > bytes->room) {
-        const size_t   room = end > 2 * bytes->room ? end + 4096 : 2 * bytes->room;
-        unsigned char* grown = dp_realloc(bytes->at, room, 1);
-        if (!grown) return DP_NO_MEMORY;
-        bytes->at = grown;
-        bytes->room = room;
-    }
+    if (!dp_make_room(&bytes->at, end, 1)) return DP_NO_MEMORY;
     if (offset > bytes->size) memset(bytes->at + bytes->size, 0, offset - bytes->size);
     if (count) memcpy(bytes->at + offset, from, count);
     if (end > bytes->size) bytes->size = end;

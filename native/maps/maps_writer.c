@@ -16,11 +16,10 @@ struct DpTiles
     DpTiles*   next;
     DpFrames*  frames;
     size_t     size;   // floats of a tile
-    int*       tile;   // place in the picture (room, 2)
-    float*     value;  // (room, size)
-    int        count, room;
+    int*       tile;   // place in the picture (count, 2)
+    float*     value;  // (count, size)
+    int        count;
     char*      path;  // "" = only packed
-    size_t     path_room;
     double     time;
     atomic_int failed;  // DpStatus of a tile that could not be packed
 };
@@ -54,23 +53,12 @@ static void free_tiles(DpTiles* tiles)
     }
 }
 
-// Room for one more tile; false when there is no memory.
-static bool make_room(DpTiles* tiles)
-{
-    if (tiles->count < tiles->room) return true;
-    const size_t room = tiles->room ? 2 * (size_t)tiles->room : 16;
-    int*         tile = dp_realloc(tiles->tile, 2 * room, sizeof *tile);
-    if (tile) tiles->tile = tile;
-    float* value = tile ? dp_realloc(tiles->value, room * tiles->size, sizeof *value) : NULL;
-    if (!value) return false;
-    tiles->value = value;
-    tiles->room = (int)room;
-    return true;
-}
-
 float* dp_tiles_add(DpTiles* tiles, int tx, int ty)
 {
-    if (!make_room(tiles)) return NULL;
+    const size_t count = (size_t)tiles->count + 1;
+    if (!dp_make_room(&tiles->tile, 2 * count, sizeof *tiles->tile) ||
+        !dp_make_room(&tiles->value, count * tiles->size, sizeof *tiles->value))
+        return NULL;
     tiles->tile[2 * tiles->count] = tx;
     tiles->tile[2 * tiles->count + 1] = ty;
     return tiles->value + tiles->size * (size_t)tiles->count++;
@@ -79,12 +67,7 @@ float* dp_tiles_add(DpTiles* tiles, int tx, int ty)
 static bool set_path(DpTiles* tiles, const char* path)
 {
     const size_t size = path ? strlen(path) + 1 : 1;
-    if (size > tiles->path_room) {
-        char* longer = dp_realloc(tiles->path, size + 64, 1);
-        if (!longer) return false;
-        tiles->path = longer;
-        tiles->path_room = size + 64;
-    }
+    if (!dp_make_room(&tiles->path, size, 1)) return false;
     memcpy(tiles->path, path ? path : "", size);
     return true;
 }
@@ -131,7 +114,6 @@ static void fail(DpWriter* writer, DpTiles* tiles, DpStatus status)
     dp_free(writer->path);
     writer->path = tiles->path;
     tiles->path = NULL;
-    tiles->path_room = 0;
     while (writer->first) {
         put_away(writer, take_first(writer));
         --writer->on_the_way;
@@ -207,7 +189,6 @@ DpTiles* dp_writer_tiles(DpWriter* writer, DpFrames* frames)
     pthread_mutex_unlock(&writer->lock);
     if (!tiles) tiles = dp_alloc(1, sizeof *tiles);
     if (!tiles) return NULL;
-    if (tiles->size != size) tiles->room = 0;  // the memory is asked for anew
     tiles->next = NULL;
     tiles->frames = frames;
     tiles->size = size;

@@ -15,7 +15,7 @@ DpStatus dp_motion_live(DpMotion** motion, const DpGait* cast)
 }
 
 // Room for one more sample: what is kept moves to a larger window.
-static DpStatus make_room(DpMotion* motion)
+static DpStatus widen(DpMotion* motion)
 {
     const int kept = motion->samples - motion->oldest, parts = motion->cast.parts;
     if (kept < motion->room) return DP_OK;
@@ -68,7 +68,7 @@ DpStatus dp_motion_push(DpMotion* motion, double time, const uint8_t* present,
     if (motion->samples > motion->oldest &&
         !(time > motion->time[(motion->samples - 1) % motion->room]))
         return DP_BAD_ARGUMENT;
-    const DpStatus status = make_room(motion);
+    const DpStatus status = widen(motion);
     if (status != DP_OK) return status;
     const size_t at = (size_t)(motion->samples % motion->room), room = (size_t)motion->room;
     const size_t walkers = (size_t)motion->cast.walkers;

@@ -92,11 +92,8 @@ struct DpPlants
     int         stands;
     // scratch of a step
     struct PlantTask* task;
-    int               task_room;
     float*            scratch;
-    size_t            scratch_room;
     float*            side;
-    size_t            side_room;
 };
 
 // ---- plant_kind.c

@@ -66,12 +66,7 @@ static void live(void* context, int index, int worker)
 
 static bool add_task(DpPlants* plants, int* tasks, PlantStand* stand, PlantBlock* block)
 {
-    if (*tasks == plants->task_room) {
-        const int  room = plants->task_room ? 2 * plants->task_room : 64;
-        PlantTask* more = dp_realloc(plants->task, (size_t)room, sizeof(PlantTask));
-        if (!more) return false;
-        plants->task = more, plants->task_room = room;
-    }
+    if (!dp_make_room(&plants->task, (size_t)*tasks + 1, sizeof *plants->task)) return false;
     plants->task[(*tasks)++] = (PlantTask){stand, block};
     return true;
 }
@@ -112,21 +107,12 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt
     return tasks;
 }
 
-static bool make_room(float** memory, size_t* room, size_t wanted)
-{
-    if (wanted <= *room) return true;
-    float* more = dp_realloc(*memory, wanted, sizeof(float));
-    if (!more) return false;
-    *memory = more, *room = wanted;
-    return true;
-}
-
 static bool prepare_sides(DpPlants* plants, PlantPush* push, int count)
 {
     size_t cells = 0;
     for (int k = 0; k < count; ++k)
         if (push[k].collider->bottom) cells += PLANT_SIDE_CELLS(push[k].collider);
-    if (!make_room(&plants->side, &plants->side_room, cells)) return false;
+    if (!dp_make_room(&plants->side, cells, sizeof *plants->side)) return false;
     float* out = plants->side;
     for (int k = 0; k < count; ++k) {
         if (!push[k].collider->bottom) continue;
@@ -206,8 +192,8 @@ DpStatus dp_plants_step(DpPlants* plants, const DpPlantGround* ground,
     }
     step.scratch = (step.scratch + 15) / 16 * 16;
     bool room = tasks >= 0 && prepare_sides(plants, step.push, step.pushes);
-    room =
-        room && make_room(&plants->scratch, &plants->scratch_room, step.scratch * (size_t)workers);
+    room = room &&
+           dp_make_room(&plants->scratch, step.scratch * (size_t)workers, sizeof *plants->scratch);
     if (room && tasks > 0) dp_parallel_for(tasks, workers, live, &step);
     if (room) plants->now += dt;
     if (room) report_step(plants, tasks, report);

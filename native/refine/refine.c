@@ -21,42 +21,26 @@ typedef struct Piece
     float weight[3][3];  // of each point: shares of the source's points
 } Piece;
 
+#define MOST (INT32_MAX / 2)  // of any array
+
 typedef struct Cutting
 {
     DpWishTree* wish;
     Piece*      piece;
     int*        next;  // of each side: the next one on the same edge, -1 = last
     int         pieces;
-    size_t      piece_room, next_room;
     DpEdge*     edge;
     int         edges;
-    size_t      edge_room;
     double*     point;
     int*        point_source;
     float (*point_weight)[3];
     int            points, given;
-    size_t         point_room, source_room, weight_room;
     unsigned char* cut;
     int*           work;  // edges that are marked in this round
     int            works;
-    size_t         work_room;
     int*           coarse;  // pieces to be looked at
     int            coarses;
-    size_t         coarse_room;
 } Cutting;
-
-// room for `need` in an array that grows by half; false without memory, the array stands then
-static bool with_room(void* array, size_t need, size_t* room, size_t size)
-{
-    if (need <= *room) return true;
-    const size_t wide = need + need / 2 + 64;
-    void**       block = array;
-    void*        grown = wide <= INT32_MAX ? dp_realloc(*block, wide, size) : NULL;
-    if (!grown) return false;
-    *block = grown;
-    *room = wide;
-    return true;
-}
 
 static void enlist(Cutting* cutting, int piece)
 {
@@ -80,8 +64,7 @@ static DpStatus mark_base(Cutting* cutting, int piece)
 {
     const int base = cutting->piece[piece].edge[0];
     if (cutting->edge[base].mid != DP_EDGE_PLAIN) return DP_OK;
-    if (!with_room(&cutting->work, (size_t)cutting->works + 1, &cutting->work_room,
-                   sizeof *cutting->work))
+    if (!dp_make_room(&cutting->work, (size_t)cutting->works + 1, sizeof *cutting->work))
         return DP_NO_MEMORY;
     cutting->edge[base].mid = DP_EDGE_MARKED;
     cutting->work[cutting->works++] = base;
@@ -101,18 +84,17 @@ static DpStatus close_marks(Cutting* cutting)
 }
 
 // room for a point, three edges and a piece more
-static bool make_room(Cutting* cutting)
+static bool fit_one_more(Cutting* cutting)
 {
     const size_t pieces = (size_t)cutting->pieces + 1, edges = (size_t)cutting->edges + 3;
     const size_t points = (size_t)cutting->points + 1, fresh = points - (size_t)cutting->given;
-    return with_room(&cutting->piece, pieces, &cutting->piece_room, sizeof *cutting->piece) &&
-           with_room(&cutting->next, 3 * pieces, &cutting->next_room, sizeof *cutting->next) &&
-           with_room(&cutting->edge, edges, &cutting->edge_room, sizeof *cutting->edge) &&
-           with_room(&cutting->point, points, &cutting->point_room, 3 * sizeof *cutting->point) &&
-           with_room(&cutting->point_source, fresh, &cutting->source_room,
-                     sizeof *cutting->point_source) &&
-           with_room(&cutting->point_weight, fresh, &cutting->weight_room,
-                     sizeof *cutting->point_weight);
+    return edges < MOST && 3 * pieces < MOST &&
+           dp_make_room(&cutting->piece, pieces, sizeof *cutting->piece) &&
+           dp_make_room(&cutting->next, 3 * pieces, sizeof *cutting->next) &&
+           dp_make_room(&cutting->edge, edges, sizeof *cutting->edge) &&
+           dp_make_room(&cutting->point, points, 3 * sizeof *cutting->point) &&
+           dp_make_room(&cutting->point_source, fresh, sizeof *cutting->point_source) &&
+           dp_make_room(&cutting->point_weight, fresh, sizeof *cutting->point_weight);
 }
 
 static int new_edge(Cutting* cutting, int a, int b)
@@ -142,8 +124,7 @@ static void halve_edge(Cutting* cutting, int at, int source, const float weight[
 
 static DpStatus remember(Cutting* cutting, int piece)
 {
-    if (!with_room(&cutting->coarse, (size_t)cutting->coarses + 1, &cutting->coarse_room,
-                   sizeof *cutting->coarse))
+    if (!dp_make_room(&cutting->coarse, (size_t)cutting->coarses + 1, sizeof *cutting->coarse))
         return DP_NO_MEMORY;
     cutting->coarse[cutting->coarses++] = piece;
     return DP_OK;
@@ -190,7 +171,7 @@ static DpStatus halve(Cutting* cutting, int at)
 {
     const int base = cutting->piece[at].edge[0];
     if (cutting->edge[base].mid == DP_EDGE_PLAIN) return remember(cutting, at);
-    if (!make_room(cutting)) return DP_NO_MEMORY;
+    if (!fit_one_more(cutting)) return DP_NO_MEMORY;
     strike_off(cutting, at);
     const Piece was = cutting->piece[at];
     float       weight[3];
@@ -279,18 +260,15 @@ static DpStatus begin(Cutting* cutting, const double* point, int points, const i
     cutting->points = cutting->given = points;
     cutting->cut = dp_alloc((size_t)triangles + 1, 1);
     int* edge_of = dp_alloc(3 * (size_t)triangles + 1, sizeof *edge_of);
-    if (!cutting->cut || !edge_of || !make_room(cutting) ||
-        !with_room(&cutting->piece, (size_t)triangles, &cutting->piece_room,
-                   sizeof *cutting->piece) ||
-        !with_room(&cutting->next, 3 * (size_t)triangles, &cutting->next_room,
-                   sizeof *cutting->next)) {
+    if (!cutting->cut || !edge_of || !fit_one_more(cutting) ||
+        !dp_make_room(&cutting->piece, (size_t)triangles, sizeof *cutting->piece) ||
+        !dp_make_room(&cutting->next, 3 * (size_t)triangles, sizeof *cutting->next)) {
         dp_free(edge_of);
         return DP_NO_MEMORY;
     }
     dp_free(cutting->edge);
     cutting->edge = NULL;
     DpStatus status = dp_edges_find(triangle, triangles, edge_of, &cutting->edge, &cutting->edges);
-    cutting->edge_room = 3 * (size_t)triangles;
     memcpy(cutting->point, point, 3 * (size_t)points * sizeof *point);
     for (int t = 0; t < triangles && status == DP_OK; ++t) {
         const int apex = apex_of(cutting, triangle + 3 * (size_t)t);

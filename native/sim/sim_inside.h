@@ -46,7 +46,6 @@ typedef struct Pressing
     long       i0, j0;  // world cell of value[0]
     int        row;
     float*     value;  // sigma [Pa]
-    size_t     room;
 } Pressing;
 
 // What one thread needs for itself.
@@ -56,9 +55,8 @@ typedef struct WorkerScratch
     DpImprintScratch* imprint_scratch;
     DpSoilScratch*    soil_scratch;
     DpImprint         imprint;
-    size_t            imprint_cells;  // room in the imprint's grids
-    float*            met;            // likewise
-    DpMesh*           sole;           // of the limb at hand (as many as any limb has parts)
+    float*            met;   // as large as the imprint's grids
+    DpMesh*           sole;  // of the limb at hand (as many as any limb has parts)
     DpPose*           pose;
     DpStatus          status;
 } WorkerScratch;
@@ -76,7 +74,6 @@ typedef struct SweptSole
     bool       cast;          // the underside is known
     DpCellRect at;            // of its grids
     DpImprint  imprint;       // its own grids
-    size_t     room;          // cells of each
 } SweptSole;
 
 // Plants on the ground, and what a step tells them. Everything here is 0 on bare ground.
@@ -93,7 +90,6 @@ typedef struct PlantStage
 
     DpPlantGround* ground;  // around limbs near the ground (limbs)
     float**        height;
-    size_t*        height_room;
     int            soles, grounds;  // of this step
 } PlantStage;
 

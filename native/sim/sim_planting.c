@@ -170,8 +170,7 @@ DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs)
     m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
     m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
     m->height = dp_alloc((size_t)limbs, sizeof *m->height);
-    m->height_room = dp_alloc((size_t)limbs, sizeof *m->height_room);
-    const bool made = m->swept && m->sole && m->ground && m->height && m->height_room;
+    const bool made = m->swept && m->sole && m->ground && m->height;
     return made ? DP_OK : DP_NO_MEMORY;
 }
 
@@ -183,7 +182,6 @@ void dp_stage_drop(DpSim* sim)
         dp_free(m->swept[n].imprint.cover);
     }
     for (int l = 0; m->height && l < m->limbs; ++l) dp_free(m->height[l]);
-    dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height),
-        dp_free(m->height_room);
+    dp_free(m->swept), dp_free(m->sole), dp_free(m->ground), dp_free(m->height);
     *m = dp_stage_empty(m);
 }

@@ -13,16 +13,6 @@
 #define RISE_TIME 0.1      // in which a sole that let go is where it was recorded [s]
 #define SETTLED_MARGIN 16  // cells around trodden ground whose soil came to rest
 
-static bool make_room(float** grid, size_t* room, size_t cells)
-{
-    if (cells <= *room) return true;
-    dp_free(*grid);
-    *room = cells + cells / 4;
-    *grid = dp_alloc(*room, sizeof **grid);
-    if (!*grid) *room = 0;
-    return *grid != NULL;
-}
-
 // the surface around a limb: what its soles can push plants onto, and what its soil moved
 static DpStatus take_ground(DpSim* sim, const Limb* limb, DpCellRect near)
 {
@@ -37,8 +27,9 @@ static DpStatus take_ground(DpSim* sim, const Limb* limb, DpCellRect near)
     if (dp_cells_empty(at)) return DP_OK;
     const DpStatus status = dp_terrain_touch(sim->terrain, at);
     if (status != DP_OK) return status;
-    const int l = m->grounds, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
-    if (!make_room(&m->height[l], &m->height_room[l], (size_t)nx * (size_t)ny)) return DP_NO_MEMORY;
+    const int    l = m->grounds, nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
+    const size_t cells = (size_t)nx * (size_t)ny;
+    if (!dp_make_room(&m->height[l], cells, sizeof *m->height[l])) return DP_NO_MEMORY;
     dp_terrain_surface(sim->terrain, at.i0, at.j0, nx, ny, m->height[l]);
     m->ground[l] = (DpPlantGround){.nx = nx,
                                    .ny = ny,

@@ -16,23 +16,12 @@
 static DpStatus fit_imprint(WorkerScratch* scratch, const DpSoilPatch* patch)
 {
     const size_t cells = (size_t)patch->row * (size_t)patch->ny;
-    if (cells > scratch->imprint_cells) {
-        dp_free(scratch->imprint.bottom);
-        dp_free(scratch->imprint.cover);
-        dp_free(scratch->imprint.ring);
-        dp_free(scratch->met);
-        scratch->imprint.bottom = dp_alloc(cells, sizeof(float));
-        scratch->imprint.cover = dp_alloc(cells, sizeof(float));
-        scratch->imprint.ring = dp_alloc(cells, sizeof(int32_t));
-        scratch->met = dp_alloc(cells, sizeof(float));
-        scratch->imprint_cells = cells;
-        if (!scratch->imprint.bottom || !scratch->imprint.cover || !scratch->imprint.ring ||
-            !scratch->met) {
-            scratch->imprint_cells = 0;
-            return DP_NO_MEMORY;
-        }
-    }
-    return DP_OK;
+    DpImprint*   imprint = &scratch->imprint;
+    const bool   fits = dp_make_room(&imprint->bottom, cells, sizeof *imprint->bottom) &&
+                      dp_make_room(&imprint->cover, cells, sizeof *imprint->cover) &&
+                      dp_make_room(&imprint->ring, cells, sizeof *imprint->ring) &&
+                      dp_make_room(&scratch->met, cells, sizeof *scratch->met);
+    return fits ? DP_OK : DP_NO_MEMORY;
 }
 
 // the ground as the limb's stance met it, in the patch's rows

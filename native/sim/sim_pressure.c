@@ -7,12 +7,7 @@
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch)
 {
     const size_t cells = (size_t)patch->row * (size_t)patch->ny;
-    if (cells > pressing->room) {
-        dp_free(pressing->value);
-        pressing->value = dp_alloc(cells, sizeof *pressing->value);
-        pressing->room = pressing->value ? cells : 0;
-        if (!pressing->value) return DP_NO_MEMORY;
-    }
+    if (!dp_make_room(&pressing->value, cells, sizeof *pressing->value)) return DP_NO_MEMORY;
     memset(pressing->value, 0, cells * sizeof *pressing->value);
     pressing->i0 = limb->patch.i0, pressing->j0 = limb->patch.j0;
     pressing->row = patch->row;

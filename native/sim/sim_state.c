@@ -190,7 +190,6 @@ static void read_limb(DpStateReader* reader, Limb* limb, Pressing* pressing, boo
     pressing->i0 = pressing->at.i0, pressing->j0 = pressing->at.j0;
     if (!pressing->value) pressing->at = (DpCellRect){0, 0, 0, 0};
     pressing->row = (int)(pressing->at.i1 - pressing->at.i0);
-    pressing->room = (size_t)pressing->row * (size_t)(pressing->at.j1 - pressing->at.j0);
 }
 
 static DpSimReport read_report(DpStateReader* reader, uint32_t version)

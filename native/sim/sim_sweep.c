@@ -56,19 +56,6 @@ SweptSole* dp_sweep_path(DpSim* sim, int part, int sample)
     return swept;
 }
 
-static bool make_room(SweptSole* swept, size_t cells)
-{
-    DpImprint* imprint = &swept->imprint;
-    if (cells <= swept->room) return true;
-    dp_free(imprint->bottom), dp_free(imprint->cover);
-    swept->room = cells + cells / 4;
-    imprint->bottom = dp_alloc(swept->room, sizeof(float));
-    imprint->cover = dp_alloc(swept->room, sizeof(float));
-    if (imprint->bottom && imprint->cover) return true;
-    swept->room = 0;
-    return false;
-}
-
 DpStatus dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch* scratch)
 {
     if (swept->cast) return DP_OK;
@@ -76,7 +63,10 @@ DpStatus dp_sweep_cast(DpSim* sim, SweptSole* swept, int part, DpImprintScratch*
     const DpCellRect at = dp_sim_cells(sim, to.x0, to.y0, to.x1, to.y1);
     const int        nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
     const size_t     cells = (size_t)nx * (size_t)ny;
-    if (!make_room(swept, cells)) return DP_NO_MEMORY;
+    DpImprint*       own = &swept->imprint;
+    if (!dp_make_room(&own->bottom, cells, sizeof *own->bottom) ||
+        !dp_make_room(&own->cover, cells, sizeof *own->cover))
+        return DP_NO_MEMORY;
     const DpSoilPatch patch = {.nx = nx,
                                .ny = ny,
                                .row = nx,

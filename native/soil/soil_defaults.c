@@ -40,11 +40,5 @@ void dp_soil_scratch_destroy(DpSoilScratch* scratch)
 
 void* dp_soil_scratch_block(DpSoilScratch* scratch, size_t bytes)
 {
-    if (scratch->bytes >= bytes) return scratch->block;
-    void* block = dp_alloc(bytes + bytes / 2, 1);
-    if (!block) return NULL;
-    dp_free(scratch->block);
-    scratch->block = block;
-    scratch->bytes = bytes + bytes / 2;
-    return block;
+    return dp_make_room(&scratch->block, bytes, 1) ? scratch->block : NULL;
 }

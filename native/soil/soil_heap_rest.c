@@ -191,8 +191,8 @@ static bool reaches_out(const Heap* heap)
     return false;
 }
 
-// room for `apexes` and for a window as large as the patch; NULL when there is none
-static void* make_room(const DpSoilPatch* patch, size_t apexes, DpSoilScratch* scratch)
+// a block for `apexes` and for a window as large as the patch; NULL when there is no memory
+static void* block_for(const DpSoilPatch* patch, size_t apexes, DpSoilScratch* scratch)
 {
     const size_t row = even_row(patch->nx), cells = row * ((size_t)patch->ny + 2);
     return dp_soil_scratch_block(scratch, apexes + (3 * cells + row) * sizeof(int32_t));
@@ -207,7 +207,7 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     const double area = patch->cell * patch->cell;
     heap.hollow = hollow_under(patch, imprint);
     const size_t apexes = (count_border(patch, imprint) * sizeof(Apex) + 63) / 64 * 64;
-    char*        block = make_room(patch, apexes, scratch);
+    char*        block = block_for(patch, apexes, scratch);
     if (!block) return DP_NO_MEMORY;
     heap.apex = (Apex*)(void*)block;
     find_apexes(&heap, shares, &width, &border);

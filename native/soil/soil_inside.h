@@ -9,8 +9,7 @@
 
 struct DpSoilScratch
 {
-    void*  block;
-    size_t bytes;
+    void* block;
 };
 
 // At least `bytes` of 64-byte aligned memory, contents undefined; NULL when there is none.

@@ -121,9 +121,9 @@ struct DpTerrain
 
     Tile**        slot;  // hash of (tx, ty): a power of two of slots, at most half of them full
     size_t        slots;
-    Tile**        sorted;       // all tiles, ascending (ty, tx)
-    Tile**        marked;       // tiles changed since the last dp_terrain_changed, in any order
-    size_t        tiles, room;  // how many there are; how many sorted and marked can hold
+    Tile**        sorted;  // all tiles, ascending (ty, tx)
+    Tile**        marked;  // tiles changed since the last dp_terrain_changed, in any order
+    size_t        tiles;   // how many there are
     atomic_size_t marks;
 };
 

@@ -17,9 +17,8 @@ struct DpLease
 {
     DpSoilPatch patch;
     long        i0, j0;  // world cell of the patch's cell (0, 0)
-    float*      grid;    // (FLOAT_GRIDS, room)
+    float*      grid;    // (FLOAT_GRIDS, cells)
     uint8_t*    kind;
-    size_t      room;  // cells of each
 };
 
 DpLease* dp_lease_create(void)
@@ -33,25 +32,6 @@ void dp_lease_destroy(DpLease* lease)
     dp_free(lease->grid);
     dp_free(lease->kind);
     dp_free(lease);
-}
-
-static bool make_room(DpLease* lease, size_t cells)
-{
-    if (cells <= lease->room) return true;
-    const size_t room = (cells + cells / 4 + ROW_STEP - 1) / ROW_STEP * ROW_STEP;
-    float*       grid = dp_alloc(room, FLOAT_GRIDS * sizeof *grid);
-    uint8_t*     kind = dp_alloc(room, sizeof *kind);
-    if (!grid || !kind) {
-        dp_free(grid);
-        dp_free(kind);
-        return false;
-    }
-    dp_free(lease->grid);
-    dp_free(lease->kind);
-    lease->grid = grid;
-    lease->kind = kind;
-    lease->room = room;
-    return true;
 }
 
 // what kernels may read beyond the end of a row: no ground, at rest
@@ -122,10 +102,13 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
     const DpStatus status = dp_terrain_touch(terrain, cells);
     if (status != DP_OK) return status;
 
-    const int row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
-    if (!make_room(lease, (size_t)row * (size_t)ny)) return DP_NO_MEMORY;
+    const int    row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
+    const size_t room = (size_t)row * (size_t)ny;
+    if (!dp_make_room(&lease->grid, room, FLOAT_GRIDS * sizeof *lease->grid) ||
+        !dp_make_room(&lease->kind, room, sizeof *lease->kind))
+        return DP_NO_MEMORY;
     float* grid[FLOAT_GRIDS];
-    for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = lease->grid + g * lease->room;
+    for (size_t g = 0; g < FLOAT_GRIDS; ++g) grid[g] = lease->grid + g * room;
     const DpSoilPatch acquired = {.nx = (int)nx,
                                   .ny = (int)ny,
                                   .row = row,

@@ -217,7 +217,7 @@ static void borrow(DpTerrain* ground, const DpTerrain* terrain)
 {
     memcpy(ground, terrain, sizeof *ground);
     ground->sorted = ground->marked = ground->slot = NULL;
-    ground->slots = ground->tiles = ground->room = 0;
+    ground->slots = ground->tiles = 0;
     atomic_init(&ground->marks, 0);
 }
 
@@ -261,7 +261,7 @@ void dp_terrain_restore(DpTerrain* terrain, DpTerrainState* state)
     drop_tiles(terrain);
     terrain->sorted = ground->sorted, terrain->marked = ground->marked;
     terrain->slot = ground->slot, terrain->slots = ground->slots;
-    terrain->tiles = ground->tiles, terrain->room = ground->room;
+    terrain->tiles = ground->tiles;
     atomic_store(&terrain->marks, 0);
     for (size_t t = 0; t < terrain->tiles; ++t)
         if (state->kept[t] || terrain->cover) dp_tile_mark(terrain, terrain->sorted[t]);

@@ -51,19 +51,12 @@ TilePart dp_tile_part(long tx, long ty, DpCellRect cells)
 // ---- creating them -----------------------------------------------------------------------------
 
 // room for `more` tiles in the lists and the hash; without memory all stays as it was
-static bool make_room(DpTerrain* terrain, size_t more)
+static bool fit_tiles(DpTerrain* terrain, size_t more)
 {
     const size_t wanted = terrain->tiles + more;
-    if (wanted > terrain->room) {
-        const size_t room = wanted + wanted / 2 + 16;
-        Tile**       sorted = dp_realloc(terrain->sorted, room, sizeof *sorted);
-        if (!sorted) return false;
-        terrain->sorted = sorted;
-        Tile** marked = dp_realloc(terrain->marked, room, sizeof *marked);
-        if (!marked) return false;
-        terrain->marked = marked;
-        terrain->room = room;
-    }
+    if (!dp_make_room(&terrain->sorted, wanted, sizeof *terrain->sorted) ||
+        !dp_make_room(&terrain->marked, wanted, sizeof *terrain->marked))
+        return false;
     if (2 * wanted > terrain->slots) {
         size_t slots = terrain->slots ? terrain->slots : 64;
         while (slots < 2 * wanted) slots *= 2;
@@ -132,7 +125,7 @@ Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 
 bool dp_tile_adopt(DpTerrain* terrain, Tile** fresh, size_t count, bool covered)
 {
-    if (!make_room(terrain, count)) return false;
+    if (!fit_tiles(terrain, count)) return false;
     Filling filling = {terrain, fresh, covered && terrain->cover};
     dp_parallel_for((int)count, terrain->workers, fill_tile, &filling);
     for (size_t t = 0; t < count; ++t)

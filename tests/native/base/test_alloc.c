@@ -35,6 +35,33 @@ TEST(refuses_what_cannot_be)
     dp_free(NULL);
 }
 
+TEST(arrays_grow_and_keep_what_they_hold)
+{
+    int*         array = NULL;
+    const size_t live = dp_bytes_live();
+    CHECK(dp_make_room(&array, 0, sizeof *array) && !array);
+    int moves = 0;
+    for (int n = 0; n < 1000; ++n) {
+        const int* was = array;
+        CHECK(dp_make_room(&array, (size_t)n + 1, sizeof *array));
+        moves += array != was;
+        CHECK(array[n] == 0);  // what is new is zero
+        array[n] = n;
+    }
+    for (int n = 0; n < 1000; ++n) CHECK(array[n] == n);
+    CHECK(moves > 5 && moves < 30);
+    const int* was = array;
+    CHECK(dp_make_room(&array, 10, sizeof *array) && array == was);  // it never shrinks
+    CHECK(dp_bytes_live() - live >= 4000 && dp_bytes_live() - live <= 6000);
+    CHECK(dp_make_room(&array, 400, 10) && array == was);  // bytes count, not items
+    dp_alloc_fail_after(0);
+    CHECK(!dp_make_room(&array, 5000, sizeof *array) && array == was && array[999] == 999);
+    dp_alloc_fail_after(-1);
+    CHECK(!dp_make_room(&array, SIZE_MAX / 2, 8) && !dp_make_room(&array, SIZE_MAX, 1));
+    CHECK(array == was);
+    dp_free(array);
+}
+
 static void mark(void* context, int index, int worker)
 {
     atomic_int* count = context;
@@ -56,13 +83,14 @@ TEST(every_item_once)
 
 TEST(every_status_has_words)
 {
-    for (int s = DP_OK; s <= DP_BAD_FILE; ++s) CHECK(strlen(dp_status_text((DpStatus)s)) > 5);
+    for (int s = DP_OK; s <= DP_BAD_PACKING; ++s) CHECK(strlen(dp_status_text((DpStatus)s)) > 5);
 }
 
 int main(void)
 {
     RUN(counts_what_is_lent);
     RUN(refuses_what_cannot_be);
+    RUN(arrays_grow_and_keep_what_they_hold);
     RUN(every_item_once);
     RUN(every_status_has_words);
     return check_done();
