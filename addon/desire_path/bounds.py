@@ -22,6 +22,7 @@ CELL_BYTES = 60  # of memory, for each cell of a frame
 PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
 REST_BYTES = 0.028  # of a frame's file, for each cell of untouched ground
 PRINT_BYTES = 8.0  # of a frame's file, for each cell of a print
+STATES, STATE_BYTES = 2, 12.0  # of those that are kept to go on from, for each cell of a print
 ADVICE = {  # name: (unit, what to do)
     "frames": ("frames", "let it end earlier"),
     "seconds": ("seconds of walking", "let it end earlier"),

@@ -89,7 +89,7 @@ static PyObject* film_list_files(PyObject* object, PyObject* args)
         return NULL;
     DpStatus status = DP_OK;
     Py_BEGIN_ALLOW_THREADS
-    for (int which = TRAIL; which <= LEAN && status == DP_OK; ++which)
+    for (int which = TRAIL; which < FILMS && status == DP_OK; ++which)
         if (self->film[which]) status = dp_film_list(self->film[which], path);
     Py_END_ALLOW_THREADS
     self->simulation->busy = false;
@@ -214,7 +214,8 @@ static PyMethodDef methods[] = {
     {"open_maps", film_open_maps, METH_VARARGS,
      "open_maps(((name, field), ..), ((name, str or float), ..)): channels and notes of the maps."},
     {"list_files", film_list_files, METH_VARARGS,
-     "list_files(path): add each frame's file from now on to this list: name, size, digest."},
+     "list_files(path): add each file of frames and maps from now on to this list: name, size, "
+     "digest."},
     {"write_frame", film_write_frame, METH_VARARGS,
      "write_frame(path or None, time, lean=False): take in the tiles that changed and write the "
      "frame, in the background; tells how those before went."},

@@ -236,6 +236,21 @@ def test_a_bake_that_was_stopped(folder):
     assert ground.desire_path.bake_state == "OUTDATED" and shown(ground, 12)[0].tobytes() == before.tobytes()
 
 
+def test_a_bake_that_was_stopped_goes_on_from_there(folder):
+    ground, _ = scene(folder, frames=12, cell=0.03)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    names = ("frames/trail_0012.exr", "maps_final.exr", "maps_start.exr")
+    want = [(folder / "bake" / name).read_bytes() for name in names]
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    stopped(0.4)
+    job = bake_job.Job(bpy.context.scene, bpy.context.object)
+    come = [job.fraction for _ in job.run() if job.fraction]
+    assert come[0] > 0.4 and come[-1] == 1.0  # nothing of before was simulated again
+    job.finish()
+    assert ground.desire_path.bake_state == "FRESH"
+    assert [(folder / "bake" / name).read_bytes() for name in names] == want
+
+
 def test_a_first_bake_in_another_file_that_was_stopped(folder):
     ground, walker = saved(folder / "one.blend", frames=12, cell=0.03)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}

@@ -12,8 +12,8 @@
     folder/report.json             what happened, in numbers
 
 A bake grows in folder/bake.new and takes the place of an earlier one, which is shown until then, when it is
-whole: output.py says how. One that was stopped stays: the same bake started again goes on from its last
-whole frame. Files of others in these folders are left alone.
+whole: output.py says how. One that was stopped stays: the same bake started again goes on from its last state, see
+state.py. Files of others in these folders are left alone.
 """
 
 from __future__ import annotations
@@ -44,6 +44,7 @@ from ..version import VERSION
 from .folder import FORMAT, FrameIndex, free, read_index  # noqa: F401  (found here by those who bake)
 from .output import Output
 from .share import Share
+from .state import States
 
 SAMPLE_RATE = 120.0  # at least so many steps a second, more for small creatures (size.hurry) [1/s]
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
@@ -227,8 +228,10 @@ class Bake:
         self.limits.check("memory", bounds.CELL_BYTES * sum(cells))
         count, taken = self.frame_end - self.frame_start + 1, 0.0
         for share, held in zip(self.shares, cells):
-            pressed = bounds.pressed_area(self.gait, share.loads.touching) / self.cell_size**2
-            taken += count * bounds.frame_bytes(held, pressed / len(self.shares), bool(share.plants))
+            pressed = bounds.pressed_area(self.gait, share.loads.touching) / self.cell_size**2 / len(self.shares)
+            left = count - max(share.found, 0)
+            taken += left * bounds.frame_bytes(held, pressed, bool(share.plants))
+            taken += bounds.STATES * bounds.STATE_BYTES * pressed
             if share.parcel.plant_mesh:
                 taken += plant_mesh.size(share.sim, count, share.plants)
         self.limits.check("disk", taken, self.folder)
@@ -393,16 +396,14 @@ class Bake:
     def _into(self):
         seconds = {"total": time.perf_counter()}
         self._check_soles()
-        sims = self._simulations()
-        self._check_grounds()
+        sims, states = self._restored()
         seconds["loads"] = time.perf_counter() - seconds["total"]
         seconds["step"] = seconds["write"] = 0.0
         try:
-            signature = self._signature()
             for share in self.shares:
-                share.begin(signature)
-            yield from self._frames(sims, seconds)
-            self._end(sims, seconds)
+                share.begin(states)
+            yield from self._frames(sims, states, seconds)
+            self._end(sims, states, seconds)
         except BaseException:
             for sim in sims:
                 with contextlib.suppress(OSError):
@@ -412,6 +413,7 @@ class Bake:
                 share.stop()
             raise
         try:
+            states.drop()
             for share in self.shares:
                 share.ready()
         except BaseException:
@@ -421,12 +423,25 @@ class Bake:
         for share in self.shares:
             share.out.publish()
 
-    def _frames(self, sims, seconds):
-        """Simulate and write."""
+    def _restored(self):
+        """(simulations, their States) as they were when the same bake was stopped; else at their begin."""
+        signature, refused = self._signature(), {}
+        while True:
+            sims = self._simulations()
+            for share in self.shares:
+                share.find(signature)
+            self._check_grounds()
+            states = States(self.shares, signature, refused)
+            if states.restore():
+                return sims, states
+
+    def _frames(self, sims, states, seconds):
+        """Simulate and write what comes after the frame at which the States stand."""
         count = self.frame_end - self.frame_start + 1
-        for share in self.shares:
-            share.write(0, 0.0)
-        for number in range(1, count + 1):
+        if not states.frame:
+            for share in self.shares:
+                share.write(0, 0.0)
+        for number in range(states.frame + 1, count + 1):
             frame = self.frame_start + number - 1
             begun = time.perf_counter()
             for sim in sims:
@@ -434,15 +449,21 @@ class Bake:
             stepped = time.perf_counter()
             for share in self.shares:
                 share.write(number, self.time(frame))
-                if self.map_seconds:
-                    share.second(frame)
+                share.map(frame)
+            if number < count:
+                states.after(number)
             seconds["step"] += stepped - begun
             seconds["write"] += time.perf_counter() - stepped
-            yield Progress(frame, number / count)
+            try:
+                yield Progress(frame, number / count)
+            except GeneratorExit:  # stopped by who has started it
+                with contextlib.suppress(OSError):
+                    states.keep(number)
+                raise
         for sim in sims:
             sim.flush()
 
-    def _end(self, sims, seconds):
+    def _end(self, sims, states, seconds):
         """The last maps and the reports; grounds nobody has pressed are as they were."""
         if len(self.parcels) > 1:
             pressed = [share for share in self.shares if share.is_pressed()]
@@ -459,7 +480,7 @@ class Bake:
         for sim in sims:
             sim.flush()
         seconds["total"] = time.perf_counter() - seconds["total"]
-        self.report = self._report(sims, seconds)
+        self.report = self._report(sims, states, seconds)
         for share in self.shares:
             share.tell(self._told(share))
 
@@ -476,11 +497,11 @@ class Bake:
             return float(self.times[self._sample(frame)])
         return (frame - self.gait.frame_start) / self.frame_rate
 
-    def _report(self, sims, seconds):
+    def _report(self, sims, states, seconds):
         found = [sim.report() for sim in sims]
         total = {name: sum(each[name] for each in found) for name in found[0]}
         left = [each for sim in sims for each in sim.warnings]
-        warnings = list(dict.fromkeys([*self.warnings, *self.loads.warnings, *self.lost, *left]))
+        warnings = list(dict.fromkeys([*self.warnings, *self.loads.warnings, *self.lost, *left, *states.warnings]))
         if any(
             each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)
         ):

@@ -11,7 +11,7 @@ import os
 import struct
 from dataclasses import dataclass, field
 
-from ..core import _native
+from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
 from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
@@ -21,6 +21,7 @@ INPUTS = "inputs"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
 MOST_SIDE = 1 << 30  # cells of a frame
+AT_ONCE = 64  # frames are looked at
 MOST_FRAME = 1 << 31  # a frame's number may be
 
 
@@ -114,9 +115,9 @@ def _is_whole_frame(path):
 
 
 def list_sums(frames, known):
-    """Begin the list of checksums with those of frames that are there already, a dict by name. The core adds each file
-    as soon as it is there (Film.list_files): what a bake that goes on may rely on."""
-    with open(os.path.join(frames, SUMS), "x", encoding="utf-8") as file:
+    """Begin the list of checksums with those of frames and maps that are there already, a dict by name. The core adds
+    each file as soon as it is there (Film.list_files): what a bake that goes on may rely on."""
+    with atomic_file.file(os.path.join(frames, SUMS), "The list of checksums", "w", False, encoding="utf-8") as file:
         file.writelines(f"{name} {found}\n" for name, found in known.items())
 
 
@@ -129,7 +130,7 @@ def _sum(path):
 
 def frames_sound(frames, lean):
     """(how many frames are bit for bit what was written, from number 1 on, -1 without the ground at rest; their
-    checksums by name)."""
+    checksums by name; those of all files that were written)."""
     known, sound, number = {}, {}, -1
     try:
         with atomic_file.reader(os.path.join(frames, SUMS)) as file:
@@ -137,17 +138,24 @@ def frames_sound(frames, lean):
                 name, _, found = line.decode("ascii", "replace").strip().partition(" ")
                 known[name] = found
     except OSError:
-        return -1, {}
+        return -1, {}, {}
     while True:
-        names = [frame_name(number + 1, film) for film in _films(lean)]
-        try:
-            paths = [os.path.join(frames, name) for name in names]
-            if any(not disk.is_plain(path) or _sum(path) != known[name] for path, name in zip(paths, names)):
-                return number, sound
-        except (OSError, KeyError):
-            return number, sound
-        sound.update((name, known[name]) for name in names)
-        number += 1
+        next_ones = range(number + 1, number + 1 + AT_ONCE)
+        names = [[frame_name(each, film) for film in _films(lean)] for each in next_ones]
+        for several, good in zip(names, side_by_side(lambda of: all(is_sound(frames, n, known) for n in of), names)):
+            if not good:
+                return number, sound, known
+            sound.update((name, known[name]) for name in several)
+            number += 1
+
+
+def is_sound(folder, name, known):
+    """Whether a file is bit for bit what was written; known: checksums by name."""
+    path = os.path.join(folder, name)
+    try:
+        return name in known and disk.is_plain(path) and _sum(path) == known[name]
+    except OSError:
+        return False
 
 
 # ---- the index ----------------------------------------------------------------------------------------------

@@ -45,6 +45,10 @@ FRAMES = (
     "index.json",
     "index.json.*part",
     "trail_sums.txt",
+    "trail_sums.txt.*part",
+    "bake_*.state",
+    "bake_*.state.*part",
+    "plants.pc2.part",
 )
 MAPS = ("second_*.exr", "second_*.part", "pass_*.exr", "pass_*.part")
 FILES = ("maps_start.exr", "maps_final.exr", "report.json", "plants.pc2", "plants.npz")
@@ -212,9 +216,9 @@ class Output:
         delete(os.path.join(self.folder, ""), PARTS, itself=False)
 
     def fresh(self, keep=()):
-        """Make bake.new with its folders; what is in it goes, but the files of `frames` in `keep`."""
+        """Make bake.new with its folders; what is in it goes, but the frames and maps in `keep`."""
         for name, patterns in INSIDE.items():
-            delete(self.path(name), patterns, keep if name == "frames" else ())
+            delete(self.path(name), patterns, keep if name else ())
         for name in ("frames", "maps"):
             os.makedirs(self.path(name), exist_ok=True)
 

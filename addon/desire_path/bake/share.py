@@ -19,10 +19,12 @@ from ..files import atomic_file
 from ..ground import maps, plant_mesh
 from ..ground.sim import TILE
 from ..version import VERSION
-from .folder import FORMAT, INPUTS, OWNER, SUMS, frame_path, frames_sound, list_sums, told
+from .folder import FORMAT, INPUTS, OWNER, SUMS, frame_path, frames_sound, is_sound, list_sums, told
 from .output import Output
 
 MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
+PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it grows
+MAP_FILMS = ("second_", "pass_")
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
 
 
@@ -34,7 +36,10 @@ class Share:
         self.bake, self.parcel, self.sim, self.loads, self.tiles = bake, parcel, sim, loads, tiles
         self.plants = parcel.plants
         self.out = Output(parcel.folder, parcel.owner)
-        self.films = self.start = self.done = self.mesh = None
+        self.films = self.start = self.mesh = None
+        self.done = None  # frames that are there already, -1 = not even the ground at rest; None until begin()
+        self.place, self.sums = None, {}  # where they lie, a folder as bake.new, and the checksums of their files
+        self.sound_to = -1  # up to this frame all files are there, maps too
         self.report = None
         self.final = None  # the planes of maps_final.exr, when the bake is whole
 
@@ -45,50 +50,79 @@ class Share:
 
     # ---- what is made ---------------------------------------------------------------------------
 
-    def begin(self, signature):
-        """Open its films and its files; what the very same bake left there is kept."""
+    def find(self, signature):
+        """Look at what the very same bake left, and at the ground before its first step."""
         bake = self.bake
-        self.films = self.sim.open_frames(*self.tiles)
-        self.films.open_maps([entry.name for entry in self._fields()], self._notes())
-        self.start = self._start_maps()
         self.index = self._index(signature)
-        self._prepare()
+        self._find()
+        self.start = self._start_maps()
         if self.parcel.plant_mesh and (len(bake.parcels) == 1 or self._is_planted()):
             count = bake.frame_end - bake.frame_start + 1
-            self.mesh = plant_mesh.Writer(self.sim, self.out.new, bake.frame_start, count, self.plants)
+            self.mesh = plant_mesh.Writer(self.sim, bake.frame_start, count, self.plants)
+
+    def begin(self, states):
+        """Open its films and its files where the States of the bake stand; what was found and still counts is kept."""
+        self.films = self.sim.open_frames(*self.tiles)
+        self.films.open_maps([entry.name for entry in self._fields()], self._notes())
+        fresh = self.out.path("frames")
+        try:
+            self._keep(states)
+            self._write_json(("frames", "index.json"), self.index, "The index of the frames")
+            list_sums(fresh, self.sums)
+            self.films.list_files(os.path.join(fresh, SUMS))
+            if self.mesh:
+                self.mesh.open(os.path.join(fresh, PLANTS), states.frame)
+            self.done = self.found
+        except OSError as problem:
+            raise DesirePathError(
+                f"The folder {self.out.folder} cannot be written ({problem.strerror}): choose another one."
+            ) from None
 
     def _is_planted(self):
         return any(self.sim.plantings[number] in self.plants for _, number, _ in self.sim.stands)
 
-    def _prepare(self):
-        """How many frames of the very same bake are in bake.new already (-1 = none); those to come are listed."""
-        out, index = self.out, self.index
-        fresh, shown = out.path("frames"), os.path.join(out.folder, "frames")
-        done, sound, place = -1, {}, None
-        for each in (fresh, shown):
-            old = told(each)
+    def _find(self):
+        """Which frames and maps of the very same bake are there, bit for bit."""
+        self.found = -1  # frames
+        for place in (self.out.new, self.out.folder):
+            old = told(os.path.join(place, "frames"))
             if (
                 self.bake.resume
                 and old
-                and (each == fresh or not old.get("complete"))
-                and all(old.get(name) == index.get(name) for name in ("signature", OWNER))
+                and (place == self.out.new or not old.get("complete"))
+                and all(old.get(name) == self.index.get(name) for name in ("signature", OWNER))
             ):
-                there, found = frames_sound(each, bool(self.plants))
-                if there > done:
-                    done, sound, place = there, found, each
-        try:
-            out.fresh(keep=sound if place == fresh else ())
-            if place == shown:
-                for name in sound:  # what is shown stays until the bake is whole
-                    _link(os.path.join(shown, name), os.path.join(fresh, name))
-            self._write_json(("frames", "index.json"), index, "The index of the frames")
-            list_sums(fresh, sound)
-            self.films.list_files(os.path.join(fresh, SUMS))
-            self.done = done
-        except OSError as problem:
-            raise DesirePathError(
-                f"The folder {out.folder} cannot be written ({problem.strerror}): choose another one."
-            ) from None
+                there, sums, known = frames_sound(os.path.join(place, "frames"), bool(self.plants))
+                if there > self.found:
+                    self.found, self.sums, self.place, listed = there, sums, place, known
+        self.sound_to = self.found
+        for number in range(1, self.found + 1):
+            name = self.map_name(self.bake.frame_start + number - 1)
+            if name and not is_sound(os.path.join(self.place, "maps"), name, listed):
+                self.sound_to = number - 1
+                break
+            if name:
+                self.sums[name] = listed[name]
+
+    def _keep(self, states):
+        """Let bake.new hold what was found and still counts, and nothing else."""
+        later = {self.map_name(self.bake.frame_start + number) for number in range(states.frame, self.sound_to)}
+        self.sums = {name: found for name, found in self.sums.items() if name not in later}
+        kept = [*self.sums, *states.names(self), *([PLANTS] if self.mesh and states.frame else [])]
+        here = self.place == self.out.new
+        self.out.fresh(keep=[*kept, SUMS, "index.json"] if here else ())
+        if self.place and not here:
+            for name in kept:  # what is shown stays until the bake is whole
+                folder = "maps" if name.startswith(MAP_FILMS) else "frames"
+                _link(os.path.join(self.place, folder, name), self.out.path(folder, name))
+
+    def plants_known(self, frame):
+        """Digest of the plants' mesh that was written up to a frame; None where none is."""
+        return self.mesh and self.mesh.known(os.path.join(self.place, "frames", PLANTS), frame)
+
+    def plants_digest(self):
+        """The same of what was written by now."""
+        return self.mesh and self.mesh.digest()
 
     def write(self, number, seconds):
         """One frame of every film, and the plants, unless it is there already."""
@@ -99,20 +133,26 @@ class Share:
         if self.mesh and number:
             self.mesh.add(self.sim)
 
-    def second(self, frame):
-        """After every whole simulated second, TRAIL (17); after a pass, where a frame is one."""
-        bake, name = self.bake, None
+    def map_name(self, frame):
+        """Of the map of a scene frame, if it has one: after every whole simulated second, TRAIL (17); after a pass,
+        where a frame is one."""
+        bake = self.bake
+        if not bake.map_seconds:
+            return None
         if bake.film == "passes":
             number = frame - bake.gait.frame_start + 1
-            if number % -(-len(bake.passes) // MOST_PASS_MAPS) == 0:
-                name = f"pass_{number:04d}.exr"
-        else:
-            elapsed = frame - bake.frame_start
-            before, now = ((elapsed - 1) / bake.frame_rate, elapsed / bake.frame_rate)
-            if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
-                name = f"second_{math.floor(now + 1e-9):04d}.exr"
+            return None if number % -(-len(bake.passes) // MOST_PASS_MAPS) else f"pass_{number:04d}.exr"
+        elapsed = frame - bake.frame_start
+        before, now = ((elapsed - 1) / bake.frame_rate, elapsed / bake.frame_rate)
+        if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
+            return f"second_{math.floor(now + 1e-9):04d}.exr"
+        return None
+
+    def map(self, frame):
+        """The map of a scene frame, if it has one."""
+        name = self.map_name(frame)
         if name:
-            self.films.write_maps(self.out.path("maps", name), bake.time(frame))
+            self.films.write_maps(self.out.path("maps", name), self.bake.time(frame))
 
     def end(self):
         """The first and the last maps."""
@@ -124,7 +164,7 @@ class Share:
         )
         self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
         if self.mesh:
-            self.mesh.finish(self.sim)
+            self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 
     def tell(self, report):
         """The bake is whole: write its report and say so in its index."""

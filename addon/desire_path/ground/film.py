@@ -30,8 +30,8 @@ class Film:
         self._core.open_maps((shown, *((maps.channel(name), FIELDS[name].number) for name in names)), tuple(notes))
 
     def list_files(self, path):
-        """Add each frame's file from now on, when it is there, to the list in this file: its name, how many bytes it
-        has, and their digest. Before the first frame."""
+        """Add each file of frames and maps from now on, when it is there, to the list in this file: its name, how many
+        bytes it has, and their digest. After open_maps() and before the first frame."""
         self._core.list_files(str(path))
 
     def write_frame(self, path, time):

@@ -11,6 +11,7 @@ trodden they are shown down for as long as the grass around them lies (Simulatio
 
 from __future__ import annotations
 
+import hashlib
 import os
 import struct
 
@@ -79,31 +80,73 @@ def size(sim, frames, plantings=None):
 
 
 class Writer:
-    """Writes both files into a folder while a bake runs: add() once a frame, then finish(); close() in any case."""
+    """Writes both files while a bake runs: open() where the cache is to grow, add() once a frame, then finish();
+    close() in any case. It begins with the plants as they are when it is made."""
 
-    def __init__(self, sim, folder, frame_start, frames, plantings=None):
+    def __init__(self, sim, frame_start, frames, plantings=None):
         """plantings: the Plantings whose plants are written, default: all of the simulation"""
-        self.folder, self.frames = folder, frames
         self.stands = _of(sim, plantings)
         sim.lay_plants()
         self.mesh = build(sim, self.stands)
         count = len(self.mesh["vertices"])
-        self._file = open(os.path.join(folder, "plants.pc2"), "xb")  # noqa: SIM115  (open as long as the bake runs)
-        self._file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames))
+        self._header = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames)
+        self._frame_size = 12 * count
+        self._file = None
+
+    def known(self, path, frames):
+        """Digest of the beginning of a cache that holds `frames` of these plants, as digest() told it; "" if it is too
+        short or cannot be read."""
+        digest, left = hashlib.blake2b(), len(self._header) + frames * self._frame_size
+        try:
+            with atomic_file.reader(path) as file:
+                while left:
+                    piece = file.read(min(left, 1 << 22))
+                    if not piece:
+                        return ""
+                    digest.update(piece)
+                    left -= len(piece)
+        except OSError:
+            return ""
+        return digest.hexdigest()
+
+    def open(self, path, frames=0):
+        """Begin the cache, or go on in one that is there after so many of its `frames`."""
+        self.path = path
+        if frames == 0:
+            self._file = open(path, "xb")  # noqa: SIM115  (open as long as the bake runs)
+            self._digest = hashlib.blake2b()
+            self._write(self._header)
+            return
+        self._digest = hashlib.blake2b()
+        self._file = open(path, "r+b")  # noqa: SIM115
+        for size in [len(self._header)] + frames * [self._frame_size]:
+            self._digest.update(self._file.read(size))
+        self._file.truncate()
+
+    def _write(self, values):
+        self._file.write(values)
+        self._digest.update(values)
 
     def add(self, sim):
         """Where the plants are now, as the next frame."""
         for stand, _, _ in self.stands:
-            self._file.write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
+            self._write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
 
-    def finish(self, sim):
-        """Both files are whole now."""
+    def digest(self):
+        """Of all that was added so far, which is in the file from now on, whatever becomes of this process."""
+        self._file.flush()
+        return self._digest.hexdigest()
+
+    def finish(self, sim, cache, mesh):
+        """Both files are whole now, by the names `cache` and `mesh`."""
         self._file.close()
+        os.replace(self.path, cache)
         unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in self.stands]
         self.mesh["unbroken"] = np.concatenate(unbroken)
-        with atomic_file.file(os.path.join(self.folder, "plants.npz"), "The plants") as stream:
+        with atomic_file.file(mesh, "The plants") as stream:
             np.savez_compressed(stream, **self.mesh)
 
     def close(self):
         """No more is written."""
-        self._file.close()
+        if self._file:
+            self._file.close()

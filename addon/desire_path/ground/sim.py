@@ -272,18 +272,38 @@ class Simulation:
         """Lift all feet and let everything loose come to rest."""
         self._core.settle()
 
-    def save_state(self, path):
-        """Write what the ground has become to one file, whole or not at all, for load_state()."""
-        state = self._core.save_state()
-        with atomic_file.file(os.fspath(path), "The state") as stream:
-            stream.write(memoryview(state))
+    def state(self):
+        """What the ground has become, as bytes (a buffer), for restore()."""
+        return memoryview(self._core.save_state())
 
-    def load_state(self, path):
-        """Go on from a state: in a simulation that is made alike and has loaded the same walk, before its first step.
+    def restore(self, state):
+        """Go on from a state(): in a simulation that is made alike and has loaded the same walk, before its first step.
 
         What follows is the same, to the bit, as if it had never stopped. DesirePathError, and nothing has changed, if
-        the file is damaged or of another simulation.
+        the state is damaged or of another simulation.
         """
+        self._restore(state, "This")
+
+    def _restore(self, state, name):
+        try:
+            self._core.load_state(state)
+        except ValueError as problem:
+            if "damaged" in str(problem):
+                raise DesirePathError(
+                    f"{name} is damaged, or the state of another ground, walk or plants: run this one from its start."
+                ) from None
+            raise DesirePathError(
+                "A state can only be loaded before the first step: make the simulation anew and load the walk first."
+            ) from None
+
+    def save_state(self, path):
+        """Write state() to one file, whole or not at all, for load_state()."""
+        state = self.state()
+        with atomic_file.file(os.fspath(path), "The state") as stream:
+            stream.write(state)
+
+    def load_state(self, path):
+        """restore() from a file that save_state() wrote."""
         path = os.fspath(path)
         try:
             with open(path, "rb") as stream:
@@ -292,16 +312,7 @@ class Simulation:
             raise DesirePathError(
                 f"The state {path} cannot be read ({problem.strerror}): check its name and whose file it is."
             ) from None
-        try:
-            self._core.load_state(state)
-        except ValueError as problem:
-            if "damaged" in str(problem):
-                raise DesirePathError(
-                    f"{path} is damaged, or the state of another ground, walk or plants: run this one from its start."
-                ) from None
-            raise DesirePathError(
-                "A state can only be loaded before the first step: make the simulation anew and load the walk first."
-            ) from None
+        self._restore(state, path)
 
     def rest_plants(self, seconds):
         """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
