@@ -4,7 +4,8 @@ import bpy
 import numpy as np
 from scenes import meshes, people
 
-from desire_path.blender import compat, live, playback, state
+from desire_path.bake.bake import read_index
+from desire_path.blender import bake_job, compat, live, playback, state, timeline
 
 FRAMES = 24
 
@@ -148,3 +149,47 @@ def test_a_tree_that_others_use_is_left_to_them(folder):
     ground.desire_path.soil = "snow"
     assert live.update(bpy.context.scene) == []
     assert playback.modifier(other).node_group == tree != playback.modifier(ground).node_group
+
+
+def test_the_bar_tells_what_plays(folder):
+    ground, walker = scene(folder)
+    assert timeline.ground_of(walker) == timeline.ground_of(ground) == ground
+    state.hear()
+    state.ask(ground)
+    assert timeline.spans(ground) == [("RANGE", 1, FRAMES), ("FRESH", 1, FRAMES)]
+    ground.desire_path.soil = "mud"
+    bpy.context.view_layer.update()
+    assert timeline.spans(ground) == [("RANGE", 1, FRAMES), ("UNSURE", 1, FRAMES)]
+    state.ask(ground)
+    assert timeline.spans(ground) == [("RANGE", 1, FRAMES), ("OUTDATED", 1, FRAMES)]
+    job = bake_job.Job(bpy.context.scene, ground)
+    bake_job.again(job)
+    steps = job.run()
+    try:
+        while job.frame != 9:
+            next(steps)
+        assert timeline.spans(ground) == [("RANGE", 1, FRAMES), ("OUTDATED", 1, FRAMES), ("MAKING", 1, 9)]
+    finally:
+        bake_job.again(None)
+        steps.close()
+    playback.detach(ground)
+    for number in range(13, FRAMES + 1):
+        (folder / "frames" / f"trail_{number:04d}.exr").unlink()
+    assert timeline.spans(ground) == [("RANGE", 1, FRAMES)]
+    state.unregister()
+    assert state._scene_changed not in bpy.app.handlers.depsgraph_update_post
+
+
+def test_the_bar_of_a_stopped_bake_ends_where_it_was_stopped(folder):
+    ground, _ = scene(folder)
+    assert bpy.ops.object.desire_path_free() == {"FINISHED"}
+    job = bake_job.Job(bpy.context.scene, ground)
+    steps = job.run()
+    while job.frame != 9:
+        next(steps)
+    steps.close()
+    job.play()
+    state.ask(ground)
+    kind, first, last = timeline.spans(ground)[1]
+    assert (kind, first) == ("FRESH", 1) and 7 <= last <= 10
+    assert last == read_index(str(folder)).frames

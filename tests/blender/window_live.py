@@ -6,6 +6,7 @@ import time
 import traceback
 
 import bpy
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests"), str(ROOT / "tests" / "blender")]
@@ -16,7 +17,7 @@ desire_path.register()
 from scenes import meshes, people  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
-from desire_path.blender import bake_job, live, playback, state  # noqa: E402
+from desire_path.blender import bake_job, live, playback, state, timeline  # noqa: E402
 from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
@@ -64,6 +65,21 @@ def shot(name):
         bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
 
 
+def bars(name):
+    """How many pixels of a screenshot are of the colour of each kind of bar, in the lowest quarter of it."""
+    shot(name)
+    image = bpy.data.images.load(str(FOLDER / f"{name}.png"))
+    found = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(found)
+    wide, high = image.size
+    bpy.data.images.remove(image)
+    found = found.reshape(high, wide, 4)[: high // 4, :, :3]
+    red, green, blue = np.moveaxis(found, -1, 0)
+    strong = (red > 0.85) & (green > 0.45) & (green < 0.62) & (blue < 0.2)
+    bright = (red > 0.95) & (green > 0.8) & (blue < 0.4)
+    return int(strong.sum()), int(bright.sum())
+
+
 def made():
     """What the bake that is there was made from."""
     return dict(bake.read_index(str(FOLDER / "bake")).inputs)
@@ -95,7 +111,7 @@ def story():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     meshes.activate(meshes.grid(2, 2, 8.0, -4.0, -6.0))
-    assert not live.begun()
+    assert not live.begun() and not timeline._handles
     bpy.ops.object.desire_path_ground_add()
     ground().desire_path.folder = str(FOLDER / "bake")
     meshes.activate(people.walk(people.biped(), frames=60))
@@ -126,7 +142,9 @@ def story():
     print(f"again after {time.monotonic() - begun:.2f} s", seen, flush=True)
     assert "BAKING" in seen, seen
     assert playback.modifier(ground()).node_group == old
-    shot("fresh")
+    yield 0.5
+    strong, bright = bars("fresh")
+    assert strong > 300 and bright == 0, (strong, bright)
     for change in (
         lambda: setattr(bpy.data.objects["Walker"].desire_path, "mass", 40.0),
         lambda: setattr(ground().data.vertices[0].co, "z", 0.4) or ground().data.update(),
@@ -150,7 +168,8 @@ def story():
     push("Snow")
     yield from until(lambda: live._work is not None and live._work.job.fraction > 0.2)
     assert made() == before and not len(getattr(window(), "modal_operators", ()))
-    shot("updating")
+    strong, bright = bars("updating")
+    assert strong == 0 and bright > 50, (strong, bright)
     assert bake_job.running() is None and bpy.ops.object.desire_path_bake.poll()
     for value in ("PRESS", "RELEASE"):
         window().event_simulate(type="ESC", value=value, x=10, y=10)
@@ -187,7 +206,7 @@ def story():
     # another file listens no more
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield 0.5
-    assert not live.begun() and not bpy.app.timers.is_registered(live._tick)
+    assert not live.begun() and not bpy.app.timers.is_registered(live._tick) and not timeline._handles
     print("all seen", flush=True)
 
 

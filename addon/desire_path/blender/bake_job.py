@@ -24,11 +24,23 @@ from .show import lost, play, plays_on
 
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 _running = None  # the Job that runs in a window, for the panel and its Cancel button
+_again = None  # the one that live.py runs
 
 
 def running():
     """The Job that runs in a window, or None."""
     return _running
+
+
+def again(job):
+    """Note which Job bakes again by itself; None: none does."""
+    global _again
+    _again = job
+
+
+def on_their_way():
+    """The Jobs that have something to show of how far they are."""
+    return [job for job in (_running, _again) if job is not None and job.bake is not None]
 
 
 def run(job):
@@ -48,7 +60,8 @@ class Job:
         self.unless_fresh, self.fresh = unless_fresh, False
         self.fraction, self.text, self.cancelled = 0.0, "Recording the walkers", False
         self.warnings, self.early = [], []
-        self.bake = None
+        self.bake, self.frame = None, None
+        self.grounds = [obj.name]
         settings = obj.desire_path
         if not settings.is_ground:
             raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
@@ -83,6 +96,7 @@ class Job:
         company = yield from reach.company(scene, obj)
         if not company.walkers:
             raise DesirePathError(NOBODY.format(obj.name))
+        self.grounds = [each.name for each in company.grounds]
         folders = [(home.claim(each), each.desire_path.bake_id) for each in company.grounds]
         for path, _ in folders:
             check_idle(path)
@@ -109,7 +123,7 @@ class Job:
         self.text = "Baking"
         with closing(self.bake.run()) as frames:
             for progress in frames:
-                self.fraction = progress.fraction
+                self.fraction, self.frame = progress.fraction, progress.frame
                 self.text = f"Baking frame {progress.frame}"
                 yield
 

@@ -12,7 +12,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import ground, home, live, op_forces, overrides, playback, replant, show, soils, state, trash, watch
+from . import ground, home, live, op_forces, overrides, playback, replant, show, soils, state, timeline, trash, watch
 
 _unsaved = False  # whether the file that is being saved never was before
 
@@ -63,6 +63,7 @@ def after_load(*_):
                 refresh(scene, obj)
         watch.all_of(scene)
     live.loaded()
+    timeline.loaded()
 
 
 @persistent
@@ -135,6 +136,7 @@ def register():
 
 def unregister():
     live.end()
+    timeline.hide()
     state.unregister()
     watch.unregister()
     bpy.app.handlers.redo_post.remove(after_undo)

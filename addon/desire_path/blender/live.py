@@ -15,7 +15,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import bake_job, ops, state
+from . import bake_job, ops, state, timeline
 from .chosen import grounds
 
 REST = 0.2  # without a change before anything is done [s]
@@ -63,6 +63,7 @@ def drop():
     global _work
     if _work is not None:
         work, _work = _work, None
+        bake_job.again(None)
         work.steps.close()
         state.baking.pop(work.name, None)
 
@@ -141,6 +142,8 @@ def _begin(scene, obj):
     try:
         with state.unseen():
             _work = _Work(scene, obj)
+        bake_job.again(_work.job)
+        timeline.show()
         state.baking[obj.name_full] = ""
     except FAILED as problem:
         _fail(obj.name_full, problem)
@@ -169,6 +172,7 @@ def _go_on():
 
 def _show(work):
     """Play what was baked, and remember that it is as wanted."""
+    bake_job.again(None)
     state.baking.pop(work.name, None)
     before = _datablocks()
     if not work.job.fresh:

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import bake_job, framing, live
+from . import bake_job, framing, live, timeline
 from .bake_job import Job, idle_ground
 from .ops import AsksFirst, Refusal, begins, sentence
 from .show import free
@@ -50,6 +50,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             raise problem
         finally:
             window.progress_end()
+        timeline.show()
         self.tell(job)
         return {"FINISHED"}
 
@@ -72,6 +73,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             self.report({"ERROR"}, sentence(problem))
             return {"CANCELLED"}
         bake_job.run(self.job)
+        timeline.show()
         self.steps = self.job.run()
         manager = context.window_manager
         self.timer = manager.event_timer_add(0.01, window=context.window)
@@ -110,7 +112,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         context.window_manager.progress_update(int(1000 * job.fraction))
         context.workspace.status_text_set(f"{job.text} ({100 * job.fraction:.0f} %)    ESC: stop")
         for area in context.screen.areas:
-            if area.type == "PROPERTIES":
+            if area.type in {"PROPERTIES", *timeline.AREAS}:
                 area.tag_redraw()
         return {"RUNNING_MODAL"}
 

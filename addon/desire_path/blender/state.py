@@ -127,9 +127,15 @@ def last(obj):
     if changes == _changes and glance == _glance(obj):
         return told
     _waiting.add(obj.name_full)
-    _hear()
+    hear()
     _wake()
     return None
+
+
+def seen(obj):
+    """What was found last, or None where something was changed since. For those who draw often: nobody looks for it."""
+    told, changes, _ = _last.get(obj.name_full, (None, -1, None))
+    return told if changes == _changes else None
 
 
 def note(obj, told):
@@ -137,7 +143,8 @@ def note(obj, told):
     _last[obj.name_full] = told, _changes, _glance(obj)
 
 
-def _hear():
+def hear():
+    """Count the changes of scenes from now on."""
     if _scene_changed not in bpy.app.handlers.depsgraph_update_post:
         bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
 
@@ -147,7 +154,7 @@ def listen(listener):
     global _listener
     _listener = listener
     if listener is not None:
-        _hear()
+        hear()
 
 
 def changes():
