@@ -18,6 +18,7 @@ from .loads import plot, walker
 from .loads.report import sentences, summary, write_contacts
 from .motion import jumps
 from .motion.gait import Gait
+from .motion.scatter import Scatter
 from .placement import path as paths
 from .placement.place import place_feet
 from .study import calibrate, trampling
@@ -83,9 +84,7 @@ def _along(args, gait, ground):
         paths.read(args.along)[:, :2],
         args.passes,
         back_and_forth=not args.one_way,
-        lateral=args.lateral,
-        timing=args.timing,
-        stride=args.stride,
+        scatter=Scatter(args.lateral, args.timing, args.stride),
         seed=args.seed,
         pause=args.pause,
         ground=below,
@@ -181,14 +180,16 @@ def _plot(args):
 def _lane(args):
     rows = trampling.measure(
         _kind(args.kind),
-        length=args.length,
-        width=args.width,
+        lane=trampling.Lane(
+            length=args.length,
+            width=args.width,
+            mass=args.mass,
+            seed=args.seed,
+            soil=as_soil(args.soil).changed(args.soil_set),
+            cell_size=args.cell,
+        ),
         passes=_counts(args.passes),
-        mass=args.mass,
-        seed=args.seed,
         rest_days=args.rest_days,
-        soil=as_soil(args.soil).changed(args.soil_set),
-        cell_size=args.cell,
         threads=args.threads,
         progress=lambda done: _bar(done, "of the passes"),
     )
@@ -202,9 +203,7 @@ def _fit(args):
     found = calibrate.fit(
         trampling.read(args.cover),
         _kind(args.kind),
-        length=args.length,
-        width=args.width,
-        mass=args.mass,
+        lane=trampling.Lane(length=args.length, width=args.width, mass=args.mass),
         progress=lambda done: _bar(done, "of the lanes, at most"),
     )
     for count, wanted, reached in zip(found.passes, found.wanted, found.reached):

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 from desire_path.ground.plants import KINDS  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
+from desire_path.motion.scatter import Scatter  # noqa: E402
 from desire_path.study import trampling  # noqa: E402
 
 
@@ -22,7 +23,7 @@ def main():
     passes = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     begun = time.perf_counter()
     gait = trampling.walk().along(
-        [(-trampling.BEYOND, 0.0), (5.0 + trampling.BEYOND, 0.0)], passes, lateral=trampling.SCATTER * 0.5
+        [(-trampling.BEYOND, 0.0), (5.0 + trampling.BEYOND, 0.0)], passes, scatter=Scatter(trampling.SCATTER * 0.5)
     )
     made = time.perf_counter()
     walker.loads(gait)
@@ -32,7 +33,7 @@ def main():
     )
     for threads in sorted({1, os.cpu_count() or 1}):
         sim, marks = trampling.trodden(
-            KINDS["carex"], passes, **{**trampling.USUAL, "cell_size": 0.01, "density": 80.0}, threads=threads
+            KINDS["carex"], passes, lane=trampling.Lane(cell_size=0.01, density=80.0), threads=threads
         )
         begun, spent = time.perf_counter(), time.process_time()
         sim.run(marks[-1])

@@ -17,16 +17,19 @@ from desire_path.study import calibrate, trampling
 
 REPO = Path(__file__).resolve().parents[2]
 COLE = REPO / "tests" / "scenes" / "lanes" / "cole.csv"
-SHORT = dict(length=1.0, density=200.0, cell_size=0.04, threads=1)  # enough to see that something works
-JUDGED = dict(length=2.5, density=160.0, threads=1)  # a lane in half the time
+SHORT = trampling.Lane(length=1.0, density=200.0, cell_size=0.04)  # enough to see that something works
 SEED = 2024  # of a lane that judges: none that a kind was fitted to
+LANE = trampling.Lane(seed=SEED)
+JUDGED = trampling.Lane(length=2.5, density=160.0, seed=SEED)  # a lane in half the time
 FEW = (10, 30)
 
 
 def side_by_side(*lanes):
-    """Covers of several lanes, (kind, options) each: arrays, one number for each count."""
+    """Covers of several lanes, (kind, what differs in the lane, options) each: arrays, one number for each count."""
     with ThreadPoolExecutor(os.cpu_count() or 1) as workers:
-        told = workers.map(lambda each: trampling.measure(each[0], **{**JUDGED, "seed": SEED, **each[1]}), lanes)
+        told = workers.map(
+            lambda each: trampling.measure(each[0], lane=replace(JUDGED, **each[1]), threads=1, **each[2]), lanes
+        )
         return [np.array([cover for _, cover in rows]) for rows in told]
 
 
@@ -43,7 +46,7 @@ def cole():
 @pytest.fixture(scope="module")
 def trodden():
     """Cover of one lane of carex after each of Cole's counts, and after its year."""
-    sim, marks = trampling.trodden(KINDS["carex"], 500, **{**trampling.USUAL, "seed": SEED})
+    sim, marks = trampling.trodden(KINDS["carex"], 500, lane=LANE)
     cover = trampling.read_at(sim, [marks[n - 1] for n in trampling.PASSES], marks[-1])
     sim.rest_plants(365 * trampling.DAY)
     return np.array(cover), trampling.cover(sim)
@@ -57,7 +60,12 @@ def test_carex_keeps_the_cover_of_coles_lanes(cole, trodden):
 
 def test_finer_cells_keep_the_same_cover(cole, trodden):
     fine = np.array(
-        [cover for _, cover in trampling.measure("carex", passes=trampling.PASSES[:3], seed=SEED, cell_size=0.01)]
+        [
+            cover
+            for _, cover in trampling.measure(
+                "carex", passes=trampling.PASSES[:3], lane=trampling.Lane(seed=SEED, cell_size=0.01)
+            )
+        ]
     )
     assert abs(fine - cole[0.0][1][:3]).max() < 4.0, fine
     assert abs(fine - trodden[0][:3]).max() < 4.0, (fine, trodden[0])
@@ -65,7 +73,7 @@ def test_finer_cells_keep_the_same_cover(cole, trodden):
 
 def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
     counts, wanted = cole[365.0]
-    (rested,) = side_by_side(("carex", dict(passes=(25, 75, 200), rest_days=365.0)))
+    (rested,) = side_by_side(("carex", {}, dict(passes=(25, 75, 200), rest_days=365.0)))
     reached = np.r_[rested, trodden[1]]
     assert abs(reached - wanted).max() < 8.0, reached
 
@@ -78,13 +86,13 @@ def test_cover_falls_monotonically_and_convexly(trodden):
 
 def test_what_must_not_matter_does_not():
     """The walkers' mass, the seed and the frame rate; the kind does."""
-    seeds = [("carex", dict(passes=FEW, seed=seed)) for seed in (SEED, 11, 12, 13, 14)]
+    seeds = [("carex", dict(seed=seed), dict(passes=FEW)) for seed in (SEED, 11, 12, 13, 14)]
     found = side_by_side(
         *seeds,
-        ("carex", dict(passes=FEW, mass=65.0)),
-        ("carex", dict(passes=FEW, mass=85.0)),
-        ("carex", dict(passes=FEW, frame_rate=30.0)),
-        ("lycopodium", dict(passes=FEW)),
+        ("carex", dict(mass=65.0), dict(passes=FEW)),
+        ("carex", dict(mass=85.0), dict(passes=FEW)),
+        ("carex", dict(frame_rate=30.0), dict(passes=FEW)),
+        ("lycopodium", {}, dict(passes=FEW)),
     )
     by_seed, light, heavy, slow, lycopodium = np.array(found[:5]), *found[5:]
     assert np.ptp(by_seed, axis=0).max() < 4.0, by_seed
@@ -111,14 +119,17 @@ def test_vigour_has_mean_0_and_deviation_1_and_the_law_it_says():
 
 
 def test_a_lane_repeats_and_counts_apart():
-    rows = trampling.measure("carex", passes=(12, 4), seed=3, **SHORT)
+    rows = trampling.measure("carex", passes=(12, 4), lane=replace(SHORT, seed=3), threads=1)
     assert [count for count, _ in rows] == [4, 12] and 100.0 > rows[0][1] > rows[1][1] > 50.0
     told = []
-    assert trampling.measure("carex", passes=(4,), seed=3, progress=told.append, **SHORT) == rows[:1]
+    assert (
+        trampling.measure("carex", passes=(4,), lane=replace(SHORT, seed=3), progress=told.append, threads=1)
+        == rows[:1]
+    )
     assert told == sorted(told) and told[-1] == 1.0
-    rested = trampling.measure("carex", passes=(4, 12), seed=3, rest_days=365.0, **SHORT)
+    rested = trampling.measure("carex", passes=(4, 12), lane=replace(SHORT, seed=3), rest_days=365.0, threads=1)
     assert all(later > before for (_, later), (_, before) in zip(rested, rows))
-    assert trampling.measure("carex", passes=(4, 12), seed=4, **SHORT) != rows
+    assert trampling.measure("carex", passes=(4, 12), lane=replace(SHORT, seed=4), threads=1) != rows
 
 
 def test_few_plants_are_as_mixed_as_many():
@@ -190,7 +201,7 @@ def test_bad_words_are_one_sentence(tmp_path, words, told):
 @pytest.mark.parametrize("density", [0.0, -1.0, math.nan, 1e9])
 def test_a_lane_that_cannot_be_planted_gets_a_sentence(density):
     with pytest.raises(DesirePathError, match="density"):
-        trampling.measure("carex", passes=(1,), density=density)
+        trampling.measure("carex", passes=(1,), lane=trampling.Lane(density=density))
 
 
 def test_what_cannot_be_written_is_told_before_the_work(tmp_path):
@@ -219,25 +230,54 @@ def test_tables_are_read(tmp_path):
         trampling.read(tmp_path / "nothing.csv")
 
 
+def test_a_lanes_numbers_may_be_given_one_by_one():
+    rows = trampling.measure("carex", passes=(4,), lane=replace(SHORT, seed=3), threads=1)
+    with pytest.warns(
+        DeprecationWarning, match=r"measure\(lane=Lane\(length=\.\., density=\.\., cell_size=\.\., seed=\.\.\)\)"
+    ):
+        assert trampling.measure("carex", passes=(4,), length=1.0, density=200.0, cell_size=0.04, seed=3) == rows
+    with pytest.warns(DeprecationWarning):
+        sim, marks = trampling.trodden(KINDS["carex"], 2, **{**trampling.USUAL, "length": 1.0})
+    assert len(marks) == 2 and sim.cell_size == 0.02
+
+
+@pytest.mark.parametrize("passes", [(), (0,), (2.5,), (3, math.nan), (math.inf,), ("25",), iter([4, 2.5])])
+def test_passes_that_cannot_be_counted_get_a_sentence(passes):
+    with pytest.raises(DesirePathError, match="passes .* whole numbers"):
+        trampling.measure("carex", passes=passes)
+
+
+@pytest.mark.parametrize("name, value", [("length", 0.4), ("width", math.nan), ("mass", 0.0), ("rest_days", -1.0)])
+def test_a_lane_that_cannot_be_trodden_names_the_number(name, value):
+    lane = trampling.Lane(**{name: value} if name != "rest_days" else {})
+    with pytest.raises(DesirePathError, match=f"A {name.split('_')[0]} of"):
+        trampling.measure("carex", lane=lane, rest_days=value if name == "rest_days" else 0.0)
+
+
 # ---- the fit ---------------------------------------------------------------------------------------------
 
 
 def test_a_fit_finds_the_kind_a_lane_was_planted_with():
     kind = replace(KINDS["carex"], strength=0.3, spread=1.2)
     few = (3, 8, 18, 45)  # the last tells how long the strong ones bear
-    rows = [(count, cover, 0.0) for count, cover in trampling.measure(kind, passes=few, seed=5, **SHORT)]
+    rows = [
+        (count, cover, 0.0)
+        for count, cover in trampling.measure(kind, passes=few, lane=replace(SHORT, seed=5), threads=1)
+    ]
     rows.append((45, 100.0 - 0.5 * (100.0 - rows[-1][1]), 365.0))
-    found = calibrate.fit(rows, seeds=(5,), rounds=2, **SHORT)
+    found = calibrate.fit(rows, seeds=(5,), rounds=2, lane=SHORT, threads=1)
     assert found.worst < 4.0 and found.rms <= found.worst
     assert found.kind.strength == pytest.approx(kind.strength, rel=0.3)
     assert found.kind.spread == pytest.approx(kind.spread, rel=0.35)
     assert found.kind.regrow_rate > 0.0 and found.kind.height == kind.height
-    assert [count for count, _ in trampling.measure(found.kind, passes=few, seed=5, **SHORT)] == list(few)
+    assert [
+        count for count, _ in trampling.measure(found.kind, passes=few, lane=replace(SHORT, seed=5), threads=1)
+    ] == list(few)
 
 
 def test_a_count_that_was_taken_twice_counts_by_its_mean():
     rows = [(3, 95.0, 0.0), (8, 90.0, 0.0), (3, 97.0, 0.0), (8, 80.0, 0.0)]
-    found = calibrate.fit(rows, seeds=(5,), rounds=1, **SHORT)
+    found = calibrate.fit(rows, seeds=(5,), rounds=1, lane=SHORT, threads=1)
     assert found.passes == (3, 8) and found.wanted == (96.0, 85.0)
 
 
@@ -245,6 +285,10 @@ def test_a_fit_needs_a_table_it_can_work_with():
     for rows, words in (([(10, 90.0, 0.0)], "at least two"), ([(10, 0.9, 0.0), (20, 0.8, 0.0)], "per cent")):
         with pytest.raises(DesirePathError, match=words):
             calibrate.fit(rows)
+    rows = [(10, 90.0, 0.0), (20, 80.0, 0.0)]
+    for none in (dict(rounds=0), dict(seeds=())):
+        with pytest.raises(DesirePathError, match="at least one of rounds and one of seeds"):
+            calibrate.fit(rows, **none)
 
 
 def test_without_scipy_a_sentence_says_how_to_get_it(tmp_path):

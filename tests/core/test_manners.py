@@ -16,6 +16,7 @@ from desire_path.ground.plants import PAPER, Planting
 from desire_path.ground.trail import Trail
 from desire_path.loads import walker
 from desire_path.motion import tracks
+from desire_path.motion.scatter import Scatter
 from desire_path.placement import passes
 
 
@@ -49,7 +50,7 @@ def test_along_names_its_keywords():
 def test_along_hands_on_every_keyword(gait, monkeypatch):
     seen = {}
     monkeypatch.setattr(passes, "along", lambda gait, path, passes, **more: seen.update(more))
-    given = dict(back_and_forth=False, lateral=0.2, timing=0.1, stride=0.02, seed=3, pause=1.0, ground=2.0)
+    given = dict(back_and_forth=False, scatter=Scatter(0.2, 0.1, 0.02), seed=3, pause=1.0, ground=np.sum)
     gait.along([(0, 0), (4, 0)], 2, **given)
     assert seen == given
 

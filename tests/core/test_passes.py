@@ -18,6 +18,7 @@ from desire_path.ground.plants import KINDS
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
 from desire_path.motion.gait import HEEL, Gait
+from desire_path.motion.scatter import Scatter
 from desire_path.placement import cycle, passes, path
 from desire_path.placement.path import Path
 from desire_path.rig import body
@@ -68,8 +69,8 @@ def test_the_cycle_closes(walk):
         assert abs(np.diff(com, n=2, axis=0)).max() / step**2 < 1.3 * wild  # no kick at the seam
         assert np.linalg.norm(np.diff(pose[..., :3], axis=1), axis=-1).max() / step < 6.0
     com, pose, stand = found.at([0.25, 1.25, 7.25])
-    assert np.diff(com[:, 0]) == pytest.approx([found.way, 6 * found.way])
-    assert pose[:, 1] - pose[:, 0] == pytest.approx(np.tile([found.way] + [0] * 6, (4, 1)), abs=1e-9)
+    assert np.diff(com[:, 0]) == pytest.approx([found.length, 6 * found.length])
+    assert pose[:, 1] - pose[:, 0] == pytest.approx(np.tile([found.length] + [0] * 6, (4, 1)), abs=1e-9)
 
 
 def test_where_a_limb_stands_is_still_while_it_touches(walk):
@@ -104,14 +105,14 @@ def test_a_loop_is_taken_whole(walk, closing, fps):
     seconds = count / fps
     phase = np.arange(count + closing) / count
     com, pose, _ = found.at(phase)
-    way = found.way * phase[:, None] * (1, 0, 0)
+    way = found.length * phase[:, None] * (1, 0, 0)
     pose[..., :3] -= way
     clip = replace(
         walk, time=np.arange(len(phase)) / fps, com=(com - way)[None], pose=pose, frame_rate=fps, cut=(), jump=()
     )
     again = cycle.find(clip)
     assert again.seconds == pytest.approx(seconds, rel=1e-6)
-    assert again.speed == pytest.approx(found.way / seconds, rel=0.08)
+    assert again.speed == pytest.approx(found.length / seconds, rel=0.08)
 
 
 def test_who_does_not_walk_is_told(walk):
@@ -128,7 +129,7 @@ def test_who_does_not_walk_is_told(walk):
 def test_feet_do_not_slide_more_than_in_the_clip(walk):
     recorded = slides(walk)
     straight = slides(walk.along([(0, 0), (6, 0)], 3))
-    bend = slides(walk.along([(0, 0), (3, 0), (3, 3), (0, 3)], 3, stride=0.1, timing=0.1))
+    bend = slides(walk.along([(0, 0), (3, 0), (3, 3), (0, 3)], 3, scatter=Scatter(stride=0.1, timing=0.1)))
     for found in (straight, bend):
         assert len(found) > 20
         assert np.quantile(found, 0.75) < 1.1 * np.quantile(recorded, 0.75) + 0.001
@@ -136,7 +137,7 @@ def test_feet_do_not_slide_more_than_in_the_clip(walk):
 
 
 def test_passes_follow_the_path_there_and_back(walk):
-    gait = walk.along([(1, 2), (7, 2)], 4, lateral=0.05).check()
+    gait = walk.along([(1, 2), (7, 2)], 4, scatter=Scatter(lateral=0.05)).check()
     assert len(gait.cut) == 3
     for n, (first, after) in enumerate(gait.pieces()):
         x, y = gait.com[0, first:after, 0], gait.com[0, first:after, 1]
@@ -151,9 +152,26 @@ def test_passes_follow_the_path_there_and_back(walk):
     assert all(one_way.com[0, first, 0] < 2 for first, _ in one_way.pieces())
 
 
+def test_how_passes_scatter_may_be_given_number_by_number(walk):
+    line = [(0, 0), (3, 0)]
+    many = walk.along(line, 2, scatter=Scatter(0.3, 0.1, 0.2), seed=3)
+    for carry in (Gait.along, passes.along):
+        with pytest.warns(DeprecationWarning, match=r"scatter=Scatter\(lateral=.*timing=.*stride=") as told:
+            assert carry(walk, line, 2, lateral=0.3, timing=0.1, stride=0.2, seed=3) == many
+        assert told[0].filename == __file__
+    for other in (Scatter(0.0, 0.1, 0.2), Scatter(0.3, 0.0, 0.2), Scatter(0.3, 0.1, 0.0)):
+        assert walk.along(line, 2, scatter=other, seed=3) != many
+
+
+def test_a_cycles_length_has_an_old_name(walk):
+    found = cycle.find(walk)
+    with pytest.warns(DeprecationWarning, match="length"):
+        assert found.way == found.length
+
+
 def test_the_first_pass_keeps_to_the_line_and_seeds_repeat(walk):
     line = [(0, 0), (5, 0)]
-    first = walk.along(line, 1, lateral=0.3, seed=3)
+    first = walk.along(line, 1, scatter=Scatter(lateral=0.3), seed=3)
     assert abs(first.com[0, :, 1]).max() < 0.1
     few, many = walk.along(line, 3, seed=3), walk.along(line, 5, seed=3)
     n = len(few.time)
@@ -163,7 +181,7 @@ def test_the_first_pass_keeps_to_the_line_and_seeds_repeat(walk):
 
 
 def test_scatter_is_what_was_asked_for(walk):
-    gait = walk.along([(0, 0), (4, 0)], 200, lateral=0.2, timing=0.1, stride=0.1, seed=1)
+    gait = walk.along([(0, 0), (4, 0)], 200, scatter=Scatter(lateral=0.2, timing=0.1, stride=0.1), seed=1)
     spans = gait.pieces()[1:]
     side = [gait.com[0, (a + b) // 2, 1] * (1 if gait.com[0, a, 0] < 2 else -1) for a, b in spans]
     assert np.std(side) == pytest.approx(0.2, rel=0.15) and abs(np.mean(side)) < 0.05
@@ -335,9 +353,9 @@ def test_paths_are_read(tmp_path):
         (dict(path=[(0, 0), (np.nan, 1)]), "Row 2"),
         (dict(passes=0), "0 passes"),
         (dict(passes=1.5), "1.5 passes"),
-        (dict(lateral=-1), "lateral of -1"),
-        (dict(stride=2), "stride of 2"),
-        (dict(timing=np.nan), "timing of nan"),
+        (dict(scatter=Scatter(lateral=-1)), "lateral of -1"),
+        (dict(scatter=Scatter(stride=2)), "stride of 2"),
+        (dict(scatter=Scatter(timing=np.nan)), "timing of nan"),
         (dict(pause=-1), "pause"),
         (dict(passes=10**7), "too long for one recording"),
         (dict(passes=np.inf), "inf passes"),
@@ -346,6 +364,7 @@ def test_paths_are_read(tmp_path):
         (dict(seed=0.5), "seed of 0.5"),
         (dict(passes="3"), "3 passes"),
         (dict(seed=None), "None"),
+        (dict(ground=2.0), "float is no ground to walk on"),
         (dict(path=[(0, 0), (1e308, 0)]), "Row 2"),
     ],
 )
@@ -388,7 +407,7 @@ def test_a_frame_may_be_a_pass(walk, tmp_path):
 def test_no_print_is_drawn_from_the_end_of_a_pass_to_the_start_of_the_next(walk):
     """Passes one way: a jump back over the whole path, and over bare ground to a second walker's path."""
     line = [(0, 0), (2, 0)]
-    gait = walk.along(line, 2, back_and_forth=False, lateral=0, timing=0, stride=0)
+    gait = walk.along(line, 2, back_and_forth=False, scatter=Scatter(lateral=0, timing=0, stride=0))
     sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
     sim.load(gait, walker.loads(gait))
     sim.run(gait.cut[0] - 1)

@@ -1,7 +1,7 @@
 """Feet on slopes: against a literal twin, and prints up, down and across a hill. TRAIL (1) (2), MODEL 11.13"""
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -73,7 +73,9 @@ def test_places_as_trail_1_and_2_say(seed, roll):
     )
     x, y = random.uniform(-0.6, 0.6, 2)
     normal = np.array([-x, -y, 1.0]) / math.sqrt(x * x + y * y + 1)
-    got = place.place_feet(gait, plane(x, y, 5.0), roll=roll, carry=True, floor=0.0, reach=0.3, toe_slope=0.1)
+    got = place.place_feet(
+        gait, plane(x, y, 5.0), roll=roll, carry=True, floor=0.0, options=place.PlaceOptions(reach=0.3, toe_slope=0.1)
+    )
     clearance = walker.contacts(gait)[1]
     tips = walker.point_places(gait)[[0, 3], :, 2] - clearance[[0, 3], None]
     for t in range(count):
@@ -207,9 +209,9 @@ def test_one_of_two_walkers():
     "words, arguments",
     [
         ("walks beside the ground", {"ground": Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0), "carry": True}),
-        ("A reach of 0 m", {"reach": 0.0}),
-        ("toe slope of -1", {"toe_slope": -1.0}),
-        ("radius of a foot of -1 m", {"foot_radius": -1.0}),
+        ("A reach of 0 m", {"options": place.PlaceOptions(reach=0.0)}),
+        ("toe slope of -1", {"options": place.PlaceOptions(toe_slope=-1.0)}),
+        ("radius of a foot of -1 m", {"options": place.PlaceOptions(foot_radius=-1.0)}),
         ("no walker 3", {"walkers": [3]}),
         ("floor's height", {"floor": math.nan}),
         ("Ground or a Simulation", {"ground": 0.0}),
@@ -219,6 +221,17 @@ def test_what_cannot_be_is_a_sentence(words, arguments):
     arguments = {"ground": plane(0.1, 0.1), **arguments}
     with pytest.raises(DesirePathError, match=words):
         place.place_feet(cmu(), **arguments)
+
+
+def test_options_may_be_given_one_by_one():
+    options = place.PlaceOptions(reach=0.3, toe_slope=0.1, foot_radius=0.3, body_radius=0.2)
+    gait, land = cmu(), Ground.heights(np.random.default_rng(1).random((120, 120)) * 0.2, 0.2, -12.0, -12.0)
+    placed = place.place_feet(gait, land, options=options)
+    with pytest.warns(DeprecationWarning, match=r"written place_feet\(options=PlaceOptions\(reach="):
+        assert place.place_feet(gait, land, reach=0.3, toe_slope=0.1, foot_radius=0.3, body_radius=0.2) == placed
+    for each in fields(options):
+        usual = replace(options, **{each.name: each.default})
+        assert place.place_feet(gait, land, options=usual) != placed, each.name
 
 
 # ---- MODEL 11.13, TRAIL Fig. 12 -----------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Contacts and loads against slow twins, against force plates, and at any frame rate."""
 
 import csv
+import math
 import os
 from dataclasses import replace
 
@@ -441,6 +442,19 @@ def test_bad_words_get_a_sentence():
         walker.loads(gait, limits={"shortest": "long"})
     with pytest.raises(DesirePathError, match="heights have shape"):
         walker.loads(gait, ground=np.zeros((3, 3)))
+    with pytest.raises(DesirePathError, match=r"heights of shape \(3,\) for .* places"):
+        walker.loads(gait, ground=lambda xy: np.zeros(3))
+    for ground in ("flat", object()):
+        with pytest.raises(DesirePathError, match="no ground to stand on"):
+            walker.loads(gait, ground=ground)
+    for value in (-1.0, math.nan, math.inf, "3", True):
+        with pytest.raises(DesirePathError, match="cutoff_low of .* (no number|cannot be used)"):
+            walker.loads(gait, options={"cutoff_low": value})
+        with pytest.raises(DesirePathError, match="touch_speed of .* (no number|cannot be used)"):
+            walker.contacts(gait, limits={"touch_speed": value})
+    for tau in (0.0, math.nan):
+        with pytest.raises(DesirePathError, match="settle time of the soil"):
+            walker.loads(gait, "impulse", settle_time=lambda xy, tau=tau: np.full(len(xy), tau))
 
 
 def test_limits_and_options_are_those_of_the_core():

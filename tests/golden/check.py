@@ -30,6 +30,7 @@ from worlds import worlds  # noqa: E402
 from desire_path import Bake, Gait, Ground, Planting, _native, place_feet  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
+from desire_path.motion.scatter import Scatter  # noqa: E402
 
 EXPECTED = HERE / "expected.json"
 WORKERS = (2, 5)
@@ -153,7 +154,7 @@ def recorded_walk():
 
 def lane(gait):
     """Two passes along a bend."""
-    return gait.along([(-1.0, 0.0), (1.0, 0.2), (2.0, 1.0)], 2, lateral=0.1, seed=4, pause=2.0)
+    return gait.along([(-1.0, 0.0), (1.0, 0.2), (2.0, 1.0)], 2, scatter=Scatter(lateral=0.1), seed=4, pause=2.0)
 
 
 def baked():

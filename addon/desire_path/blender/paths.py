@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..motion.scatter import Scatter
 from ..placement.passes import in_turn
 from . import axes, clock, ground, sample
 
@@ -136,7 +137,7 @@ def carried(scene, walkers, first, last, read):
                 line[:, :2],
                 settings.passes,
                 back_and_forth=settings.back_and_forth,
-                lateral=axes.typed(settings.lateral),
+                scatter=Scatter(axes.typed(settings.lateral)),
                 seed=settings.path_seed,
                 ground=land,
             )

@@ -1,46 +1,81 @@
 """The height of the ground under contact points, beside its edge and over its holes too."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol, TypeAlias, TypeGuard, runtime_checkable
+
 import numpy as np
 
 from ..errors import DesirePathError
+from ..motion.gait import Gait
 from ..motion.points import point_places
 
+Heights: TypeAlias = Callable[[np.ndarray], np.ndarray]  # points (n, 2) -> (n,) [m], NaN where there is no ground
 
-def ground_below(gait, ground):
+
+@runtime_checkable
+class Land(Protocol):
+    """What has heights of its own, as a Simulation."""
+
+    def rest_height(self, xy: np.ndarray) -> np.ndarray: ...
+
+
+GivenHeights: TypeAlias = float | np.ndarray | Heights | None
+GroundHeights: TypeAlias = GivenHeights | Land  # see ground_below()
+
+
+def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
     """Height of the ground below each contact point (K, T) [m].
 
     ground: None = flat at 0; a number; heights (K, T); a function of points (n, 2) -> (n,); or what has one by the
     name of rest_height, as a Simulation. NaN where there is none: feet that step there carry their share and leave it
     to nobody else.
     """
-    ground = heights_of(ground)
+    heights = heights_of(ground)
     shape = (len(gait.point), len(gait.time))
-    if callable(ground):
+    if callable(heights):
         xy = point_places(gait)[..., :2].reshape(-1, 2)
-        heights = np.asarray(ground(np.ascontiguousarray(xy)), float).reshape(shape)
-    else:
-        heights = np.asarray(0.0 if ground is None else ground, float)
-        if heights.shape not in ((), shape):
+        found = np.asarray(heights(np.ascontiguousarray(xy)), float)
+        if found.size != len(xy):
             raise DesirePathError(
-                f"The ground's heights have shape {heights.shape} where {shape} is "
+                f"The ground gave heights of shape {found.shape} for {len(xy)} places: let it give one for each."
+            )
+        found = found.reshape(shape)
+    else:
+        try:
+            found = np.asarray(0.0 if heights is None else heights, float)
+        except (TypeError, ValueError):
+            raise DesirePathError(
+                f"A {type(ground).__name__} is no ground to stand on: give a height, heights (K, T), a function of "
+                "points (n, 2), or a Simulation."
+            ) from None
+        if found.shape not in ((), shape):
+            raise DesirePathError(
+                f"The ground's heights have shape {found.shape} where {shape} is "
                 "needed: give one height for each contact point and sample."
             )
-    return np.ascontiguousarray(np.broadcast_to(heights, shape), "f8").copy()
+    return np.ascontiguousarray(np.broadcast_to(found, shape), "f8").copy()
 
 
-def heights_of(ground):
+def heights_of(ground: GroundHeights) -> GivenHeights:
     """A ground as ground_below() takes it, with a Simulation's function of places in its stead."""
-    return getattr(ground, "rest_height", ground)
+    return ground.rest_height if isinstance(ground, Land) else ground
 
 
-def on_even(gait, even, ground):
+def is_alike(ground: GivenHeights) -> TypeGuard[float | Heights | None]:
+    """Whether a ground is told without naming the points and samples of a recording."""
+    return callable(ground) or np.ndim(0.0 if ground is None else ground) == 0
+
+
+def on_even(gait: Gait, even: Gait, ground: GivenHeights) -> np.ndarray:
     """Ground heights for the even recording; heights given for the recording itself are carried over."""
-    if even is gait or callable(ground) or np.ndim(ground) == 0:
+    if even is gait or is_alike(ground):
         return ground_below(even, ground)
     return np.stack([np.interp(even.time, gait.time, row) for row in ground_below(gait, ground)])
 
 
-def carried_on(gait, below):
+def carried_on(gait: Gait, below: np.ndarray) -> np.ndarray:
     """Heights as if the ground went on beside its edge and over its holes, between those the same
     point finds before and after, else those of its walker. Who is never over it keeps NaN."""
     if np.isfinite(below).all():
@@ -62,8 +97,8 @@ def carried_on(gait, below):
     return below
 
 
-def off_ground(gait, below):
+def off_ground(gait: Gait, below: np.ndarray) -> np.ndarray:
     """Where the whole limb of a part is beside the ground (P, T)."""
-    over = np.zeros((len(gait.limb_walker), len(gait.time)), bool)
+    over: np.ndarray = np.zeros((len(gait.limb_walker), len(gait.time)), bool)
     np.logical_or.at(over, gait.part_limb[gait.point_part], np.isfinite(below))
     return ~over[gait.part_limb]

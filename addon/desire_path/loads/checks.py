@@ -1,8 +1,11 @@
 """What is odd about how a recording stands on its ground, in sentences."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ..errors import DesirePathError
+from ..motion.gait import Gait
 from .force import ELSEWHERE, GRAVITY, PRESSES
 
 MEAN_FORCE = (0.9, 1.1)  # what a believable clip's mean vertical force is within [body weights]
@@ -16,7 +19,7 @@ class Sunk(DesirePathError):
     """A walker is under the ground all the time."""
 
 
-def sinks(gait, below):
+def sinks(gait: Gait, below: np.ndarray) -> None:
     """Refuse a walker that is under the ground all the time."""
     ground = np.nanmedian(below) if np.isfinite(below).any() else -np.inf
     for w in range(len(gait.mass)):
@@ -26,10 +29,9 @@ def sinks(gait, below):
                 "faces count: move the ground down or the walker up, or take roofs "
                 "out of the ground."
             )
-    return []
 
 
-def hovers(gait, touching, clearance, size):
+def hovers(gait: Gait, touching: np.ndarray, clearance: np.ndarray, size: float) -> list[str]:
     """A sentence for each walker whose feet stand far from the ground."""
     warnings = []
     part = gait.point_part
@@ -43,9 +45,9 @@ def hovers(gait, touching, clearance, size):
     return warnings
 
 
-def slides(gait, places, touching, size):
+def slides(gait: Gait, places: np.ndarray, touching: np.ndarray, size: float) -> list[str]:
     """A sentence for each walker whose feet slide while they carry: it walks in place."""
-    warnings = []
+    warnings: list[str] = []
     if len(gait.time) < 3:
         return warnings
     rush = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2)
@@ -64,7 +66,7 @@ def slides(gait, places, touching, size):
     return warnings
 
 
-def _cycle(on, count):
+def _cycle(on: np.ndarray, count: int) -> tuple[int, int]:
     """First and last sample of whole strides of one walker's limbs (L, T); the whole clip if none."""
     best = (0, count - 1)
     longest = 0
@@ -75,9 +77,9 @@ def _cycle(on, count):
     return best
 
 
-def weigh(gait, touching, force):
+def weigh(gait: Gait, touching: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Mean vertical force in body weights over whole strides, and a sentence where it is odd."""
-    mean, warnings = np.ones(len(gait.mass)), []
+    mean, warnings = np.ones(len(gait.mass)), list[str]()
     count = len(gait.time)
     for w, mass in enumerate(gait.mass):
         limbs = np.flatnonzero(gait.limb_walker == w)
@@ -94,10 +96,10 @@ def weigh(gait, touching, force):
         first, last = _cycle(on, count)
         total = -force[parts, first : last + 1, 2].sum(axis=0) / (mass * GRAVITY)
         # over whole strides the body neither gains nor loses speed; elsewhere it may
-        z, reach = gait.com[w, :, 2], max(1, int(round(0.05 / (gait.time[1] - gait.time[0]))))
+        z, lag = gait.com[w, :, 2], max(1, int(round(0.05 / (gait.time[1] - gait.time[0]))))
         slope = [
-            (z[min(k + reach, count - 1)] - z[max(k - reach, 0)])
-            / (gait.time[min(k + reach, count - 1)] - gait.time[max(k - reach, 0)])
+            (z[min(k + lag, count - 1)] - z[max(k - lag, 0)])
+            / (gait.time[min(k + lag, count - 1)] - gait.time[max(k - lag, 0)])
             for k in (first, last)
         ]
         gain = (slope[1] - slope[0]) / ((gait.time[last] - gait.time[first]) * GRAVITY)
@@ -110,8 +112,8 @@ def weigh(gait, touching, force):
     return mean, warnings
 
 
-def elsewhere(gait, over, touching, most, size):
-    """Mark parts that stand farther over the ground than `most` [m]; sentences about who does.
+def elsewhere(gait: Gait, over: np.ndarray, touching: np.ndarray, max_height: float, size: float) -> list[str]:
+    """Mark parts that stand farther over the ground than `max_height` [m]; sentences about who does.
 
     over: height of each contact point over the ground, less its clearance (K, T) [m]
     """
@@ -121,17 +123,17 @@ def elsewhere(gait, over, touching, most, size):
             for part in range(len(gait.part_limb))
         ]
     )
-    up = (touching == PRESSES) & (lowest > most)
+    up = (touching == PRESSES) & (lowest > max_height)
     touching[up] = ELSEWHERE
-    told = []
+    warnings = []
     for w, name in enumerate(gait.walker_name):
         when = up[gait.limb_walker[gait.part_limb] == w].any(axis=0)
         edges = np.flatnonzero(np.diff(np.concatenate([[0], when, [0]])))
         if len(edges) and np.diff(edges)[::2].max() >= TELLING * np.sqrt(size) * (gait.rate() or 1.0):
             high = float(np.median(lowest[gait.limb_walker[gait.part_limb] == w][:, when].min(axis=0)))
-            told.append(
+            warnings.append(
                 f"{name} stands on something else than the ground, of which there is no print: about {high:.2g} "
                 f"m over it, first at frame {gait.frame(when.argmax()):.0f}; make that a ground if it is to "
                 "take prints."
             )
-    return told
+    return warnings

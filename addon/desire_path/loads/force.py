@@ -1,12 +1,17 @@
 """What feet do to the ground: the force of every part over time, and a table of it."""
 
+from __future__ import annotations
+
 import csv
+import os
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import Record, kept
 from ..files import atomic_file
+from ..motion.gait import Gait
+from ..motion.tracks import Array
 
 GRAVITY = 9.81
 PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carries and takes no print
@@ -14,25 +19,28 @@ PRESSES, ELSEWHERE = 1, 2  # touching: the ground | something else, which carrie
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FootForce(Record):
+    """What every part of a recording's feet does to the ground, at the recording's samples."""
+
     time: np.ndarray  # (T,) [s]
-    touching: np.ndarray  # 1 where the part touches (P, T) u1
-    force: np.ndarray  # of the part on the ground (P, T, 3) [N]
-    point: np.ndarray  # centre of pressure, NaN in the air (P, T, 3) [m]
+    touching: Array  # 1 where the part touches (P, T) u1
+    force: Array  # of the part on the ground (P, T, 3) [N]
+    point: Array  # centre of pressure, NaN in the air (P, T, 3) [m]
     clearance: np.ndarray  # resting height of each contact point over the ground (K,) [m]
     mean: np.ndarray | None = None  # mean vertical force of each walker (W,) [body weights]
-    warnings: tuple = ()
-    held: np.ndarray | None = None  # parts held in mid-step from these samples to the next press no deeper (P, T)
+    warnings: tuple[str, ...] = ()
+    held: Array | None = None  # parts held in mid-step from these samples to the next press no deeper (P, T)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("time", "touching", "force", "point", "clearance", "mean", "held"):
             object.__setattr__(self, name, kept(getattr(self, name)))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         parts, samples = np.shape(self.touching)
         return f"FootForce({parts} parts, {samples} samples, {len(self.warnings)} warnings)"
 
 
-def native_gait(gait):
+def native_gait(gait: Gait) -> tuple[Array, ...]:
+    """The arrays of a recording as the core takes them, in the order of DpGait."""
     return (
         gait.time,
         gait.com,
@@ -46,7 +54,7 @@ def native_gait(gait):
     )
 
 
-def write_loads(path, gait, loads):
+def write_loads(path: str | os.PathLike[str], gait: Gait, loads: FootForce) -> None:
     """The table `time,walker,limb,part,touching,fx,fy,fz,px,py,pz`, a row a part and sample."""
     number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
     with atomic_file.file(path, "The table of loads", "w", newline="", encoding="utf-8") as stream:

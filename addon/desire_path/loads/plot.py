@@ -3,14 +3,22 @@
 Needs Matplotlib, which nothing else here does: pip install desire-path[plot].
 """
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import lazy
 from ..errors import DesirePathError
 from ..files import atomic_file
+from ..motion.gait import Gait
+from .force import FootForce
 from .walker import GRAVITY
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _figure = lazy.module("matplotlib.figure")  # a machine may lack it
 
@@ -19,7 +27,7 @@ COLOURS = ("#1f6fb4", "#c4501b", "#2f8f4e", "#8a4fb0", "#a8861a", "#4b8f9c")
 WIDE, HIGH = 10.0, 3.2  # of one walker's graph [inch]
 
 
-def foot_loads(gait, loads):
+def foot_loads(gait: Gait, loads: FootForce) -> tuple[np.ndarray, np.ndarray]:
     """For each limb: vertical force on the ground (L, T) [body weights], whether it touches (L, T)."""
     limbs = len(gait.limb_walker)
     force = np.zeros((limbs, len(loads.time)))
@@ -30,17 +38,17 @@ def foot_loads(gait, loads):
     return force / (gait.mass[gait.limb_walker] * GRAVITY)[:, None], touching
 
 
-def spans(touching, time):
+def spans(touching: np.ndarray, time: np.ndarray) -> list[tuple[float, float]]:
     """(start, end) [s] of each contact of one limb; half a sample is added on either side."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], touching.astype("i1"), [0]])))
     half = 0.5 * float(np.median(np.diff(time))) if len(time) > 1 else 0.0
     return [(float(time[first]) - half, float(time[last - 1]) + half) for first, last in zip(edges[::2], edges[1::2])]
 
 
-def figure(gait, loads):
+def figure(gait: Gait, loads: FootForce) -> Figure:
     """A Matplotlib figure: a graph for each walker, a line for each foot, its contacts shaded."""
     try:
-        Figure = lazy.load(_figure).Figure
+        new_figure = lazy.load(_figure).Figure
     except ImportError:
         raise DesirePathError(
             "Drawing forces needs Matplotlib, which is not here: install it with "
@@ -48,8 +56,8 @@ def figure(gait, loads):
         ) from None
     force, touching = foot_loads(gait, loads)
     walkers = len(gait.mass)
-    made = Figure(figsize=(WIDE, 0.6 + HIGH * walkers), layout="constrained")
-    graphs = made.subplots(walkers, 1, sharex=True, squeeze=False)[:, 0]
+    drawn: Figure = new_figure(figsize=(WIDE, 0.6 + HIGH * walkers), layout="constrained")
+    graphs = drawn.subplots(walkers, 1, sharex=True, squeeze=False)[:, 0]
     for w, graph in enumerate(graphs):
         limbs = np.flatnonzero(gait.limb_walker == w)
         for k, limb in enumerate(limbs):
@@ -69,10 +77,10 @@ def figure(gait, loads):
     if len(loads.time) > 1:
         graphs[-1].set_xlim(float(loads.time[0]), float(loads.time[-1]))
     graphs[-1].set_xlabel("time [s]")
-    return made
+    return drawn
 
 
-def write(path, gait, loads):
+def write(path: str | os.PathLike[str], gait: Gait, loads: FootForce) -> None:
     """Draw the forces to a file (.png, .pdf or .svg), whole or not at all."""
     path = os.fspath(path)
     kind = os.path.splitext(path)[1].lower()
@@ -80,6 +88,6 @@ def write(path, gait, loads):
         raise DesirePathError(
             f"{path} is no picture this can draw: let its name end in " + ", ".join(KINDS[:-1]) + f" or {KINDS[-1]}."
         )
-    made = figure(gait, loads)
+    drawn = figure(gait, loads)
     with atomic_file.file(path, "The picture") as stream:
-        made.savefig(stream, format=kind[1:], dpi=120)
+        drawn.savefig(stream, format=kind[1:], dpi=120)

@@ -3,12 +3,19 @@
 Gait, FootForce ---contacts---> [Contact] ---summary---> a dict for each walker, contacts.csv
 """
 
+from __future__ import annotations
+
 import csv
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..files import atomic_file
+from ..motion.gait import Gait
+from .force import FootForce
 from .plot import foot_loads, spans
 from .walker import GRAVITY
 
@@ -26,10 +33,10 @@ class Contact:
     peak: float  # largest vertical force on the ground [N]
     mean: float  # mean vertical force [N]
     impulse: float  # of the vertical force [N s]
-    place: tuple  # mean centre of pressure, by force; NaN without force [m]
+    place: tuple[float, float, float]  # mean centre of pressure, by force; NaN without force [m]
 
 
-def contacts(gait, loads):
+def contacts(gait: Gait, loads: FootForce) -> list[Contact]:
     """Every Contact, in the order in which they begin."""
     force, touching = foot_loads(gait, loads)
     found = []
@@ -52,13 +59,13 @@ def contacts(gait, loads):
                     float(newtons[during].max()),
                     mean,
                     mean * (end - start),
-                    tuple(map(float, place)),
+                    (float(place[0]), float(place[1]), float(place[2])),
                 )
             )
     return sorted(found, key=lambda each: (each.start, each.limb))
 
 
-def pressure_centre(gait, loads, *limbs):
+def pressure_centre(gait: Gait, loads: FootForce, *limbs: int) -> np.ndarray:
     """Where these limbs press together: their parts' centres of pressure by vertical force (T, 3) [m]; NaN in
     the air."""
     moment, weight = np.zeros((len(loads.time), 3)), np.zeros((len(loads.time), 1))
@@ -70,23 +77,23 @@ def pressure_centre(gait, loads, *limbs):
     return np.where(weight > 0.0, moment / np.maximum(weight, 1e-12), np.nan)
 
 
-def summary(gait, loads):
+def summary(gait: Gait, loads: FootForce) -> list[dict[str, Any]]:
     """For each walker a dict: contacts, cadence [1/min], mean force and peak [body weights], speed [m/s], share
     of the time in the air, and the warnings of all."""
     force, touching = foot_loads(gait, loads)
     stays = contacts(gait, loads)
     lasts = float(loads.time[-1] - loads.time[0])
-    told = []
+    numbers: list[dict[str, Any]] = []
     for w, name in enumerate(gait.walker_name):
         limbs = gait.limb_walker == w
         steps = [each for each in stays if each.walker == w and each.start > loads.time[0]]
         starts = [each.start for each in steps]
         # a cadence is known once a foot comes down again: two that land together are no steps
         again = len({each.limb for each in steps}) < len(steps)
-        way = np.linalg.norm(np.diff(gait.com[w, :, :2], axis=0), axis=1)
-        way[gait.cuts_of([w]) - 1] = 0.0
+        travelled = np.linalg.norm(np.diff(gait.com[w, :, :2], axis=0), axis=1)
+        travelled[gait.cuts_of([w]) - 1] = 0.0
         total = force[limbs].sum(axis=0)
-        told.append(
+        numbers.append(
             {
                 "walker": name,
                 "mass_kg": float(gait.mass[w]),
@@ -96,28 +103,28 @@ def summary(gait, loads):
                 ),
                 "mean_force_bw": float(loads.mean[w]) if loads.mean is not None else float(total.mean()),
                 "peak_force_bw": float(force[limbs].max(initial=0.0)),
-                "speed_m_s": float(way.sum() / lasts) if lasts > 0.0 else 0.0,
+                "speed_m_s": float(travelled.sum() / lasts) if lasts > 0.0 else 0.0,
                 "air_share": float((~touching[limbs].any(axis=0)).mean()),
                 "warnings": list(dict.fromkeys(gait.warnings + tuple(loads.warnings))),
             }
         )
-    return told
+    return numbers
 
 
-def sentences(told):
+def sentences(numbers: Mapping[str, Any]) -> list[str]:
     """A walker's numbers in words, a line each."""
     lines = [
-        f"{told['contacts']} contacts"
-        + (f", {told['cadence_per_min']:.0f} a minute" if told["cadence_per_min"] else "")
-        + f", {told['speed_m_s']:.2f} m/s",
-        f"Mean force {told['mean_force_bw']:.2f} body weights, largest of a foot {told['peak_force_bw']:.2f}",
+        f"{numbers['contacts']} contacts"
+        + (f", {numbers['cadence_per_min']:.0f} a minute" if numbers["cadence_per_min"] else "")
+        + f", {numbers['speed_m_s']:.2f} m/s",
+        f"Mean force {numbers['mean_force_bw']:.2f} body weights, largest of a foot {numbers['peak_force_bw']:.2f}",
     ]
-    if told["air_share"] >= 0.005:
-        lines.append(f"In the air for {100 * told['air_share']:.0f} % of the time")
+    if numbers["air_share"] >= 0.005:
+        lines.append(f"In the air for {100 * numbers['air_share']:.0f} % of the time")
     return lines
 
 
-def write_contacts(path, gait, loads):
+def write_contacts(path: str | os.PathLike[str], gait: Gait, loads: FootForce) -> None:
     """The table `walker,limb,start,end,duration,peak,mean,impulse,x,y,z`, a row a contact; s, N, N s, m."""
     number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
     with atomic_file.file(path, "The table of contacts", "w", newline="", encoding="utf-8") as stream:

@@ -1,21 +1,30 @@
 """A recording in turns: every piece for itself, each size for itself, nothing carries over a cut."""
 
+from __future__ import annotations
+
 import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..core import side_by_side
 from ..motion import freeze, tracks
 from ..motion import size as sizes
-from .below import ground_below
+from ..motion.gait import Gait
+from ..motion.tracks import Array
+from .below import GivenHeights, GroundHeights, ground_below, heights_of, is_alike
 from .checks import Sunk
 from .force import GRAVITY, FootForce
 
 ASIDE = 0.3  # a walker put aside is farther up or down than this share of its mass centre's height over its feet
 
 
-def _spans(gait):
+T = TypeVar("T")
+
+
+def _spans(gait: Gait) -> Iterator[tuple[np.ndarray, int, int]]:
     """(walkers, first sample, sample after the last) of each piece; who jumps has pieces of its own. From a pose
     that stands alone nothing can be told."""
     jumpers = np.unique(gait.jump[:, 1])
@@ -31,41 +40,43 @@ def _spans(gait):
 class Turn:
     """Walkers of one size between two cuts, without the holds that interrupt them."""
 
-    gait: object  # their recording
-    ground: object
+    gait: Gait  # their recording
+    ground: GivenHeights  # heights at its own points and samples, where those are given
     walkers: np.ndarray
     parts: np.ndarray
     points: np.ndarray
-    samples: np.ndarray  # of the whole recording
-    holds: tuple  # (first, last) sample of the whole recording
-    whole: bool  # no other turn is theirs
-    count: int  # points of the whole recording
+    samples: np.ndarray  # of all of the recording
+    holds: tuple[tuple[int, int], ...]  # first and last sample of each, of all of the recording
+    only: bool  # no other turn is theirs
+    count: int  # points of all of the recording
 
-    def known(self, touching, rest):
+    def known(self, touching: np.ndarray, rest_clearance: np.ndarray) -> np.ndarray:
         """Clearances (K,), NaN for points that are not there, or whose part never touches where others tell more."""
         clearance = np.full(self.count, np.nan)
-        on = self.whole | touching[self.gait.point_part].any(axis=1)
-        clearance[self.points] = np.where(on, rest, np.nan)
+        on = self.only | touching[self.gait.point_part].any(axis=1)
+        clearance[self.points] = np.where(on, rest_clearance, np.nan)
         return clearance
 
 
-def turns_of(gait, ground):
-    one = ground is None or callable(ground) or np.ndim(ground) == 0
-    heights = None if one else ground_below(gait, ground)
+def turns_of(gait: Gait, ground: GroundHeights) -> Iterator[Turn]:
+    """The turns of a recording with its legs, over a ground as ground_below() takes it."""
+    heights = heights_of(ground)
+    given = None if is_alike(heights) else ground_below(gait, heights)
     for there, first, after in _spans(gait):
         piece = (gait if len(there) == len(gait.mass) else gait.only(there)).piece(first, after)
-        alike = {}
+        alike = dict[tuple[float, tuple[tuple[int, int], ...]], list[int]]()
         for number, walker in enumerate(there):
             leg = gait.leg[walker]
             alike.setdefault((leg, freeze.frozen(piece, number, leg / sizes.LEG)), []).append(number)
         for (_, stops), numbers in alike.items():
-            own, walkers = piece if len(numbers) == len(there) else piece.only(np.array(numbers)), there[numbers]
+            own = piece if len(numbers) == len(there) else piece.only(np.array(numbers))
+            walkers = there[numbers]
             parts = np.flatnonzero(np.isin(gait.limb_walker[gait.part_limb], walkers))
             points = np.flatnonzero(np.isin(gait.point_part, parts))
             samples = first + freeze.kept(after - first, stops)
             yield Turn(
                 freeze.without(own, stops) if stops else own,
-                ground if one else heights[np.ix_(points, samples)],
+                heights if given is None else given[np.ix_(points, samples)],
                 walkers,
                 parts,
                 points,
@@ -76,7 +87,7 @@ def turns_of(gait, ground):
             )
 
 
-def let_go(gait, touching):
+def let_go(gait: Gait, touching: Array) -> None:
     """Nothing touches at the samples on either side of a cut, nobody who jumps there: a sole presses all the way
     between two samples if it touches at either."""
     owner = gait.limb_walker[gait.part_limb]
@@ -84,18 +95,16 @@ def let_go(gait, touching):
         cut = gait.cuts_of([w])
         for beside in (cut, cut - 1):
             tracks.put(touching, np.flatnonzero(owner == w), beside, 0)
-    return touching
 
 
-def middle(clearance, points):
+def middle(clearance: Sequence[np.ndarray], points: int) -> np.ndarray:
     """Clearance of each point (K,) over all pieces; 0 where none knows."""
-    clearance = np.array(clearance).reshape(-1, points)
-    known = np.isfinite(clearance).any(axis=0)
-    clearance[:, ~known] = 0.0
-    return np.nanmedian(clearance, axis=0)
+    pieces = np.array(clearance).reshape(-1, points)
+    pieces[:, ~np.isfinite(pieces).any(axis=0)] = 0.0
+    return np.asarray(np.nanmedian(pieces, axis=0))
 
 
-def each_found(turns, find, ground):
+def each_found(turns: Iterable[Turn], find: Callable[[Turn], T], ground: GroundHeights) -> Iterator[tuple[Turn, T]]:
     """(turn, what find() tells of it) in their order; a ground that has to be asked is asked by one at a time."""
     turns = list(turns)
     if callable(ground) or len(turns) == 1:
@@ -104,17 +113,18 @@ def each_found(turns, find, ground):
     yield from zip(turns, side_by_side(find, turns))
 
 
-def standing(gait, turns):
+def standing(gait: Gait, turns: Iterable[tuple[Any, ...]]) -> Iterable[tuple[Any, ...]]:
     """Those turns, each with its touching and clearance, in which feet stand as high over the ground as in the
     longest stay of the same walker, if it jumps: put aside above or below the ground it presses nothing."""
     jumpers = set(gait.jump[:, 1].tolist())
     if not jumpers:
         return turns
-    turns, main = list(turns), {}
+    turns = list(turns)
+    main: dict[int, tuple[int, float]] = {}
 
-    def height(turn, touching, clearance):
-        rest = clearance[touching[turn.gait.point_part].any(axis=1)]
-        return float(np.median(rest)) if len(rest) else 0.0
+    def height(turn: Turn, touching: np.ndarray, clearance: np.ndarray) -> float:
+        used = clearance[touching[turn.gait.point_part].any(axis=1)]
+        return float(np.median(used)) if len(used) else 0.0
 
     for turn, touching, clearance, *_ in turns:
         stay = int(np.count_nonzero(touching))
@@ -128,14 +138,14 @@ def standing(gait, turns):
     ]
 
 
-def together(gait, turns):
+def together(gait: Gait, turns: Iterable[tuple[Turn, FootForce | Sunk]]) -> FootForce:
     """FootForce of the whole recording from those of its turns, or why there is none."""
     touching, held = tracks.blank(gait.pose, (), "u1", 0), tracks.blank(gait.pose, (), bool, False)
     force, point = tracks.blank(gait.pose, (3,), float, 0.0), tracks.blank(gait.pose, (3,), float, np.nan)
-    clearance, told, sunk = [], [], []
+    clearance, warnings, sunk = list[np.ndarray](), list[str](), list[Sunk]()
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
 
-    def known():
+    def known() -> Iterator[tuple[Turn, Array, np.ndarray, FootForce]]:
         for turn, found in turns:
             if isinstance(found, Sunk):
                 sunk.append(found)
@@ -147,7 +157,7 @@ def together(gait, turns):
         for array, values in zip((touching, force, point, held), _with_holds(turn, found, samples)):
             tracks.put(array, turn.parts, samples, values)
         clearance.append(turn.known(found.touching, found.clearance))
-        told += found.warnings
+        warnings += found.warnings
         if found.mean is not None:
             weighed[turn.walkers] += len(turn.samples) * found.mean
             span[turn.walkers] += len(turn.samples)
@@ -163,12 +173,14 @@ def together(gait, turns):
         point,
         middle(clearance, len(gait.point)),
         weighed / np.maximum(span, 1.0) if span.any() else None,
-        _once(told),
+        _once(warnings),
         held,
     )
 
 
-def _with_holds(turn, found, samples):
+def _with_holds(
+    turn: Turn, found: FootForce, samples: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """touching, force, point and held of a turn at all of its samples, those of its holds among them."""
     shape = (len(turn.parts), len(samples))
     touching, force, point, held = (
@@ -188,15 +200,15 @@ def _with_holds(turn, found, samples):
     return touching, force, point, held
 
 
-def _weighing(force, mass):
+def _weighing(force: np.ndarray, mass: float) -> np.ndarray:
     """Forces (P, 3) of one who stands in the middle of what he did: no more than his weight, straight down."""
     down = np.minimum(force * (0.0, 0.0, 1.0), 0.0)
-    return down * min(1.0, mass * GRAVITY / max(-down[:, 2].sum(), 1e-9))
+    return np.asarray(down * min(1.0, mass * GRAVITY / max(-down[:, 2].sum(), 1e-9)))
 
 
-def _once(warnings):
+def _once(warnings: Iterable[str]) -> tuple[str, ...]:
     """Sentences that differ in their numbers only are told once."""
-    told = {}
+    first: dict[str, str] = {}
     for warning in warnings:
-        told.setdefault(re.sub(r"-?\d+\.\d+", "#", warning), warning)
-    return tuple(told.values())
+        first.setdefault(re.sub(r"-?\d+\.\d+", "#", warning), warning)
+    return tuple(first.values())

@@ -1,5 +1,8 @@
 """From a recording to the forces its feet put on the ground. TRAIL (3) (4), MODEL 4.2 and 4.3."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from warnings import warn
@@ -10,13 +13,14 @@ from ..core import _native
 from ..errors import DesirePathError
 from ..motion import jumps
 from ..motion import size as sizes
+from ..motion.gait import Gait
 from ..motion.points import point_places
-from ..tables import check_some, table
-from .below import carried_on, ground_below, heights_of, off_ground, on_even
+from ..tables import Number, check_some, table
+from .below import GivenHeights, GroundHeights, Heights, carried_on, ground_below, heights_of, off_ground, on_even
 from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, sinks, slides, weigh
 from .force import ELSEWHERE, GRAVITY, PRESSES, FootForce, native_gait, write_loads
 from .times import RATE, at_times, even_rate, frame_rate_of, nearest
-from .turns import each_found, let_go, middle, standing, together, turns_of
+from .turns import Turn, each_found, let_go, middle, standing, together, turns_of
 
 __all__ = [
     "ELSEWHERE",
@@ -50,22 +54,24 @@ OPTIONS = MappingProxyType({name: of.usual for name, of in _OPTIONS.items()})
 _RENAMED = {"overlap_most": "max_overlap", "reach": "support_span"}  # old names of options
 
 
-def _numbers(known, chosen, whose):
+def _numbers(known: Mapping[str, Number], chosen: Mapping[str, float] | None, whose: str) -> dict[str, float]:
     """Chosen numbers, by the core's names."""
-    told = {}
+    given = {}
     for name, value in (chosen or {}).items():
         if name not in known and _RENAMED.get(name) in known:
             warn(f"{name} is an old name: call it {_RENAMED[name]}.", DeprecationWarning, stacklevel=4)
             name = _RENAMED[name]
-        told[name] = value
-    unknown = sorted(set(told) - set(known))
+        given[name] = value
+    unknown = sorted(set(given) - set(known))
     if unknown:
         raise DesirePathError(f"There is no setting {unknown[0]}: use one of " + ", ".join(known) + ".")
-    check_some(told, known, whose)
-    return {name: float(value) for name, value in told.items()}
+    check_some(given, known, whose)
+    return {name: float(value) for name, value in given.items()}
 
 
-def _find_contacts(gait, below, limits, frame_rate):
+def _find_contacts(
+    gait: Gait, below: np.ndarray, limits: Mapping[str, float] | None, frame_rate: float
+) -> tuple[np.ndarray, np.ndarray]:
     touching = np.zeros((len(gait.part_limb), len(gait.time)), "u1")
     clearance = np.zeros(len(gait.point))
     limits = {"frame_time": 1.0 / frame_rate, **(limits or {})}
@@ -73,7 +79,13 @@ def _find_contacts(gait, below, limits, frame_rate):
     return touching, clearance
 
 
-def contacts(gait, ground=None, *, limits=None, ground_height=None):
+def contacts(
+    gait: Gait,
+    ground: GroundHeights = None,
+    *,
+    limits: Mapping[str, float] | None = None,
+    ground_height: GroundHeights = None,
+) -> tuple[np.ndarray, np.ndarray]:
     """(touching (P, T) u1, clearance (K,)) at the recording's samples. TRAIL (4)
 
     ground: see ground_below; ground_height is an old name of it.
@@ -85,15 +97,16 @@ def contacts(gait, ground=None, *, limits=None, ground_height=None):
     gait = sizes.known(jumps.found(gait.check()))
     touching, clearance = np.zeros((len(gait.part_limb), len(gait.time)), "u1"), []
     known = ((turn, *_contacts_of(turn.gait, turn.ground, limits)) for turn in turns_of(gait, ground))
-    for turn, on, rest in standing(gait, known):
+    for turn, on, lowest in standing(gait, known):
         touching[np.ix_(turn.parts, turn.samples)] = on
-        clearance.append(turn.known(on, rest))
+        clearance.append(turn.known(on, lowest))
         for first, last in turn.holds:
             touching[np.ix_(turn.parts, range(first + 1, last + 1))] = touching[turn.parts, first][:, None]
-    return let_go(gait, touching), middle(clearance, len(gait.point))
+    let_go(gait, touching)
+    return touching, middle(clearance, len(gait.point))
 
 
-def _contacts_of(gait, ground, limits):
+def _contacts_of(gait: Gait, ground: GivenHeights, limits: Mapping[str, float] | None) -> tuple[np.ndarray, np.ndarray]:
     """contacts() of walkers of one size, in one turn."""
     size = gait.leg[0] / sizes.LEG
     even, every = even_rate(gait, size)
@@ -107,7 +120,17 @@ def _contacts_of(gait, ground, limits):
     return touching[:, pick], clearance * size
 
 
-def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=False, limits=None, options=None, cell=0.0):
+def loads(
+    gait: Gait,
+    model: str = "inertia",
+    ground: GroundHeights = None,
+    *,
+    settle_time: float | Heights = 0.2,
+    half_sine: bool = False,
+    limits: Mapping[str, float] | None = None,
+    options: Mapping[str, float] | None = None,
+    cell: float = 0.0,
+) -> FootForce:
     """FootForce of a recording at its own samples. TRAIL (3), SOFT22 (3)-(8)
 
     model: "inertia" (Newton on the recorded mass centre) or "impulse" (the papers'; settle_time is its
@@ -117,14 +140,14 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
     What stands on something that is not the ground (a box, a deck, stairs that were left out) is carried there: its
     force is told, and `touching` is ELSEWHERE.
     """
-    ground = heights_of(ground)
-    told, gait = len(gait.warnings), sizes.known(jumps.found(gait.check()))
+    ground, before = heights_of(ground), len(gait.warnings)
+    gait = sizes.known(jumps.found(gait.check()))
     if model not in MODELS:
         raise DesirePathError(f"There is no load model {model}: use " + " or ".join(MODELS) + ".")
     if not callable(settle_time) and not (np.isfinite(settle_time) and settle_time > 0):
         raise DesirePathError(f"A settle time of {settle_time:g} s cannot be used: give one above 0.")
 
-    def find(turn):
+    def find(turn: Turn) -> FootForce | Sunk:
         try:
             return _loads_of(turn.gait, model, turn.ground, settle_time, half_sine, limits, options, cell)
         except Sunk as problem:
@@ -133,10 +156,19 @@ def loads(gait, model="inertia", ground=None, *, settle_time=0.2, half_sine=Fals
             raise
 
     found = together(gait, each_found(turns_of(gait, ground), find, ground))
-    return replace(found, warnings=gait.warnings[told:] + found.warnings)
+    return replace(found, warnings=gait.warnings[before:] + found.warnings)
 
 
-def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell):
+def _loads_of(
+    gait: Gait,
+    model: str,
+    ground: GivenHeights,
+    settle_time: float | Heights,
+    half_sine: bool,
+    limits: Mapping[str, float] | None,
+    options: Mapping[str, float] | None,
+    cell: float,
+) -> FootForce:
     """loads() of walkers of one size, in one turn."""
     size = gait.leg[0] / sizes.LEG
     even, every = even_rate(gait, size)
@@ -147,11 +179,11 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     force = np.zeros(touching.shape + (3,))
     point = np.zeros(touching.shape + (3,))
     options = {"frame_time": 1.0 / (frame_rate_of(gait) * np.sqrt(size)), **(options or {})}
-    tau, taus = settle_time, None
-    if callable(tau):
-        tau = 1.0
-        if model == "impulse":  # no other asks for it
-            taus = _settles(even, touching, settle_time) / np.sqrt(size)
+    tau, taus = 1.0, None
+    if not callable(settle_time):
+        tau = settle_time
+    elif model == "impulse":  # no other asks for it
+        taus = _settles(even, touching, settle_time) / np.sqrt(size)
     _native.foot_force(
         native_gait(person),
         touching,
@@ -167,8 +199,8 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     point, clearance = point * size, clearance * size
     mean, warnings = weigh(person, touching, force) if model == "inertia" else (None, [])
     places = point_places(even)
-    told = sinks(even, below) + hovers(even, touching, clearance, size) + slides(even, places, touching, size)
-    warnings = told + warnings
+    sinks(even, below)
+    warnings = hovers(even, touching, clearance, size) + slides(even, places, touching, size) + warnings
     if (touching[beside] != 0).any():
         warnings.append(BESIDE)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
@@ -181,12 +213,14 @@ def _loads_of(gait, model, ground, settle_time, half_sine, limits, options, cell
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
 
 
-def _settles(gait, touching, tau):
+def _settles(gait: Gait, touching: np.ndarray, tau: Heights) -> np.ndarray:
     """tau of the soil under each point where its part touches (K, T), 1 elsewhere [s]."""
     on = (touching != 0)[gait.point_part]
     out = np.ones(on.shape)
     if on.any():
         out[on] = tau(np.ascontiguousarray(point_places(gait)[on][:, :2]))
+        if not ((out > 0.0) & np.isfinite(out)).all():
+            raise DesirePathError("The settle time of the soil is not above 0 everywhere: let it be, under every foot.")
     return out
 
 
@@ -202,15 +236,15 @@ class Walker:
     load_model: str = "inertia"
     settle_time: float = 0.2
     half_sine: bool = False
-    limits: dict = field(default_factory=dict)
-    options: dict = field(default_factory=dict)
+    limits: Mapping[str, float] = field(default_factory=dict)
+    options: Mapping[str, float] = field(default_factory=dict)
     cell: float = 0.0
 
-    def contacts(self, gait, ground=None):
+    def contacts(self, gait: Gait, ground: GroundHeights = None) -> tuple[np.ndarray, np.ndarray]:
         """Which part touches when, and each point's resting clearance: see contacts()."""
         return contacts(gait, ground, limits=self.limits)
 
-    def loads(self, gait, ground=None):
+    def loads(self, gait: Gait, ground: GroundHeights = None) -> FootForce:
         """FootForce of a recording on this ground: see loads()."""
         return loads(
             gait,

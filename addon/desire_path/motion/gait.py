@@ -4,9 +4,12 @@ Arrays carry the names, units and shapes of DpGait in native/base/types.h: W wal
 L limbs own P parts, P parts own K contact points, all over T times.
 """
 
+from __future__ import annotations
+
 import contextlib
 import os
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,8 +19,13 @@ from ..bounds import Limits
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file, npz
+from ..keywords import fields_of
 from . import freeze, size, tracks
+from .scatter import Scatter
 from .tracks import TrackArray
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 # what carries a recording elsewhere knows recordings: Gait.carried and Gait.along only name it
 _cycle = lazy.module("..placement.cycle", __package__)
@@ -448,35 +456,26 @@ class Gait(Record):
         """Walkers that walk in place carried ahead by their own speed; itself if there are none."""
         return _cycle.carried(self)
 
+    @fields_of(scatter=Scatter)
     def along(
         self,
-        path,
-        passes=1,
+        path: ArrayLike,
+        passes: int = 1,
         *,
-        back_and_forth=True,
-        lateral=0.1,
-        timing=0.05,
-        stride=0.05,
-        seed=0,
-        pause=0.0,
-        ground=None,
-    ):
+        back_and_forth: bool = True,
+        scatter: Scatter = Scatter(),
+        seed: int = 0,
+        pause: float = 0.0,
+        ground: Any = None,
+    ) -> Gait:
         """The walk's cycle carried along a path (n, 2 or 3) [m] as often as wanted, there and back or one way.
 
-        lateral [m], timing, stride: how far passes scatter; pause between them [s]: see passes.along().
+        scatter: how passes differ; pause: between them [s]; ground: what is walked on. See passes.along().
         """
-        return _passes.along(
-            self,
-            path,
-            passes,
-            back_and_forth=back_and_forth,
-            lateral=lateral,
-            timing=timing,
-            stride=stride,
-            seed=seed,
-            pause=pause,
-            ground=ground,
+        carried: Gait = _passes.along(
+            self, path, passes, back_and_forth=back_and_forth, scatter=scatter, seed=seed, pause=pause, ground=ground
         )
+        return carried
 
     def _resampled_pieces(self, rate):
         """Each piece begins when it began; in between may be a gap."""

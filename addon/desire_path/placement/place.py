@@ -3,16 +3,21 @@
 Gait of a level floor --carry: feet and body rise with the ground--> --tilt: (1), (2)--> Gait of the hill
 """
 
+from __future__ import annotations
+
 import math
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..ground.sim import Ground, Simulation
+from ..keywords import fields_of
 from ..loads import walker as walks
 from ..motion import rotation, stays
 from ..motion import size as sizes
+from ..motion.gait import Gait
 from ..motion.points import point_places
 from ..rig import leg
 
@@ -26,42 +31,52 @@ CLEARLY = 0.01  # the floor fits a clip better than the ground only by more than
 GROWN = 0.2  # shorter feet rest slower and fit better, in proportion [m]
 
 
+@dataclass(frozen=True)
+class PlaceOptions:
+    """How ground turns and lifts the feet that are put on it. TRAIL (1) (2)"""
+
+    reach: float = REACH  # d_max: feet this high over the ground are as recorded [m] > 0
+    toe_slope: float = TOE_SLOPE  # theta_0: up steeper slopes the heels stay up [rad] 0..pi/2
+    foot_radius: float | None = None  # the ground is smoothed over this under a foot [m] > 0; None: a foot's length
+    body_radius: float | None = None  # and over this under the body [m] > 0; None: half the mass centre's height
+
+    def check(self) -> None:
+        """Refuse numbers that no feet can be placed by, naming which."""
+        for name, value in (
+            ("reach", self.reach),
+            ("smoothing radius of a foot", self.foot_radius),
+            ("smoothing radius of the body", self.body_radius),
+        ):
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise DesirePathError(f"A {name} of {value:g} m cannot be used: give one above 0.")
+        if not 0.0 <= self.toe_slope <= math.pi / 2:
+            raise DesirePathError(f"A toe slope of {self.toe_slope:g} rad cannot be used: give 0 to {math.pi / 2:.2f}.")
+
+
+@fields_of(options=PlaceOptions)
 def place_feet(
-    gait,
-    ground,
+    gait: Gait,
+    ground: Ground | Simulation,
     *,
-    reach=REACH,
-    toe_slope=TOE_SLOPE,
-    roll=True,
-    carry=None,
-    floor=None,
-    foot_radius=None,
-    body_radius=None,
-    walkers=None,
-):
+    roll: bool = True,
+    carry: bool | None = None,
+    floor: float | None = None,
+    walkers: Iterable[int] | None = None,
+    options: PlaceOptions = PlaceOptions(),
+) -> Gait:
     """The same walk with its feet on this ground, as a new Gait. TRAIL (1) (2)
 
-    ground: a Ground or a Simulation. reach: d_max [m]. toe_slope: theta_0 [rad], the slope from which heels
-    stay up. roll: feet keep the roll they have over their floor; False: they lie flat near the ground, as the
-    paper prints (1). carry: the clip was recorded on a level floor, so that feet and body rise and sink with
-    the ground; None: where the floor fits it better, or it is far from the ground. One who is not carried and
-    whose feet lie on the ground already is left as it is. floor: its height [m], None: where the
-    feet rest. foot_radius, body_radius: over which the ground is smoothed [m], None: a foot's length, half
-    the height of the mass centre. walkers: their indices, None: all.
+    ground: a Ground or a Simulation. roll: feet keep the roll they have over their floor; False: they lie flat near
+    the ground, as the paper prints (1). carry: the clip was recorded on a level floor, so that feet and body rise and
+    sink with the ground; None: where the floor fits it better, or it is far from the ground. One who is not carried
+    and whose feet lie on the ground already is left as it is. floor: its height [m], None: where the feet rest.
+    walkers: their indices, None: all.
     """
     gait.check()
     land = Simulation(ground) if isinstance(ground, Ground) else ground
     if not isinstance(land, Simulation):
         raise DesirePathError("Feet are placed on a Ground or a Simulation: make one of the ground first.")
-    for name, value in (
-        ("reach", reach),
-        ("smoothing radius of a foot", foot_radius),
-        ("smoothing radius of the body", body_radius),
-    ):
-        if value is not None and not (math.isfinite(value) and value > 0.0):
-            raise DesirePathError(f"A {name} of {value:g} m cannot be used: give one above 0.")
-    if not 0.0 <= toe_slope <= math.pi / 2:
-        raise DesirePathError(f"A toe slope of {toe_slope:g} rad cannot be used: give 0 to {math.pi / 2:.2f}.")
+    options.check()
     if floor is not None and not math.isfinite(floor):
         raise DesirePathError("The floor's height is not a number: give it in metres, or none.")
     rows = range(len(gait.mass)) if walkers is None else walkers
@@ -75,10 +90,10 @@ def place_feet(
         clearance, stood = _stands(gait, land, row, carried, floor)
         high = sizes.TALL * float(sizes.legs(gait)[row])
         numbers = {
-            "max_clearance": reach,
-            "toe_slope": toe_slope,
-            "foot_radius": foot_radius or _foot_length(gait, row),
-            "body_radius": body_radius or BODY * high,
+            "max_clearance": options.reach,
+            "toe_slope": options.toe_slope,
+            "foot_radius": options.foot_radius or _foot_length(gait, row),
+            "body_radius": options.body_radius or BODY * high,
             "floor": stood,
         }
         try:
@@ -93,7 +108,7 @@ def place_feet(
     return replace(gait, pose=pose, com=com)
 
 
-def tilt(gait, placed, row=0):
+def tilt(gait: Gait, placed: Gait, row: int = 0) -> np.ndarray | None:
     """How the trunk of one that walks on more than two feet leans with the ground under them: turns (T, 3, 3).
 
     placed: the same walk with its feet on the ground. None: a trunk on one foot or two stays upright.
@@ -119,13 +134,13 @@ def tilt(gait, placed, row=0):
     return leg.turn_between(up, rotation.unit(np.concatenate([-rate, up[:, 2:]], axis=1)))
 
 
-def _calm(values, frames):
+def _calm(values: np.ndarray, frames: int) -> np.ndarray:
     """The mean of values (T, n) over so many samples before and after, held at the ends."""
     padded = np.pad(values, ((frames, frames), (0, 0)), mode="edge")
     return np.lib.stride_tricks.sliding_window_view(padded, 2 * frames + 1, axis=0).mean(axis=-1)
 
 
-def carries(gait, land, row):
+def carries(gait: Gait, land: Simulation, row: int) -> bool:
     """Was this walker recorded on a level floor rather than on this ground?"""
     own = _points_of(gait, row)
     places = point_places(gait)[own]
@@ -146,7 +161,7 @@ def carries(gait, land, row):
     return _spread(over, rests) > _spread(flat, rests) + CLEARLY * small
 
 
-def lies(gait, land, row):
+def lies(gait: Gait, land: Simulation, row: int) -> bool:
     """Do this walker's feet, where they stand, lie on this ground rather than level?"""
     touching, _ = walks.contacts(gait, land.rest_height)
     nearer = []
@@ -162,17 +177,17 @@ def lies(gait, land, row):
     return bool(nearer) and float(np.mean(nearer)) > 0.0
 
 
-def _spread(height, rests):
+def _spread(height: np.ndarray, rests: np.ndarray) -> float:
     """How far a point's resting places are apart in height, for three of four of them [m]."""
     apart = [np.abs(row[on] - np.median(row[on])) for row, on in zip(height, rests) if on.any()]
     return float(np.quantile(np.concatenate(apart), 0.75))
 
 
-def _points_of(gait, row):
+def _points_of(gait: Gait, row: int) -> np.ndarray:
     return np.flatnonzero(gait.limb_walker[gait.part_limb[gait.point_part]] == row)
 
 
-def _foot_length(gait, row):
+def _foot_length(gait: Gait, row: int) -> float:
     """Of one walker's soles, the parts of a limb end to end [m]."""
     length = np.zeros(len(gait.limb_walker))
     for part, limb in enumerate(gait.part_limb):
@@ -180,7 +195,7 @@ def _foot_length(gait, row):
     return max(float(np.median(length[gait.limb_walker == row])), 0.02)
 
 
-def _stands(gait, land, row, carried, floor):
+def _stands(gait: Gait, land: Simulation, row: int, carried: bool, floor: float | None) -> tuple[np.ndarray, float]:
     """Resting clearance of each point over what it stood on (K,), and the height of a level floor [m]."""
     touching, clearance = walks.contacts(gait, None if carried else land.rest_height)
     if not carried:

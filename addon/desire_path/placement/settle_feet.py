@@ -3,14 +3,22 @@
 Gait, its loads, the pressed ground over time ---depth under each limb---> eased in the air ---> Gait in its prints
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..ground import maps
+from ..loads.below import Heights
+from ..loads.force import FootForce
 from ..loads.plot import foot_loads
 from ..motion import rotation
+from ..motion.gait import Gait
+from ..motion.tracks import Array
 
 PRESSED = 1e-3  # ground pressed less than this is not under a sole [m]
 FIRM = 0.25  # cells a sole covers in part are pressed less than this share of what is usual under it [-]
@@ -19,15 +27,30 @@ RISE = 0.2  # a foot that has left the ground comes up again over this [s]
 BODY = 0.5  # the body follows its feet smoothed over this [s]
 
 
+class Frames(Protocol):
+    """Where the frames of a bake lie and what they show, as FrameIndex has it."""
+
+    frame_start: int
+    frames: int
+    x0: float
+    y0: float
+    cell: float
+    nx: int
+    ny: int
+
+    def path(self, number: int) -> str: ...
+
+
 class Film:
     """The frames of a bake as ground that changes: trail_NNNN.exr, looked up by scene frame."""
 
-    def __init__(self, index):
+    def __init__(self, index: Frames) -> None:
         self.index = index
-        self.number, self.planes = None, None
+        self.number: int | None = None
+        self.planes: dict[str, np.ndarray] = {}
 
-    def at(self, frame, xy):
-        """(height change (n,), compression (n,)) [m] at a scene frame and places (n, 2); zero beside it."""
+    def at(self, frame: float, xy: np.ndarray) -> np.ndarray:
+        """Height change and compression (2, n) [m] at a scene frame and places (n, 2); zero beside it."""
         index = self.index
         number = min(max(int(round(frame)) - index.frame_start + 1, 0), index.frames)
         if number != self.number:
@@ -41,21 +64,23 @@ class Film:
             values = np.zeros(len(xy))
             values[inside] = self.planes[name][j[inside], i[inside]]
             out.append(values)
-        return out
+        return np.array(out)
 
 
 class Films:
     """The same of several grounds that were baked together: each place is seen where it is pressed deepest."""
 
-    def __init__(self, films):
+    def __init__(self, films: Sequence[Film]) -> None:
         self.films = films
 
-    def at(self, frame, xy):
+    def at(self, frame: float, xy: np.ndarray) -> np.ndarray:
+        """As Film.at()."""
         seen = np.array([film.at(frame, xy) for film in self.films])
-        return np.take_along_axis(seen, seen[:, 1].argmax(axis=0)[None, None], axis=0)[0]
+        deepest: np.ndarray = np.take_along_axis(seen, seen[:, 1].argmax(axis=0)[None, None], axis=0)[0]
+        return deepest
 
 
-def depths(gait, touching, film, rest_height):
+def depths(gait: Gait, touching: Array, film: Film | Films, rest_height: Heights) -> np.ndarray:
     """How far each limb has to come down to rest on the ground it has pressed (L, T) >= 0 [m]; NaN in the air.
 
     touching (P, T) as loads have it; film: a Film; rest_height: of the ground before the walk, at (n, 2).
@@ -79,7 +104,7 @@ def depths(gait, touching, film, rest_height):
     return out
 
 
-def eased(depth, time):
+def eased(depth: np.ndarray, time: np.ndarray) -> np.ndarray:
     """Depths of limbs (L, T), carried on in the air: up again after a contact, from nothing before the next."""
     out = np.zeros_like(depth)
     for row, known in zip(out, depth):
@@ -95,7 +120,7 @@ def eased(depth, time):
     return out
 
 
-def into_prints(gait, loads, film, rest_height):
+def into_prints(gait: Gait, loads: FootForce, film: Film | Films, rest_height: Heights) -> Gait:
     """The same walk, its feet as deep in the ground as the prints they have pressed by then, as a new Gait."""
     depth = depths(gait, loads.touching, film, rest_height)
     if not (depth > 0.0).any():
@@ -118,7 +143,7 @@ def into_prints(gait, loads, film, rest_height):
     return replace(gait, pose=pose, com=com)
 
 
-def _smooth(values, count):
+def _smooth(values: np.ndarray, count: int) -> np.ndarray:
     """The mean over `count` samples about each, twice."""
     for _ in range(2):
         padded = np.pad(values, count // 2, mode="edge")

@@ -9,16 +9,23 @@ reserve; what the model leaves out is measured on lanes with the kind that was f
 Needs SciPy, which nothing else here does: pip install desire-path[fit].
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import ModuleType
+from typing import Any, TypeVar
 
 import numpy as np
 
 from .. import lazy
 from ..core import _native, side_by_side
 from ..errors import DesirePathError
-from ..ground.plants import YEAR, as_kind, share_below
+from ..ground.plants import YEAR, Kind, as_kind, share_below
+from ..keywords import fields_of
 from . import trampling
+from .trampling import Lane, Progress, Row
 
 _optimize = lazy.module("scipy.optimize")  # a machine may lack it
 
@@ -31,34 +38,49 @@ WORST = 8.0  # power of the mean error that is made small: high, so that the wor
 STRENGTH, SPREAD = (0.01, 1000.0), (0.05, 4.0)  # what is looked at: reserves [s of bending], spreads
 
 
+T = TypeVar("T")
+
+
 @dataclass(frozen=True)
 class Fitted:
     """A kind and how well it does: counts, the cover that was wanted and that its lanes had [per cent]."""
 
-    kind: object
-    passes: tuple
-    wanted: tuple
-    reached: tuple
+    kind: Kind
+    passes: tuple[int, ...]
+    wanted: tuple[float, ...]
+    reached: tuple[float, ...]
 
     @property
-    def worst(self):
+    def worst(self) -> float:
         """Largest difference [points]."""
         return max(abs(a - b) for a, b in zip(self.wanted, self.reached))
 
     @property
-    def rms(self):
+    def rms(self) -> float:
         """Root mean square difference [points]."""
         return math.sqrt(sum((a - b) ** 2 for a, b in zip(self.wanted, self.reached)) / len(self.wanted))
 
 
-def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **options):
+@fields_of(lane=Lane)
+def fit(
+    rows: Iterable[Row],
+    kind: Kind | str = "carex",
+    *,
+    lane: Lane = Lane(),
+    seeds: Sequence[int] = SEEDS,
+    rounds: int = ROUNDS,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Fitted:
     """The kind that wears as a table says, from a kind that looks like it: a Fitted.
 
-    rows: (passes, cover [per cent], days of rest) of lane.read(), of which those with the same passes count by their
-    mean; rows with days of rest tell how fast it grows
-    again, from the lane's mean cover to its mean cover. rounds: how often at most lanes are trodden to check.
-    options: as for lane.measure. Found are strength and spread, and regrow_rate and seed_share from rows with days;
-    stems break by wear alone, and what did not break recovers in two weeks.
+    rows: (passes, cover [per cent], days of rest) of trampling.read(), of which those with the same passes count by
+    their mean; rows with days of rest tell how fast it grows again, from the lane's mean cover to its mean cover.
+    lane: what is trodden, once for each of the seeds, which stand in the place of its own. rounds: how often at most
+    lanes are trodden to check, 1 or more. threads: of each lane, 0 = one for each processor. progress: called with
+    0..1.
+    Found are strength and spread, and regrow_rate and seed_share from rows with days; stems break by wear alone, and
+    what did not break recovers in two weeks.
     """
     try:
         optimize = lazy.load(_optimize)
@@ -67,29 +89,26 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
             "Fitting needs SciPy, which is not here: install it with pip install desire-path[fit], "
             "or pip install scipy."
         ) from None
-    told = {}
+    if rounds < 1 or not len(seeds):
+        raise DesirePathError("A fit treads lanes: give it at least one of rounds and one of seeds.")
+    rows, covers = list(rows), dict[int, list[float]]()
     for count, cover, days in rows:
         if not days:
-            told.setdefault(count, []).append(cover)
-    fresh = [(count, sum(covers) / len(covers)) for count, covers in sorted(told.items())]
+            covers.setdefault(count, []).append(cover)
+    fresh = [(count, sum(each) / len(each)) for count, each in sorted(covers.items())]
     if len(fresh) < 2:
         raise DesirePathError("A fit needs the cover after at least two counts of passes: add rows to the table.")
-    passes, wanted = tuple(zip(*fresh))
-    wanted = np.array(wanted, float)
+    passes, wanted = tuple(count for count, _ in fresh), np.array([cover for _, cover in fresh])
     if wanted.max() <= 1.0:
         raise DesirePathError("The table's cover seems to be in shares: give it in per cent.")
-    kind = replace(as_kind(kind), break_angle=math.pi, recover_rate=0.0, spread=0.0)
-    lanes = _Lanes(kind, passes, seeds, rounds, progress, options)
+    tough = _with(as_kind(kind), break_angle=math.pi, recover_rate=0.0, spread=0.0)
+    lanes = _Lanes(tough, passes, seeds, rounds, lane, threads, progress)
     bent = lanes.bent()
     missed = np.zeros(len(wanted))  # what the model leaves out [points]
     for _ in range(rounds):
         strength, spread = _solved(optimize, bent, wanted - missed)
-        found = replace(
-            kind,
-            strength=strength * kind.degrade_rate,
-            spread=spread,
-            recover_rate=strength * kind.degrade_rate / (RECOVER_DAYS * trampling.DAY),
-        )
+        reserve = strength * tough.degrade_rate
+        found = _with(tough, strength=reserve, spread=spread, recover_rate=reserve / (RECOVER_DAYS * trampling.DAY))
         reached = lanes.cover(found)
         before, missed = missed, reached - _model(bent, strength, spread)
         if abs(missed - before).max() < NEAR:
@@ -97,59 +116,80 @@ def fit(rows, kind="carex", *, seeds=SEEDS, rounds=ROUNDS, progress=None, **opti
     later = [(count, cover, days) for count, cover, days in rows if days]
     if later:
         rate, share = _regrowth(optimize, found, dict(zip(passes, reached)), later)
-        found = replace(found, regrow_rate=rate, seed_share=share)
+        found = _with(found, regrow_rate=rate, seed_share=share)
     return Fitted(found, passes, tuple(wanted.tolist()), tuple(reached.tolist()))
+
+
+def _with(kind: Kind, **numbers: float) -> Kind:
+    """A kind with other numbers, which are fields that the core's table gives it."""
+    changed: dict[str, Any] = numbers
+    return replace(kind, **changed)
 
 
 class _Lanes:
     """The lanes of all seeds, trodden side by side."""
 
-    def __init__(self, kind, passes, seeds, rounds, progress, options):
-        self.kind, self.passes, self.seeds, self.progress, self.options = kind, passes, seeds, progress, options
+    def __init__(
+        self,
+        kind: Kind,
+        passes: Sequence[int],
+        seeds: Sequence[int],
+        rounds: int,
+        lane: Lane,
+        threads: int,
+        progress: Progress | None,
+    ) -> None:
+        self.kind, self.passes, self.threads, self.progress = kind, passes, threads, progress
+        self.lanes = [replace(lane, seed=seed) for seed in seeds]
         self.begun, self.all = 0, rounds + 1
 
-    def _each(self, walk):
-        base, share = self.begun, dict.fromkeys(self.seeds, 0.0)
+    def _each(self, tread: Callable[[Lane, Progress], T]) -> list[T]:
+        base, share = self.begun, [0.0] * len(self.lanes)
         self.begun += 1
 
-        def told(seed, done):
-            share[seed] = done
-            if self.progress:
-                self.progress((base + sum(share.values()) / len(share)) / self.all)
+        def one(number: int) -> T:
+            def report(done: float) -> None:
+                share[number] = done
+                if self.progress:
+                    self.progress((base + sum(share) / len(share)) / self.all)
 
-        return list(side_by_side(lambda seed: walk(seed, lambda done: told(seed, done)), self.seeds, len(self.seeds)))
+            return tread(self.lanes[number], report)
 
-    def bent(self):
+        return list(side_by_side(one, range(len(self.lanes)), len(self.lanes)))
+
+    def bent(self) -> list[np.ndarray]:
         """For each count, how long each bend and those below it were bent [s], all seeds together."""
-        tough = replace(self.kind, strength=TOUGH)
+        tough = _with(self.kind, strength=TOUGH)
 
-        def walk(seed, told):
-            sim, marks = trampling.trodden(tough, self.passes[-1], **{**trampling.USUAL, **self.options, "seed": seed})
+        def tread(lane: Lane, report: Progress) -> list[np.ndarray]:
+            sim, marks = trampling.trodden(tough, self.passes[-1], lane=lane, threads=self.threads)
             bends = sim.plants_shape(0)[0] - 2
             return trampling.read_at(
                 sim,
                 [marks[n - 1] for n in self.passes],
                 marks[-1],
-                told,
-                lambda: _most(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate,
+                report,
+                lambda: _largest_below(TOUGH - sim.plants_strength(0), bends) / tough.degrade_rate,
             )
 
-        return [np.concatenate(each) for each in zip(*self._each(walk))]
+        return [np.concatenate(each) for each in zip(*self._each(tread))]
 
-    def cover(self, kind):
+    def cover(self, kind: Kind) -> np.ndarray:
         """Mean cover of the lanes after each count [per cent]."""
         rows = self._each(
-            lambda seed, told: trampling.measure(kind, passes=self.passes, seed=seed, progress=told, **self.options)
+            lambda lane, report: trampling.measure(
+                kind, lane=lane, passes=self.passes, threads=self.threads, progress=report
+            )
         )
         return np.mean([[share for _, share in row] for row in rows], axis=0)
 
 
-def _most(lost, bends):
+def _largest_below(lost: np.ndarray, bends: int) -> np.ndarray:
     """The most lost by each bend or one below it, for stems of so many bends."""
     return np.maximum.accumulate(lost.reshape(-1, bends), axis=1).ravel()
 
 
-def _model(bent, strength, spread):
+def _model(bent: list[np.ndarray], strength: float, spread: float) -> np.ndarray:
     """Cover after each count [per cent] where reserves are strength exp(spread z) seconds of bending: the chance that
     a reserve outlasts its stem's bending, TRAIL (6) and (7), over all bends."""
     return np.array(
@@ -157,11 +197,11 @@ def _model(bent, strength, spread):
     )
 
 
-def _solved(optimize, bent, wanted):
+def _solved(optimize: ModuleType, bent: list[np.ndarray], wanted: np.ndarray) -> tuple[float, float]:
     """Strength [s] and spread whose modelled cover is nearest to what is wanted."""
     bent = [np.quantile(each, (np.arange(2000) + 0.5) / 2000) for each in bent]  # as good, and faster
 
-    def error(x):
+    def error(x: np.ndarray) -> float:
         return float((abs(_model(bent, math.exp(x[0]), x[1]) - wanted) ** WORST).mean() ** (1.0 / WORST))
 
     bounds = [tuple(map(math.log, STRENGTH)), SPREAD]
@@ -172,21 +212,23 @@ def _solved(optimize, bent, wanted):
     return float(math.exp(best.x[0])), float(best.x[1])
 
 
-def _regrowth(optimize, kind, reached, later):
+def _regrowth(
+    optimize: ModuleType, kind: Kind, reached: Mapping[int, float], later: Sequence[Row]
+) -> tuple[float, float]:
     """(rate [1/s], share of seeds) with which cover comes back as rows with days of rest say; by the rate alone
     where they are one or two."""
     known = [(reached[count] / 100.0, cover / 100.0, days) for count, cover, days in later if count in reached]
     if not known:
         raise DesirePathError("Rows with days of rest have counts of passes that no row without has: add those.")
 
-    def error(rate, share):
-        grown = replace(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
+    def error(rate: float, share: float) -> float:
+        grown = _with(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
         return sum(
             abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover) ** WORST
             for alpha, cover, days in known
         ) ** (1.0 / WORST)
 
-    def best(share):
+    def best(share: float) -> Any:
         return optimize.minimize_scalar(lambda rate: error(rate, share), bounds=(0.0, 50.0), method="bounded")
 
     shares = np.linspace(0.0, 1.0, 101) if len(known) > 2 else [0.0]
