@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numbers
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeGuard, TypeVar
@@ -29,7 +29,7 @@ def table(rows: Iterable[tuple[Any, ...]], names: Mapping[str, str] = MappingPro
     return MappingProxyType({names.get(name, name): Number(*of) for name, *of in rows})
 
 
-def with_numbers(known: Mapping[str, Number]):
+def with_numbers(known: Mapping[str, Number]) -> Callable[[Made], Made]:
     """For a class that becomes a dataclass: a field for each number, behind its own, and what each means."""
 
     def make(kind: Made) -> Made:

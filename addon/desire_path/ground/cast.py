@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+from ..motion.tracks import TrackArray
+
+if TYPE_CHECKING:
+    from ..loads.force import FootForce
+    from ..motion.gait import Gait
 
 HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
 
 
-def cast_of(gait):
+def cast_of(gait: Gait) -> tuple[np.ndarray, ...]:
     """Times, and who walks, as the core takes them."""
     vertices = np.concatenate([sole.vertices for sole in gait.soles]).astype(np.float32)
     triangles = np.concatenate([sole.triangles for sole in gait.soles]).astype(np.int32)
@@ -23,7 +31,7 @@ def cast_of(gait):
     )
 
 
-def pressing_of(touching, held):
+def pressing_of(touching: np.ndarray, held: np.ndarray | None) -> np.ndarray:
     """What the core is told of touching parts; what is carried elsewhere presses nothing."""
     out = (touching == 1).astype(np.uint8)
     if held is not None:
@@ -31,10 +39,17 @@ def pressing_of(touching, held):
     return np.ascontiguousarray(out)
 
 
-def tracks_of(gait, loads, held):
+def tracks_of(
+    gait: Gait, loads: FootForce, held: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, ...]]:
     """(walker, first sample, samples) (n, 3) of all who are there, their poses (N, 7), and (touching, force, point)."""
     owner = gait.limb_walker[gait.part_limb]
-    table, poses, touching, force, point = [], [], [], [], []
+    table: list[tuple[int, int, int]] = []
+    poses: list[np.ndarray] = []
+    touching: list[np.ndarray] = []
+    force: list[np.ndarray] = []
+    point: list[np.ndarray] = []
+    assert isinstance(gait.pose, TrackArray)
     for rows, first, values in gait.pose.blocks:
         count = values.shape[1]
         after = first + count

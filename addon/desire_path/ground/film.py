@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any
+
 from ..errors import DesirePathError
 from . import maps
 from .fields import FIELDS
@@ -10,7 +14,7 @@ from .fields import FIELDS
 class Closed:
     """In place of the core of a Simulation that was closed."""
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         raise DesirePathError("This simulation was closed: make a new one.")
 
 
@@ -20,28 +24,28 @@ class Film:
     Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
     """
 
-    def __init__(self, core):
+    def __init__(self, core: Any) -> None:
         self._core = core
 
-    def open_maps(self, names, notes):
+    def open_maps(self, names: Sequence[str], notes: Iterable[tuple[str, str | float]]) -> None:
         """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
         and notes (name, text or number)."""
         shown = (maps.PICTURE, FIELDS[names[0]].number)
         self._core.open_maps((shown, *((maps.channel(name), FIELDS[name].number) for name in names)), tuple(notes))
 
-    def list_files(self, path):
+    def list_files(self, path: str | os.PathLike[str]) -> None:
         """Add each file of frames and maps from now on, when it is there, to the list in this file: its name, how many
         bytes it has, and their digest. After open_maps() and before the first frame."""
         self._core.list_files(str(path))
 
-    def write_frame(self, path, time):
+    def write_frame(self, path: str | os.PathLike[str] | None, time: float) -> None:
         """Write the ground as it is to one EXR, whole or not at all; path None: only take it in."""
         self._core.write_frame(None if path is None else str(path), float(time))
 
-    def write_lean(self, path, time):
+    def write_lean(self, path: str | os.PathLike[str] | None, time: float) -> None:
         """The same for how the grass lies: R lean_x, G lean_y, B crushed, A plant strength. Only with plants."""
         self._core.write_frame(None if path is None else str(path), float(time), True)
 
-    def write_maps(self, path, time):
+    def write_maps(self, path: str | os.PathLike[str], time: float) -> None:
         """Write the maps as they are, in the background like frames."""
         self._core.write_maps(str(path), float(time))

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arrays import Record, kept
 from ..errors import DesirePathError
@@ -21,10 +24,10 @@ class Ground(Record):
     name: str = "ground"
     trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "native", kept(tuple(self.native)))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         kind, *numbers = self.native
         told = kind
         if kind == "flat":
@@ -36,14 +39,16 @@ class Ground(Record):
         return f"Ground({told}{'' if self.trail is None else f', {self.trail!r}'})"
 
     @staticmethod
-    def flat(height=0.0):
+    def flat(height: float = 0.0) -> Ground:
         """Level ground without end at `height` [m]."""
         if not math.isfinite(height):
             raise DesirePathError("The height of the flat ground is not a number: give it in metres.")
         return Ground(("flat", float(height)), "flat")
 
     @staticmethod
-    def heights(heights, spacing, x0=0.0, y0=0.0, kind_weight=None):
+    def heights(
+        heights: ArrayLike, spacing: float, x0: float = 0.0, y0: float = 0.0, kind_weight: ArrayLike | None = None
+    ) -> Ground:
         """Ground from a regular grid.
 
         heights: (ny, nx) [m], row 0 at the lowest y, NaN = no ground; bilinear between samples.
@@ -75,7 +80,7 @@ class Ground(Record):
         return Ground(native, "heights")
 
     @staticmethod
-    def mesh(vertices, triangles, kind_weight=None):
+    def mesh(vertices: ArrayLike, triangles: ArrayLike, kind_weight: ArrayLike | None = None) -> Ground:
         """Ground from triangles seen from above.
 
         vertices: (n, 3) world position [m]; triangles: (m, 3) indices.
@@ -107,7 +112,7 @@ class Ground(Record):
         return Ground(("mesh", vertices, triangles, kind_weight), "mesh")
 
     @staticmethod
-    def read(path, spacing=None):
+    def read(path: str | os.PathLike[str], spacing: float | None = None) -> Ground:
         """Ground from an OpenEXR image: a height map, or the trail in a map of a bake (maps_final.exr, one of maps/).
 
         A trail goes on as it was left: rest height, compression, heap and pressure_time, not its plants. It lies on
@@ -126,14 +131,14 @@ class Ground(Record):
         ground = Ground.heights(found.rest, found.cell, found.x0 + half, found.y0 + half)
         return Ground(ground.native, "trail", found)
 
-    def arrays(self):
+    def arrays(self) -> list[np.ndarray]:
         """The arrays the ground is made of, for telling one ground from another."""
         return [part for part in self.native if isinstance(part, np.ndarray)] + (
             self.trail.arrays() if self.trail else []
         )
 
 
-def as_soils(soils):
+def as_soils(soils: str | Soil | Iterable[str | Soil]) -> list[Soil]:
     """A list of Soil from one Soil, one preset's name, or a sequence of either."""
     if isinstance(soils, (str, Soil)):
         soils = [soils]
@@ -145,11 +150,11 @@ def as_soils(soils):
     return found
 
 
-def soil_numbers(soils):
+def soil_numbers(soils: Iterable[Soil]) -> list[dict[str, float]]:
     return [asdict(soil) for soil in soils]  # by name
 
 
-def check_cell(cell_size):
+def check_cell(cell_size: float) -> None:
     """Refuse sides of a cell that cannot be worked with [m]."""
     if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
         raise DesirePathError(

@@ -9,15 +9,22 @@ from __future__ import annotations
 
 import functools
 import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..motion.points import point_places
-from .plants import as_plantings
+from .planting import as_plantings
 from .sim import Ground, Simulation, as_soils
+from .soil import Soil
+
+if TYPE_CHECKING:
+    from ..loads.force import FootForce
+    from ..motion.gait import Gait
 
 RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
 APART = 0.25  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
@@ -35,15 +42,15 @@ class Parcel:
     """
 
     ground: Ground
-    soils: object = "dry-sand"
+    soils: Any = "dry-sand"
     folder: str = "bake"
     name: str = "ground"
-    plants: object = ()
+    plants: Any = ()
     plant_mesh: bool = False
     owner: str = ""
     inputs: dict = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = functools.partial(object.__setattr__, self)
         put("soils", tuple(as_soils(self.soils)))
         put("plants", tuple(as_plantings(self.plants)))
@@ -53,17 +60,17 @@ class Parcel:
             raise DesirePathError("There are no plants to write as a mesh: give the bake plants, or no plant_mesh.")
 
     @cached_property
-    def land(self):
+    def land(self) -> Simulation:
         """A Simulation of its shape alone, to ask for heights."""
         native = self.ground.native
         return Simulation(Ground(native if native[0] == "flat" else (*native[:-1], None), self.ground.name))
 
     @property
-    def box(self):
+    def box(self) -> tuple[float, float, float, float]:
         """World box (x0, y0, x1, y1) [m]; infinite for flat ground."""
         return self.land.bounds()
 
-    def has(self, xy):
+    def has(self, xy: np.ndarray) -> np.ndarray:
         """Whether it lies below places (n, 2)."""
         return np.isfinite(self.land.rest_height(xy))
 
@@ -71,7 +78,7 @@ class Parcel:
 # ---- what lies beside what ------------------------------------------------------------------------------
 
 
-def around(gait):
+def around(gait: Gait) -> np.ndarray:
     """Places (n, 3) below and around the feet of a recording, at the height of the feet [m]: BELOW of them as far as
     half a sole is long, then the others, AROUND in all for each foot.
     """
@@ -87,30 +94,30 @@ def around(gait):
     return out
 
 
-def length(gait):
+def length(gait: Gait) -> float:
     """Of the longest sole [m]."""
     return max(float(np.ptp(sole.vertices.astype(float), axis=0).max()) for sole in gait.soles)
 
 
-def heights(parcels, xy):
+def heights(parcels: Sequence[Parcel], xy: np.ndarray) -> np.ndarray:
     """Of each parcel at places (n, 2), NaN where it is not (parcels, n) [m]."""
     xy = np.ascontiguousarray(xy)
     return np.array([parcel.land.rest_height(xy) for parcel in parcels]).reshape(len(parcels), len(xy))
 
 
-def nearest(height, z):
+def nearest(height: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Which of several grounds (n,) is nearest in height to z, of heights (grounds, n); -1 where there is none."""
     return least(np.abs(height - z))
 
 
-def least(away):
+def least(away: np.ndarray) -> np.ndarray:
     """Which of several is the least at each place, of (grounds, n); -1 where all are NaN."""
     away = np.where(np.isfinite(away), away, np.inf)
     found = away.argmin(axis=0)
     return np.where(np.isfinite(away.min(axis=0)), found, -1)
 
 
-def storeys(parcels, gait):
+def storeys(parcels: Sequence[Parcel], gait: Gait) -> list[list[int]]:
     """Numbers of the parcels that lie beside each other, storey by storey; those trodden most come first."""
     if len(parcels) == 1:
         return [[0]]
@@ -121,11 +128,11 @@ def storeys(parcels, gait):
     there = np.isfinite(height)
     below = there.reshape(len(parcels), -1, AROUND)[..., :BELOW]
 
-    def apart(a, b):
+    def apart(a: int, b: int) -> bool:
         """Whether one lies over the other: at another height, or below all of a foot."""
         return (np.abs(height[a] - height[b]) > most).any() or (below[a] & below[b]).all(axis=1).any()
 
-    found = []
+    found: list[list[int]] = []
     for number in sorted(range(len(parcels)), key=lambda n: (-trodden[n], n)):
         for storey in found:
             if not any(apart(other, number) for other in storey):
@@ -136,7 +143,7 @@ def storeys(parcels, gait):
     return [sorted(storey) for storey in found]
 
 
-def treads(gait, lands):
+def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
     """(storey of each part (P, T), height of the ground each contact point treads (K, T) [m]) among storeys.
 
     lands: rest_height of each. Who is over none of them is on the first.
@@ -158,7 +165,7 @@ def treads(gait, lands):
 # ---- one ground of several -------------------------------------------------------------------------------
 
 
-def sewn(parcels, cell):
+def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[Soil]]:
     """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names."""
     if len(parcels) == 1:
         return parcels[0].ground, list(parcels[0].soils)
@@ -192,7 +199,7 @@ def sewn(parcels, cell):
     return ground, as_soils(soils)
 
 
-def _kinds(parcel, soils):
+def _kinds(parcel: Parcel, soils: list[Soil]) -> np.ndarray:
     """Weights of all soils at the vertices of a parcel (soils, n): the heaviest of its own is still the same."""
     own = parcel.soils
     count = len(parcel.ground.native[1])
@@ -207,7 +214,7 @@ def _kinds(parcel, soils):
     return out
 
 
-def _rim(triangles):
+def _rim(triangles: np.ndarray) -> np.ndarray:
     """Which edges of triangles (m, 3), from each corner to the next, belong to one triangle only (m, 3)."""
     edge = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2).astype(np.int64)
     edge.sort(axis=1)
@@ -217,7 +224,9 @@ def _rim(triangles):
     return (count[of.reshape(-1)] == 1).reshape(-1, 3)
 
 
-def _hem(vertices, triangles, rim, wide):
+def _hem(
+    vertices: np.ndarray, triangles: np.ndarray, rim: np.ndarray, wide: float
+) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
     """((new vertices, number of the old one at each), triangles) of strips along rim edges, `wide` [m], level."""
     face, side = np.nonzero(rim)
     a, b, c = (triangles[face, (side + k) % 3] for k in range(3))
@@ -238,7 +247,7 @@ def _hem(vertices, triangles, rim, wide):
 # ---- what one of several bears -----------------------------------------------------------------------------
 
 
-def on(loads, over, storey):
+def on(loads: FootForce, over: np.ndarray, storey: int) -> FootForce:
     """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
     here = over == storey
     return replace(
@@ -249,7 +258,7 @@ def on(loads, over, storey):
     )
 
 
-def under(parcel, gait, loads, wide):
+def under(parcel: Parcel, gait: Gait, loads: FootForce, wide: float) -> tuple[float, ...] | None:
     """Rectangle (x0, y0, x1, y1) [m] of a parcel that feet which touch can change, `wide` [m] around their soles; None
     where they do not reach it."""
     touching = loads.touching != 0
@@ -267,7 +276,7 @@ def under(parcel, gait, loads, wide):
     return (*low[there].min(axis=0), *high[there].max(axis=0)) if there.any() else None
 
 
-def contacts(parcel, gait, loads, end):
+def contacts(parcel: Parcel, gait: Gait, loads: FootForce, end: int) -> int:
     """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides."""
     limbs = len(gait.limb_walker)
     touching = np.zeros((limbs, end), bool)

@@ -14,19 +14,25 @@ from __future__ import annotations
 import hashlib
 import os
 import struct
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
-from .plants import KINDS
+from .kinds import KINDS, Kind
+from .planting import Planting
+from .sim import Simulation, Stand
 
 _HELD = 1  # rows in the ground
 
 
-def build(sim, stands=None):
+def build(sim: Simulation, stands: Iterable[Stand] | None = None) -> dict[str, np.ndarray]:
     """The mesh of a Simulation's plants, of all `stands` or some, as they are: the arrays of plants.npz, as a dict."""
-    parts = {name: [] for name in ("vertices", "edges", "faces", "kind", "plant", "along", "unbroken")}
+    parts: dict[str, list[np.ndarray]] = {
+        name: [] for name in ("vertices", "edges", "faces", "kind", "plant", "along", "unbroken")
+    }
     first = plants = 0
     kinds = list(dict.fromkeys(planting.kind for planting in sim.plantings))
     for stand, number, count in sim.stands if stands is None else stands:
@@ -52,28 +58,28 @@ def build(sim, stands=None):
     return mesh
 
 
-def _name(kind):
+def _name(kind: Kind) -> str:
     return next((name for name, known in KINDS.items() if known == kind), "own")
 
 
-def _vertices(sim, stand):
+def _vertices(sim: Simulation, stand: int) -> np.ndarray:
     rows, stems, _, _, _ = sim.plants_shape(stand)
     at = sim.plants_shown(stand)
     return at.reshape(len(at), stems, rows, 3)[:, :, _HELD:].reshape(-1, 3)
 
 
-def _unbroken(sim, stand, rows):
+def _unbroken(sim: Simulation, stand: int, rows: int) -> np.ndarray:
     """Which particles are held by all bends below them, (plants, stems, rows - 1)."""
     strength = sim.plants_strength(stand)
     held = np.logical_and.accumulate(strength.reshape(len(strength), -1, rows - 2) > 0.0, axis=2)
     return np.concatenate([np.ones_like(held[:, :, :1]), held], axis=2)
 
 
-def _of(sim, plantings):
+def _of(sim: Simulation, plantings: Sequence[Planting] | None) -> list[Stand]:
     return [stand for stand in sim.stands if plantings is None or sim.plantings[stand[1]] in plantings]
 
 
-def size(sim, frames, plantings=None):
+def size(sim: Simulation, frames: int, plantings: Sequence[Planting] | None = None) -> int:
     """Bytes of a point cache of the plants of a Simulation; plantings as for Writer."""
     shapes = ((sim.plants_shape(stand), count) for stand, _, count in _of(sim, plantings))
     return 12 * frames * sum(count * stems * (rows - _HELD) for (rows, stems, *_), count in shapes)
@@ -83,7 +89,9 @@ class Writer:
     """Writes both files while a bake runs: open() where the cache is to grow, add() once a frame, then finish();
     close() in any case. It begins with the plants as they are when it is made."""
 
-    def __init__(self, sim, frame_start, frames, plantings=None):
+    def __init__(
+        self, sim: Simulation, frame_start: float, frames: int, plantings: Sequence[Planting] | None = None
+    ) -> None:
         """plantings: the Plantings whose plants are written, default: all of the simulation"""
         self.stands = _of(sim, plantings)
         sim.lay_plants()
@@ -91,9 +99,9 @@ class Writer:
         count = len(self.mesh["vertices"])
         self._header = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, count, float(frame_start), 1.0, frames)
         self._frame_size = 12 * count
-        self._file = None
+        self._file: Any = None  # until open()
 
-    def known(self, path, frames):
+    def known(self, path: str | os.PathLike[str], frames: int) -> str:
         """Digest of the beginning of a cache that holds `frames` of these plants, as digest() told it; "" if it is too
         short or cannot be read."""
         digest, left = hashlib.blake2b(), len(self._header) + frames * self._frame_size
@@ -109,7 +117,7 @@ class Writer:
             return ""
         return digest.hexdigest()
 
-    def open(self, path, frames=0):
+    def open(self, path: str | os.PathLike[str], frames: int = 0) -> None:
         """Begin the cache, or go on in one that is there after so many of its `frames`."""
         self.path = path
         if frames == 0:
@@ -123,30 +131,30 @@ class Writer:
             self._digest.update(self._file.read(size))
         self._file.truncate()
 
-    def _write(self, values):
+    def _write(self, values: Any) -> None:
         self._file.write(values)
         self._digest.update(values)
 
-    def add(self, sim):
+    def add(self, sim: Simulation) -> None:
         """Where the plants are now, as the next frame."""
         for stand, _, _ in self.stands:
             self._write(np.ascontiguousarray(_vertices(sim, stand), "<f4").data)
 
-    def digest(self):
+    def digest(self) -> str:
         """Of all that was added so far, which is in the file from now on, whatever becomes of this process."""
         self._file.flush()
         return self._digest.hexdigest()
 
-    def finish(self, sim, cache, mesh):
+    def finish(self, sim: Simulation, cache: str | os.PathLike[str], mesh: str | os.PathLike[str]) -> None:
         """Both files are whole now, by the names `cache` and `mesh`."""
         self._file.close()
         os.replace(self.path, cache)
         unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in self.stands]
         self.mesh["unbroken"] = np.concatenate(unbroken)
         with atomic_file.file(mesh, "The plants") as stream:
-            np.savez_compressed(stream, **self.mesh)
+            np.savez_compressed(stream, **self.mesh)  # type: ignore[arg-type]
 
-    def close(self):
+    def close(self) -> None:
         """No more is written."""
         if self._file:
             self._file.close()

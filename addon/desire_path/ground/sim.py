@@ -9,8 +9,11 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..bounds import Limits
 from ..core import _native
@@ -23,7 +26,14 @@ from .cast import cast_of, pressing_of, tracks_of
 from .fields import FIELDS, LEAN
 from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
-from .plants import as_plantings, seed_of
+from .planting import Plants, as_plantings, seed_of
+from .soil import Soil
+
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
+
+    from ..loads.force import FootForce
+    from ..motion.gait import Gait
 
 __all__ = ["Film", "Ground", "HEAPS", "LAWS", "LOAD_MODELS", "Simulation", "TILE", "as_soils", "check_cell"]
 
@@ -33,6 +43,8 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 LOAD_MODELS = ("inertia", "impulse")
+Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
+Stand = tuple[int, int, int]  # its number, that of its planting, plants
 ON_EDGE = 1e-6  # a rectangle that ends so near to the edge of a cell ends there [cells]
 
 
@@ -51,19 +63,19 @@ class Simulation:
 
     def __init__(
         self,
-        ground,
-        soils="dry-sand",
-        cell_size=0.01,
+        ground: Ground,
+        soils: str | Soil | Iterable[str | Soil] = "dry-sand",
+        cell_size: float = 0.01,
         *,
-        origin=(0.0, 0.0),
-        law="sole",
-        heap="rest",
-        rim_width=0.04,
-        threads=0,
-        plants=(),
-        areas=None,
-        limits=Limits(),
-    ):
+        origin: tuple[float, float] = (0.0, 0.0),
+        law: str = "sole",
+        heap: str = "rest",
+        rim_width: float = 0.04,
+        threads: int = 0,
+        plants: Plants = (),
+        areas: Sequence[Area | None] | None = None,
+        limits: Limits = Limits(),
+    ) -> None:
         check_cell(cell_size)
         if law not in LAWS:
             raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
@@ -81,9 +93,9 @@ class Simulation:
         self.soils = as_soils(soils)
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
-        self.warnings = []  # sentences about what could not be taken as it was given
-        self.stands = []  # (stand, number of the planting, plants), in the order they were planted
-        self._planted = [set() for _ in self.plantings]  # squares
+        self.warnings: list[str] = []  # sentences about what could not be taken as it was given
+        self.stands: list[Stand] = []  # (stand, number of the planting, plants), in the order they were planted
+        self._planted: list[set[tuple[int, int]]] = [set() for _ in self.plantings]  # squares
         try:
             self._core = _native.Simulation(
                 ground.native,
@@ -112,10 +124,11 @@ class Simulation:
             if planting.roots is not None:
                 self._plant(number, planting.roots, planting.vigour)
 
-    def _plant(self, number, roots, vigour=None):
+    def _plant(self, number: int, roots: np.ndarray, vigour: np.ndarray | None = None) -> None:
         """Plant roots (n, 2) of a planting where there is ground."""
-        if self._areas[number] is not None:
-            there = self._areas[number](roots)
+        area = self._areas[number]
+        if area is not None:
+            there = area(roots)
             roots, vigour = roots[there], vigour if vigour is None else vigour[there]
         stand, count = self._core.plant(self.plantings[number].kind.numbers(), np.ascontiguousarray(roots))
         if count:
@@ -124,7 +137,7 @@ class Simulation:
                 there = np.isfinite(self.rest_height(roots))
                 self._core.vary_plants(stand, np.ascontiguousarray(vigour[there]))
 
-    def _plant_reach(self):
+    def _plant_reach(self) -> None:
         """Plant the tiles that the loaded recording can reach, as far as they are not planted yet."""
         i0, i1, j0, j1 = self.reach()
         cell, (ox, oy), bounds = self.cell_size, self.origin, self.bounds()
@@ -141,50 +154,50 @@ class Simulation:
             if len(roots):
                 self._plant(number, roots)
 
-    def rest_height(self, xy):
+    def rest_height(self, xy: ArrayLike) -> np.ndarray:
         """Height of the ground before any walker [m] at points xy (n, 2); NaN where there is none."""
         xy = np.ascontiguousarray(xy, np.float64).reshape(-1, 2)
         height = np.empty(len(xy))
         self._core.rest(xy, height)
         return height
 
-    def settle_time(self, xy):
+    def settle_time(self, xy: ArrayLike) -> np.ndarray:
         """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
         taus = np.array([soil.settle_time for soil in self.soils])
         if len(taus) == 1:
-            return np.full(len(xy), taus[0])
+            return np.full(len(np.asarray(xy)), taus[0])
         cells, number = np.unique(
             np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0, return_inverse=True
         )
         kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
         return taus[kinds][number.reshape(-1)]
 
-    def normal(self, xy, radius):
+    def normal(self, xy: Sequence[float], radius: float) -> tuple[float, float, float]:
         """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
         return self._core.normal(float(xy[0]), float(xy[1]), float(radius))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         soils = f"{len(self.soils)} soil{'' if len(self.soils) == 1 else 's'}"
         return f"Simulation(cells of {self.cell_size:g} m, {soils}, {len(self.plantings)} plantings)"
 
-    def __enter__(self):
+    def __enter__(self) -> Simulation:
         return self
 
-    def __exit__(self, kind, problem, trace):
+    def __exit__(self, kind: object, problem: object, trace: object) -> None:
         with contextlib.suppress(*((OSError,) if kind else ())):  # what went wrong first is told
             self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Wait until all is written, and give the ground back; OSError when a file could not be."""
         core, self._core = self._core, Closed()
         if not isinstance(core, Closed):
             core.flush()
 
-    def bounds(self):
+    def bounds(self) -> tuple[float, float, float, float]:
         """World box of the ground (x0, y0, x1, y1) [m]; infinite for flat ground."""
         return self._core.bounds()
 
-    def cells(self, rectangle):
+    def cells(self, rectangle: Sequence[float]) -> tuple[int, int, int, int]:
         """Cells (i0, i1, j0, j1), as reach() tells them, that a rectangle (x0, y0, x1, y1) [m] has a part of."""
         try:
             x0, y0, x1, y1 = (float(value) for value in rectangle)
@@ -200,13 +213,24 @@ class Simulation:
         high = [math.ceil((at - start) / cell - ON_EDGE) for at, start in ((x1, ox), (y1, oy))]
         return low[0], max(high[0], low[0] + 1), low[1], max(high[1], low[1] + 1)
 
-    def box(self, cells):
+    def box(self, cells: Sequence[int]) -> tuple[float, float, float, float]:
         """Rectangle (x0, y0, x1, y1) [m] of cells (i0, i1, j0, j1), as bounds() tells it and read() takes it."""
         i0, i1, j0, j1 = cells
         cell, (ox, oy) = self.cell_size, self.origin
         return ox + i0 * cell, oy + j0 * cell, ox + i1 * cell, oy + j1 * cell
 
-    def place(self, gait, walker, numbers, clearance, pose, com, *, flat, carry):
+    def place(
+        self,
+        gait: tuple[np.ndarray | TrackArray, ...],
+        walker: int,
+        numbers: Mapping[str, float],
+        clearance: np.ndarray,
+        pose: np.ndarray,
+        com: np.ndarray,
+        *,
+        flat: bool,
+        carry: bool,
+    ) -> None:
         """Turn a walker's feet to the ground, changing pose and com: place.place_feet is the door.
 
         gait: walker.native_gait() of one. numbers: of DpPlaceOptions, by name.
@@ -222,7 +246,7 @@ class Simulation:
             com,
         )
 
-    def load(self, gait, loads):
+    def load(self, gait: Gait, loads: FootForce) -> None:
         """Take an evenly sampled Gait and its FootForce (walker.loads); earlier prints stay."""
         time, mass, *cast = cast_of(gait)
         held = getattr(loads, "held", None)
@@ -236,7 +260,7 @@ class Simulation:
         if self.plantings:
             self._plant_reach()
 
-    def load_live(self, gait):
+    def load_live(self, gait: Gait) -> None:
         """Follow poses as they are made: the walkers and soles of a Gait, whose own poses are not looked at.
 
         Each sample comes by push(); run() steps up to it, and forgets what is behind. Of plants only those in areas of
@@ -245,7 +269,15 @@ class Simulation:
         time, *cast = cast_of(gait)
         self._core.load_live(time[:0], *cast)
 
-    def push(self, time, pose, touching, force, point, present=None):
+    def push(
+        self,
+        time: float,
+        pose: ArrayLike,
+        touching: ArrayLike,
+        force: ArrayLike,
+        point: ArrayLike,
+        present: ArrayLike | None = None,
+    ) -> None:
         """The next sample of a live motion, later than those before [s].
 
         pose (P, 7) and force (P, 3), point (P, 3) of each part as in Gait and FootForce; touching (P,).
@@ -260,23 +292,23 @@ class Simulation:
             np.ascontiguousarray(point, np.float64),
         )
 
-    def reach(self):
+    def reach(self) -> tuple[int, int, int, int]:
         """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
         return self._core.reach()
 
-    def run(self, sample):
+    def run(self, sample: int) -> None:
         """Step to the state at this sample of the loaded recording."""
         self._core.run(int(sample))
 
-    def settle(self):
+    def settle(self) -> None:
         """Lift all feet and let everything loose come to rest."""
         self._core.settle()
 
-    def state(self):
+    def state(self) -> memoryview:
         """What the ground has become, as bytes (a buffer), for restore()."""
         return memoryview(self._core.save_state())
 
-    def restore(self, state):
+    def restore(self, state: Buffer) -> None:
         """Go on from a state(): in a simulation that is made alike and has loaded the same walk, before its first step.
 
         What follows is the same, to the bit, as if it had never stopped. DesirePathError, and nothing has changed, if
@@ -284,7 +316,7 @@ class Simulation:
         """
         self._restore(state, "This")
 
-    def _restore(self, state, name):
+    def _restore(self, state: Buffer, name: str) -> None:
         try:
             self._core.load_state(state)
         except ValueError as problem:
@@ -296,13 +328,13 @@ class Simulation:
                 "A state can only be loaded before the first step: make the simulation anew and load the walk first."
             ) from None
 
-    def save_state(self, path):
+    def save_state(self, path: str | os.PathLike[str]) -> None:
         """Write state() to one file, whole or not at all, for load_state()."""
         state = self.state()
         with atomic_file.file(os.fspath(path), "The state") as stream:
             stream.write(state)
 
-    def load_state(self, path):
+    def load_state(self, path: str | os.PathLike[str]) -> None:
         """restore() from a file that save_state() wrote."""
         path = os.fspath(path)
         try:
@@ -314,62 +346,64 @@ class Simulation:
             ) from None
         self._restore(state, path)
 
-    def rest_plants(self, seconds):
+    def rest_plants(self, seconds: float) -> None:
         """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
         if not (math.isfinite(seconds) and 0 <= seconds < 1e12):
             raise DesirePathError(f"Plants cannot rest for {seconds} seconds: give 0 or more.")
         if self.plantings:
             self._core.rest_plants(float(seconds))
 
-    def plants_count(self):
+    def plants_count(self) -> int:
         """How many plants stand on the ground so far."""
         return sum(count for _, _, count in self.stands)
 
-    def plants_shape(self, stand):
+    def plants_shape(self, stand: int) -> tuple[int, int, int, int, int]:
         """(rows, stems, stems of a sheet, particles, bends) of a plant of a stand in `stands`."""
         return _native.plants_shape(self.plantings[self._stand(stand)[1]].kind.numbers())
 
-    def plants_positions(self, stand):
+    def plants_positions(self, stand: int) -> np.ndarray:
         """Particles of all plants of a stand, float32 (n, particles, 3) [m]; particle = stem * rows + row."""
         out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
         self._core.read_plants(stand, 0, out, None, None)
         return out
 
-    def lay_plants(self):
+    def lay_plants(self) -> None:
         """Remember from now on how soles lay the stems, so that plants_shown() tells more than plants_positions()."""
         if self.plantings:
             self._core.lay_plants()
 
-    def plants_shown(self, stand):
+    def plants_shown(self, stand: int) -> np.ndarray:
         """Particles of all plants of a stand as they are to be shown, float32 (n, particles, 3) [m]: a stem that was
         trodden swings up when the foot has left, but is down for as long as the grass of its cell lies (`crushed`)."""
         out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
         self._core.read_shown(stand, 0, out)
         return out
 
-    def plants_strength(self, stand):
+    def plants_strength(self, stand: int) -> np.ndarray:
         """eps_b of every bend, float64 (n, bends), TRAIL (6); 0 = broken."""
         out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[4]))
         self._core.read_plants(stand, 0, None, out, None)
         return out
 
-    def plants_alpha(self, stand):
+    def plants_alpha(self, stand: int) -> np.ndarray:
         """alpha_k of every plant, float64 (n,), TRAIL (7): its share of bends with nothing broken below."""
         out = np.zeros(self._stand(stand)[2])
         self._core.read_plants(stand, 0, None, None, out)
         return out
 
-    def _stand(self, name):
+    def _stand(self, name: int) -> Stand:
         for stand in self.stands:
             if stand[0] == name:
                 return stand
         raise DesirePathError(f"There is no stand {name}: choose one of those in `stands`.")
 
-    def report(self):
+    def report(self) -> dict[str, Any]:
         """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
         return self._core.report()
 
-    def read(self, name, i0, j0=None, nx=None, ny=None):
+    def read(
+        self, name: str, i0: Any, j0: int | None = None, nx: int | None = None, ny: int | None = None
+    ) -> np.ndarray:
         """A field as float32 (ny, nx): of a rectangle (x0, y0, x1, y1) [m] as bounds() and box() tell it, or from cell
         (i0, j0) on.
 
@@ -378,7 +412,7 @@ class Simulation:
         if j0 is nx is ny is None:
             i0, i1, j0, j1 = self.cells(i0)
             nx, ny = i1 - i0, j1 - j0
-        elif None in (j0, nx, ny):
+        elif j0 is None or nx is None or ny is None:
             raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
         if name not in FIELDS:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(FIELDS)}.")
@@ -391,10 +425,10 @@ class Simulation:
             self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
         return out
 
-    def open_frames(self, tile_x, tile_y, tiles_x, tiles_y):
+    def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int) -> Film:
         """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""
         return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"))
 
-    def flush(self):
+    def flush(self) -> None:
         """Wait until all frames and maps are written; OSError when one could not be."""
         self._core.flush()

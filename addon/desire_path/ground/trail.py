@@ -39,18 +39,18 @@ class Trail(Record):
     flat: bool  # level ground without end
     planted: bool  # plants grew on it, which a map does not hold
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("rest", *LEFT):
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Trail({self.path!r}, {self.rest.shape[1]} x {self.rest.shape[0]} cells of {self.cell:g} m)"
 
-    def arrays(self):
+    def arrays(self) -> list[np.ndarray]:
         """What tells it from another trail."""
         return [np.array([self.cell, self.x0, self.y0]), *(getattr(self, name) for name in ("rest", *LEFT))]
 
-    def on(self, cell, origin):
+    def on(self, cell: float, origin: tuple[float, float]) -> tuple[int, int, dict[str, np.ndarray], list[str]]:
         """The trail on cells of another size or place [m]: (i0, j0, its grids by name, sentences)."""
         told = (
             [f"The plants of {self.path} are not in the map: what grows here now was not trodden before."]
@@ -82,12 +82,12 @@ class Trail(Record):
         return i0, j0, {name: _averaged(grid, *at) for name, grid in grids.items()}, told
 
 
-def _shares(low, wide, cell, count):
+def _shares(low: np.ndarray, wide: float, cell: float, count: int) -> tuple[np.ndarray, float]:
     """How far a sum over the first cells goes at both ends of intervals from `low` on, 0..count."""
     return np.clip(np.stack((low, low + wide)) / cell, 0.0, count), wide / cell
 
 
-def _averaged(grid, rows, columns):
+def _averaged(grid: np.ndarray, rows: tuple[np.ndarray, float], columns: tuple[np.ndarray, float]) -> np.ndarray:
     """Means of a grid over a lattice of rectangles, what lies outside counted as 0."""
     for (ends, wide), axis in ((rows, 0), (columns, 1)):
         total = np.insert(np.cumsum(grid, axis=axis, dtype=np.float64), 0, 0.0, axis=axis)
@@ -104,7 +104,7 @@ def _averaged(grid, rows, columns):
     return np.ascontiguousarray(np.maximum(grid, 0.0), np.float32)
 
 
-def read(path, spacing=None):
+def read(path: str | os.PathLike[str], spacing: float | None = None) -> Trail | tuple[np.ndarray, float, float, float]:
     """What an image says of a ground: a Trail, or (heights, spacing, x0, y0) as Ground.heights takes them.
 
     spacing: distance of the samples [m], if the file does not say
@@ -121,14 +121,15 @@ def read(path, spacing=None):
     return plane, step, x0 + step / 2, y0 + step / 2
 
 
-def _place(path, picture):
+def _place(path: str, picture: maps.Picture) -> tuple[float, float]:
     found = [picture.notes.get(name, 0.0) for name in ("originX", "originY")]
     if not all(isinstance(each, float) and abs(each) < FAR for each in found):
         raise DesirePathError(f"{path} does not say where it lies: give originX and originY as numbers [m].")
-    return found
+    x0, y0 = (float(each) for each in found)
+    return x0, y0
 
 
-def _trail(path, picture):
+def _trail(path: str, picture: maps.Picture) -> Trail:
     planes, notes = picture.planes, picture.notes
     if "rest" not in planes:
         raise DesirePathError(
@@ -146,7 +147,7 @@ def _trail(path, picture):
     if np.isinf(rest).any() or np.isnan(rest).all():
         raise DesirePathError(f"{path} is damaged: its rest heights are no ground.")
     try:
-        said = json.loads(notes.get("parameters", "{}"))["ground"]
+        said = json.loads(str(notes.get("parameters", "{}")))["ground"]
     except (ValueError, TypeError, KeyError, RecursionError):
         said = None
     flat = said == "flat" and bool((rest == rest[0, 0]).all())
@@ -155,7 +156,7 @@ def _trail(path, picture):
     return Trail(path, cell, x0, y0, rest, **left, flat=flat, planted=grown)
 
 
-def _heights(path, picture):
+def _heights(path: str, picture: maps.Picture) -> np.ndarray:
     """The plane of an image that is a height, by its name."""
     planes = picture.planes
     words = ", ".join(sorted(planes)[:8])

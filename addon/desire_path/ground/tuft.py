@@ -10,14 +10,24 @@ length however it bends, and grass that is trodden bends by the same rule with o
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from .kinds import Kind
 
 GAUSS = tuple((0.5 + 0.5 * x, 0.5 * w) for x, w in ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9)))
 SHORTEST = 0.001  # stem [m]
 BURIED = 0.012  # how far a stem begins under the ground, so that none floats on a slope [m]
+
+
+_Faces = list[tuple[int, ...]]
+_Part = tuple[np.ndarray, _Faces]  # vertices (n, 3), faces
+_Stem = tuple[np.ndarray, _Faces, np.ndarray]  # and which vertices are a head's (n,)
 
 
 @dataclass(frozen=True)
@@ -125,7 +135,7 @@ class Tuft:
     look: np.ndarray  # (n, 3) f4: share of the way along 0..1, stem's tone 0..1, 1 = head
 
 
-def look_of(name, kind):
+def look_of(name: object, kind: Kind) -> Look:
     """The Look of a kind by its name (a file's name may begin with it), else blades of its height."""
     word = Path(str(name)).stem.lower()
     for known, look in LOOKS.items():
@@ -140,7 +150,7 @@ def look_of(name, kind):
     )
 
 
-def tuft(kind, look, seed):
+def tuft(kind: Kind, look: Look, seed: int) -> Tuft:
     """One plant of a kind; other seeds are other plants of the same sort."""
     random = np.random.default_rng((seed, 20))
     blocks, faces, count = [], [], 0
@@ -178,7 +188,7 @@ def tuft(kind, look, seed):
     return Tuft(bent(root, at, tilt, arch).astype(np.float32), tuple(faces), root, at, tilt, arch, told)
 
 
-def bent(root, at, tilt, arch):
+def bent(root: np.ndarray, at: np.ndarray, tilt: np.ndarray, arch: np.ndarray) -> np.ndarray:
     """Where the vertices of straight stems come to lie, (n, 3) [m]; arguments as in Tuft."""
     share = (at[:, 2:] / root[:, 2:]).astype(np.float64)
     out = np.zeros((len(at), 3))
@@ -192,7 +202,7 @@ def bent(root, at, tilt, arch):
     return out + root * (1.0, 1.0, 0.0)
 
 
-def _towards(vector):
+def _towards(vector: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A tilt vector's direction (n, 3), the sine and cosine of its angle (n, 2), the angle (n, 1)."""
     angle = np.linalg.norm(vector, axis=1, keepdims=True)
     return vector / np.maximum(angle, 1e-9), np.concatenate([np.sin(angle), np.cos(angle)], axis=1), angle
@@ -201,9 +211,10 @@ def _towards(vector):
 # ---- straight stems: vertices (x, y, s), faces, 1 where a vertex belongs to a head --------------------
 
 
-def _strip(places, width, x0=0.0):
+def _strip(places: np.ndarray, width: np.ndarray, x0: float = 0.0) -> _Part:
     """A ribbon along s, as wide as told at each place; the last may be a point."""
-    points, faces = [], []
+    points: list[Any] = []
+    faces: _Faces = []
     for row, (s, half) in enumerate(zip(places, 0.5 * width, strict=True)):
         points += [(x0 - half, 0.0, s), (x0 + half, 0.0, s)]
         if row:
@@ -212,7 +223,7 @@ def _strip(places, width, x0=0.0):
     return np.array(points), faces
 
 
-def _join(parts):
+def _join(parts: Iterable[tuple[_Part, float]]) -> _Stem:
     points, faces, heads, count = [], [], [], 0
     for (each, cut), head in parts:
         points.append(each)
@@ -222,11 +233,11 @@ def _join(parts):
     return np.concatenate(points), faces, np.concatenate(heads)
 
 
-def _rows(sort, length, end=1.0):
+def _rows(sort: Stems, length: float, end: float = 1.0) -> np.ndarray:
     return np.concatenate([[-BURIED], np.linspace(0.0, length * end, sort.rows + 1)])
 
 
-def _blade(sort, length, random):
+def _blade(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     """Widest at a third, pointed."""
     places = _rows(sort, length)
     u = np.clip(places / length, 0.0, 1.0)
@@ -234,7 +245,7 @@ def _blade(sort, length, random):
     return _join([(_strip(places, np.maximum(width, 1e-5)), 0)])
 
 
-def _stalk(sort, length, random):
+def _stalk(sort: Stems, length: float, random: np.random.Generator) -> list[tuple[_Part, float]]:
     """Two ribbons that cross."""
     places = _rows(sort, length)
     width = sort.width * (1.0 - 0.5 * np.clip(places / length, 0.0, 1.0))
@@ -243,18 +254,18 @@ def _stalk(sort, length, random):
     return [((points, faces), 0), ((other, faces), 0)]
 
 
-def _leaf(start, along, side, width):
+def _leaf(start: ArrayLike, along: ArrayLike, side: ArrayLike, width: float) -> _Part:
     """A pointed leaf of two triangles from `start`, `along` long, `side` the way of its width."""
-    start, along, side = (np.asarray(each, float) for each in (start, along, side))
+    start, along, half = np.asarray(start, float), np.asarray(along, float), 0.5 * width * np.asarray(side, float)
     middle = start + 0.4 * along
-    return np.array([start, middle - 0.5 * width * side, start + along, middle + 0.5 * width * side]), [(0, 1, 2, 3)]
+    return np.array([start, middle - half, start + along, middle + half]), [(0, 1, 2, 3)]
 
 
-def _around(angle):
+def _around(angle: float) -> tuple[np.ndarray, np.ndarray]:
     return np.array((math.cos(angle), math.sin(angle), 0.0)), np.array((-math.sin(angle), math.cos(angle), 0.0))
 
 
-def _ear(sort, length, random):
+def _ear(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     """A stalk with grains in rows and their awns."""
     parts = _stalk(sort, length, random)
     ear = 0.10 * length
@@ -272,7 +283,7 @@ def _ear(sort, length, random):
     return _join(parts)
 
 
-def _panicle(sort, length, random):
+def _panicle(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     """A stalk with a loose head of seeds."""
     parts = _stalk(sort, length, random)
     head = 0.28 * length
@@ -295,9 +306,11 @@ def _panicle(sort, length, random):
     return _join(parts)
 
 
-def _frond(sort, length, random):
+def _frond(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     """A rib with leaves to both sides, longest at a third, each a row of leaflets."""
-    parts = [(_strip(_rows(sort, length), np.linspace(sort.width, 0.0006, sort.rows + 2)), 0)]
+    parts: list[tuple[_Part, float]] = [
+        (_strip(_rows(sort, length), np.linspace(sort.width, 0.0006, sort.rows + 2)), 0)
+    ]
     size = length / 0.55  # leaves grow with the frond
     for k in range(sort.leaves):
         u = 0.14 + 0.84 * k / sort.leaves
@@ -310,9 +323,10 @@ def _frond(sort, length, random):
     return _join(parts)
 
 
-def _pinna(start, along, width):
+def _pinna(start: np.ndarray, along: np.ndarray, width: float) -> _Part:
     """A toothed leaf: a strip whose edge goes in and out."""
-    points, faces = [], []
+    points: list[Any] = []
+    faces: _Faces = []
     teeth = 5
     for k in range(teeth + 1):
         u = k / teeth
@@ -328,7 +342,7 @@ def _pinna(start, along, width):
     return np.array(points), faces
 
 
-def _shoot(sort, length, random):
+def _shoot(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     """A stem with small leaves all around."""
     parts = _stalk(sort, length, random)
     for k in range(sort.leaves):
