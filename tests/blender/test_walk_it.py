@@ -8,7 +8,7 @@ from scenes import meshes, people
 from test_bake import refused
 from test_refined import deepest, plane
 
-from desire_path.blender import axes, compat
+from desire_path.blender import axes, compat, forward
 
 
 def character(action="Walk_Loop"):
@@ -224,3 +224,97 @@ def test_what_cannot_walk_is_told():
     select(ground, empty)
     refused(bpy.ops.object.desire_path_walk_it, "has no bones")
     assert not ground.desire_path.is_ground and not empty.desire_path.is_walker
+
+
+def hill(height, nx=60, ny=160, spacing=0.1, x0=-3.0, y0=-14.0):
+    """A ground whose height [m] is a function of places."""
+    made = meshes.grid(nx, ny, spacing, x0, y0)
+    places = np.empty((len(made.data.vertices), 3), np.float32)
+    made.data.vertices.foreach_get("co", places.ravel())
+    places[:, 2] = height(places[:, 0], places[:, 1])
+    made.data.vertices.foreach_set("co", places.ravel())
+    made.data.update()
+    return made
+
+
+def curve(*places, cyclic=False):
+    data = bpy.data.curves.new("Way", "CURVE")
+    data.dimensions = "3D"
+    line = data.splines.new("POLY")
+    line.points.add(len(places) - 1)
+    line.use_cyclic_u = cyclic
+    for point, (x, y) in zip(line.points, places):
+        point.co = (x, y, 0.0, 1.0)
+    made = bpy.data.objects.new("Way", data)
+    bpy.context.scene.collection.objects.link(made)
+    return made
+
+
+def test_on_a_hill_its_feet_are_placed_and_carried_switches_back():
+    rig = character()
+    first = rig.animation_data.action
+    select(rig, hill(lambda x, y: 0.3 * np.sin(y)))
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    found = summary(rig.desire_path.ground)
+    assert found["contacts"] >= 15 and not found["warnings"], found
+    assert rig.animation_data.action.name.endswith("_carried_placed") and rig.desire_path.carried
+    rig.desire_path.carried = False
+    assert rig.animation_data.action == first
+    assert not [each.name for each in bpy.data.actions if "_carried" in each.name]
+
+
+def test_where_feet_cannot_be_placed_only_prints_are():
+    rig = character()
+    rig.pose.bones["mixamorig:LeftUpLeg"].lock_rotation = (True, True, True)
+    select(rig, hill(lambda x, y: 0.3 * np.sin(y)))
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert rig.desire_path.place_feet and rig.animation_data.action.name.endswith("_carried")
+    assert summary(rig.desire_path.ground)["contacts"] >= 15
+
+
+def test_a_level_ground_leaves_the_feet_alone():
+    rig = character()
+    select(rig, hill(lambda x, y: 0.0 * x))
+    bpy.ops.object.desire_path_walk_it()
+    assert rig.animation_data.action.name.endswith("_carried") and not rig.desire_path.place_feet
+
+
+def test_it_goes_along_a_selected_curve_and_turns_with_it():
+    for mode in ("QUATERNION", "XYZ"):
+        rig = character()
+        rig.rotation_mode = mode
+        rig.location = (0.3, 0.2, 0.0)
+        turned = [4.0 + 3.0 * np.array([np.cos(a), np.sin(a)]) for a in np.linspace(0.0, 2.0 * np.pi, 48, False)]
+        way = curve(*turned, cyclic=True)
+        select(rig, way)
+        assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+        found = summary(rig.desire_path.ground)
+        assert found["contacts"] >= 15 and not found["warnings"], found
+        for frame in (1, 90, 200):
+            place = at(rig, frame)
+            assert abs(np.hypot(*(place[:2] - 4.0)) - 3.0) < 0.05, (mode, frame, place)
+            outward = (place[:2] - 4.0) / 3.0
+            ahead = -np.array(rig.matrix_world)[:2, 1]  # it faces -Y
+            assert abs(outward @ ahead) < 0.1 and outward[0] * ahead[1] - outward[1] * ahead[0] > 0.9, (mode, frame)
+        rig.desire_path.carried = False
+        assert np.allclose(at(rig, 90), (0.3, 0.2, 0.0), atol=1e-6)
+        assert rig.delta_rotation_quaternion[:] == (1.0, 0.0, 0.0, 0.0) and not any(rig.delta_rotation_euler)
+
+
+def test_beyond_the_end_of_a_curve_it_goes_straight_on():
+    rig = character()
+    select(rig, curve((1, 1), (4, 1), (4, 3)))
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert summary(rig.desire_path.ground)["contacts"] >= 15
+    end, later = at(rig, 200), at(rig, 248)
+    assert np.allclose(later - end, (0.0, 2.2, 0.0), atol=0.1), later - end
+
+
+def test_carried_says_why_it_cannot_be():
+    rig = character()
+    rig.data.pose_position = "REST"
+    rig.desire_path.carried = True
+    assert not rig.desire_path.carried and "Rest Position" in forward.refused(rig)
+    rig.data.pose_position = "POSE"
+    rig.desire_path.carried = True
+    assert rig.desire_path.carried and not forward.refused(rig)

@@ -1,6 +1,7 @@
 """forward.py - a clip that walks in place goes ahead with its character: an action of its own, that can be left.
 
     the action in use --a copy, repeated if it loops, delta location at the speed of the feet--> `<action>_carried`
+    along a curve --forward_curve.py--> the same, with delta rotation
 
 The user's action stays as it is; delta location moves the object wherever its own keys, bones and controls are. Of a
 character whose bones follow another armature that one is carried.
@@ -13,13 +14,16 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..placement import cycle
-from . import axes, clock, compat, moves, posing, sample
+from . import axes, clock, compat, forward_curve, moves, posing, sample
 
 OURS = "desire_path_carried"  # on an action of ours: how many keys it was made with
 SOURCE = "desire_path_carried_from"  # and the action it was made from, where there was one
 BEFORE = "desire_path_carried_delta"  # and the delta location before
+TURNED = "desire_path_carried_turn"  # and the delta rotation before, Euler angles and then a quaternion
+PLACED_FROM = "desire_path_placed_from"  # on an action of ours whose feet were placed: the one it was before
 DELTA = "delta_location"
 SHARE = 0.3  # of its way a carried character may be off
+_refused = {}  # why who was not carried, by name
 
 
 def leader(armature):
@@ -41,61 +45,115 @@ def is_carried(armature):
     return animation is not None and animation.action is not None and OURS in animation.action
 
 
-def carry(scene, armature):
-    """Let a character whose clip walks in place go ahead; returns a sentence about it."""
+def carry(scene, armature, line=None):
+    """Let a character whose clip walks in place go ahead; returns a sentence about it.
+
+    line: places to go along (n, 2 or 3), from the first on [m]; None = straight ahead
+    """
     if is_carried(armature):
-        return ""
+        if line is None:
+            return ""
+        switch(armature, False)
     first, last = moves.frame_range(scene, armature)
     gait = sample.record(scene, armature, first, last, samples=1)
     velocity = cycle.ahead(gait)
     if velocity is None:
         return f"'{armature.name}' moves by itself or does not walk: it is not carried ahead."
+    course = forward_curve.course(line, gait, velocity) if line is not None else None
     rig = leader(armature)
     animation = rig.animation_data or rig.animation_data_create()
     if animation is None:
         raise DesirePathError(f"'{rig.name}' cannot be given keys: make its library override editable first.")
     again = cycle.samples_to_loop(gait)
     made = _action(rig, animation)
-    curves = compat.curves(animation, rig)
-    goes_on = _repeats(curves) or (again is not None and _repeat(curves, again))
-    stretch = clock.stretch(scene)
-    _go(scene, rig, curves, velocity, first / stretch, last / stretch, goes_on)
-    made[OURS] = _keys(curves)
-    bpy.context.view_layer.update()
-    moved = sample.record(scene, armature, first, last, samples=1).com[0, [0, -1], :2]
-    wanted = velocity * (gait.time[-1] - gait.time[0])
-    if np.linalg.norm(np.diff(moved - gait.com[0, [0, -1], :2], axis=0)[0] - wanted) > SHARE * np.linalg.norm(wanted):
+    try:
+        curves = compat.curves(animation, rig)
+        goes_on = _repeats(curves) or (again is not None and _repeat(curves, again))
+        stretch, seconds = clock.stretch(scene), gait.time[-1] - gait.time[0]
+        if course is None:
+            wanted = gait.com[0, -1] + (*(velocity * seconds), 0.0)
+            _go(scene, rig, curves, velocity, first / stretch, last / stretch, goes_on)
+        else:
+            wanted = (course.moves([seconds])[0] @ (*gait.com[0, -1], 1.0))[:3]
+            _follow(scene, rig, curves, course, first, max(last, scene.frame_end) if goes_on else last, goes_on)
+        made[OURS] = _keys(curves)
+        bpy.context.view_layer.update()
+        came = sample.record(scene, armature, last - 1, last, samples=1).com[0, -1]
+        if np.hypot(*(came - wanted)[:2]) > SHARE * np.hypot(*velocity) * seconds:
+            raise DesirePathError(
+                f"'{armature.name}' walks in place and cannot be carried ahead, since something else holds it there: "
+                "move what its object or its bones follow, by keys or along a curve."
+            )
+    except BaseException:
+        made[OURS] = _keys(compat.curves(animation, rig))
         switch(armature, False)
-        raise DesirePathError(
-            f"'{armature.name}' walks in place and cannot be carried ahead, since something else holds it there: move "
-            "what its object or its bones follow, by keys or along a curve."
-        )
-    text = f"'{armature.name}' walks in place and is carried ahead at {np.hypot(*velocity):.2f} m/s"
+        raise
+    text = f"'{armature.name}' walks in place and is carried {'ahead' if course is None else 'along the curve'}"
     return (
-        text
+        f"{text} at {np.hypot(*velocity):.2f} m/s"
         + (", its clip repeated" if goes_on else ", as far as its clip goes, which does not loop")
         + f": action '{made.name}'; Carried switches it off."
     )
 
 
+def ask(armature, on):
+    """Switch as a user asks for it: why that cannot be is kept, to be shown."""
+    _refused.pop(armature.name, None)
+    try:
+        told = switch(armature, on)
+    except DesirePathError as problem:
+        told = str(problem)
+    if on and not is_carried(armature):
+        _refused[armature.name] = told
+        print(f"Desire Path: {told}")
+
+
+def refused(armature):
+    """Why a character is not carried though it was asked for; empty where it is, or was not."""
+    return "" if is_carried(armature) else _refused.get(armature.name, "")
+
+
+def placed_anew(armature):
+    """Take note that the action in use, one of ours, has got its feet placed by us."""
+    animation = leader(armature).animation_data
+    animation.action[OURS] = _keys(compat.curves(animation, leader(armature)))
+
+
 def switch(armature, on):
-    """Let a character go ahead, or walk in place as it did; an action of ours that was worked on is kept."""
+    """Let a character go ahead, or walk in place as it did; an action of ours that was worked on is kept. Returns a
+    sentence where it was asked to go ahead."""
     rig = leader(armature)
     if on and not is_carried(armature):
-        carry(next(iter(rig.users_scene), bpy.context.scene), armature)
-    elif not on and is_carried(armature):
-        animation, ours = rig.animation_data, rig.animation_data.action
-        changed = _keys(compat.curves(animation, rig)) != ours[OURS]
-        first, before = ours.get(SOURCE), list(ours[BEFORE])
-        if first is not None:
-            compat.use_action(animation, first, _same_slot(first, getattr(animation, "action_slot", None)))
-        else:
-            animation.action = None
-        rig.delta_location = before
-        if changed:
-            ours.use_fake_user = True
-        elif ours.users == 0:
-            bpy.data.actions.remove(ours)
+        return carry(next(iter(rig.users_scene), bpy.context.scene), armature)
+    if on or not is_carried(armature):
+        return ""
+    animation, ours = rig.animation_data, rig.animation_data.action
+    first, before, turned = ours.get(SOURCE), list(ours[BEFORE]), ours.get(TURNED)
+    slot = getattr(animation, "action_slot", None)
+    _leave(animation, rig, ours)
+    if first is not None:
+        compat.use_action(animation, first, _same_slot(first, slot))
+    else:
+        animation.action = None
+    rig.delta_location = before
+    if turned is not None:
+        rig.delta_rotation_euler, rig.delta_rotation_quaternion = list(turned)[:3], list(turned)[3:]
+    return ""
+
+
+def _leave(animation, rig, ours):
+    """Give up an action of ours, and the one its feet were placed from; what was worked on is kept."""
+    through = bpy.data.actions.get(ours.get(PLACED_FROM, ""))
+    slot = getattr(animation, "action_slot", None)
+    for each in (ours, through):
+        if each is None or OURS not in each:
+            continue
+        compat.use_action(animation, each, _same_slot(each, slot))
+        changed = _keys(compat.curves(animation, rig)) != each[OURS]
+        animation.action = None
+        each.use_fake_user = changed
+        if not changed and each.users == 0:
+            bpy.data.actions.remove(each)
 
 
 def _action(rig, animation):
@@ -105,6 +163,7 @@ def _action(rig, animation):
     made.name = f"{action.name if action is not None else rig.name}_carried"
     made[OURS] = 0
     made[BEFORE] = list(rig.delta_location)
+    made[TURNED] = [*rig.delta_rotation_euler, *rig.delta_rotation_quaternion]
     if action is not None:
         made[SOURCE] = action
         action.use_fake_user = True  # to go back to, even after saving
@@ -165,3 +224,12 @@ def _go(scene, rig, curves, velocity, start, end, goes_on):
         values = np.array([base, base + step[axis] * (end - start)], np.float32)
         posing.set_curve(curves, DELTA, axis, [start, end], values)
         curves.find(DELTA, index=axis).extrapolation = "LINEAR" if goes_on else "CONSTANT"
+
+
+def _follow(scene, rig, curves, course, first, last, goes_on):
+    """Key the object along a course, from a scene frame to another one or to the end of an open curve."""
+    stretch, rate = clock.stretch(scene), clock.frame_rate(scene)
+    count = int(np.ceil(min(course.seconds * rate, last - first))) + 1
+    frames = first + np.arange(max(count, 2))
+    scale = axes.unit_scale(scene)
+    forward_curve.key(rig, curves, course, frames / stretch, (frames - first) / rate, scale, goes_on)

@@ -1,15 +1,17 @@
 """op_walk_it.py - one button from a character to its prints.
 
-what is selected --> characters, and a ground or one made for them --forward.py--> they go ahead --> bake
+what is selected --> characters, and a ground or one made for them --forward.py--> they go ahead, along a curve that
+is selected, too --op_place.py--> on a hill their feet are placed --> bake
 """
 
 import bpy
 import numpy as np
 
+from ..bounds import Limits
 from ..errors import DesirePathError
 from ..motion import size
-from ..placement import cycle
-from . import axes, forward, ground, moves, sample
+from ..placement import cycle, place
+from . import axes, forward, ground, moves, op_place, paths, reach, sample
 from .chosen import grounds
 from .ops import Refusal
 
@@ -57,6 +59,15 @@ def chosen_ground(context, objects):
     return max(meshes, key=lambda obj: obj.dimensions.x * obj.dimensions.y)
 
 
+def chosen_way(objects):
+    """The curve to go along among objects, or None; refuses several."""
+    found = [each for each in objects if each.type == "CURVE"]
+    if len(found) > 1:
+        names = ", ".join(f"'{each.name}'" for each in found)
+        raise DesirePathError(f"The curves {names} are selected: select the one to go along.")
+    return found[0] if found else None
+
+
 class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
     """Let the selected characters walk over the selected ground, or over one made for them, and show their prints"""
 
@@ -81,6 +92,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         there = list(context.selected_objects) or [context.object]
         who = characters(there)
         land = chosen_ground(context, there) or self.known(scene, who)
+        way = chosen_way(there)
+        line = paths.waypoints(scene, way) if way is not None else None
         for each in (*who, *filter(None, [land])):
             if each.library is not None:
                 raise DesirePathError(
@@ -91,16 +104,18 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             sample.record(scene, each, *moves.frame_range(scene, each), samples=1)
         before = _Before(context, who, land)
         try:
-            self.walk(context, who, land)
+            self.walk(context, who, land, line)
         except BaseException:
             before.come_back()
             raise
         return {"FINISHED"}
 
-    def walk(self, context, who, land):
+    def walk(self, context, who, land, line):
         scene = context.scene
         for each in who:
-            told = forward.carry(scene, each)
+            told = forward.carry(scene, each, line)
+            first, last = moves.frame_range(scene, each)
+            Limits().check("frames", last - first + 1)
             if told:
                 self.report({"INFO"}, told)
         gaits = []
@@ -114,8 +129,29 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         for each in who:
             each.desire_path.ground = land
             self.use(context, each, bpy.ops.object.desire_path_walker_add)
+            self.place(scene, each, land)
         how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
         self.use(context, land, bpy.ops.object.desire_path_bake, how, look=True)
+
+    def place(self, scene, armature, land):
+        """Place the feet of who is carried ahead over ground that is not as level as the clip."""
+        if not forward.is_carried(armature):
+            return
+        frames = op_place.frames_of(scene, armature, land)
+        gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
+        below, _, _ = reach.under(scene, armature, land, gait, frames[0])
+        if not place.carries(gait, below, 0):
+            return
+        try:
+            made, told = op_place.bake(scene, armature, land)
+        except DesirePathError as problem:
+            armature.desire_path.place_feet = True
+            self.report({"WARNING"}, f"{problem} Its prints are pressed as if its feet were placed.")
+            return
+        forward.placed_anew(armature)
+        for each in told:
+            self.report({"WARNING"}, each)
+        self.report({"INFO"}, f"The feet of '{armature.name}' are placed on '{land.name}': action '{made.name}'.")
 
     @staticmethod
     def known(scene, who):
@@ -139,14 +175,17 @@ class _Before:
         self.context, self.who, self.land = context, who, land
         self.active, self.objects = context.object, set(bpy.data.objects)
         self.carried = [forward.is_carried(each) for each in who]
-        self.walkers = [(each.desire_path.is_walker, each.desire_path.ground) for each in who]
+        self.walkers = [
+            (each.desire_path.is_walker, each.desire_path.ground, each.desire_path.place_feet) for each in who
+        ]
         self.ground = land is not None and (land.desire_path.is_ground, land.desire_path.cell_size)
 
     def come_back(self):
-        for each, carried, (walks, trodden) in zip(self.who, self.carried, self.walkers):
+        for each, carried, (walks, trodden, placed) in zip(self.who, self.carried, self.walkers):
             if forward.is_carried(each) and not carried:
                 forward.switch(each, False)
             each.desire_path.is_walker, each.desire_path.ground = walks, trodden
+            each.desire_path.place_feet = placed
         if self.ground:
             self.land.desire_path.is_ground, self.land.desire_path.cell_size = self.ground
         for each in set(bpy.data.objects) - self.objects:

@@ -5,7 +5,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import bake_job, plants, soils, state, tufts
+from . import bake_job, forward, plants, soils, state, tufts
 from .chosen import walkers
 
 
@@ -26,7 +26,7 @@ def draw(layout, context):
     elif obj.type == "MESH" and not obj.desire_path.is_walker:
         draw_ground(layout, context, obj)
     else:
-        draw_walker(layout, obj)
+        draw_walker(layout, context, obj)
 
 
 def draw_ground(layout, context, obj):
@@ -201,7 +201,7 @@ def weight(settings):
     return "mass estimated when recorded"
 
 
-def draw_walker(layout, obj):
+def draw_walker(layout, context, obj):
     settings = obj.desire_path
     if not settings.is_walker:
         layout.operator("object.desire_path_walker_add", icon="ADD")
@@ -220,6 +220,8 @@ def draw_walker(layout, obj):
         column.prop(settings, "path")
         if settings.path is None:
             column.prop(settings, "carried")
+            if forward.refused(obj):
+                _lines(column, forward.refused(obj), "ERROR", _letters(context))
     if legged and settings.path is not None:
         way = column.column(align=True)
         way.prop(settings, "passes")

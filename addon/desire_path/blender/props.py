@@ -40,7 +40,7 @@ def _is_carried(self):
 
 
 def _carry(self, on):
-    forward.switch(self.id_data, on)
+    forward.ask(self.id_data, on)
 
 
 def _show_anew(self, _context):
