@@ -39,13 +39,14 @@ _Patch: TypeAlias = (
     tuple[  # cell, x0, y0; (ny, nx) f4: rest, compression, heap, pressure_time, modulus, rest_slope; kind u1; soils
         float, float, float, _Array, _Array, _Array, _Array, _Array, _Array, _Array, Sequence[_Soil]
     ]
-    | tuple[Any, ...]  # and behind them (ny, nx) f4 wall_slope, uneven
+    | tuple[Any, ...]  # and behind them (ny, nx) f4 wall_slope, uneven, spring
 )
 _Imprint: TypeAlias = tuple[_Array, _Array, _Array]  # (ny, nx): bottom f4, cover f4, ring i4
 _Notes: TypeAlias = Sequence[tuple[str, str | float]]
 
 class _Pressed(TypedDict):
     firm: float
+    elastic: float
     loose: float
     displaced: float
     area: float
@@ -132,6 +133,7 @@ def soil_accumulate(
 def soil_stabilize(
     patch: _Patch, imprint: _Imprint | None, within: _Box | None, tolerance: float, most: int, /
 ) -> _Settled: ...
+def soil_rebound(patch: _Patch, imprint: _Imprint | None, /) -> float: ...
 def soil_noise(
     cell: float, x0: float, y0: float, i0: int, j0: int, longest: float, shortest: float, seed: int, out: _Array, /
 ) -> None: ...

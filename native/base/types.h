@@ -101,6 +101,7 @@ typedef struct DpSoilPatch
 
     const float* wall_slope;  // tan(gamma_w), +inf = walls stand; NULL = all do [-] > 0
     const float* uneven;      // rho n, MODEL 6.7; NULL = 0                       [-]
+    float*       spring;      // how it was pressed, soil_rebound.c; NULL = nothing comes back [m]
 } DpSoilPatch;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

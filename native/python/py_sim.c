@@ -153,10 +153,11 @@ static PyObject* simulation_report(Simulation* self, PyObject* unused)
     if (!dp_py_enter(self)) return NULL;
     const DpSimReport r = dp_sim_report(self->sim);
     self->busy = false;
-    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:d,s:n,s:i,s:i,s:l}", "contacts",
+    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:d,s:d,s:n,s:i,s:i,s:l}", "contacts",
                          r.contacts, "off_ground", r.off_ground, "deepest_m", r.deepest,
                          "pressed_m3", r.pressed, "pressed_heap_m3", r.pressed_heap, "displaced_m3",
-                         r.displaced, "heaped_m3", r.heaped, "loosened_m3", r.loosened, "tiles",
+                         r.displaced, "heaped_m3", r.heaped, "loosened_m3", r.loosened,
+                         "rebounded_m3", r.rebounded, "tiles",
                          (Py_ssize_t)dp_terrain_tile_count(self->terrain), "plants",
                          dp_plants_count(self->plants, -1), "awake", r.awake, "broke", r.broke);
 }

@@ -4,11 +4,12 @@
 //   soil_compress(patch, imprint, foot, law, dt)                          -> dict of DpPressed
 //   soil_accumulate(patch, imprint, foot, volume, law, rim_width, threshold, height) -> height
 //   soil_stabilize(patch, imprint | None, within | None, tolerance, most)  -> dict of DpSettled
+//   soil_rebound(patch, imprint | None) -> volume that came back [m^3]
 //   soil_noise(cell, x0, y0, i0, j0, longest, shortest, seed, out)
 //   soil_anisotropy((x, y, z), threshold) -> beta;   soil_numbers() -> the table of base/soil_numbers.h
 //
 // patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
-// soils[, wall_slope[, uneven]])
+// soils[, wall_slope[, uneven[, spring]]])
 // imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
 // float32 (ny, nx), kind uint8, ring int32, soils a list of dicts of numbers by name.
 #include <math.h>
@@ -61,6 +62,7 @@ static int check_grids(const DpSoilPatch* patch)
         if (patch->kind[k] >= patch->soil_count) bad = "kind";
         if (patch->wall_slope && !(patch->wall_slope[k] > 0.0f)) bad = "wall_slope";
         if (patch->uneven && !isfinite(patch->uneven[k])) bad = "uneven";
+        if (patch->spring && !isfinite(patch->spring[k])) bad = "spring";
         if (!bad) continue;
         PyErr_Format(PyExc_ValueError, "%s: element %zu is out of its range", bad, k);
         return -1;
@@ -73,14 +75,14 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
     DpSoilPatch* patch = &call->patch;
     DpBuffers*   buffers = &call->buffers;
     PyObject *   rest, *compression, *heap, *pressure_time, *modulus, *rest_slope, *kind, *soils;
-    PyObject *   walls = NULL, *uneven = NULL;
+    PyObject *   walls = NULL, *uneven = NULL, *spring = NULL;
     if (!PyTuple_Check(object)) {
         PyErr_SetString(PyExc_TypeError, "patch: expected a tuple");
         return -1;
     }
-    if (!PyArg_ParseTuple(object, "dddOOOOOOOO|OO:patch", &patch->cell, &patch->x0, &patch->y0,
+    if (!PyArg_ParseTuple(object, "dddOOOOOOOO|OOO:patch", &patch->cell, &patch->x0, &patch->y0,
                           &rest, &compression, &heap, &pressure_time, &modulus, &rest_slope, &kind,
-                          &soils, &walls, &uneven))
+                          &soils, &walls, &uneven, &spring))
         return -1;
     if (!(patch->cell > 0.0) || !isfinite(patch->cell) || !isfinite(patch->x0) ||
         !isfinite(patch->y0)) {
@@ -100,7 +102,8 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
         (walls &&
          !(patch->wall_slope = dp_buffers_open(buffers, walls, "wall_slope", 'f', shape, false))) ||
         (uneven &&
-         !(patch->uneven = dp_buffers_open(buffers, uneven, "uneven", 'f', shape, false))))
+         !(patch->uneven = dp_buffers_open(buffers, uneven, "uneven", 'f', shape, false))) ||
+        (spring && !(patch->spring = dp_buffers_open(buffers, spring, "spring", 'f', shape, true))))
         return -1;
     if (shape->n[0] < 1 || shape->n[1] < 1 || shape->n[0] > 32768 || shape->n[1] > 32768) {
         PyErr_SetString(PyExc_ValueError, "rest: expected 1 to 32768 cells a side");
@@ -184,10 +187,11 @@ static PyObject* soil_compress(PyObject* module, PyObject* arguments)
         status =
             dp_soil_compress(&call.patch, &call.imprint, &call.foot, (DpContactLaw)law, dt, &p);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK ? dp_py_result(status, "pressing soil")
-                                 : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm,
-                                                 "loose", p.loose, "displaced", p.displaced, "area",
-                                                 p.area, "sink", p.sink, "deepest", p.deepest);
+        result = status != DP_OK
+                     ? dp_py_result(status, "pressing soil")
+                     : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm, "elastic",
+                                     p.elastic, "loose", p.loose, "displaced", p.displaced, "area",
+                                     p.area, "sink", p.sink, "deepest", p.deepest);
     }
     close_call(&call);
     return result;
@@ -268,6 +272,19 @@ static PyObject* soil_anisotropy(PyObject* module, PyObject* arguments)
     return PyFloat_FromDouble(dp_soil_anisotropy(push, threshold));
 }
 
+static PyObject* soil_rebound(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *patch, *imprint, *result = NULL;
+    Call      call;
+    if (!PyArg_ParseTuple(arguments, "OO:soil_rebound", &patch, &imprint)) return NULL;
+    const bool stands = imprint != Py_None;
+    if (open_call(&call, patch, stands ? imprint : NULL, NULL) == 0)
+        result = PyFloat_FromDouble(dp_soil_rebound(&call.patch, stands ? &call.imprint : NULL));
+    close_call(&call);
+    return result;
+}
+
 static PyObject* soil_noise(PyObject* module, PyObject* arguments)
 {
     (void)module;
@@ -325,6 +342,8 @@ PyMethodDef dp_py_soil_methods[] = {
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},
+    {"soil_rebound", soil_rebound, METH_VARARGS,
+     "Let ground from which soles have gone come back; the volume that did [m^3]."},
     {"soil_noise", soil_noise, METH_VARARGS,
      "soil_noise(cell, x0, y0, i0, j0, longest, shortest, seed, out): waves of a place's chance on "
      "cells (ny, nx) from (i0, j0) on, or of pieces `longest` wide where shortest is 0."},

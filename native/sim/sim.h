@@ -43,6 +43,7 @@ typedef struct DpSimReport
     double displaced;     // 2 nu (V_c + V_b), what the ledger laid down [m^3]
     double heaped;        // sum of heap * cell^2                      [m^3]
     double loosened;      // firm ground that fell from walls          [m^3]
+    double rebounded;     // firm ground that came back                [m^3]
     long   broke;         // bends of stems that broke, and those above them [-]
     int    awake;         // plants that moved in the last step        [-]
 } DpSimReport;

@@ -28,7 +28,7 @@ typedef struct Limb
     bool       lifts;   // has let go: its rim comes to rest
     bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
     double     firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
-    double     loosened;                    // .. of walls, and when it settles     [m^3]
+    double     loosened, rebounded;         // .. of walls and springs, and when it settles [m^3]
     bool       off_ground;                  // pressed where there is no ground
 } Limb;
 
@@ -208,7 +208,13 @@ bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still t
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
 void     dp_pressing_clear(DpSim* sim);
 
-// sim_press.c: one limb's step on its patch, and its settling
+// sim_release.c: what no sole stands on any more comes back, on the cells of limbs that are active, or of one
+DpStatus dp_release_step(DpSim* sim, int sample);
+DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample);
+
+// sim_press.c: room for the imprint of a patch in the scratch's grids; one limb's step on its patch, and
+// its settling
+DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch);
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch);

@@ -7,8 +7,9 @@
 
 #define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
 #define SPILL_GROWTH \
-    1.5               // .. so many times more, after a step whose loose soil wanted to go farther
-#define HEAP_SPARE 4  // cells beyond the foot of the heap
+    1.5  // .. so many times more, after a step whose loose soil wanted to go farther
+#define BULGE_REACH 4.0  // widths of a bulge, beyond which it is level
+#define HEAP_SPARE 4     // cells beyond the foot of the heap
 
 // how far soles may slip on any of the soils [m]
 static double slips(const DpSim* sim)
@@ -16,6 +17,15 @@ static double slips(const DpSim* sim)
     for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
         if (dp_terrain_soils(sim->terrain)[s].shear_modulus > 0.0f) return DP_MAX_SLIP;
     return 0.0;
+}
+
+// how far around a sole the ground bulges on any of the soils [m]
+static double bulges(const DpSim* sim)
+{
+    double widest = 0.0;
+    for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+        widest = fmax(widest, (double)dp_terrain_soils(sim->terrain)[s].heave);
+    return fmin(BULGE_REACH * widest, 1.0);
 }
 
 // Who is there at both ends of an interval presses all the way if it touches at either.
@@ -33,7 +43,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;
-    limb->firm = limb->loose = limb->laid = limb->deepest = limb->loosened = 0.0;
+    limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
+    limb->loosened = limb->rebounded = 0.0;
     if (presses && !limb->stands) {
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
@@ -48,8 +59,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
         const bool   paper = sim->options.heap_law == DP_HEAP_PAPER;
         const double rim = paper ? sim->options.rim_width : 0.0;
-        const double spread =
-            fmax(1.25 * limb->heap_height / slope, rim) + HEAP_SPARE * sim->grid.cell;
+        const double spread = fmax(1.25 * limb->heap_height / slope, fmax(rim, bulges(sim))) +
+                              HEAP_SPARE * sim->grid.cell;
         if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
         limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, spread) + slips(sim));
     } else {
@@ -163,7 +174,8 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
 {
     DpCellRect   cells = {0, 0, 0, 0};
     const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
-    const double margin = 3 * fmax(HEAP_MARGIN, rim) + slips(sim) + dp_stage_margin(sim);
+    const double margin =
+        3 * fmax(HEAP_MARGIN, fmax(rim, bulges(sim))) + slips(sim) + dp_stage_margin(sim);
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         const Limb* limb = &sim->limb[l];
         int         first, end;

@@ -12,8 +12,7 @@
 #define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
 
-// Room for the imprint of a patch in the scratch's grids.
-static DpStatus fit_imprint(WorkerScratch* scratch, const DpSoilPatch* patch)
+DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
 {
     const size_t cells = (size_t)patch->row * (size_t)patch->ny;
     DpImprint*   imprint = &scratch->imprint;
@@ -94,6 +93,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     }
     limb->sink = pressed.sink;
     limb->firm += pressed.firm;
+    limb->rebounded -= pressed.elastic;
     limb->loose += pressed.loose;
     limb->deepest = fmax(limb->deepest, pressed.deepest);
 
@@ -117,7 +117,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch)
 {
     if (dp_limb_held(sim, limb, sample)) return DP_OK;
-    DpStatus status = fit_imprint(scratch, patch);
+    DpStatus status = dp_limb_fit(scratch, patch);
     if (status != DP_OK) return status;
 
     Pressing*    pressing = &sim->pressing[limb - sim->limb];

@@ -14,7 +14,7 @@
 
 #define NAME "sim "
 #define SHOWN "show"  // whether it is remembered how soles laid the stems
-#define VERSION 2     // 1 tells nothing of walls
+#define VERSION 2     // 1 tells nothing of walls and springs
 #define SHOWN_VERSION 1
 #define FARTHEST ((int64_t)1 << 40)  // cells
 #define WIDEST ((int64_t)1 << 24)    // cells along one side of what a limb presses on
@@ -60,7 +60,7 @@ static void write_report(DpStateWriter* writer, const DpSimReport* report)
     dp_write_f64(writer, report->deepest), dp_write_f64(writer, report->pressed);
     dp_write_f64(writer, report->pressed_heap), dp_write_f64(writer, report->displaced);
     dp_write_i64(writer, report->broke), dp_write_i64(writer, report->awake);
-    dp_write_f64(writer, report->loosened);
+    dp_write_f64(writer, report->loosened), dp_write_f64(writer, report->rebounded);
 }
 
 // what another simulation has to share with this one to go on from its state
@@ -204,6 +204,7 @@ static DpSimReport read_report(DpStateReader* reader, uint32_t version)
     report.broke = (long)dp_read_int(reader, 0, INT64_MAX);
     report.awake = (int)dp_read_int(reader, 0, INT32_MAX);
     if (version > 1) report.loosened = dp_read_number(reader, 0.0, 1e30);
+    if (version > 1) report.rebounded = dp_read_number(reader, -1e30, 1e30);
     return report;
 }
 

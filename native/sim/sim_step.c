@@ -57,6 +57,7 @@ static void count(DpSim* sim)
         sim->report.pressed += limb->firm;
         sim->report.pressed_heap += limb->loose;
         sim->report.displaced += limb->laid;
+        sim->report.rebounded += limb->rebounded;
         sim->report.loosened += limb->loosened;
         sim->report.deepest = fmax(sim->report.deepest, limb->deepest);
         sim->report.off_ground += limb->off_ground;
@@ -90,7 +91,8 @@ static DpStatus step_soil(DpSim* sim, int sample)
     if (status != DP_OK || sim->groups == 0) return status;
     if (!done) status = press_limbs(sim, sample);
     if (status != DP_OK) return status;
-    status = settle_limbs(sim);
+    status = dp_release_step(sim, sample);
+    if (status == DP_OK) status = settle_limbs(sim);
     count(sim);
     return status;
 }
@@ -116,9 +118,11 @@ DpStatus dp_sim_settle(DpSim* sim)
         Limb* limb = &sim->limb[l];
         if (!limb->stands) continue;
         limb->stands = false;
-        limb->loosened = 0.0;
-        DpStatus status = dp_limb_settle(sim, limb, &sim->scratch[0]);
+        limb->loosened = limb->rebounded = 0.0;
+        DpStatus status = dp_release_limb(sim, limb, limb->trodden, -1);
+        if (status == DP_OK) status = dp_limb_settle(sim, limb, &sim->scratch[0]);
         sim->report.loosened += limb->loosened;
+        sim->report.rebounded += limb->rebounded;
         if (status == DP_OK) status = dp_stage_settled(sim, limb);
         if (status != DP_OK) return status;
     }

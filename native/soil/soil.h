@@ -38,6 +38,7 @@ typedef enum DpContactLaw
 typedef struct DpPressed
 {
     double firm;       // V_c, volume pressed out of firm ground                [m^3] >= 0
+    double elastic;    // volume that had come back and is pressed again        [m^3] >= 0
     double loose;      // V_b, volume pressed out of loose heaps                [m^3] >= 0
     double displaced;  // 2 nu (V_c + V_b), to be laid down around, SOFT22 (12) [m^3] >= 0
     double area;       // A_contact, TRAIL (10), over no ground too             [m^2] >= 0
@@ -52,6 +53,10 @@ typedef struct DpPressed
 // With no load, or no ground under the sole: nothing touched, all zero, DP_OK.
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed);
+
+// Where no sole stands any more, a share of the depth comes back; imprint as the step left it, NULL: nobody stands.
+// Changes compression and spring. @return the volume that has come back [m^3] >= 0
+double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint);
 
 // ---- slip ---------------------------------------------------------------------------------------
 

@@ -27,12 +27,17 @@ static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, H
     return any;
 }
 
-// tan(gamma_r) under the centre of pressure, or at the cell of the patch that is nearest to it
-static double slope_under(const DpSoilPatch* patch, const HeapShares* shares)
+// the cell under the centre of pressure, or that of the patch that is nearest to it
+static size_t cell_under(const DpSoilPatch* patch, const HeapShares* shares)
 {
     const double i = fmin(fmax(floor(shares->from_x + 0.5), 0.0), patch->nx - 1.0);
     const double j = fmin(fmax(floor(shares->from_y + 0.5), 0.0), patch->ny - 1.0);
-    const size_t p = soil_at(patch, (int)i, (int)j);
+    return soil_at(patch, (int)i, (int)j);
+}
+
+// tan(gamma_r) of a cell
+static double slope_under(const DpSoilPatch* patch, size_t p)
+{
     if (patch->uneven)  // not that of the place, which differs from step to step
         return (double)(float)tan((double)patch->soils[patch->kind[p]].rest_angle);
     return (double)patch->rest_slope[p];
@@ -63,6 +68,9 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
     if (options->law == DP_HEAP_PAPER)
         return dp_soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);
-    const double slope = slope_under(patch, &shares);
+    const size_t under = cell_under(patch, &shares);
+    const double heave = (double)patch->soils[patch->kind[under]].heave;
+    if (heave > 0.0) return dp_soil_heap_bulge(patch, imprint, &shares, volume, heave, scratch);
+    const double slope = slope_under(patch, under);
     return dp_soil_heap_rest(patch, imprint, &shares, volume, slope, height, scratch);
 }

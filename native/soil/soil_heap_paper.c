@@ -1,4 +1,4 @@
-// soil/soil_heap_paper.c - a rim of fixed width around the sole. TRAIL (12), SOFT22 (13).
+// soil/soil_heap_paper.c - a rim of fixed width around the sole, TRAIL (12), SOFT22 (13); or a bulge, MODEL 6.3.
 //
 // Departures
 //   TRAIL (12) fills ring 1 only, a rim that gets thinner with the cell. Here the rim is `width` metres
@@ -9,6 +9,7 @@
 //     test_oracles.py, test_a_paper_rim_does_not_depend_on_the_cell.
 //   SOFT22 (14) lets the rim grow at a rate of its own; here what is displaced in a step is laid
 //     down in that step, so no soil is in the air.
+#include "base/noise.h"
 #include "soil/soil_heaps.h"
 
 #define STEPS 65536     // of one cell: distances are whole numbers, alike from any side
@@ -16,6 +17,8 @@
 #define FAR (1 << 30)   // farther than any rim reaches
 #define FALLS 0.2       // outer share of the width over which the rim falls to zero
 #define MAX_WIDE 16000  // cells that a rim can be wide
+#define REACHES 4.0     // widths of a bulge, beyond which it is level
+#define TABLE 256       // heights of a bulge that are known
 
 // The part of the patch a rim can reach, with a frame of one far cell; distances from where it begins.
 typedef struct Reach
@@ -36,7 +39,8 @@ static void nearer(int32_t* far, int32_t other, int32_t step)
 }
 
 // from the cells under the sole outward: two passes with straight and slanting steps
-static void measure(const Reach* reach, const DpImprint* imprint, const DpSoilPatch* patch)
+static void measure(const Reach* reach, const DpImprint* imprint, const DpSoilPatch* patch,
+                    bool true_edge)
 {
     const size_t row = reach->row, cells = row * (size_t)(reach->ny + 2);
     for (size_t k = 0; k < cells; ++k) reach->far[k] = FAR;
@@ -44,7 +48,9 @@ static void measure(const Reach* reach, const DpImprint* imprint, const DpSoilPa
         for (int i = reach->i0; i < reach->i0 + reach->nx; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (imprint->ring[p] != 0) continue;
-            *far_at(reach, i, j) = (int32_t)lround(-0.5 * (double)imprint->cover[p] * STEPS);
+            const double cover = (double)imprint->cover[p];
+            *far_at(reach, i, j) =
+                (int32_t)lround((true_edge ? 0.5 - cover : -0.5 * cover) * STEPS);
         }
     for (int pass = 0; pass < 2; ++pass)
         for (int n = 0; n < reach->ny; ++n) {
@@ -77,6 +83,42 @@ static double falloff(int32_t far, double wide)
     return wide * (profile_to((at + 0.5) / wide) - profile_to((at - 0.5) / wide));
 }
 
+// How a rim falls off outward.
+typedef struct Rim
+{
+    double wide;  // [cells]
+    bool   bulges;
+    double bulge[TABLE + 2];  // height at k/TABLE of its reach; all of it is REACHES wide
+} Rim;
+
+// x^(1/5) for x >= 0, by own arithmetic
+static double fifth_root(double x)
+{
+    if (!(x > 0.0)) return 0.0;
+    double root = x > 1.0 ? x : 1.0;
+    for (int k = 0; k < 60; ++k) root -= (root - x / (root * root * root * root)) / 5.0;
+    return root;
+}
+
+// exp(-(e/w)^1.4), less what it is where it ends
+static void make_bulge(Rim* rim)
+{
+    const double end = dp_noise_growth(-REACHES * fifth_root(REACHES * REACHES));
+    for (int k = 0; k <= TABLE + 1; ++k) {
+        const double x = REACHES * k / TABLE;
+        rim->bulge[k] = soil_max(dp_noise_growth(-x * fifth_root(x * x)) - end, 0.0);
+    }
+}
+
+static double height_of(const Rim* rim, int32_t far)
+{
+    if (!rim->bulges) return falloff(far, rim->wide);
+    const double at = soil_max((double)far / STEPS, 0.0) / rim->wide * TABLE / REACHES;
+    if (!(at < TABLE)) return 0.0;
+    const int k = (int)at;
+    return rim->bulge[k] + (at - k) * (rim->bulge[k + 1] - rim->bulge[k]);  // MODEL 6.3
+}
+
 static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* imprint,
                        double wide, DpSoilScratch* scratch)
 {
@@ -91,15 +133,15 @@ static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* 
     return reach->far != NULL;
 }
 
-DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
-                            double volume, double width, DpSoilScratch* scratch)
+// lay the volume by shares and by how the rim falls off; none on cells pressed to `hollow` [m]
+static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                    double volume, const Rim* rim, float hollow, DpSoilScratch* scratch)
 {
-    if (!(width > 0.0)) return DP_BAD_ARGUMENT;
-    const double wide = soil_min(soil_max(width / patch->cell, 1.0), MAX_WIDE);
     const double coarse = ldexp(1.5, 52 - 30), area = patch->cell * patch->cell;
+    const double wide = soil_min(rim->bulges ? REACHES * rim->wide : rim->wide, MAX_WIDE);
     Reach        reach;
     if (!open_reach(&reach, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
-    measure(&reach, imprint, patch);
+    measure(&reach, imprint, patch, rim->bulges);
 
     double total = 0.0;
     for (int pass = 0; pass < 2; ++pass)  // the blended shares are normalised as a whole
@@ -107,8 +149,8 @@ DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const 
             for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
                 const size_t p = soil_at(patch, i, j);
                 if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
-                const double full = falloff(*far_at(&reach, i, j), wide);
-                if (!(full > 0.0)) continue;
+                const double full = height_of(rim, *far_at(&reach, i, j));
+                if (!(full > 0.0) || !(patch->compression[p] < hollow)) continue;
                 const double weight =
                     soil_on_grid(dp_soil_heap_share(shares, patch, i, j) * full, coarse);
                 if (pass == 0)
@@ -117,4 +159,23 @@ DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const 
                     patch->heap[p] += (float)(weight / total * volume / area);  // TRAIL (12)
             }
     return total > 0.0 ? DP_OK : DP_NO_GROUND;
+}
+
+DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                            double volume, double width, DpSoilScratch* scratch)
+{
+    if (!(width > 0.0)) return DP_BAD_ARGUMENT;
+    const Rim rim = {.wide = soil_min(soil_max(width / patch->cell, 1.0), MAX_WIDE)};
+    return lay(patch, imprint, shares, volume, &rim, INFINITY, scratch);
+}
+
+DpStatus dp_soil_heap_bulge(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                            double volume, double width, DpSoilScratch* scratch)
+{
+    Rim rim = {.wide = soil_max(width / patch->cell, 0.5), .bulges = true};
+    make_bulge(&rim);
+    const float    hollow = dp_soil_hollow(patch, imprint);
+    const DpStatus status = lay(patch, imprint, shares, volume, &rim, hollow, scratch);
+    if (status != DP_NO_GROUND) return status;
+    return lay(patch, imprint, shares, volume, &rim, INFINITY, scratch);
 }

@@ -33,8 +33,7 @@ static bool takes_soil(const Heap* heap, size_t p)
            heap->patch->compression[p] < heap->hollow;
 }
 
-// how deep a cell must be pressed to count as hollow
-static float hollow_under(const DpSoilPatch* patch, const DpImprint* imprint)
+float dp_soil_hollow(const DpSoilPatch* patch, const DpImprint* imprint)
 {
     float deepest = 0.0f;
     for (int j = imprint->j0; j < imprint->j1; ++j)
@@ -205,7 +204,7 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     DpCellRect   border;
     double       width = 0.0;
     const double area = patch->cell * patch->cell;
-    heap.hollow = hollow_under(patch, imprint);
+    heap.hollow = dp_soil_hollow(patch, imprint);
     const size_t apexes = (count_border(patch, imprint) * sizeof(Apex) + 63) / 64 * 64;
     char*        block = block_for(patch, apexes, scratch);
     if (!block) return DP_NO_MEMORY;

@@ -18,6 +18,13 @@ double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, in
 DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
                            double volume, double slope, double* height, DpSoilScratch* scratch);
 
+// How deep an untouched cell must be pressed to count as the hollow that a sole has left [m].
+float dp_soil_hollow(const DpSoilPatch* patch, const DpImprint* imprint);
+
+// Lay `volume` [m^3] > 0 as a bulge `width` [m] wide, none of it in the hollow.
+DpStatus dp_soil_heap_bulge(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
+                            double volume, double width, DpSoilScratch* scratch);
+
 // Lay `volume` [m^3] > 0 on a rim `width` [m] wide.
 DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,
                             double volume, double width, DpSoilScratch* scratch);

@@ -7,6 +7,13 @@
 
 #define SOIL_RIGID 0.95  // share of L0 that can be pressed; rigid ground below
 
+#define SPRING_ROUGH 1.6  // how much the share that comes back differs, by the soil's roughness
+#define SPRING_MOST 0.9   // of the depth comes back at most
+
+// soil_rebound.c: the deepest a cell has been pressed [m]; the share of it that comes back. The patch has springs.
+double dp_soil_spring_deepest(const DpSoilPatch* patch, size_t p);
+double dp_soil_spring_share(const DpSoilPatch* patch, size_t p);
+
 struct DpSoilScratch
 {
     void* block;

@@ -13,7 +13,8 @@ static bool is_soil(const DpSoil* soil)
 {
     return isfinite(soil->young_modulus) && soil->young_modulus > 0.0f && soil->rest_angle > 0.0f &&
            (double)soil->rest_angle < acos(0.0) && soil->wall_angle > 0.0f &&
-           soil->roughness >= 0.0f && soil->roughness <= 1.0f && soil->grain_size > 0.0f;
+           soil->roughness >= 0.0f && soil->roughness <= 1.0f && soil->grain_size > 0.0f &&
+           soil->rebound >= 0.0f && soil->rebound < 1.0f;
 }
 
 static bool are_options(const DpTerrainOptions* options)

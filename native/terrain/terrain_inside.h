@@ -101,7 +101,8 @@ typedef struct Tile
     uint8_t    kind[TILE_CELLS];
     long       tx, ty;
     atomic_int changed;
-    float plant[];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough
+    float      plant
+        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, tile_spring
 } Tile;
 
 struct DpTerrain
@@ -110,10 +111,11 @@ struct DpTerrain
     double  datum;
     int     soil_count, workers;
     DpSoil* soils;
-    float*  slope;  // tan(rest_angle) of each soil
-    float*  wall;   // tan(wall_angle) of each soil, +inf = walls stand
-    bool    walls;  // those of some soil do not stand
-    bool    rough;  // some soil differs from place to place
+    float*  slope;    // tan(rest_angle) of each soil
+    float*  wall;     // tan(wall_angle) of each soil, +inf = walls stand
+    bool    walls;    // those of some soil do not stand
+    bool    rough;    // some soil differs from place to place
+    bool    springs;  // some soil comes back when a sole lifts
     Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
@@ -146,6 +148,12 @@ static inline const float* tile_kept_in(const Tile* tile, int k)
 static inline float* tile_rough(const DpTerrain* terrain, Tile* tile)
 {
     return tile->plant + (terrain->cover ? 2 * TILE_CELLS : 0);
+}
+
+// where some soil comes back: how cells were pressed (TILE_CELLS), kept as the fields are
+static inline float* tile_spring(const DpTerrain* terrain, Tile* tile)
+{
+    return tile_rough(terrain, tile) + (terrain->rough ? ROUGH_GRIDS * TILE_CELLS : 0);
 }
 
 // terrain_rough.c: what soils are like at rest; and from place to place, of a tile whose kinds are known

@@ -11,7 +11,8 @@
 #define MAX_CELLS (1L << 28)     // of one patch
 #define WALLS (KEPT_FIELDS + 3)  // after base height, those that are kept, modulus, rest slope
 #define UNEVEN (KEPT_FIELDS + 4)
-#define FLOAT_GRIDS (KEPT_FIELDS + 5)
+#define SPRING (KEPT_FIELDS + 5)
+#define FLOAT_GRIDS (KEPT_FIELDS + 6)
 
 struct DpLease
 {
@@ -85,6 +86,8 @@ static void copy_in(const DpTerrain* terrain, Tile* tile, const TilePart* part, 
             grid[KEPT_FIELDS + 2][to + i] = terrain->slope[kind];
         }
         if (terrain->walls || terrain->rough) copy_rough(terrain, tile, at, to, wide, grid);
+        if (terrain->springs)
+            memcpy(grid[SPRING] + to, tile_spring(terrain, tile) + at, wide * sizeof(float));
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;
         for (size_t i = 0; i < wide; ++i) modulus[to + i] += roots[i];  // TRAIL (9), E_v
@@ -123,6 +126,7 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
                                   .soil_count = terrain->soil_count,
                                   .wall_slope = terrain->walls ? grid[WALLS] : NULL,
                                   .uneven = terrain->rough ? grid[UNEVEN] : NULL,
+                                  .spring = terrain->springs ? grid[SPRING] : NULL,
                                   DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};
     lease->patch = acquired;
     lease->i0 = cells.i0;
@@ -178,7 +182,11 @@ void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, DpCellRect within)
             for (int j = 0; j < part.ny; ++j) {
                 const size_t from = (size_t)(within.j0 + part.j + j) * (size_t)lease->patch.row +
                                     (size_t)(within.i0 + part.i);
-                differs |= copy_out(lease, from, tile, part.in_tile + (size_t)j * DP_TILE, part.nx);
+                const size_t to = part.in_tile + (size_t)j * DP_TILE;
+                differs |= copy_out(lease, from, tile, to, part.nx);
+                if (terrain->springs)
+                    memcpy(tile_spring(terrain, tile) + to, lease->patch.spring + from,
+                           (size_t)part.nx * sizeof(float));
             }
             if (differs) dp_tile_mark(terrain, tile);
         }

@@ -27,6 +27,7 @@ bool dp_rough_soils(DpTerrain* terrain)
         terrain->wall[s] = wall > STANDS ? INFINITY : (float)tan(wall);
         terrain->walls = terrain->walls || wall <= STANDS;
         terrain->rough = terrain->rough || soil->roughness > 0.0f;
+        terrain->springs = terrain->springs || soil->rebound > 0.0f;
     }
     return true;
 }

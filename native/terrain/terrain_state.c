@@ -135,6 +135,8 @@ void dp_terrain_save(const DpTerrain* terrain, DpStateWriter* writer)
         dp_write_u8(writer, kept[t]);
         for (int k = 0; k < KEPT_FIELDS && (kept[t] & KEPT_TRAIL); ++k)
             dp_write_runs(writer, tile_kept_in(tile, k), TILE_CELLS);
+        if (terrain->springs && (kept[t] & KEPT_TRAIL))
+            dp_write_runs(writer, tile_spring(terrain, terrain->sorted[t]), TILE_CELLS);
         if (kept[t] & KEPT_COVER) dp_write_runs(writer, tile->plant, 2 * TILE_CELLS);
     }
     dp_write_end(writer);
@@ -152,6 +154,15 @@ static void read_field(DpStateReader* reader, float* value, size_t count)
     dp_read_check(reader, holds);
 }
 
+// how a tile's cells were pressed: finite
+static void read_spring(DpStateReader* reader, float* value)
+{
+    bool holds = true;
+    dp_read_runs(reader, value, TILE_CELLS);
+    for (size_t n = 0; n < TILE_CELLS; ++n) holds = holds && isfinite(value[n]);
+    dp_read_check(reader, holds);
+}
+
 // the next tile, after the one before it; NULL without memory, or when there is something wrong
 static Tile* read_tile(const DpTerrain* terrain, DpStateReader* reader, const Tile* before,
                        uint8_t* kept)
@@ -165,6 +176,8 @@ static Tile* read_tile(const DpTerrain* terrain, DpStateReader* reader, const Ti
     Tile* tile = reader->status == DP_OK ? dp_tile_create(terrain, (long)tx, (long)ty) : NULL;
     for (int k = 0; tile && k < KEPT_FIELDS && (*kept & KEPT_TRAIL); ++k)
         read_field(reader, tile_kept(tile, k), TILE_CELLS);
+    if (tile && terrain->springs && (*kept & KEPT_TRAIL))
+        read_spring(reader, tile_spring(terrain, tile));
     if (tile && (*kept & KEPT_COVER)) read_field(reader, tile->plant, 2 * TILE_CELLS);
     return tile;
 }

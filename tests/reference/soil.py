@@ -373,3 +373,47 @@ def walls(patch, touched=None, tolerance=1e-5):
                 off[j, i] += a * over
                 onto[q] += a * over
     return off, onto
+
+
+# ---- ours: what comes back, MODEL 6.9; what bulges, MODEL 6.3 -----------------------------------
+
+
+class Springy:
+    """One column: what a sole presses it to, and what is left when it lifts."""
+
+    def __init__(self, share):
+        self.share, self.deepest, self.now = share, 0.0, 0.0
+
+    def press(self, to):
+        """Returns (pressed anew, pressed again) [m]."""
+        to = max(to, self.now)
+        again = min(to, self.deepest) - self.now if self.deepest > self.now else 0.0
+        anew = to - self.now - again
+        self.now, self.deepest = to, max(self.deepest, to)
+        return anew, again
+
+    def lift(self):
+        """Returns what comes back [m]."""
+        stays = min(self.now, (1 - self.share) * self.deepest)
+        back, self.now = self.now - stays, stays
+        return back
+
+
+def accumulate_bulge(patch, ring, cover, foot, volume, width, threshold, uneven=None):
+    """exp(-(e/w)^1.4) around the sole, e the distance from its edge; none on the hollow it has left."""
+    far = np.full(ring.shape, np.inf)
+    for c in map(tuple, np.argwhere(ring == 0)):
+        far = np.minimum(far, _distances(c, np.zeros(ring.shape, bool), 1.0) + 0.5 - cover[c])
+    deepest = patch["compression"][ring == 0].max()
+    takes = (ring > 0) & ~np.isnan(patch["rest"])
+    if (takes & (patch["compression"] < 0.5 * deepest)).any() and deepest > 0:
+        takes &= patch["compression"] < 0.5 * deepest
+    cells = [tuple(c) for c in np.argwhere(takes)]
+    x = np.array([max(far[c], 0.0) * patch["cell"] / width for c in cells])
+    full = np.maximum(np.exp(-(x**1.4)) - math.exp(-(4.0**1.4)), 0.0)
+    omega = shares(cells, patch, *foot, threshold)
+    if uneven is not None:
+        omega = omega * np.exp(1.6 * np.array([uneven[c] for c in cells]))
+    weight = omega * full
+    for (j, i), w in zip(cells, weight):
+        patch["heap"][j, i] += w / weight.sum() * volume / patch["cell"] ** 2

@@ -30,6 +30,8 @@ WORDS = {
     "wall_angle": ("Max Wall", "Firm walls of prints that are steeper come loose and slide; 90 degrees = all stand"),
     "roughness": ("Ragged", "By how much walls, slopes and rims differ from place to place; 0 = as from a mould"),
     "grain_size": ("Lumps [m]", "How far apart places are that differ, in metres"),
+    "rebound": ("Spring Back", "Share of a print's depth that comes back when the foot lifts"),
+    "heave": ("Bulge [m]", "How wide it bulges around a print, in metres; 0 = loose soil in a heap"),
 }
 _filling = False
 
@@ -83,7 +85,7 @@ def _number(name):
         default=getattr(SOILS[ITEMS[0][0]], name),
         min=of.low,
         max=of.high,
-        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size"} else 2,
+        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave"} else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",
         options=set(),  # no keys: a bake has one soil

@@ -1,0 +1,37 @@
+// soil/soil_rebound.c - what comes back when a sole lifts. Ours; MODEL 6.9
+//
+// A patch keeps in `spring` how a cell was pressed: -(c at its deepest) while a sole stands on it, afterwards what
+// has come back of that. What is pressed again up to there displaces nothing anew.
+#include "soil/soil_inside.h"
+
+double dp_soil_spring_deepest(const DpSoilPatch* patch, size_t p)
+{
+    const double c = (double)patch->compression[p], spring = (double)patch->spring[p];
+    if (spring < 0.0) return -spring;
+    if (spring > 0.0) return c + spring;
+    return c / (1.0 - dp_soil_spring_share(patch, p));  // as if a sole that is gone had left it
+}
+
+double dp_soil_spring_share(const DpSoilPatch* patch, size_t p)
+{
+    const double share = (double)patch->soils[patch->kind[p]].rebound;
+    const double uneven = patch->uneven ? (double)patch->uneven[p] : 0.0;
+    return soil_min(soil_max(share * (1.0 + SPRING_ROUGH * uneven), 0.0), SPRING_MOST);
+}
+
+double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint)
+{
+    double back = 0.0;
+    for (int j = 0; patch->spring && j < patch->ny; ++j)
+        for (int i = 0; i < patch->nx; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            if (!(patch->spring[p] < 0.0f) || (imprint && imprint->ring[p] == 0)) continue;
+            const float  c = patch->compression[p];
+            const double deepest = -(double)patch->spring[p];
+            const double stays = (1.0 - dp_soil_spring_share(patch, p)) * deepest;  // MODEL 6.9
+            patch->compression[p] = (float)soil_min((double)c, stays);
+            patch->spring[p] = (float)(deepest - (double)patch->compression[p]);
+            back += (double)c - (double)patch->compression[p];
+        }
+    return back * patch->cell * patch->cell;
+}
