@@ -120,6 +120,8 @@ def story():
     for area in window().screen.areas:
         if area.type == "PROPERTIES":
             area.spaces[0].context = "PHYSICS"
+        elif area.type == "VIEW_3D":
+            area.type = "TEXT_EDITOR"  # which is drawn at once without a graphics card
     push("Scene")
     assert not live.begun()
 
@@ -161,15 +163,27 @@ def story():
             assert step() == {"FINISHED"}
         yield from settled(before)
 
+    # while the animation plays, too
+    screen = window().screen
+    with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
+        bpy.ops.screen.animation_play()
+    before = made()
+    ground().desire_path.soil = "dry-soil"
+    push("Dry Soil")
+    yield from settled(before)
+    with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
+        bpy.ops.screen.animation_cancel()
+    yield 0.2
+
     # a change while it bakes: it begins anew, and takes no key
     sim.Film.write_frame = slowly
     before = made()
     ground().desire_path.soil = "snow"
     push("Snow")
-    yield from until(lambda: live._work is not None and live._work.job.fraction > 0.2)
+    yield from until(lambda: live._work is not None and live._work.job.fraction > 0.4)
     assert made() == before and not len(getattr(window(), "modal_operators", ()))
     strong, bright = bars("updating")
-    assert strong == 0 and bright > 50, (strong, bright)
+    assert strong == 0 and bright > 10, (strong, bright)
     assert bake_job.running() is None and bpy.ops.object.desire_path_bake.poll()
     for value in ("PRESS", "RELEASE"):
         window().event_simulate(type="ESC", value=value, x=10, y=10)

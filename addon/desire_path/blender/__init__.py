@@ -6,6 +6,7 @@ import bpy
 
 from . import (
     handlers,
+    messages,
     op_bake,
     op_forces,
     op_ground,
@@ -30,6 +31,7 @@ _CLASSES = (
     + op_walk_it.CLASSES
     + op_material.CLASSES
     + soils.CLASSES
+    + messages.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES
 )

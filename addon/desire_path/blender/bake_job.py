@@ -7,8 +7,9 @@ The mesh is touched once, at the end.
 """
 
 import json
+import os
 import time
-from contextlib import closing
+from contextlib import closing, suppress
 
 import bpy
 
@@ -22,6 +23,7 @@ from .home import folder
 from .ops import active
 from .show import lost, play, plays_on
 
+TOLD = 0.4  # between two looks at how far it is [s]
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 _running = None  # the Job that runs in a window, for the panel and its Cancel button
 _again = None  # the one that live.py runs
@@ -120,11 +122,10 @@ class Job:
         for path, _ in folders:
             trash.drop(path)  # another bake takes its place
         self.bake = made
-        self.text = "Baking"
+        self.text, self._bakes_since, self._told_at = "Baking", time.perf_counter(), 0.0
         with closing(self.bake.run()) as frames:
             for progress in frames:
-                self.fraction, self.frame = progress.fraction, progress.frame
-                self.text = f"Baking frame {progress.frame}"
+                self._how_far(progress)
                 yield
 
     def finish(self):
@@ -164,6 +165,17 @@ class Job:
             f"{', '.join(share.out.folder for share in shares)}."
         )
 
+    def _how_far(self, progress):
+        """How far it is, how long it takes from here on, and how large the files are that are there."""
+        now = time.perf_counter()
+        self.fraction, self.frame = progress.fraction, progress.frame
+        if now < self._told_at + TOLD and self.fraction < 1.0:
+            return
+        self._told_at = now
+        left = (now - self._bakes_since) * (1.0 - self.fraction) / max(self.fraction, 1e-6)
+        size = sum(disk_size(share.out.new) for share in self.bake.shares)
+        self.text = f"Frame {self.frame}, {duration(left)} left, {size / 1e6:.1f} MB"
+
     def play(self):
         """Play what a bake that was not whole has left, on all its grounds that play no whole one."""
         for share in self.bake.shares:
@@ -184,6 +196,23 @@ def _is_fresh(obj, parcel):
         return False
     whole = index.complete and not lost(index)
     return whole and home.played(obj) == folder(obj) and {**index.inputs, **parcel.inputs} == index.inputs
+
+
+def duration(seconds):
+    """Seconds in words."""
+    minutes, whole = divmod(int(seconds + 0.5), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {whole} s" if minutes else f"{whole} s"
+
+
+def disk_size(path):
+    """Bytes of all files below a folder [B]."""
+    found = 0
+    for above, _, names in os.walk(path):
+        for name in names:
+            with suppress(OSError):
+                found += os.lstat(os.path.join(above, name)).st_size
+    return found
 
 
 def _on(names):

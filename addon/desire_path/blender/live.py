@@ -4,7 +4,7 @@
                      ^                                   |                      \\--> outdated: bake, play
                      '------- another change ------------'
 The timer takes SLICE of each turn of Blender's main loop and no key or mouse button. It waits while something is
-dragged, edited, played or rendered, and while a bake runs that the user has started; whatever goes before undo, redo,
+dragged, edited or rendered, and while a bake runs that the user has started; whatever goes before undo, redo,
 save and load stops it, and what it was at begins anew. There is a handler and a timer only while a ground wants it.
 """
 
@@ -15,13 +15,12 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import bake_job, ops, state, timeline
-from .chosen import grounds
+from . import bake_job, messages, ops, sample, state, timeline
+from .chosen import grounds, walkers
 
 REST = 0.2  # without a change before anything is done [s]
 SLICE = 0.03  # of work in one turn of Blender's main loop [s]
 DRAWN = 0.3  # between two pictures of how far it is [s]
-SHOWING = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("DOPESHEET_EDITOR", "WINDOW"), ("GRAPH_EDITOR", "WINDOW")}
 FAILED = (DesirePathError, OSError, MemoryError, ReferenceError)
 
 _work = None  # the Job on its way, its steps, and after which change of the scene it began
@@ -118,7 +117,11 @@ def _tick():
     quiet = state.quiet_for()
     if _work is not None and _work.changes != state.changes():
         drop()
-    if bake_job.running() is not None or bpy.app.is_job_running("RENDER") or state.busy():
+    if (
+        bake_job.running() is not None
+        or bpy.app.is_job_running("RENDER")
+        or state.busy(played=not _held_by_playback(wanted))
+    ):
         return REST
     if quiet < REST:
         return REST - quiet
@@ -135,6 +138,11 @@ def _tick():
         _go_on()
     _redraw()
     return 0.0
+
+
+def _held_by_playback(wanted):
+    """Whether somebody is moved by physics, which only a scene that does not play can be asked for."""
+    return any(sample.simulated(each) for scene, obj in wanted for each in walkers(scene, obj))
 
 
 def _begin(scene, obj):
@@ -176,7 +184,9 @@ def _show(work):
     state.baking.pop(work.name, None)
     before = _datablocks()
     if not work.job.fresh:
-        work.job.finish()
+        for each in work.job.warnings:
+            messages.add("WARNING", each)
+        messages.add("INFO", work.job.finish())
     if _datablocks() != before and not bpy.app.background:
         # undo would go back to an object that is the same and look for what it had in the meantime
         bpy.ops.ed.undo_push(message="Auto Update")
@@ -192,6 +202,7 @@ def _fail(name, problem):
     state.baking.pop(name, None)
     obj = bpy.data.objects.get(name)
     if obj is not None:
+        messages.add("ERROR", ops.sentence(problem))
         state.refused[name] = state.changes(), ops.sentence(problem)
         state.ask(obj)
 
@@ -209,11 +220,7 @@ def _redraw():
     if _work is not None and now < _drawn + DRAWN:
         return
     _drawn = now
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            for region in area.regions:
-                if (area.type, region.type) in SHOWING:
-                    region.tag_redraw()
+    timeline.redraw()
 
 
 # ---- handlers -----------------------------------------------------------------------------------------------

@@ -1,44 +1,39 @@
-"""op_bake.py - bake, stop, free.
+"""op_bake.py - bake, stop, free, and show the files.
 
 `execute` takes all steps of a Job in one go (this is what `blender -b` runs); with a window the same steps run in
 slices, so that Blender stays awake and ESC stops them.
 """
 
+import os
 import time
 
 import bpy
 from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import bake_job, framing, live, timeline
+from . import bake_job, framing, home, live, messages, timeline
+from .bake_all import AllJobs
 from .bake_job import Job, idle_ground
-from .ops import AsksFirst, Refusal, begins, sentence
+from .chosen import grounds
+from .ops import AsksFirst, Refusal, active, begins, sentence
 from .show import free
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
 
-class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
-    """Press the walkers' prints into the active ground, in files that play without this add-on"""
+class _Bakes(Refusal):
+    """Operators that run a Job: all at once, or in slices in a window."""
 
-    bl_idname = "object.desire_path_bake"
-    bl_label = "Bake Trail"
-    bl_options = {"REGISTER", "UNDO"}
+    look = False
 
-    look: BoolProperty(
-        name="Look",
-        options={"HIDDEN", "SKIP_SAVE"},
-        description="Play the walk when it is baked, seen from near enough",
-    )
-
-    @classmethod
-    def poll(cls, context):
-        return idle_ground(cls, context)
+    def make(self, context):
+        """The Job."""
+        raise NotImplementedError
 
     def work(self, context):
         """All at once."""
         context.view_layer.update()
-        job = Job(context.scene, context.object)
+        job = self.make(context)
         window = context.window_manager
         window.progress_begin(0, 1000)
         try:
@@ -57,8 +52,12 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
     def tell(self, job):
         text = job.finish()
         for each in job.warnings:
-            self.report({"WARNING"}, each)
-        self.report({"INFO"}, text)
+            self.say("WARNING", each)
+        self.say("INFO", text)
+
+    def say(self, level, text):
+        messages.add(level, text)
+        self.report({level}, text)
 
     # ---- in a window ----------------------------------------------------------------------------
 
@@ -68,9 +67,9 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         begins()
         context.view_layer.update()
         try:
-            self.job = Job(context.scene, context.object)
+            self.job = self.make(context)
         except (DesirePathError, OSError, MemoryError) as problem:
-            self.report({"ERROR"}, sentence(problem))
+            self.say("ERROR", sentence(problem))
             return {"CANCELLED"}
         bake_job.run(self.job)
         timeline.show()
@@ -92,13 +91,13 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             while time.perf_counter() < until:
                 next(self.steps)
                 while job.early:  # before it is made: it may be stopped and mended
-                    self.report({"WARNING"}, job.early.pop(0))
+                    self.say("WARNING", job.early.pop(0))
         except StopIteration:
             self.leave(context)
             try:
                 self.tell(job)
             except DesirePathError as problem:
-                self.report({"ERROR"}, str(problem))
+                self.say("ERROR", str(problem))
                 return {"CANCELLED"}
             if self.look:
                 framing.look(context, job.object(), job.bake, context.scene.frame_start)
@@ -107,13 +106,11 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             self.leave(context)
             if job.bake is not None:
                 job.play()
-            self.report({"ERROR"}, sentence(problem))
+            self.say("ERROR", sentence(problem))
             return {"CANCELLED"}
         context.window_manager.progress_update(int(1000 * job.fraction))
         context.workspace.status_text_set(f"{job.text} ({100 * job.fraction:.0f} %)    ESC: stop")
-        for area in context.screen.areas:
-            if area.type in {"PROPERTIES", *timeline.AREAS}:
-                area.tag_redraw()
+        timeline.redraw()
         return {"RUNNING_MODAL"}
 
     def stop(self, context):
@@ -125,7 +122,7 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
             bpy.ops.ed.undo_push(message="Stopped Bake")
         obj = bpy.data.objects.get(self.job.name)
         text = obj.desire_path.missing if obj is not None else ""
-        self.report({"WARNING"}, text or "The bake was stopped; the one from before plays on.")
+        self.say("WARNING", text or "The bake was stopped; the one from before plays on.")
         return {"CANCELLED"}
 
     def leave(self, context):
@@ -141,6 +138,70 @@ class OBJECT_OT_desire_path_bake(Refusal, bpy.types.Operator):
         """Blender closes, or loads another file."""
         self.steps.close()
         self.leave(context)
+
+
+class OBJECT_OT_desire_path_bake(_Bakes, bpy.types.Operator):
+    """Press the walkers' prints into the active ground, in files that play without this add-on"""
+
+    bl_idname = "object.desire_path_bake"
+    bl_label = "Bake Trail"
+    bl_options = {"REGISTER", "UNDO"}
+
+    look: BoolProperty(
+        name="Look",
+        options={"HIDDEN", "SKIP_SAVE"},
+        description="Play the walk when it is baked, seen from near enough",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return idle_ground(cls, context)
+
+    def make(self, context):
+        return Job(context.scene, context.object)
+
+
+class WM_OT_desire_path_bake_all(_Bakes, bpy.types.Operator):
+    """Bake all grounds of the scene, one after the other; those that a walk crosses are baked together"""
+
+    bl_idname = "wm.desire_path_bake_all"
+    bl_label = "Bake All Grounds"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if bake_job.running() is not None:
+            cls.poll_message_set("A bake is running")
+            return False
+        if not grounds(context.scene):
+            cls.poll_message_set("There is no ground in this scene")
+            return False
+        return True
+
+    def make(self, context):
+        return AllJobs(context.scene)
+
+
+class OBJECT_OT_desire_path_show_files(Refusal, bpy.types.Operator):
+    """Show the files of the active ground's bake in the system's file browser"""
+
+    bl_idname = "object.desire_path_show_files"
+    bl_label = "Show in File Browser"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, {"MESH"}, "the ground", changed=False)
+
+    def work(self, context):
+        obj = context.object
+        place = home.played(obj) or (home.folder(obj) if obj.desire_path.folder and not home.lost(obj) else "")
+        if not os.path.isdir(place):
+            raise DesirePathError(f"There are no files of '{obj.name}' yet: bake it first.")
+        if not bpy.app.background:
+            bpy.ops.wm.path_open(filepath=place)
+        self.report({"INFO"}, place)
+        return {"FINISHED"}
 
 
 class OBJECT_OT_desire_path_cancel(bpy.types.Operator):
@@ -179,4 +240,10 @@ class OBJECT_OT_desire_path_free(AsksFirst, Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_desire_path_bake, OBJECT_OT_desire_path_cancel, OBJECT_OT_desire_path_free)
+CLASSES = (
+    OBJECT_OT_desire_path_bake,
+    WM_OT_desire_path_bake_all,
+    OBJECT_OT_desire_path_cancel,
+    OBJECT_OT_desire_path_free,
+    OBJECT_OT_desire_path_show_files,
+)

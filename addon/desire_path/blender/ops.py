@@ -3,7 +3,7 @@
 import bpy
 
 from ..errors import DesirePathError
-from . import playback
+from . import messages, playback
 
 before = []  # called before an operator of ours does its work
 
@@ -22,6 +22,7 @@ class Refusal:
         try:
             return self.work(context)
         except (DesirePathError, OSError, MemoryError) as problem:
+            messages.add("ERROR", sentence(problem))
             self.report({"ERROR"}, sentence(problem))
             return {"CANCELLED"}
 

@@ -6,7 +6,7 @@ import bpy
 
 from ..errors import DesirePathError
 from . import bake_job, forward, plants, soils, state, tufts
-from .chosen import walkers
+from .chosen import grounds, walkers
 
 
 def _column(layout):
@@ -71,7 +71,12 @@ def draw_ground(layout, context, obj):
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
         _column(layout).prop(settings, "auto_update")
-        layout.operator("object.desire_path_free", icon="TRASH")
+        if len(grounds(context.scene)) > 1:
+            layout.operator("wm.desire_path_bake_all")
+        row = layout.row(align=True)
+        row.operator("object.desire_path_free", icon="TRASH")
+        row.operator("object.desire_path_show_files", text="", icon="FILE_FOLDER")
+        row.operator("wm.desire_path_messages_copy", text="", icon="COPYDOWN")
         draw_state(layout, context, obj)
     draw_result(layout, context, settings)
 

@@ -259,12 +259,13 @@ def _look():
     return REST if _waiting else None
 
 
-def busy():
-    """Whether the user is in the middle of something."""
+def busy(played=False):
+    """Whether the user is in the middle of something. played: what plays does not count"""
     for window in bpy.context.window_manager.windows:
         active = window.view_layer.objects.active
         if (
             window.screen.is_animation_playing
+            and not played
             or active is not None
             and active.mode == "EDIT"
             or len(getattr(window, "modal_operators", ()))

@@ -23,7 +23,7 @@ COLOURS = {  # red, green, blue, alpha
     MAKING: (1.0, 0.85, 0.3, 1.0),
 }
 HIGH, ABOVE = 4, 16  # of the bar, and of the scroll bar below it [px]
-AREAS = ("DOPESHEET_EDITOR", "GRAPH_EDITOR")
+SHOWING = {("PROPERTIES", "WINDOW"), ("VIEW_3D", "UI"), ("DOPESHEET_EDITOR", "WINDOW"), ("GRAPH_EDITOR", "WINDOW")}
 EDITORS = ("SpaceDopeSheetEditor", "SpaceGraphEditor")
 
 _handles = {}  # name of an editor -> its draw handler
@@ -113,6 +113,15 @@ def _draw():
         shader.uniform_float("color", COLOURS[kind])
         batch.batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
     gpu.state.blend_set("NONE")
+
+
+def redraw():
+    """Show in every open editor how far a bake is."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if (area.type, region.type) in SHOWING:
+                    region.tag_redraw()
 
 
 def show():
