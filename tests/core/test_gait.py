@@ -114,11 +114,11 @@ def nan(array, *at):
         (lambda g: dict(time=g.time[::-1]), "times do not increase"),
         (lambda g: dict(time=g.time[:0], com=g.com[:, :0], pose=g.pose[:, :0]), "no frames"),
         (lambda g: dict(pose=g.pose[:1]), "shape"),
-        (lambda g: dict(part_limb=[0, 3]), "part_limb points at something"),
-        (lambda g: dict(point_role=[0, 1, 5]), "point_role points at something"),
-        (lambda g: dict(point_part=[0, 0, 0]), "no contact point"),
-        (lambda g: dict(point=nan(g.point, 0, 0)), "contact point"),
-        (lambda g: dict(soles=g.soles[:1]), "one sole"),
+        (lambda g: dict(part_limb=[0, 3]), "part_limb says 3 at 1, where 0 to "),
+        (lambda g: dict(point_role=[0, 1, 5]), "point_role says 5 at 2, where 0 to 2 "),
+        (lambda g: dict(point_part=[0, 0, 0]), "Part 1 of the recording, of bone .* has no contact point"),
+        (lambda g: dict(point=nan(g.point, 1, 0)), "contact point 1 has no finite"),
+        (lambda g: dict(soles=g.soles[:1]), "1 soles for 2 parts"),
         (lambda g: dict(soles=(Sole(np.zeros((0, 3)), np.zeros((0, 3))),) * 2), "no faces"),
         (lambda g: dict(soles=(Sole(np.zeros((2, 3)), [[0, 1, 2]]),) * 2), "without its vertices"),
         (lambda g: dict(frame_rate=0), "frame rate"),
@@ -144,6 +144,9 @@ def test_joined_walkers_keep_their_own():
     same(Gait.join([a]), a)
     with pytest.raises(DesirePathError, match="different times"):
         Gait.join([a, gait(9)])
+    for walkers in ([2], [-1], [1, 0], [0, 0], [0.5]):
+        with pytest.raises(DesirePathError, match="of 2: give their numbers"):
+            Gait.join([gait(), gait()]).only(walkers)
     with pytest.raises(DesirePathError, match="no walker"):
         Gait.join([])
 

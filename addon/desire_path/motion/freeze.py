@@ -9,12 +9,17 @@ A pose that is held may jitter, as a recording does, and may drift as no eye see
 the body came to it: from a walk's speed to none between one frame and the next.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
 from . import size as sizes
 from . import stays
+from .recording import Recording
 
 SAME = 2e-6  # a pose that is held moves no more than this from one sample to the next, in legs of a person [m]
 STRAY = 1e-4  # and no more than this in all [m]
@@ -25,8 +30,11 @@ TURNS = 0.02  # nor turns farther than this [rad]
 BEFORE = 0.04  # a body's speed beside a hold is taken over this [s]
 WALKS = 0.15  # who walks is faster [m/s]
 
+Held: TypeAlias = tuple[tuple[int, int], ...]  # first and last sample of each hold
+R = TypeVar("R", bound=Recording)
 
-def frozen(gait, walker, size):
+
+def frozen(gait: Recording, walker: int, size: float) -> Held:
     """(first, last) sample of every hold of one walker that is no rest; the poses from first to last are one.
 
     size: its leg in those of a grown person.
@@ -37,7 +45,9 @@ def frozen(gait, walker, size):
     return stops(gait.time, gait.com[walker], [(gait.pose[p, :, :3], gait.pose[p, :, 3:]) for p in parts], size)
 
 
-def stops(time, com, poses, size, rests=False):
+def stops(
+    time: np.ndarray, com: np.ndarray, poses: Sequence[tuple[np.ndarray, np.ndarray]], size: float, rests: bool = False
+) -> Held:
     """frozen() of a body by its mass centre (T, 3) and (places (T, 3), turns (T, ..)) of what it consists of.
 
     rests: those in which it does rest count, too.
@@ -53,7 +63,9 @@ def stops(time, com, poses, size, rests=False):
     return tuple(sorted(found + apart))
 
 
-def _exact(time, com, poses, size):
+def _exact(
+    time: np.ndarray, com: np.ndarray, poses: Sequence[tuple[np.ndarray, np.ndarray]], size: float
+) -> list[tuple[int, int]]:
     """(first, last) sample of stretches over which nothing moves."""
     same = abs(np.diff(com, axis=0)).max(axis=1) < SAME * size
     if not same.any():
@@ -70,23 +82,25 @@ def _exact(time, com, poses, size):
     return found
 
 
-def _jittery(time, com, poses, size):
+def _jittery(
+    time: np.ndarray, com: np.ndarray, poses: Sequence[tuple[np.ndarray, np.ndarray]], size: float
+) -> list[tuple[int, int]]:
     """(first, last) sample of stretches over which nothing moves but by noise."""
-    least = stays.HELD * np.sqrt(size)
+    min_time = stays.HELD * np.sqrt(size)
     rate = (len(time) - 1) / (time[-1] - time[0])
-    lag, wide = max(1, int(JITTERS * np.sqrt(size) * rate + 1e-6)), int(least * rate + 1e-6)
+    lag, wide = max(1, int(JITTERS * np.sqrt(size) * rate + 1e-6)), int(min_time * rate + 1e-6)
     if len(time) <= max(lag, wide):
         return []
-    most = 4.0 * np.sqrt(2.0) * NOISE * size
-    slow = abs(com[lag:] - com[:-lag]).max(axis=1) < most
+    max_step = 4.0 * np.sqrt(2.0) * NOISE * size
+    slow = abs(com[lag:] - com[:-lag]).max(axis=1) < max_step
     for at, turn in poses if slow.any() else ():
         turn = turn.reshape(len(time), -1)
-        slow &= abs(at[lag:] - at[:-lag]).max(axis=1) < most
+        slow &= abs(at[lag:] - at[:-lag]).max(axis=1) < max_step
         slow &= abs(turn[lag:] - turn[:-lag]).max(axis=1) < TURNS
     found = []
     for first, last in _runs(slow):
         last = min(last + lag - 1, len(time) - 1)
-        if time[last] - time[first] < least - 1e-9:
+        if time[last] - time[first] < min_time - 1e-9:
             continue
         stretch = slice(first, last + 1)
         places = np.concatenate([com[stretch], *(at[stretch] for at, _ in poses)], axis=1)
@@ -97,7 +111,7 @@ def _jittery(time, com, poses, size):
             continue
         first, last = first + int(inside[0]), first + int(inside[-1])
         places = places[inside[0] : inside[-1] + 1]
-        if len(inside) < len(places) or time[last] - time[first] < least - 1e-9 or noise.max() > NOISE * size:
+        if len(inside) < len(places) or time[last] - time[first] < min_time - 1e-9 or noise.max() > NOISE * size:
             continue
         sums = np.cumsum(np.concatenate([np.zeros((1, places.shape[1])), places - places[0]]), axis=0)
         means = (sums[wide:] - sums[:-wide]) / wide
@@ -106,13 +120,13 @@ def _jittery(time, com, poses, size):
     return found
 
 
-def _runs(mask):
+def _runs(mask: np.ndarray) -> Iterator[tuple[int, int]]:
     """(first, after) of the runs of a mask, which also are the first and last samples of runs of steps."""
     edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
     return zip(edge[::2].tolist(), edge[1::2].tolist())
 
 
-def _under_way(time, com, first, last, size):
+def _under_way(time: np.ndarray, com: np.ndarray, first: int, last: int, size: float) -> bool:
     """Did the body walk up to a hold, or does it from there on?"""
     span, pace = BEFORE * np.sqrt(size), WALKS * np.sqrt(size)
     before, after = (
@@ -134,12 +148,12 @@ def _under_way(time, com, first, last, size):
     )
 
 
-def holds(gait):
+def holds(gait: Recording) -> list[Held]:
     """The holds of each walker (W)."""
     return [frozen(gait, w, leg / sizes.LEG) for w, leg in enumerate(sizes.legs(gait))]
 
 
-def kept(count, held):
+def kept(count: int, held: Held) -> np.ndarray:
     """Samples that are left of `count` without the holds: their first ones stand for them."""
     keep = np.ones(count, bool)
     for first, last in held:
@@ -147,13 +161,13 @@ def kept(count, held):
     return np.flatnonzero(keep)
 
 
-def without(gait, held):
+def without(gait: R, held: Held) -> R:
     """The recording without its holds, its time closed over them."""
     keep = kept(len(gait.time), held)
     return replace(gait, time=closed(gait.time, held)[keep], com=gait.com[:, keep], pose=gait.pose[:, keep])
 
 
-def closed(time, held):
+def closed(time: np.ndarray, held: Held) -> np.ndarray:
     """Times (T,) as they are without the holds in between."""
     step = np.diff(time, prepend=time[0])
     for first, last in held:
@@ -161,7 +175,7 @@ def closed(time, held):
     return time[0] + np.cumsum(step)
 
 
-def resampled(gait, rate, held):
+def resampled(gait: R, rate: float, held: Sequence[Held]) -> R:
     """The recording at an even rate, of walkers whose time stands still; held: holds() of it."""
     plain = gait.evenly(rate)
     com, pose = plain.com.copy(), plain.pose.copy()
@@ -171,8 +185,8 @@ def resampled(gait, rate, held):
             continue
         own = gait.only([walker])
         went = np.interp(plain.time, gait.time, closed(gait.time, mine)) - gait.time[0]
-        whole = abs(went * rate - np.round(went * rate)).max() < 1e-3
-        fine = 1 if whole else 8  # holds that are no whole number of samples long
+        on_samples = abs(went * rate - np.round(went * rate)).max() < 1e-3
+        fine = 1 if on_samples else 8  # holds that are no round number of samples long
         moves = without(own, mine).evenly(rate * fine)
         pick = np.minimum(np.round(went * rate * fine).astype(int), len(moves.time) - 1)
         com[walker], pose[owner == walker] = moves.com[0, pick], moves.pose[:, pick]

@@ -10,32 +10,44 @@ the second around it. So a leap, a spin or an insect's scurry is none, nor is an
     body.gait_from_bones, Bake, the command line ---found---> pieces, each for itself from then on
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
+
+from .recording import Recording
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Jump: TypeAlias = tuple[int, int, float]  # last sample before, first sample after, how far [m]
+R = TypeVar("R", bound=Recording)
 
 GRAVITY = 9.81
 # what is left over of steps of bodies in motion: (leg lengths, times GRAVITY step^2). Measured walks, runs, jumps and
 # landings, also thinned to 12 samples a second, leave 0.006 and 1.3 of the mass centre, 0.014 and 3 of most feet
 SWAY = {"com": (0.02, 4.0), "foot": (0.03, 8.0)}
-MOST = 1.5  # gravity takes no leg farther than this beyond its way in one step, however small it is [leg lengths]
+MAX_FALL = 1.5  # gravity takes no leg farther than this beyond its path in one step, however small it is [leg lengths]
 BEYOND = 1.5  # and a jump is larger by this than nine of ten steps around it
-AT_ONCE = 0.8  # share of a frame's way that is jumped from one sample to the next
-STAYS = 0.25  # feet that go by less than this share of the body's way stay, and a body whose feet stay sways
+AT_ONCE = 0.8  # share of a frame's path that is jumped from one sample to the next
+STAYS = 0.25  # feet that go by less than this share of the body's path stay, and a body whose feet stay sways
 HELD = 0.25  # a pose held longer stands still [s]
 AROUND = 0.5  # this long to either side [s]
 
 
-def found(gait):
+def found(gait: R) -> R:
     """The recording with a cut wherever one of its walkers jumps, and sentences that say so."""
-    jump, told = {tuple(each) for each in gait.jump.tolist()}, []
+    jump, warnings = {(sample, walker) for sample, walker in gait.jump.tolist()}, list[str]()
     for w, name in enumerate(gait.walker_name):
         parts = np.flatnonzero(gait.limb_walker[gait.part_limb] == w)
         if not len(parts):
             continue
         feet = parts[np.unique(gait.part_limb[parts], return_index=True)[1]]  # the first part of each
         sole = max(float(np.linalg.norm(gait.soles[p].vertices, axis=1).max()) for p in parts)
-        seen = []
+        seen: list[Jump] = []
         for first, after in gait.stays(w):
             seen += [
                 (first + a, first + b, size)
@@ -50,14 +62,14 @@ def found(gait):
             ]
         for a, b, _ in seen:
             jump.update((sample, w) for sample in range(a + 1, b + 1))
-        told += sentences(name, [(gait.frame(a), gait.frame(b), size) for a, b, size in seen])
+        warnings += sentences(name, [(gait.frame(a), gait.frame(b), size) for a, b, size in seen])
     if len(jump) == len(gait.jump):
         return gait
     cut = np.union1d(gait.cut, [sample for sample, _ in jump])
-    return replace(gait, cut=cut, jump=sorted(jump), warnings=gait.warnings + tuple(told))
+    return replace(gait, cut=cut, jump=np.array(sorted(jump)), warnings=gait.warnings + tuple(warnings))
 
 
-def sentences(name, jumps):
+def sentences(name: str, jumps: Sequence[tuple[float, float, float]]) -> list[str]:
     """What is told of jumps (frame before, frame after, metres)."""
     if not jumps:
         return []
@@ -68,7 +80,7 @@ def sentences(name, jumps):
     return [f"{first}, and {len(jumps) - 1} more times elsewhere: taken as cuts, over which nothing moves."]
 
 
-def alone(count, cut):
+def alone(count: int, cut: ArrayLike) -> np.ndarray:
     """Samples (count,) that are a piece of their own: a pose from which no contact can be judged."""
     ends = np.concatenate([[0], np.asarray(cut, int), [count]])
     single = np.zeros(count, bool)
@@ -76,23 +88,25 @@ def alone(count, cut):
     return single & (count > 1)
 
 
-def between(time, com, feet, frame_rate, start, least=0.0):
+def between(
+    time: np.ndarray, com: np.ndarray, feet: np.ndarray, frame_rate: float, start: float, min_leg: float = 0.0
+) -> list[Jump]:
     """Jumps of one walker: [(last sample before, first sample after, how far [m])], rising.
 
-    time (T,) [s], com (T, 3), feet (L, T, 3) [m]; start: the time of a whole frame [s]; least: legs are no shorter
+    time (T,) [s], com (T, 3), feet (L, T, 3) [m]; start: when a frame begins [s]; min_leg: legs are no shorter
     [m]. An animation that was looked at more often than once a frame spreads a jump over the samples of a frame:
     steps of frames are measured, too.
     """
     if len(time) < 3:
         return []
-    leg = max(float(np.median(np.linalg.norm(com - feet, axis=-1).max(axis=0))), least)
+    leg = max(float(np.median(np.linalg.norm(com - feet, axis=-1).max(axis=0))), min_leg)
     frames = np.flatnonzero(abs((time - start) * frame_rate - np.round((time - start) * frame_rate)) < 1e-3)
     jumps = []
     for a, b, size in _steps(time[frames], com[frames], feet[:, frames], leg) if len(frames) < len(time) else ():
         a, b = int(frames[a]), int(frames[b])
-        way = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
-        if way.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
-            a += int(way.argmax())
+        path = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
+        if path.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
+            a += int(path.argmax())
             b = a + 1
         jumps.append((a, b, size))
     ends = [0, *(sample for a, b, _ in jumps for sample in (a + 1, b)), len(time)]
@@ -102,49 +116,52 @@ def between(time, com, feet, frame_rate, start, least=0.0):
     return sorted(jumps)
 
 
-def _steps(time, com, feet, leg):
+def _steps(time: np.ndarray, com: np.ndarray, feet: np.ndarray, leg: float) -> list[Jump]:
+    """Jumps from one sample that shows motion to the next."""
     if len(time) < 3 or not leg > 0.0:
         return []
-    at, held = _told(time, np.concatenate([com[None], feet]), leg)
+    at, held = _moving(time, np.concatenate([com[None], feet]), leg)
     time, com, feet = time[at], com[at], feet[:, at]
     if len(time) < 3:
         return []
     step = np.minimum(np.diff(time), held)
-    way = np.linalg.norm(np.diff(com, axis=0), axis=1)
-    ways = np.linalg.norm(np.diff(feet, axis=1), axis=2)
-    body = _leaps(step, com, leg, *SWAY["com"]) & _most(ways > STAYS * way)
-    limbs = _most([_leaps(step, foot, leg, *SWAY["foot"]) for foot in feet])
+    path = np.linalg.norm(np.diff(com, axis=0), axis=1)
+    paths = np.linalg.norm(np.diff(feet, axis=1), axis=2)
+    body = _leaps(step, com, leg, *SWAY["com"]) & _majority(paths > STAYS * path)
+    limbs = _majority([_leaps(step, foot, leg, *SWAY["foot"]) for foot in feet])
     return [
-        (int(at[k + 1] - 1), int(at[k + 1]), float(np.median([way[k], *ways[:, k]])))
+        (int(at[k + 1] - 1), int(at[k + 1]), float(np.median([path[k], *paths[:, k]])))
         for k in np.flatnonzero(body | limbs)
     ]
 
 
-def _most(limbs):
+def _majority(limbs: ArrayLike) -> np.ndarray:
+    """Where more than half of the limbs (L, n) do so."""
+    limbs = np.asarray(limbs)
     return np.sum(limbs, axis=0) > 0.5 * len(limbs)
 
 
-def _told(time, places, leg):
+def _moving(time: np.ndarray, places: np.ndarray, leg: float) -> tuple[np.ndarray, float]:
     """(samples that tell of motion, how long a pose is held [s]): an animation on twos tells every other one."""
     moved = np.abs(np.diff(places, axis=1)).max(axis=(0, 2)) > 1e-9 * leg
     new = np.concatenate([[0], np.flatnonzero(moved) + 1])
-    held = min(np.median(np.diff(time[new])), HELD) if len(new) > 1 else 0.0
+    held = float(min(np.median(np.diff(time[new])), HELD)) if len(new) > 1 else 0.0
     last = np.append(new[1:], len(time)) - 1  # of each pose
     long = time[last] - time[new] > max(held, np.diff(time).min()) * (1 + 1e-6)
-    return np.union1d(new, last[long]), max(held, np.diff(time).min())
+    return np.union1d(new, last[long]), float(max(held, np.diff(time).min()))
 
 
-def _leaps(step, at, leg, lengths, falls):
+def _leaps(step: np.ndarray, at: np.ndarray, leg: float, lengths: float, falls: float) -> np.ndarray:
     """Where places (T, 3) go farther in a step (T - 1,) [s] than a body does."""
-    way = np.diff(at, axis=0)
-    before, after = np.concatenate([way[1:2], way[:-1]]), np.concatenate([way[1:], way[-2:-1]])
+    run = np.diff(at, axis=0)
+    before, after = np.concatenate([run[1:2], run[:-1]]), np.concatenate([run[1:], run[-2:-1]])
     change = after - before
-    share = ((way - before) * change).sum(axis=1) / np.maximum((change * change).sum(axis=1), 1e-300)
-    over = np.linalg.norm(way - before - np.clip(share, 0.0, 1.0)[:, None] * change, axis=1)
-    out = over > lengths * leg + np.minimum(falls * GRAVITY * step**2, MOST * leg)
-    far = np.linalg.norm(way, axis=1)
+    share = ((run - before) * change).sum(axis=1) / np.maximum((change * change).sum(axis=1), 1e-300)
+    over = np.linalg.norm(run - before - np.clip(share, 0.0, 1.0)[:, None] * change, axis=1)
+    out = over > lengths * leg + np.minimum(falls * GRAVITY * step**2, MAX_FALL * leg)
+    far = np.linalg.norm(run, axis=1)
     for k in np.flatnonzero(out):
-        reach = max(int(AROUND / step[k]), 2)
-        around = np.concatenate([far[max(k - reach, 0) : k], far[k + 1 : k + 1 + reach]])
+        around_steps = max(int(AROUND / step[k]), 2)
+        around = np.concatenate([far[max(k - around_steps, 0) : k], far[k + 1 : k + 1 + around_steps]])
         out[k] = min(over[k], far[k]) > BEYOND * np.quantile(around, 0.9)
     return out

@@ -184,7 +184,7 @@ def _one(cycle: Cycle, line: Path, rate: float, scatter: _Scattered, ground: Sim
     if isinstance(ground, Simulation):
         level = replace(cycle.gait, time=np.arange(count) / rate, com=com[None], pose=pose, cut=np.empty(0))
         level = placing.place_feet(level, ground, carry=True, floor=cycle.floor)
-        com, pose = level.com[0], level.pose
+        com, pose = level.com[0], np.asarray(level.pose)
     return com, pose
 
 

@@ -81,7 +81,7 @@ def _check_range(name: str, value: float, low: float, high: float) -> None:
 
 def walk(mass: float = 75.0) -> Gait:
     """The walk that comes with Desire Path: whole strides that repeat on level ground, of a person of `mass` [kg]."""
-    return replace(Gait.load(WALK), mass=[mass]).check()
+    return replace(Gait.load(WALK), mass=np.array([mass])).check()
 
 
 @fields_of(lane=Lane)
