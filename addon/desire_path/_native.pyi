@@ -227,6 +227,13 @@ def refine(
     max_triangles: int,
     /,
 ) -> tuple[Any, ...]: ...
+def refine_detail(
+    points: _Array,  # (n, 3) f8
+    detail: tuple[float, ...],  # the nine numbers of DpDetail
+    seed: int,
+    shown: _Array,  # (n, 6) f4
+    /,
+) -> None: ...
 
 # ---- types ----
 @final

@@ -69,6 +69,36 @@ done:
     return answer;
 }
 
+static PyObject* refine_detail(PyObject* module, PyObject* arguments)
+{
+    PyObject *   points, *shown;
+    DpDetail     d;
+    unsigned int seed;
+    (void)module;
+    if (!PyArg_ParseTuple(arguments, "O(ddddddddd)IO:refine_detail", &points, &d.grit_height,
+                          &d.grit_size, &d.crumb_share, &d.crumb_least, &d.crumb_most,
+                          &d.vein_height, &d.vein_size, &d.fray, &d.fray_size, &seed, &shown))
+        return NULL;
+    DpBuffers     buffers = {0};
+    PyObject*     answer = NULL;
+    DpShape       shape = {2, {-1, 3}};
+    const double* point = dp_buffers_open(&buffers, points, "points", 'd', &shape, false);
+    float*        out =
+        point ? dp_buffers_open(&buffers, shown, "shown", 'f', DP_SHAPE2(shape.n[0], 6), true)
+                     : NULL;
+    if (out) {
+        DpStatus status = DP_BAD_ARGUMENT;
+        if (shape.n[0] <= INT32_MAX / 2) {
+            Py_BEGIN_ALLOW_THREADS
+            status = dp_refine_detail(point, (int)shape.n[0], &d, seed, out);
+            Py_END_ALLOW_THREADS
+        }
+        answer = dp_py_result(status, "details of a mesh");
+    }
+    dp_buffers_close(&buffers);
+    return answer;
+}
+
 PyMethodDef dp_py_refine_methods[] = {
     {"refine", refine, METH_VARARGS,
      "refine(points, triangles, corners, sizes, block, max_triangles)\n--\n\n"
@@ -76,4 +106,9 @@ PyMethodDef dp_py_refine_methods[] = {
      "int32\n"
      "(t, 3), corners float64 (w, 2) and sizes float64 (w,) of squares of edge `block` [m].\n"
      "Returns (valid, points, point_source, point_weight, triangles, source, weight, cut)."},
+    {"refine_detail", refine_detail, METH_VARARGS,
+     "refine_detail(points, detail, seed, shown)\n--\n\n"
+     "What points are like below a cell, see refine/refine.h: points float64 (n, 3) [m], detail "
+     "the\n"
+     "nine numbers of DpDetail in order; written to shown float32 (n, 6)."},
     {NULL, NULL, 0, NULL}};

@@ -7,6 +7,7 @@
 // share of the three points of the triangle it lies in, and so is all that is interpolated.
 #pragma once
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/status.h"
 
@@ -45,3 +46,28 @@ typedef struct DpRefined
 DpStatus dp_refine(const double* point, int points, const int* triangle, int triangles,
                    const DpWishes* wishes, int max_triangles, DpRefined* out);
 void     dp_refined_free(DpRefined* refined);
+
+// ---- what is finer than a cell. MODEL 8.3 -----------------------------------------------------------
+
+// What ground is like where it was disturbed, at a size that cells do not hold. Only shown: nothing is fed back.
+// Sizes 0.1 mm to 1 m.
+typedef struct DpDetail
+{
+    double grit_height;  // deviation of grains that are seen                  [m]  0..1
+    double grit_size;    // how long they are                                  [m]
+    double crumb_share;  // share of a heap that lies under crumbs             [-]  0..0.5
+    double crumb_least;  // radius of the smallest ..                          [m]  <= crumb_most
+    double crumb_most;   // .. and of the largest                              [m]
+    double vein_height;  // of what a sole sucks up when it is lifted          [m]  0..1
+    double vein_size;    // how far veins lie apart                            [m]
+    double fray;         // deviation by which edges of prints stray, each way [m]  0..1
+    double fray_size;    // over which length                                  [m]
+} DpDetail;
+
+// What points are like by where they are, whatever was pressed, the cells, the order, or the threads.
+// @param point  (points, 3) [m], finite; height does not count
+// @param shown  (points, 6): heights [m] of veins, crumbs and grit, each of mean 0; how far prints are seen aside,
+//               x and y [m], of mean 0; how high a heap has to be for the crumb there to show [m]
+// DP_BAD_ARGUMENT: a number out of range, a point farther out than 1e9 m; nothing is written.
+DpStatus dp_refine_detail(const double* point, int points, const DpDetail* detail, uint32_t seed,
+                          float* shown);

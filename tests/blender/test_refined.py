@@ -259,3 +259,45 @@ def test_a_bake_from_before_is_shown_as_it_was(folder):
     ground = bpy.data.objects["Grid"]
     bpy.context.view_layer.update()
     assert copy_of(ground) is None and len(seen(ground).vertices) == 62**2
+
+
+def test_details_are_shown_where_feet_went_and_nowhere_else(folder):
+    ground = baked(folder, plane(), cell=0.01, refine_size=0.005)
+    ground.desire_path.refine_size, ground.desire_path.detail_size = 0.0, 0.005
+    fine, copy = seen(ground), copy_of(ground).data
+    assert len(ground.data.polygons) == 1 and len(copy.vertices) == len(fine.vertices)
+    bare, shown = compat.positions(copy).astype(float), compat.positions(fine).astype(float)
+    assert np.array_equal(bare[:, :2], shown[:, :2])
+    baked_there = compat.colour_attribute(fine, playback.ATTRIBUTE)
+    detail = shown[:, 2] - bare[:, 2] - baked_there[:, 0]
+    disturbed = np.maximum(baked_there[:, 2], baked_there[:, 0] + baked_there[:, 2]) > playback.DISTURBED[1]
+    untouched = ~baked_there.any(axis=1)
+    assert not detail[untouched].any() and not shown[untouched, 2].any() and disturbed.sum() > 1000
+    assert abs(detail[disturbed].mean()) < 1e-4 < 2e-4 < detail[disturbed].std()
+    heights = compat.positions(fine)[:, 2].copy()
+    # what lies as it lay is shown as it was
+    bpy.context.scene.frame_set(20)
+    before = seen(ground)
+    same = (compat.colour_attribute(before, playback.ATTRIBUTE) == baked_there).all(axis=1)
+    assert np.array_equal(compat.positions(before)[same, 2], heights[same]) and (same & disturbed).sum() > 0
+    bpy.context.scene.frame_set(0)
+    assert np.array_equal(compat.positions(seen(ground)), compat.positions(copy))
+    # and without them all is as if they had never been
+    ground.desire_path.detail_size = 0.0
+    assert playback.DETAIL not in copy_of(ground).data.attributes
+
+
+def test_details_are_those_of_the_soils(folder):
+    ground = plane()
+    group = ground.vertex_groups.new(name="drift")
+    group.add([each.index for each in ground.data.vertices], 1.0, "REPLACE")
+    each = ground.desire_path.painted.add()
+    each.vertex_group, each.soil = "drift", "mud"
+    baked(folder, ground, detail_size=0.01)
+    mud = compat.vectors(copy_of(ground).data, playback.DETAIL)
+    assert np.ptp(mud[:, 0]) > 0.004 and not mud[:, 1].any()  # veins, no crumbs
+    each.soil = "soil"
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    earth = compat.vectors(copy_of(ground).data, playback.DETAIL)
+    assert not earth[:, 0].any() and np.ptp(earth[:, 1]) > 0.003

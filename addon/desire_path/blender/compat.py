@@ -125,6 +125,17 @@ def colour_attribute(mesh, name):
     return out
 
 
+def vectors(mesh, name):
+    """Values of a vector point attribute, float32 (n, 3), or None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.data_type != "FLOAT_VECTOR":
+        return None
+    out = np.empty((len(attribute.data), 3), np.float32)
+    if len(out):
+        attribute.data.foreach_get("vector", out.ravel())
+    return out
+
+
 def geometry_tree(name, new_tree):
     """A node tree with one geometry going in and one coming out."""
     tree = new_tree(name, "GeometryNodeTree")

@@ -41,16 +41,6 @@ class Shade(playback.Wiring):
         size = self.split(node.outputs[1])[0]  # by chance
         return self.math("MULTIPLY", self.between(node.outputs[0], 0.0, 0.7, 1.0, 0.0), self.math("POWER", size, 1.6))
 
-    def between(self, value, low, high, first=0.0, last=1.0):
-        """`first` below low, `last` above high, a smooth step between."""
-        node = self.add(
-            "ShaderNodeMapRange",
-            {"interpolation_type": "SMOOTHSTEP"},
-            Value=value,
-            **{"From Min": low, "From Max": high, "To Min": first, "To Max": last},
-        )
-        return compat.socket(node.outputs, "Result")
-
     def mix(self, share, first, last):
         """Colours; numbers by `blend`."""
         return self.add("ShaderNodeMixRGB", _0=share, _1=first, _2=last).outputs[0]

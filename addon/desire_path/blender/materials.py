@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground.detail import DETAILS
 from . import axes, compat, cover, looks, plants, playback
 
 SOILS = {  # soil -> (look, how wet)
@@ -40,6 +41,12 @@ def look_of(name):
         return known
     found = next((each for word, each in WORDS if word in name), "EARTH")
     return found, WET if "wet" in name and found != "SNOW" else 0.0
+
+
+def detail_of(settings):
+    """What a soil is like below a cell, a Detail."""
+    look, wet = look_of(_soil_name(settings))
+    return DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
 
 
 def _soil_name(settings):

@@ -189,6 +189,7 @@ def draw_output(layout, obj):
     if settings.refine:
         column.prop(settings, "refine_size", text="Size [m]")
         column.prop(settings, "refine_pixels", text="Pixels")
+        column.prop(settings, "detail_size", text="Detail [m]")
     column.prop(settings, "attributes")
     column.prop(settings, "vertex_group")
     column.prop(settings, "law")

@@ -20,6 +20,11 @@ from . import axes, clock, compat, tree_numbers
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
+DETAIL = "desire_path_detail"  # vector attribute of a copy: heights of veins, crumbs and grit [m]
+STRAY = "desire_path_stray"  # vector attribute of a copy: how far prints are seen aside, which heap shows crumbs [m]
+BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
+SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
+DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so far [m]
 COPIED = "desire_path_copied"  # on a tree: which mesh the copy it shows was made of
 WISHES = "desire_path_wishes"  # on a tree: how fine the mesh was wanted; trees of before lack it
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
@@ -30,6 +35,7 @@ TAG = "desire_path"  # custom property on the trees and images that are ours
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
 ROUNDED = 0.01  # of a frame is lost where time is stretched
 COPY_NODE = "GeometryNodeObjectInfo"
+BETWEEN = ("Closest", "Linear")  # what is shown between cells
 GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 LEAN = "desire_path_lean"  # vector attribute where plants grew: lean x, lean y, crushed
 STRENGTH = "plant_strength"  # float attribute where plants grew
@@ -120,7 +126,7 @@ def _taken_over(obj, tree):
 
 def interpolates(tree):
     """Whether a tree of ours shows what lies between cells."""
-    return any(node.interpolation == "Linear" for node in tree.nodes if node.bl_idname == "GeometryNodeImageTexture")
+    return any(node.interpolation != "Closest" for node in tree.nodes if node.bl_idname == "GeometryNodeImageTexture")
 
 
 def keep(obj, tree, world):
@@ -133,7 +139,8 @@ def keep(obj, tree, world):
 def wishes(obj):
     """How fine the user wants the mesh shown, in a word."""
     settings = obj.desire_path
-    return str([settings.refine, settings.refine_size, settings.refine_pixels])
+    fine = [settings.detail_size] if settings.detail_size else []
+    return str([settings.refine, settings.refine_size, settings.refine_pixels, *fine])
 
 
 def made_for(tree):
@@ -314,10 +321,11 @@ class Wiring:
         return compat.socket(node.outputs, "Vector") or compat.socket(node.outputs, "Value")
 
     def image(self, image, at, number, smooth, beyond="CLIP"):
-        """Sample file `number` of an image sequence; outputs Color and Alpha. beyond: what lies around it"""
+        """Sample file `number` of an image sequence; outputs Color and Alpha. smooth: whether between cells, or
+        how; beyond: what lies around it"""
         return self.add(
             "GeometryNodeImageTexture",
-            {"interpolation": "Linear" if smooth else "Closest", "extension": beyond},
+            {"interpolation": smooth if isinstance(smooth, str) else BETWEEN[bool(smooth)], "extension": beyond},
             Image=image,
             Vector=at,
             Frame=number,
@@ -340,6 +348,16 @@ class Wiring:
 
     def xyz(self, x=0.0, y=0.0, z=0.0):
         return self.add("ShaderNodeCombineXYZ", X=x, Y=y, Z=z).outputs[0]
+
+    def between(self, value, low, high, first=0.0, last=1.0):
+        """`first` below low, `last` above high, a smooth step between."""
+        node = self.add(
+            "ShaderNodeMapRange",
+            {"interpolation_type": "SMOOTHSTEP"},
+            Value=value,
+            **{"From Min": low, "From Max": high, "To Min": first, "To Max": last},
+        )
+        return compat.socket(node.outputs, "Result")
 
     def split(self, vector):
         """The x, y and z of a vector."""
@@ -374,6 +392,11 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     turn, shift = axes.image_axes(world, scale, index)
     at = _turned(wire, turn, shift)
     inside = None if _covers(corners, turn, shift) else within(wire, at)
+    detailed = copy is not None and DETAIL in copy.data.attributes
+    if detailed:  # rims are round, and edges stray
+        stray = wire.named(STRAY, "FLOAT_VECTOR")
+        at = wire.vector("MULTIPLY_ADD", stray, (1.0 / (index.nx * index.cell), 1.0 / (index.ny * index.cell), 0.0), at)
+        smooth = "Cubic"
 
     # sample once, read everything from it
     texture = wire.image(shown["trail"], at, number, smooth)
@@ -390,11 +413,13 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
             **some,
         )
     split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"}, Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
-    up = axes.lift(world, scale)
+    up, raised = axes.lift(world, scale), split.outputs[0]
+    if detailed:
+        raised = wire.math("ADD", raised, _detail(wire, split.outputs, wire.split(stray)[2]))
     if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
-        offset = wire.add("ShaderNodeCombineXYZ", Z=split.outputs[0]).outputs[0]
+        offset = wire.add("ShaderNodeCombineXYZ", Z=raised).outputs[0]
     else:
-        offset = wire.vector("MULTIPLY", tuple(up), split.outputs[0])
+        offset = wire.vector("MULTIPLY", tuple(up), raised)
     if compat.socket(stored.inputs, "Selection") is not None:
         some = {}  # what is not stored reads zero
     geometry = stored.outputs[0]
@@ -412,6 +437,17 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
     tree.links.new(geometry, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
     return tree
+
+
+def _detail(wire, baked, threshold):
+    """How high what is finer than a cell stands, by how far soil was pressed and heaped at that frame. MODEL 8.3"""
+    heap = wire.math("MAXIMUM", wire.math("ADD", baked[0], baked[2]), 0.0)
+    bare = wire.between(heap, *BARE, 1.0, 0.0)
+    veins = wire.math("MULTIPLY", wire.between(baked[2], *SUCKED), bare)
+    crumbs = wire.between(heap, threshold, wire.math("MULTIPLY", threshold, 2.0))
+    grit = wire.between(wire.math("MAXIMUM", baked[2], heap), *DISTURBED)
+    shares = wire.xyz(veins, crumbs, grit)
+    return wire.vector("DOT_PRODUCT", wire.named(DETAIL, "FLOAT_VECTOR"), shares)
 
 
 def _in_place(wire, entry, copy):

@@ -245,6 +245,18 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="Edges of the refined copy are no shorter than so many pixels of the scene's camera, as near as it "
         "comes over the baked frames; 0 = the same everywhere",
     )
+    detail_size: FloatProperty(
+        name="Detail Size [m]",
+        default=0.0,
+        min=0.0,
+        soft_max=0.01,
+        max=1.0,
+        precision=4,
+        step=0.1,
+        update=_show_anew,
+        description="Show crumbs, grit and frayed edges, finer than a cell, on edges so long where feet went, in "
+        "metres: 0.002 for close-ups, slower to play. Nothing of them is baked; 0 = none",
+    )
     vertex_group: BoolProperty(
         name="Vertex Groups",
         description="Also fill vertex groups with plant strength and "

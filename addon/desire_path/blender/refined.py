@@ -14,7 +14,8 @@ import numpy as np
 
 from ..ground import mesh as meshes
 from ..ground import refine
-from . import axes, compat, cover, ground, looks, moves, private, stack
+from ..ground.detail import details
+from . import axes, compat, cover, ground, looks, materials, moves, playback, private, stack
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
@@ -65,6 +66,9 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         index.cell,
         (index.x0, index.y0),
         axes.typed(settings.refine_size),
+        (np.maximum(planes["compression"], planes["heap"]) > playback.DISTURBED[0], axes.typed(settings.detail_size))
+        if settings.detail_size
+        else None,
     )
     wanted = _as_seen(scene, obj, surface, index, wanted)
     groups = [each.name for each in obj.vertex_groups]
@@ -90,6 +94,8 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         group = carrier.vertex_groups.new(name=name)
         if weight is not None and weight.any():
             cover.weigh(group, made.on_points(weight))
+    if settings.detail_size:
+        _detail(carrier, surface, obj, dict(zip(groups, weights)), made)
     if settings.attributes:
         value = cover.values(carrier, surface, index, planes, standing)
         for name in planes:
@@ -107,6 +113,24 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
             f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
         )
     return Copy(carrier, tuple(warnings))
+
+
+def _detail(carrier, surface, obj, weights, made):
+    """Write what a copy is like below a cell, by its soils."""
+    settings, mesh = obj.desire_path, carrier.data
+    at = axes.points(surface.world, compat.positions(mesh), surface.scale)
+    painted = [weights.get(each.vertex_group) for each in settings.painted]
+    painted = [np.zeros(len(at), np.float32) if each is None else made.on_points(each) for each in painted]
+    shares = [np.maximum(1.0 - sum(painted, np.zeros(len(at), np.float32)), 0.0), *painted]
+    whole = np.maximum(sum(shares), 1e-6)
+    shown = sum(
+        (share / whole)[:, None] * details(at, materials.detail_of(each))
+        for share, each in zip(shares, (settings, *settings.painted))
+        if share.any()
+    )
+    for name, values in ((playback.DETAIL, shown[:, :3]), (playback.STRAY, shown[:, 3:])):
+        values = np.ascontiguousarray(values, np.float32)
+        mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
 
 
 def held(scene, obj, place):

@@ -132,21 +132,32 @@ def _look_up(keys: np.ndarray, among: np.ndarray) -> np.ndarray:
     return np.where(among[at] == keys, at, -1)
 
 
-def wishes(height: np.ndarray, changed: np.ndarray, cell: float, corner: tuple, size: float = 0.0) -> Wishes:
+def wishes(
+    height: np.ndarray,
+    changed: np.ndarray,
+    cell: float,
+    corner: tuple,
+    size: float = 0.0,
+    detail: tuple[np.ndarray, float] | None = None,
+) -> Wishes:
     """What a trail asks of the mesh that shows it: edges so short that nowhere the shown ground lies more than
     DEVIATION cells from the baked one, but none shorter than `size`.
 
     height: of the ground over the one before the walk, float (ny, nx) [m]; changed: where anything is to be seen,
-    bool (ny, nx); corner: of cell (0, 0) (x, y) [m]; size: shortest edge [m], 0 = a cell
+    bool (ny, nx); corner: of cell (0, 0) (x, y) [m]; size: shortest edge [m], 0 = a cell; detail: where something finer
+    than a cell is to be seen, bool (ny, nx), and how long edges are there [m]
     """
     finest = size if size > 0.0 else cell
     bend = _bend(height)
     with np.errstate(divide="ignore"):
         wanted = np.minimum(cell * np.sqrt(8.0 * DEVIATION * cell / bend), MAX_COARSE * cell)
+    wanted = np.where(_around(changed), np.maximum(wanted, finest), np.inf)
+    if detail is not None:
+        wanted = np.where(detail[0], np.minimum(wanted, detail[1]), wanted)
     ny, nx = height.shape
     rows, columns = -(-ny // BLOCK), -(-nx // BLOCK)
     tiles = np.full((rows * BLOCK, columns * BLOCK), np.inf)
-    tiles[:ny, :nx] = np.where(_around(changed), np.maximum(wanted, finest), np.inf)
+    tiles[:ny, :nx] = wanted
     least = tiles.reshape(rows, BLOCK, columns, BLOCK).min(axis=(1, 3))
     j, i = np.nonzero(np.isfinite(least))
     corners = np.stack((i, j), axis=1) * (BLOCK * cell) + np.asarray(corner, np.float64)

@@ -1,0 +1,91 @@
+"""Slow, literal twin of what ground is like below a cell: one place at a time, by whole numbers. MODEL 8.3"""
+
+import math
+
+WORD = 2**32
+APART, STRAYS, SMALL, HIGH, STEEP = 2.6, 0.9, 0.6, 0.8, 1.6
+VEIN, VEIN_MEAN = 0.55, 0.1513
+AREA = 5.0 * math.tan(math.pi / 5.0)  # of a pentagon around a circle of radius 1
+
+
+def chance(i, j, seed):
+    """32 bits for a corner of a lattice."""
+    h = (i * 0x9E3779B1 + j * 0x85EBCA6B + seed * 0xC2B2AE35) % WORD
+    h = ((h ^ (h >> 16)) * 0x7FEB352D) % WORD
+    h = ((h ^ (h >> 15)) * 0x846CA68B) % WORD
+    return h ^ (h >> 16)
+
+
+def unit(bits):
+    return ((bits & 0xFFFF) + 0.5) / 65536
+
+
+def wave(x, y, length, seed):
+    """Gradient noise on a lattice of squares that strays by chance, of variance 1."""
+    u, v = x / length + unit(chance(0, 0, seed)), y / length + unit(chance(0, 1, seed))
+    m, n = math.floor(u), math.floor(v)
+    total = 0.0
+    for j in (n, n + 1):
+        for i in (m, m + 1):
+            bits = chance(i, j, seed)
+            a, b = u - i, v - j
+            plane = (2 * unit(bits) - 1) * a + (2 * unit(bits >> 16) - 1) * b
+            for t in (abs(a), abs(b)):
+                plane *= 1 - (6 * t**5 - 15 * t**4 + 10 * t**3)
+            total += plane
+    return 5.677717 * total
+
+
+def waves(x, y, length, seed):
+    return (wave(x, y, length, seed) + 0.5 * wave(x, y, length / 2, seed + 1)) / math.sqrt(1.25)
+
+
+def crumbs(x, y, share, least, most, seed):
+    """(height less its mean, threshold of the largest crumb there)."""
+    threshold, high, radii = 0.5 * least, 0.0, []
+    if not share:
+        return 0.0, threshold
+    while most > 0.99 * least:
+        radii.append(most)
+        most /= 2
+    for k, radius in enumerate(radii):
+        square = APART * radius
+        mean_area = AREA * radius**2 * (1 - SMALL**3) / (3 * (1 - SMALL))
+        there = share / len(radii) * square**2 / mean_area
+        # a flat top where 1 - STEEP (1 - t) < 0, and flanks down to 0 at t = 1
+        top = 1 - 1 / STEEP
+        filled = top**2 + STEEP * (1 - top**2 - 2 * (1 - top**3) / 3)
+        mean_cube = radius**3 * (1 - SMALL**4) / (4 * (1 - SMALL))
+        high -= there * HIGH * filled * AREA * mean_cube / square**2
+        at = seed + 3 * k
+        for j in range(math.floor(y / square) - 1, math.floor(y / square) + 2):
+            for i in range(math.floor(x / square) - 1, math.floor(x / square) + 2):
+                if unit(chance(i, j, at + 1)) >= there:
+                    continue
+                size = radius * (SMALL + (1 - SMALL) * unit(chance(i, j, at + 1) >> 16))
+                middle = [
+                    square * (cell + 0.5 + STRAYS * (unit(bits) - 0.5))
+                    for cell, bits in ((i, chance(i, j, at)), (j, chance(i, j, at) >> 16))
+                ]
+                turned = math.atan2(y - middle[1], x - middle[0])
+                turned += 2 * math.atan(2 * unit(chance(i, j, at + 2)) - 1)
+                reach = math.dist((x, y), middle) / size
+                away = max(reach * math.cos(turned - 2 * math.pi * side / 5) for side in range(5))
+                if away < 1:
+                    high += HIGH * size * min(1, STEEP * (1 - away))
+                    threshold = max(threshold, 0.5 * size)
+    return high, threshold
+
+
+def detail(x, y, its, seed):
+    """What a place is like; its: a Detail."""
+    near = max(0.0, 1 - abs(wave(x, y, its.vein_size, seed)) / VEIN)
+    high, threshold = crumbs(x, y, its.crumb_share, its.crumb_least, its.crumb_most, seed + 7)
+    return (
+        its.vein_height * (near**2 - VEIN_MEAN) if its.vein_height else 0.0,
+        high,
+        its.grit_height * waves(x, y, its.grit_size, seed + 1),
+        its.fray * waves(x, y, its.fray_size, seed + 3),
+        its.fray * waves(x, y, its.fray_size, seed + 5),
+        threshold,
+    )
