@@ -6,13 +6,15 @@ import argparse
 import os
 import sys
 
-from .bake.bake import FILMS, Bake
+from .bake.bake import Bake
+from .bake.options import FILMS, BakeOptions, BakeOutput
 from .bake.output import check_idle
 from .bounds import ADVICE, Limits
 from .errors import DesirePathError
 from .files import atomic_file
+from .ground.options import HEAPS, LAWS, SimulationOptions
 from .ground.plants import KINDS, Kind, Planting
-from .ground.sim import HEAPS, LAWS, LOAD_MODELS, Ground, Simulation
+from .ground.sim import LOAD_MODELS, Ground, Simulation
 from .ground.soil import SOILS, as_soil
 from .loads import plot, walker
 from .loads.report import sentences, summary, write_contacts
@@ -79,7 +81,7 @@ def _along(args, gait, ground):
             raise DesirePathError("--passes needs a path to walk on: add --along PATH.csv with the columns x,y.")
         return place_feet(gait, ground) if args.place_feet else gait
     cell, origin = _cells(args, ground)
-    below = Simulation(ground, as_soil(args.soil), cell, origin=origin)
+    below = Simulation(ground, as_soil(args.soil), cell, options=SimulationOptions(origin=origin))
     return gait.along(
         paths.read(args.along)[:, :2],
         args.passes,
@@ -109,17 +111,17 @@ def _bake(args):
         as_soil(args.soil).changed(args.soil_set),
         args.out,
         cell_size=cell,
-        frame_start=args.frame_start,
-        frame_end=args.frame_end,
-        load_model=args.model,
-        law=args.law,
-        heap=args.heap,
-        rim_width=args.rim_width,
-        threads=args.threads,
-        origin=origin,
         plants=plants,
-        film=args.film,
-        limits=limits,
+        options=BakeOptions(
+            law=args.law,
+            heap=args.heap,
+            rim_width=args.rim_width,
+            origin=origin,
+            threads=args.threads,
+            limits=limits,
+            load_model=args.model,
+        ),
+        output=BakeOutput(frame_start=args.frame_start, frame_end=args.frame_end, film=args.film),
     )
     try:
         check_idle(args.out)

@@ -1,6 +1,6 @@
 """What a bake will take, estimated before anything is written, and what it may take.
 
-    Bake(.., limits=Limits(frames=1_000_000, memory=32e9))      python -m desire_path bake .. --limit frames=1000000
+    BakeOptions(limits=Limits(frames=1_000_000, memory=32e9))   python -m desire_path bake .. --limit frames=1000000
 
 Memory and disk are those the computer has free, unless a limit says otherwise. Estimates are of what will be needed
 at least, about: a bake that is refused could not have ended.

@@ -16,7 +16,7 @@ STAGES = {  # name -> module and function below desire_path
     "create": ("ground.sim", "Simulation.__init__"),
     "loads": ("loads.walker", "Walker.loads"),
     "load": ("ground.sim", "Simulation.load"),
-    "signature": ("bake.bake", "Bake._signature"),
+    "signature": ("bake.plan", "Plan.signature"),
     "step": ("ground.sim", "Simulation.run"),
     "frames": ("ground.sim", "Film.write_frame"),
     "flush": ("ground.sim", "Simulation.flush"),

@@ -6,7 +6,10 @@ from dataclasses import dataclass
 
 import pytest
 
+from desire_path import Bake, BakeOptions, BakeOutput, Ground, Simulation, SimulationOptions
+from desire_path.errors import DesirePathError
 from desire_path.keywords import fields_of
+from tests.core.test_bake import standing
 
 
 @dataclass(frozen=True)
@@ -72,3 +75,37 @@ def test_what_is_given_twice_or_is_unknown_is_refused():
 def test_it_looks_as_it_is_written():
     assert list(inspect.signature(walk).parameters) == ["path", "passes", "seed", "pace", "body"]
     assert walk.__doc__ == "Walks."
+
+
+@pytest.mark.parametrize("door", [Bake, Simulation])
+def test_no_door_takes_more_than_eight(door):
+    assert len(inspect.signature(door).parameters) <= 8
+
+
+def test_options_of_a_bake_one_by_one(tmp_path):
+    with pytest.warns(
+        DeprecationWarning, match=r"Bake\(law=\.\., wait=\.\.\) is written Bake\(options=BakeOptions\(law"
+    ):
+        bake = Bake(standing(), Ground.flat(), "mud", tmp_path, law="uniform", wait=3)
+    assert bake.options == BakeOptions(law="uniform") and bake.output == BakeOutput(wait=3) and bake.wait == 3
+    with pytest.warns(DeprecationWarning, match=r"SimulationOptions\(origin=\.\.\)"):
+        assert Simulation(Ground.flat(), origin=(0.5, 1)).origin == (0.5, 1.0)
+
+
+@pytest.mark.parametrize(
+    "words, sentence",
+    [
+        ({"law": "hard"}, "no contact law 'hard': choose sole or uniform"),
+        ({"heap": "high"}, "no heap law 'high'"),
+        ({"rim_width": 0}, "A rim width of 0 m cannot be used"),
+        ({"rim_width": "wide"}, "A rim width of 'wide' is no number"),
+        ({"origin": (0, float("nan"))}, "origin of the cells is not a finite point"),
+        ({"origin": 3}, "origin of the cells is not a finite point"),
+        ({"threads": 65}, "number of threads must be 0"),
+        ({"threads": "two"}, "number of threads must be 0"),
+    ],
+)
+def test_options_that_cannot_be_are_refused_when_they_are_made(words, sentence):
+    for record in (SimulationOptions, BakeOptions):
+        with pytest.raises(DesirePathError, match=sentence):
+            record(**words)

@@ -375,7 +375,7 @@ def test_a_stopped_bake_with_plants_goes_on_and_other_plants_are_another_bake(tm
             with open(getattr(one, film)(number), "rb") as a, open(getattr(two, film)(number), "rb") as b:
                 assert a.read() == b.read()
     signatures = {
-        Bake(gait, Ground.flat(), "snow", tmp_path, plants=plants)._signature()
+        Bake(gait, Ground.flat(), "snow", tmp_path, plants=plants).signature()
         for plants in (
             (),
             ["carex"],

@@ -6,7 +6,9 @@ __getattr__, __dir__, __all__ = lazy.names(
     __name__,
     {
         "Bake": "bake",
-        "FILMS": "bake",
+        "BakeOptions": "options",
+        "BakeOutput": "options",
+        "FILMS": "options",
         "FORMAT": "folder",
         "FrameIndex": "folder",
         "free": "output",

@@ -1,13 +1,12 @@
 """One ground's share of a bake: what is filmed of it, the files in its folder, and what its report says.
 
     Bake --one Simulation, as many Shares as grounds lie on it--> folder/frames, folder/maps, folder/report.json ..
-output.py says how what is made takes the place of what is shown; bake.py what each file holds.
+output.py says how what is made takes the place of what is shown; plan.py what each file holds.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import os
 import shutil
 from functools import cached_property
@@ -22,18 +21,17 @@ from ..version import VERSION
 from .folder import FORMAT, INPUTS, OWNER, SUMS, frame_path, frames_sound, is_sound, list_sums, told
 from .output import Output
 
-MOST_PASS_MAPS = 50  # of a bake of passes; with more passes than these, maps of some
 PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it grows
 MAP_FILMS = ("second_", "pass_")
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
 
 
 class Share:
-    """bake: the Bake; parcel: its Parcel; sim: the Simulation it lies on; loads: what
+    """plan: the Plan of the bake; parcel: its Parcel; sim: the Simulation it lies on; loads: what
     presses there; tiles: (x, y, nx, ny) it films."""
 
-    def __init__(self, bake, parcel, sim, loads, tiles):
-        self.bake, self.parcel, self.sim, self.loads, self.tiles = bake, parcel, sim, loads, tiles
+    def __init__(self, plan, parcel, sim, loads, tiles):
+        self.plan, self.parcel, self.sim, self.loads, self.tiles = plan, parcel, sim, loads, tiles
         self.plants = parcel.plants
         self.out = Output(parcel.folder, parcel.owner)
         self.films = self.start = self.mesh = None
@@ -52,26 +50,27 @@ class Share:
 
     def find(self, signature):
         """Look at what the very same bake left, and at the ground before its first step."""
-        bake = self.bake
+        plan = self.plan
         self.index = self._index(signature)
         self._find()
         self.start = self._start_maps()
-        if self.parcel.plant_mesh and (len(bake.parcels) == 1 or self._is_planted()):
-            count = bake.frame_end - bake.frame_start + 1
-            self.mesh = plant_mesh.Writer(self.sim, bake.frame_start, count, self.plants)
+        if self.parcel.plant_mesh and (len(plan.parcels) == 1 or self._is_planted()):
+            count = plan.frame_end - plan.frame_start + 1
+            self.mesh = plant_mesh.Writer(self.sim, plan.frame_start, count, self.plants)
 
-    def begin(self, states):
-        """Open its films and its files where the States of the bake stand; what was found and still counts is kept."""
+    def begin(self, frame, states):
+        """Open its films and its files after a frame, 0 = the begin; what was found and still counts is kept, so the
+        files named in `states`."""
         self.films = self.sim.open_frames(*self.tiles)
         self.films.open_maps([entry.name for entry in self._fields()], self._notes())
         fresh = self.out.path("frames")
         try:
-            self._keep(states)
+            self._keep(frame, states)
             self._write_json(("frames", "index.json"), self.index, "The index of the frames")
             list_sums(fresh, self.sums)
             self.films.list_files(os.path.join(fresh, SUMS))
             if self.mesh:
-                self.mesh.open(os.path.join(fresh, PLANTS), states.frame)
+                self.mesh.open(os.path.join(fresh, PLANTS), frame)
             self.done = self.found
         except OSError as problem:
             raise DesirePathError(
@@ -87,7 +86,7 @@ class Share:
         for place in (self.out.new, self.out.folder):
             old = told(os.path.join(place, "frames"))
             if (
-                self.bake.resume
+                self.plan.output.resume
                 and old
                 and (place == self.out.new or not old.get("complete"))
                 and all(old.get(name) == self.index.get(name) for name in ("signature", OWNER))
@@ -97,18 +96,18 @@ class Share:
                     self.found, self.sums, self.place, listed = there, sums, place, known
         self.sound_to = self.found
         for number in range(1, self.found + 1):
-            name = self.map_name(self.bake.frame_start + number - 1)
+            name = self.plan.map_name(self.plan.frame_start + number - 1)
             if name and not is_sound(os.path.join(self.place, "maps"), name, listed):
                 self.sound_to = number - 1
                 break
             if name:
                 self.sums[name] = listed[name]
 
-    def _keep(self, states):
+    def _keep(self, frame, states):
         """Let bake.new hold what was found and still counts, and nothing else."""
-        later = {self.map_name(self.bake.frame_start + number) for number in range(states.frame, self.sound_to)}
+        later = {self.plan.map_name(self.plan.frame_start + number) for number in range(frame, self.sound_to)}
         self.sums = {name: found for name, found in self.sums.items() if name not in later}
-        kept = [*self.sums, *states.names(self), *([PLANTS] if self.mesh and states.frame else [])]
+        kept = [*self.sums, *states, *([PLANTS] if self.mesh and frame else [])]
         here = self.place == self.out.new
         self.out.fresh(keep=[*kept, SUMS, "index.json"] if here else ())
         if self.place and not here:
@@ -133,30 +132,15 @@ class Share:
         if self.mesh and number:
             self.mesh.add(self.sim)
 
-    def map_name(self, frame):
-        """Of the map of a scene frame, if it has one: after every whole simulated second, TRAIL (17); after a pass,
-        where a frame is one."""
-        bake = self.bake
-        if not bake.map_seconds:
-            return None
-        if bake.film == "passes":
-            number = frame - bake.gait.frame_start + 1
-            return None if number % -(-len(bake.passes) // MOST_PASS_MAPS) else f"pass_{number:04d}.exr"
-        elapsed = frame - bake.frame_start
-        before, now = ((elapsed - 1) / bake.frame_rate, elapsed / bake.frame_rate)
-        if elapsed > 0 and math.floor(now + 1e-9) > math.floor(before + 1e-9):
-            return f"second_{math.floor(now + 1e-9):04d}.exr"
-        return None
-
     def map(self, frame):
         """The map of a scene frame, if it has one."""
-        name = self.map_name(frame)
+        name = self.plan.map_name(frame)
         if name:
-            self.films.write_maps(self.out.path("maps", name), self.bake.time(frame))
+            self.films.write_maps(self.out.path("maps", name), self.plan.time(frame))
 
     def end(self):
         """The first and the last maps."""
-        self.films.write_maps(self.out.path("maps_final.exr"), self.bake.time(self.bake.frame_end))
+        self.films.write_maps(self.out.path("maps_final.exr"), self.plan.time(self.plan.frame_end))
         maps.write(
             self.out.path("maps_start.exr"),
             self.start,
@@ -166,7 +150,7 @@ class Share:
         if self.mesh:
             self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 
-    def tell(self, report):
+    def conclude(self, report):
         """The bake is whole: write its report and say so in its index."""
         self.report = report
         self._write_json(("report.json",), report, "The report")
@@ -187,7 +171,7 @@ class Share:
         self.report = self.final = None
         if self.done is None:
             return
-        if len(self.bake.parcels) == 1 or self.is_pressed():
+        if len(self.plan.parcels) == 1 or self.is_pressed():
             self.out.publish_stopped()
 
     def leave(self):
@@ -224,7 +208,7 @@ class Share:
         }
 
     def _index(self, signature):
-        bake = self.bake
+        plan = self.plan
         tx, ty, nx, ny = self.tiles
         ox, oy = self.sim.origin
         side = TILE * self.sim.cell_size
@@ -237,9 +221,9 @@ class Share:
             "y0": oy + ty * side,
             "nx": nx * TILE,
             "ny": ny * TILE,
-            "frame_start": bake.frame_start,
-            "frame_end": bake.frame_end,
-            "frame_rate": bake.frame_rate,
+            "frame_start": plan.frame_start,
+            "frame_end": plan.frame_end,
+            "frame_rate": plan.frame_rate,
             "complete": False,
             **({"lean": True} if self.plants else {}),
             **({OWNER: self.out.owner} if self.out.owner else {}),
@@ -253,7 +237,7 @@ class Share:
             ("cell", index["cell"]),
             ("originX", index["x0"]),
             ("originY", index["y0"]),
-            ("parameters", json.dumps(self.bake.parameters(self.parcel))),
+            ("parameters", json.dumps(self.plan.parameters(self.parcel))),
         ]
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 

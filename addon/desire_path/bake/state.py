@@ -15,16 +15,14 @@ import os
 import re
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import bounds
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
-
-if TYPE_CHECKING:
-    from ..ground.sim import Simulation
-    from .share import Share
+from ..ground.sim import Simulation
+from .share import Share
 
 KEPT = bounds.STATES
 SHARE = 0.02  # of a bake's time may go into keeping states, about

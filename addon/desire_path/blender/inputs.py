@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..bake.bake import Bake
+from ..bake.options import BakeOptions, BakeOutput
 from ..errors import DesirePathError
 from ..ground import mesh, parcels
 from ..ground.parcels import Parcel
@@ -74,14 +75,14 @@ def taken(scene, company, folders, **more):
         gait,
         parcels,
         cell_size=cell,
-        frame_start=first,
-        frame_end=last,
-        load_model=walkers[0].desire_path.load_model,
-        law=settings.law,
-        heap=settings.heap,
-        threads=settings.threads,
-        origin=origin,
-        **more,
+        options=BakeOptions(
+            law=settings.law,
+            heap=settings.heap,
+            origin=origin,
+            threads=settings.threads,
+            load_model=walkers[0].desire_path.load_model,
+        ),
+        output=BakeOutput(frame_start=first, frame_end=last, **more),
     ), found
 
 
@@ -124,7 +125,7 @@ def marks(obj, company, made, found):
         walk += [each.vertices, each.triangles]
     plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
     grown = [each for planting in plantings for each in planting.arrays()]
-    options = {name: value for name, value in made.options.items() if name != "origin"}  # follows from the ground
+    options = {name: getattr(made.options, name) for name in ("law", "heap", "rim_width")}  # the rest does not show
     soils = sorted(([soil.told() for soil in parcel.soils] for parcel in made.parcels), key=repr)
     chosen = [
         made.cell_size,

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bounds import Limits
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
+from ..keywords import fields_of
 from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import trail
@@ -26,6 +26,7 @@ from .cast import cast_of, pressing_of, tracks_of
 from .fields import FIELDS, LEAN
 from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
+from .options import HEAPS, LAWS, SimulationOptions
 from .planting import Plants, as_plantings, seed_of
 from .soil import Soil
 
@@ -35,13 +36,22 @@ if TYPE_CHECKING:
     from ..loads.force import FootForce
     from ..motion.gait import Gait
 
-__all__ = ["Film", "Ground", "HEAPS", "LAWS", "LOAD_MODELS", "Simulation", "TILE", "as_soils", "check_cell"]
+__all__ = [
+    "Film",
+    "Ground",
+    "HEAPS",
+    "LAWS",
+    "LOAD_MODELS",
+    "Simulation",
+    "SimulationOptions",
+    "TILE",
+    "as_soils",
+    "check_cell",
+]
 
 
 TILE = 64  # cells along one side of a tile of ground and of a playback frame
 
-LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
-HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 LOAD_MODELS = ("inertia", "impulse")
 Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
 Stand = tuple[int, int, int]  # its number, that of its planting, plants
@@ -53,43 +63,27 @@ class Simulation:
 
     ground: Ground; soils: a preset's name, a Soil, or a list (painted ground counts through it).
     cell_size: side of a cell [m], 0.0005 to 1.
-    law: "sole" or "uniform"; heap: "rest" or "paper"; rim_width [m]: how wide the rim of a "paper" heap is laid.
-    threads: 0 = as many as the machine has; the result is the same for any number.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.
-    limits: how many plants, and how much memory for them.
     areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.
+    options: SimulationOptions: how it is pressed.
     """
 
+    @fields_of(options=SimulationOptions)
     def __init__(
         self,
         ground: Ground,
         soils: str | Soil | Iterable[str | Soil] = "dry-sand",
         cell_size: float = 0.01,
         *,
-        origin: tuple[float, float] = (0.0, 0.0),
-        law: str = "sole",
-        heap: str = "rest",
-        rim_width: float = 0.04,
-        threads: int = 0,
         plants: Plants = (),
         areas: Sequence[Area | None] | None = None,
-        limits: Limits = Limits(),
+        options: SimulationOptions = SimulationOptions(),
     ) -> None:
         check_cell(cell_size)
-        if law not in LAWS:
-            raise DesirePathError(f"There is no contact law '{law}': choose {' or '.join(LAWS)}.")
-        if heap not in HEAPS:
-            raise DesirePathError(f"There is no heap law '{heap}': choose {' or '.join(HEAPS)}.")
-        if not 0 <= threads <= 64:
-            raise DesirePathError("The number of threads must be 0 (all) to 64.")
-        if not (math.isfinite(rim_width) and rim_width > 0):
-            raise DesirePathError(f"A rim width of {rim_width:g} m cannot be used: choose more than 0 (0.04 is usual).")
-        if not (math.isfinite(origin[0]) and math.isfinite(origin[1])):
-            raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
-        self.limits = limits
+        self.limits = options.limits
         self.cell_size = float(cell_size)
-        self.origin = (float(origin[0]), float(origin[1]))
+        self.origin = options.origin
         self.soils = as_soils(soils)
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
@@ -102,12 +96,12 @@ class Simulation:
                 soil_numbers(self.soils),
                 self.cell_size,
                 self.origin,
-                LAWS.index(law),
-                HEAPS.index(heap),
-                float(rim_width),
+                LAWS.index(options.law),
+                HEAPS.index(options.heap),
+                options.rim_width,
                 100000,
                 0.25,
-                int(threads),
+                options.threads,
             )
         except ValueError as problem:
             if "no ground" in str(problem):

@@ -21,6 +21,7 @@ import numpy as np
 from ..core import side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, table
+from ..ground.options import SimulationOptions
 from ..ground.plants import MOST_PLANTS, Kind, Planting, as_kind, vigour_at
 from ..ground.sim import Ground, Simulation
 from ..ground.soil import Soil
@@ -130,7 +131,8 @@ def trodden(kind: Kind, passes: int, *, lane: Lane = Lane(), threads: int = 0) -
         person = replace(person.resample(lane.frame_rate), frame_rate=lane.frame_rate)
     gait = person.along(ends, passes, scatter=Scatter(SCATTER * lane.width), seed=lane.seed)
     plants = planted(kind, lane.length, lane.width, lane.seed, lane.density)
-    sim = Simulation(Ground.flat(), lane.soil, lane.cell_size, plants=plants, threads=threads)
+    options = SimulationOptions(threads=threads)
+    sim = Simulation(Ground.flat(), lane.soil, lane.cell_size, plants=plants, options=options)
     sim.load(gait, walker.loads(gait))
     return sim, [int(cut) for cut in gait.cut] + [len(gait.time) - 1]
 

@@ -1,0 +1,82 @@
+"""What a bake refuses before anything is written: feet out of proportion, and more than it may take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from .. import bounds
+from ..bounds import Limits
+from ..errors import DesirePathError
+from ..ground import plant_mesh
+from ..ground.sim import TILE
+from ..motion import tracks
+from ..motion.gait import Gait
+from ..motion.rotation import turned
+from .share import Share
+
+SOLE_STEP = 0.0025  # soles are sampled so closely, or four times a cell [m]
+MIN_SAMPLES = 4  # a sole that fewer fall on leaves no print
+MAX_SOLE = 1_000_000  # cells one sole may cover
+
+
+def lost_soles(gait: Gait, cell_size: float) -> list[str]:
+    """Sentences about single feet that are lost between cells [m]. DesirePathError for feet of so many cells that a
+    step would take minutes, as of a rig in the wrong unit, and for a walker whose every foot is lost."""
+    area = np.zeros(len(gait.soles))
+    for part, sole in enumerate(gait.soles):
+        size = np.sort(np.ptp(sole.vertices.astype(float), axis=0))
+        lowest = gait.pose[part, gait.pose[part, :, 2].argmin(), 3:]
+        area[part] = np.prod(np.ptp(turned(lowest, sole.vertices.astype(float))[:, :2], axis=0))
+        if size[1] * size[2] > MAX_SOLE * cell_size**2:
+            raise DesirePathError(
+                f"The sole of bone {gait.bone(part)} is {size[2]:.1f} m long, too large for cells of "
+                f"{cell_size:g} m: check the walker's scale or choose a larger cell size."
+            )
+    step = cell_size / min(max(round(cell_size / SOLE_STEP), 1), 4)  # as the core samples soles
+    sentences = []
+    for number, name in enumerate(gait.walker_name):
+        limbs = np.flatnonzero(np.asarray(gait.limb_walker) == number)
+        largest = [
+            max(np.flatnonzero(np.asarray(gait.part_limb) == limb).tolist(), key=lambda part: area[part])
+            for limb in limbs
+        ]
+        lost = [part for part in largest if area[part] < MIN_SAMPLES * step**2]
+        if lost and len(lost) == len(largest):
+            fine = max(math.sqrt(area[lost].max()) / 8, 0.0005)
+            raise DesirePathError(
+                f"The feet of {name} are lost between cells of {cell_size:g} m: choose a cell size of "
+                f"{fine:.1g} m or so, or check the walker's scale."
+            )
+        sentences += [
+            f"The sole of bone {gait.bone(part)} is lost between cells of {cell_size:g} m and leaves no "
+            "print: choose smaller cells."
+            for part in lost
+        ]
+    return sentences
+
+
+def check_walk(limits: Limits, gait: Gait, frames: int, rate: float) -> None:
+    """Refuse what is too long, before its samples are made. frames: how many are written; rate: samples a second."""
+    seconds = sum(float(gait.time[after - 1] - gait.time[first]) for first, after in gait.pieces())
+    limits.check("frames", frames)
+    limits.check("seconds", seconds)
+    there = sum(len(values) for part in range(len(gait.part_limb)) for _, values in tracks.pieces(gait.pose, part))
+    limits.check("memory", bounds.SAMPLE_BYTES * there * (seconds * rate + 1.0) / len(gait.time))
+
+
+def check_grounds(limits: Limits, gait: Gait, shares: Sequence[Share], frames: int) -> None:
+    """Refuse what is too large, before its pictures are made; frames that Shares have found already count no more."""
+    cells = [share.tiles[2] * share.tiles[3] * TILE * TILE for share in shares]
+    limits.check("cells", max(cells))
+    limits.check("memory", bounds.CELL_BYTES * sum(cells))
+    disk = 0.0
+    for share, held in zip(shares, cells):
+        pressed = bounds.pressed_area(gait, share.loads.touching) / share.sim.cell_size**2 / len(shares)
+        disk += (frames - max(share.found, 0)) * bounds.frame_bytes(held, pressed, bool(share.plants))
+        disk += bounds.STATES * bounds.STATE_BYTES * pressed
+        if share.parcel.plant_mesh:
+            disk += plant_mesh.size(share.sim, frames, share.plants)
+    limits.check("disk", disk, shares[0].out.folder)

@@ -1,0 +1,62 @@
+"""What a bake says of what happened: on all its grounds together, and on each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..ground import parcels as fields
+from ..ground.sim import Simulation
+from ..loads import walker
+from ..version import VERSION
+from .plan import Plan
+from .share import Share
+
+RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
+RIGID_GROUND = "A print reaches the rigid ground under the soil: check the walker's mass, or choose a firmer soil."
+OF_ONE = ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "displaced_m3")
+
+
+def summary(
+    plan: Plan, sims: Sequence[Simulation], seconds: Mapping[str, float], before: Sequence[str], after: Sequence[str]
+) -> dict[str, Any]:
+    """Of all grounds together. seconds: spent, by stage; before, after: sentences beside those about the grounds."""
+    found = [sim.report() for sim in sims]
+    total = {name: sum(each[name] for each in found) for name in found[0]}
+    left = [each for sim in sims for each in sim.warnings]
+    warnings = list(dict.fromkeys([*before, *left, *after]))
+    if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)):
+        warnings.append(RIGID_GROUND)
+    if total["off_ground"] and walker.BESIDE not in warnings:
+        warnings.append(walker.BESIDE)
+    planted = any(parcel.plants for parcel in plan.parcels)
+    return {
+        "passes": len(plan.passes),
+        "contacts": total["contacts"],
+        "deepest_m": max(each["deepest_m"] for each in found),
+        "pressed_m3": total["pressed_m3"],
+        "pressed_heap_m3": total["pressed_heap_m3"],
+        "heaped_m3": total["heaped_m3"],
+        "displaced_m3": total["displaced_m3"],
+        **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
+        "seconds": round(seconds["total"], 3),
+        "stages": {name: round(spent, 3) for name, spent in seconds.items()},
+        "warnings": warnings,
+        "version": VERSION,
+        "parameters": plan.parameters(plan.parcels[0]),
+    }
+
+
+def of_share(plan: Plan, share: Share, shares: Sequence[Share], in_all: dict[str, Any]) -> dict[str, Any]:
+    """The report of one of the shares: of several grounds what happened on it, and `in_all`, that of all of them."""
+    if len(plan.parcels) == 1:
+        return in_all
+    end = plan.sample(plan.frame_end) + 1
+    return {
+        "contacts": fields.contacts(share.parcel, plan.stepped, share.loads, end),
+        **share.numbers(),
+        "with": [each.parcel.name for each in shares if each is not share],
+        "in_all": {name: in_all[name] for name in OF_ONE},
+        **{name: value for name, value in in_all.items() if name not in OF_ONE},
+        "parameters": plan.parameters(share.parcel),
+    }

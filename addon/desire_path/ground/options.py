@@ -1,0 +1,54 @@
+"""How ground is pressed, in one record."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..bounds import Limits
+from ..errors import DesirePathError
+
+LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
+HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
+MAX_THREADS = 64
+
+
+@dataclass(frozen=True)
+class SimulationOptions:
+    """What a Simulation goes by; DesirePathError when it is made of what cannot be."""
+
+    law: str = "sole"  # how a sole presses, one of LAWS
+    heap: str = "rest"  # how displaced soil is laid, one of HEAPS
+    rim_width: float = 0.04  # of the rim of a "paper" heap [m] > 0
+    origin: tuple[float, float] = (0.0, 0.0)  # where cells begin [m]
+    threads: int = 0  # 0 = as many as the machine has, to 64; the result is the same for any number
+    limits: Limits = Limits()  # how many plants, and how much memory for them
+
+    def __post_init__(self) -> None:
+        if self.law not in LAWS:
+            raise DesirePathError(f"There is no contact law '{self.law}': choose {' or '.join(LAWS)}.")
+        if self.heap not in HEAPS:
+            raise DesirePathError(f"There is no heap law '{self.heap}': choose {' or '.join(HEAPS)}.")
+        try:
+            fits = 0 <= self.threads <= MAX_THREADS and self.threads == int(self.threads)
+        except (TypeError, ValueError, OverflowError):
+            fits = False
+        if not fits:
+            raise DesirePathError("The number of threads must be 0 (all) to 64.")
+        try:
+            width = float(self.rim_width)
+        except (TypeError, ValueError):
+            raise DesirePathError(
+                f"A rim width of {self.rim_width!r} is no number: give more than 0 m (0.04 is usual)."
+            ) from None
+        if not (math.isfinite(width) and width > 0):
+            raise DesirePathError(f"A rim width of {width:g} m cannot be used: choose more than 0 (0.04 is usual).")
+        try:
+            x, y = (float(value) for value in self.origin)
+        except (TypeError, ValueError):
+            x = y = math.nan
+        if not (math.isfinite(x) and math.isfinite(y)):
+            raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
+        object.__setattr__(self, "rim_width", width)
+        object.__setattr__(self, "origin", (x, y))
+        object.__setattr__(self, "threads", int(self.threads))
