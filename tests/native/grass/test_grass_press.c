@@ -70,6 +70,20 @@ TEST(flat_under_it_away_beside_it_untouched_beyond)
     CHECK(field.x[at(0.165, 0.005)] > 0.1f && field.x[at(-0.155, 0.005)] < -0.1f);
 }
 
+// how far it leans: all the way at the edge, nothing at half its height beside it, as the square between
+TEST(beside_a_sole_the_lean_falls_as_the_square)
+{
+    Field                 field;
+    const double          height = 0.2;
+    const DpPlantCollider foot = foot_at(0.0, 0.0);
+    print_of(&foot, height, &field);
+    for (int k = 1; k < 14; ++k) {  // cells from the edge at 0.06
+        const double near = fmax(0.0, 1.0 - (k - 0.5) * CELL / (0.5 * height));
+        CHECK_NEAR(field.y[at(0.005, 0.055 + k * CELL)], near * near > 0.002 ? near * near : 0.0,
+                   1e-5);
+    }
+}
+
 TEST(a_sole_in_the_air_presses_to_its_height)
 {
     Field                 field;
@@ -119,6 +133,7 @@ TEST(a_mirrored_sole_parts_the_grass_mirrored)
 int main(void)
 {
     RUN(flat_under_it_away_beside_it_untouched_beyond);
+    RUN(beside_a_sole_the_lean_falls_as_the_square);
     RUN(a_sole_in_the_air_presses_to_its_height);
     RUN(grass_goes_where_the_foot_goes);
     RUN(a_mirrored_sole_parts_the_grass_mirrored);

@@ -238,6 +238,50 @@ TEST(odd_kinds_and_steps_are_shown_too)
     }
 }
 
+static DpStemLean pressed_at(const void* lean, double x, double y)
+{
+    (void)x, (void)y;
+    return *(const DpStemLean*)lean;
+}
+
+// Under a sole the lean lays a stem the lower the less the sole did: 1 - share (1 / 0.85 - 1) of what it says, of a
+// stem that lies at a share of it; and one that lies lower than that is shown as it is.
+TEST(under_a_sole_the_lean_does_what_the_sole_did_not)
+{
+    const DpPlantKind  kind = tough();
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    const int          tip = 3 * (shape.rows - 1);
+    const DpStemLean   lean = {.lean = {0.9, 0.0}, .down = 0.8, .pressed = true};
+    for (int k = 0; k < 4; ++k) {
+        const double    share = 0.25 * k + 0.2, lost = share * lean.down;
+        const float     root[3] = {0};
+        float           at[3 * 64];
+        int             stand;
+        DpPlantsReport  told;
+        DpPlantDisplay* display;
+        DpPlants*       plants = dp_plants_create(3);
+        CHECK(dp_plants_add(plants, &kind, root, NULL, 1, &stand) == DP_OK);
+        CHECK(dp_plant_display_create(&display, plants, pressed_at, &lean) == DP_OK);
+        CHECK(dp_plants_read(plants, stand, 0, at, NULL, NULL) == DP_OK);
+        const double tall = (double)(at[tip + 2] - at[5]);
+        for (int p = 0; p < shape.particles; ++p) {  // tilted along x, the foot where it is
+            const int    row = p % shape.rows;
+            const double along = row > 1 ? tall * (row - 1) / (shape.rows - 2) : 0.0;
+            if (row < 2) continue;
+            at[3 * p] += (float)(along * sqrt(1.0 - (1.0 - lost) * (1.0 - lost)));
+            at[3 * p + 2] = at[5] + (float)(along * (1.0 - lost));
+        }
+        CHECK(dp_plants_write(plants, stand, 0, at, NULL, NULL) == DP_OK);
+        CHECK(dp_plants_step(plants, NULL, NULL, 0, 1e-5, 1, &told) == DP_OK);
+        for (int n = 0; n < 3; ++n) CHECK(dp_plant_display_step(display) == DP_OK);
+        CHECK(dp_plant_display_read(display, NULL, stand, 0, at) == DP_OK);
+        const double low = fmax(share, 1.0 - share * (1.0 / 0.85 - 1.0));
+        CHECK_NEAR((double)(at[tip + 2] - at[5]) / tall, 1.0 - low * lean.down, 0.02);
+        dp_plant_display_destroy(display);
+        dp_plants_destroy(plants);
+    }
+}
+
 TEST(bad_arguments_are_refused)
 {
     const DpPlantKind kind = tough();
@@ -264,6 +308,7 @@ int main(void)
     RUN(what_is_let_go_does_not_jump);
     RUN(limp_stems_lie_as_they_do);
     RUN(odd_kinds_and_steps_are_shown_too);
+    RUN(under_a_sole_the_lean_does_what_the_sole_did_not);
     RUN(bad_arguments_are_refused);
     return check_done();
 }

@@ -94,7 +94,8 @@ TEST(sways_at_its_frequency)
             was = x;
         }
         CHECK(passages >= 2);
-        CHECK_CLOSE(passages / (last - first), kind.sway, 0.25);
+        // a chain that is held at its foot swings a tenth slower than a mass on one spring
+        CHECK_NEAR(passages / (last - first) / (double)kind.sway, 0.895, 0.015);
         dp_plants_destroy(plants);
     }
 }

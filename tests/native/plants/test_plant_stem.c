@@ -91,11 +91,30 @@ TEST(folds_are_drawn_out_and_nothing_rises)
     CHECK_CLOSE(dp_stem_high(&out), 0.06, 1e-9);
 }
 
+// a zigzag beside the way it climbs: drawn out it is longer, and is laid over until it is as high as it was
+TEST(what_is_drawn_out_is_laid_over)
+{
+    for (int k = 0; k < 3; ++k) {
+        const double slope = 0.2 * k - 0.2;
+        Stem         stem = made(slope);
+        for (int p = 0; p < PIECES; ++p)
+            stem.segment[p] = dp_scale(dp_unit(dp_vec3(p % 2 ? -1.0 : 1.0, 0.6, 0.5)), 0.02);
+        const Stem   out = dp_stem_unfolded(&stem, 1.0);
+        const double high = dp_stem_high(&stem), risen = dp_stem_high(&out) / high;
+        double       before = 0.0, after = 0.0;
+        for (int p = 0; p < PIECES; ++p) before += stem.segment[p].y, after += out.segment[p].y;
+        CHECK(risen > 0.95 && risen < 1.02);
+        CHECK(after > 1.4 * before);  // farther, at the same height
+        check_lengths(&out);
+    }
+}
+
 int main(void)
 {
     RUN(heights_are_over_the_slope);
     RUN(a_bent_stem_loses_what_it_is_told_to);
     RUN(a_stem_rises_to_a_height);
     RUN(folds_are_drawn_out_and_nothing_rises);
+    RUN(what_is_drawn_out_is_laid_over);
     return check_done();
 }

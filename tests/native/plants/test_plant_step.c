@@ -104,6 +104,35 @@ TEST(changes_far_apart_have_boxes_of_their_own)
     dp_plants_destroy(plants);
 }
 
+// what changes side by side is one box, however the boxes come to meet
+TEST(boxes_that_meet_are_one)
+{
+    enum
+    {
+        FEET = 12
+    };
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.strength = 0.01f, kind.root_radius = 0.5f;
+    DpPlants*       plants = lawn(&kind, 120, 4, 0.1, 1);
+    float           bottom[SOLE_SIDE * SOLE_SIDE];
+    DpPlantCollider c[FEET];
+    int             most = 0, joined = 0;
+    for (int k = 0; k < FEET; ++k)
+        c[k] = sole(bottom, 0.01, 0.5 + 0.9 * (k * 5 % FEET), 0.15, 0.0, 0.28, 0.10, 0.0);
+    for (int f = 0; f < 30; ++f) {
+        DpPlantsReport told;
+        CHECK(dp_plants_step(plants, NULL, c, FEET, 1.0 / 60, 1, &told) == DP_OK);
+        most = told.changes > most ? told.changes : most;
+        for (int a = 0; a < told.changes; ++a) {
+            joined += told.box[a].x1 - told.box[a].x0 > 3.0;
+            for (int b = 0; b < a; ++b)
+                CHECK(told.box[a].x0 > told.box[b].x1 || told.box[b].x0 > told.box[a].x1);
+        }
+    }
+    CHECK(most >= 1 && joined > 0);
+    dp_plants_destroy(plants);
+}
+
 // however many they are, each change lies in one of the boxes
 TEST(many_changes_share_boxes)
 {
@@ -187,6 +216,7 @@ int main(void)
     RUN(the_meadow_sleeps_and_the_walker_wakes_few);
     RUN(what_broke_is_told_and_where);
     RUN(changes_far_apart_have_boxes_of_their_own);
+    RUN(boxes_that_meet_are_one);
     RUN(many_changes_share_boxes);
     RUN(several_kinds_stand_on_one_ground);
     RUN(bad_steps_are_refused);

@@ -55,9 +55,34 @@ TEST(high_soles_wait_and_jumps_sweep_nothing)
     stride_drop(&s);
 }
 
+// 25 m/s is the fastest a sole goes; faster it was put elsewhere
+TEST(fast_soles_sweep_and_faster_ones_jump)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    const double      speed[4] = {1.0, 24.0, -24.0, 26.0};
+    for (int k = 0; k < 4; ++k) {
+        Stride  s = stride_make(1, 1, 80.0, 60.0);
+        World   world;
+        double* at = s.pose + 7 * 4;  // of part 0 from one sample to the next
+        memcpy(at + 7, at, 7 * sizeof *at);
+        at[7] += speed[k] / 60.0;
+        CHECK(world_make(&world, &kind, -0.5, -0.5, 1.5, 0.1, 0.01, 1) == DP_OK);
+        CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+        const SweptSole* swept = dp_sweep_path(world.sim, 0, 4);
+        CHECK(swept->jumps == (k == 3));
+        CHECK_NEAR(swept->displacement.x, k == 3 ? 0.0 : speed[k] / 60.0, 1e-9);
+        CHECK_NEAR(swept->to.x0 - swept->from.x0, k == 3 ? 0.0 : speed[k] / 60.0, 1e-9);
+        CHECK_NEAR(swept->low, fmin(swept->from.z0, swept->to.z0), 1e-12);
+        CHECK_NEAR(swept->ground, 0.0, 1e-9);
+        world_drop(&world);
+        stride_drop(&s);
+    }
+}
+
 int main(void)
 {
     RUN(cast_ahead_is_cast_in_turn);
     RUN(high_soles_wait_and_jumps_sweep_nothing);
+    RUN(fast_soles_sweep_and_faster_ones_jump);
     return check_done();
 }
