@@ -131,6 +131,21 @@ def test_tables_of_the_readme_name_every_soil_and_kind():
         assert sorted(rows) == sorted(known), f"README.md's table of what {head}s are like, and the {head}s there are"
 
 
+def test_recipes_name_what_their_files_hold():
+    """Tables and lists of which a recipe speaks stand in a file that the same step names."""
+    recipes = (ROOT / "native" / "README.md").read_text("utf-8").split("## Recipes")[1]
+    heads = re.findall(r"^### (.*)", recipes, re.MULTILINE)
+    assert heads == ["A soil, or a kind of plant", "A soil's number", "A map", "A rig name", "A room"]
+    count = 0
+    for step in re.split(r"^(?:\d+\. |### )", recipes, flags=re.MULTILINE)[1:]:
+        files = [ROOT / path for path in re.findall(r"`([\w./-]+/[\w./-]+)`", step) if (ROOT / path).is_file()]
+        held = "".join(path.read_text("utf-8") for path in files)
+        for name in re.findall(r"`([A-Z_]{3,})`", step):
+            assert re.search(rf"\b{name}\b", held), f"native/README.md speaks of {name}, which {files} have not"
+            count += 1
+    assert count >= 10
+
+
 def test_the_picture_of_the_rooms_holds_all_of_them():
     picture = (ROOT / "native" / "README.md").read_text("utf-8").split("```")[1]
     rooms = {
