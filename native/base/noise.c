@@ -6,7 +6,7 @@
 #define UNIT_WAVE 5.677717  // 1 over the deviation of a single wave
 #define CELLS_A_WAVE 2.0
 
-static uint32_t hash(int64_t i, int64_t j, uint32_t seed)
+uint32_t dp_noise_bits(int64_t i, int64_t j, uint32_t seed)
 {
     uint32_t h = (uint32_t)i * 0x9e3779b1u + (uint32_t)j * 0x85ebca6bu + seed * 0xc2b2ae35u;
     h = (h ^ h >> 16) * 0x7feb352du;
@@ -14,8 +14,7 @@ static uint32_t hash(int64_t i, int64_t j, uint32_t seed)
     return h ^ h >> 16;
 }
 
-// evenly spread in 0..1, of 16 bits
-static double unit(uint32_t bits)
+double dp_noise_unit(uint32_t bits)
 {
     return ((double)(bits & 0xffffu) + 0.5) / 65536.0;
 }
@@ -38,11 +37,11 @@ static double fade(double t)
 // height at (u, v) from a corner of the lattice, of the plane that stands on it
 static double plane(int64_t i, int64_t j, uint32_t seed, double u, double v)
 {
-    const uint32_t bits = hash(i, j, seed);
-    return (2.0 * unit(bits) - 1.0) * u + (2.0 * unit(bits >> 16) - 1.0) * v;
+    const uint32_t bits = dp_noise_bits(i, j, seed);
+    return (2.0 * dp_noise_unit(bits) - 1.0) * u + (2.0 * dp_noise_unit(bits >> 16) - 1.0) * v;
 }
 
-static double wave(double u, double v, uint32_t seed)
+double dp_noise_wave(double u, double v, uint32_t seed)
 {
     const double  i = floor(u), j = floor(v), a = u - i, b = v - j;
     const int64_t m = (int64_t)i, n = (int64_t)j;
@@ -64,12 +63,13 @@ void dp_noise_waves(const DpGrid* grid, DpCellRect cells, double longest, double
     height = 1.0 / sqrt(variance);
     for (double length = longest; length > 0.99 * shortest && length >= CELLS_A_WAVE * grid->cell;
          length *= 0.5, height *= HALF, ++seed) {
-        const double away = unit(hash(0, 0, seed)), aside = unit(hash(0, 1, seed));
+        const double away = dp_noise_unit(dp_noise_bits(0, 0, seed)),
+                     aside = dp_noise_unit(dp_noise_bits(0, 1, seed));
         for (size_t j = 0; j < ny; ++j)
             for (size_t i = 0; i < nx; ++i) {
                 const double u = dp_grid_x(grid, cells.i0 + (long)i) / length + away;
                 const double v = dp_grid_y(grid, cells.j0 + (long)j) / length + aside;
-                out[j * nx + i] += (float)(height * wave(u, v, seed));
+                out[j * nx + i] += (float)(height * dp_noise_wave(u, v, seed));
             }
     }
 }
@@ -83,13 +83,13 @@ static double piece(double u, double v, uint32_t seed)
     double        nearest = INFINITY, number = 0.0;
     for (int64_t j = n - 1; j <= n + 1; ++j)
         for (int64_t i = m - 1; i <= m + 1; ++i) {
-            const uint32_t bits = hash(i, j, seed);
-            const double   x = (double)i + 0.5 + STRAYS * (unit(bits) - 0.5) - u;
-            const double   y = (double)j + 0.5 + STRAYS * (unit(bits >> 16) - 0.5) - v;
+            const uint32_t bits = dp_noise_bits(i, j, seed);
+            const double   x = (double)i + 0.5 + STRAYS * (dp_noise_unit(bits) - 0.5) - u;
+            const double   y = (double)j + 0.5 + STRAYS * (dp_noise_unit(bits >> 16) - 0.5) - v;
             const double   away = x * x + y * y;
             if (!(away < nearest)) continue;
             nearest = away;
-            number = unit(hash(i, j, seed + 1));
+            number = dp_noise_unit(dp_noise_bits(i, j, seed + 1));
         }
     return sqrt(3.0) * (2.0 * number - 1.0);
 }

@@ -6,6 +6,15 @@
 #pragma once
 #include "base/grid.h"
 
+// 32 bits of chance for the corner (i, j) of a lattice.
+uint32_t dp_noise_bits(int64_t i, int64_t j, uint32_t seed);
+
+// Evenly spread in 0..1, of the lower 16 of some bits.
+double dp_noise_unit(uint32_t bits);
+
+// Gradient noise at (u, v) on a lattice of squares 1 wide, of mean 0 and variance 1.
+double dp_noise_wave(double u, double v, uint32_t seed);
+
 // e^x, within 1e-5 of it for |x| <= 8; beyond 16 as at 16.
 double dp_noise_growth(double x);
 

@@ -1,4 +1,5 @@
 // What ground is like below a cell, by place: grit, crumbs, veins, and edges that stray. MODEL 8.3
+#include "base/noise.h"
 #include "base/parallel.h"
 #include "refine/refine.h"
 
@@ -6,11 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define BLOCK 4096          // points a worker takes in one go
-#define STRAYS 0.9          // share of a lattice square in which its crumb may lie
-#define UNIT_WAVE 5.677717  // 1 over the deviation of a single wave
-#define APART 2.6           // width of the squares by the radius of their crumbs
-#define SMALL 0.6           // radius of the smallest crumb of a size, by the largest
+#define BLOCK 4096  // points a worker takes in one go
+#define STRAYS 0.9  // share of a lattice square in which its crumb may lie
+#define APART 2.6   // width of the squares by the radius of their crumbs
+#define SMALL 0.6   // radius of the smallest crumb of a size, by the largest
 #define RADIUS_2 \
     0.653333333  // means of the square and of the cube of radii spread evenly from SMALL to 1
 #define RADIUS_3 0.544
@@ -31,45 +31,11 @@ typedef struct Job
     float*          shown;
 } Job;
 
-// ---- chance ----------------------------------------------------------------------------------------
-
-static uint32_t hash(int64_t i, int64_t j, uint32_t seed)
-{
-    uint32_t h = (uint32_t)i * 0x9e3779b1u + (uint32_t)j * 0x85ebca6bu + seed * 0xc2b2ae35u;
-    h = (h ^ h >> 16) * 0x7feb352du;
-    h = (h ^ h >> 15) * 0x846ca68bu;
-    return h ^ h >> 16;
-}
-
-// evenly spread in 0..1, of 16 bits
-static double unit(uint32_t bits)
-{
-    return ((double)(bits & 0xffffu) + 0.5) / 65536.0;
-}
-
-static double fade(double t)
-{
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-}
-
-// height at (u, v) from a corner of the lattice, of the plane that stands on it
-static double plane(int64_t i, int64_t j, uint32_t seed, double u, double v)
-{
-    const uint32_t bits = hash(i, j, seed);
-    return (2.0 * unit(bits) - 1.0) * u + (2.0 * unit(bits >> 16) - 1.0) * v;
-}
-
-// gradient noise of mean 0 and variance 1
+// gradient noise whose lattice begins somewhere by chance
 static double wave(double x, double y, double length, uint32_t seed)
 {
-    const double  u = x / length + unit(hash(0, 0, seed)), v = y / length + unit(hash(0, 1, seed));
-    const double  a = u - floor(u), b = v - floor(v);
-    const int64_t m = (int64_t)floor(u), n = (int64_t)floor(v);
-    const double  low =
-        plane(m, n, seed, a, b) * (1.0 - fade(a)) + plane(m + 1, n, seed, a - 1.0, b) * fade(a);
-    const double high = plane(m, n + 1, seed, a, b - 1.0) * (1.0 - fade(a)) +
-                        plane(m + 1, n + 1, seed, a - 1.0, b - 1.0) * fade(a);
-    return UNIT_WAVE * (low * (1.0 - fade(b)) + high * fade(b));
+    return dp_noise_wave(x / length + dp_noise_unit(dp_noise_bits(0, 0, seed)),
+                         y / length + dp_noise_unit(dp_noise_bits(0, 1, seed)), seed);
 }
 
 // two waves, the second of half the length and half as high; of variance 1
@@ -106,13 +72,14 @@ static double crumbs_of(double x, double y, double radius, double share, uint32_
     double        high = -there * HIGH * FILLED * PENTAGON * RADIUS_3 * radius / (APART * APART);
     for (int64_t j = n - 1; j <= n + 1; ++j)
         for (int64_t i = m - 1; i <= m + 1; ++i) {
-            const uint32_t bits = hash(i, j, seed), more = hash(i, j, seed + 1);
-            if (unit(more) >= there) continue;
-            const uint32_t last = hash(i, j, seed + 2);
-            const double   size = radius * (SMALL + (1.0 - SMALL) * unit(more >> 16));
-            const double   dx = x - square * ((double)i + 0.5 + STRAYS * (unit(bits) - 0.5));
-            const double   dy = y - square * ((double)j + 0.5 + STRAYS * (unit(bits >> 16) - 0.5));
-            const double   away = across(dx / size, dy / size, 2.0 * unit(last) - 1.0);
+            const uint32_t bits = dp_noise_bits(i, j, seed), more = dp_noise_bits(i, j, seed + 1);
+            if (dp_noise_unit(more) >= there) continue;
+            const uint32_t last = dp_noise_bits(i, j, seed + 2);
+            const double   size = radius * (SMALL + (1.0 - SMALL) * dp_noise_unit(more >> 16));
+            const double dx = x - square * ((double)i + 0.5 + STRAYS * (dp_noise_unit(bits) - 0.5));
+            const double dy =
+                y - square * ((double)j + 0.5 + STRAYS * (dp_noise_unit(bits >> 16) - 0.5));
+            const double away = across(dx / size, dy / size, 2.0 * dp_noise_unit(last) - 1.0);
             if (away >= 1.0) continue;
             high += HIGH * size * fmin(1.0, STEEP * (1.0 - away));
             *threshold = fmax(*threshold, SHOWS * size);

@@ -2,38 +2,17 @@
 
 import math
 
-WORD = 2**32
+from tests.reference import noise
+from tests.reference.noise import chance, unit
+
 APART, STRAYS, SMALL, HIGH, STEEP = 2.6, 0.9, 0.6, 0.8, 1.6
 VEIN, VEIN_MEAN = 0.55, 0.1513
 AREA = 5.0 * math.tan(math.pi / 5.0)  # of a pentagon around a circle of radius 1
 
 
-def chance(i, j, seed):
-    """32 bits for a corner of a lattice."""
-    h = (i * 0x9E3779B1 + j * 0x85EBCA6B + seed * 0xC2B2AE35) % WORD
-    h = ((h ^ (h >> 16)) * 0x7FEB352D) % WORD
-    h = ((h ^ (h >> 15)) * 0x846CA68B) % WORD
-    return h ^ (h >> 16)
-
-
-def unit(bits):
-    return ((bits & 0xFFFF) + 0.5) / 65536
-
-
 def wave(x, y, length, seed):
-    """Gradient noise on a lattice of squares that strays by chance, of variance 1."""
-    u, v = x / length + unit(chance(0, 0, seed)), y / length + unit(chance(0, 1, seed))
-    m, n = math.floor(u), math.floor(v)
-    total = 0.0
-    for j in (n, n + 1):
-        for i in (m, m + 1):
-            bits = chance(i, j, seed)
-            a, b = u - i, v - j
-            plane = (2 * unit(bits) - 1) * a + (2 * unit(bits >> 16) - 1) * b
-            for t in (abs(a), abs(b)):
-                plane *= 1 - (6 * t**5 - 15 * t**4 + 10 * t**3)
-            total += plane
-    return 5.677717 * total
+    """Gradient noise whose lattice begins somewhere by chance."""
+    return noise.wave(x / length + unit(chance(0, 0, seed)), y / length + unit(chance(0, 1, seed)), seed)
 
 
 def waves(x, y, length, seed):
