@@ -1,6 +1,7 @@
 """Soils that artists write: numbers in the panel, files, painted soils with numbers of their own."""
 
 import json
+import os
 from dataclasses import replace
 
 import bpy
@@ -8,7 +9,7 @@ import numpy as np
 from test_bake import refused, scene
 
 from desire_path.blender import ground as grounds
-from desire_path.blender import soils
+from desire_path.blender import soil_presets, soils
 from desire_path.ground.soil import SOILS, Soil
 
 
@@ -93,3 +94,66 @@ def test_files_of_before_show_their_preset(folder):
 
 def test_the_words_name_every_number():
     assert list(soils.WORDS) == list(Soil.__dataclass_fields__)
+
+
+def test_words_of_people_stand_for_the_numbers(folder):
+    ground, _ = scene(folder, frames=16)
+    settings = ground.desire_path
+    numbers = settings.soil_numbers
+    settings.soil = "dry-sand"
+    assert numbers.rim == 1.0 and numbers.crumble == 0.0 and 0.2 < numbers.softness < 0.5
+    before = numbers.young_modulus
+    numbers.softness += 0.1
+    assert numbers.changed and np.isclose(before / numbers.young_modulus, 10**0.2, rtol=1e-4)
+    numbers.rim, numbers.crumble, numbers.lump_size = 0.5, 0.5, 0.005
+    mine = soils.soil_of(settings)
+    assert np.isclose(mine.poisson_ratio, 0.25) and np.isclose(mine.wall_angle, np.pi / 4) and mine.grain_size == 0.005
+    numbers.softness = 1.0
+    assert np.isclose(numbers.young_modulus, 1e5) and numbers.softness == 1.0
+
+
+def test_lengths_and_masses_are_shown_in_the_scenes_units(folder):
+    ground, walker = scene(folder, frames=16)
+    bpy.context.scene.unit_settings.scale_length = 0.01  # a unit is a centimetre
+    settings = ground.desire_path
+    settings.cell_length = 0.5  # units, as 5mm comes from the panel
+    assert settings.cell_size == np.float32(0.005) and np.isclose(settings.cell_length, 0.5)
+    settings.soil_numbers.loose_layer = 20.0
+    assert np.isclose(settings.soil_numbers.layer_depth, 0.2)
+    walker.desire_path.mass = 80.0
+    assert np.isclose(walker.desire_path.weight, 80.0e6)  # Blender shows a mass times the scale cubed
+    walker.desire_path.weight = 70.0e6
+    assert np.isclose(walker.desire_path.mass, 70.0)
+
+
+def test_a_soil_of_ones_own_is_kept_by_name_and_taken_by_another(folder):
+    before = os.environ.get("BLENDER_USER_SCRIPTS")
+    os.environ["BLENDER_USER_SCRIPTS"] = str(folder / "scripts")
+    (folder / "scripts").mkdir()
+    try:
+        ground, _ = scene(folder, frames=16)
+        settings = ground.desire_path
+        settings.soil = "mud"
+        settings.soil_numbers.softness = 0.9
+        mine = soils.soil_of(settings)
+        assert bpy.ops.object.desire_path_soil_preset_add(name="Bog") == {"FINISHED"} and settings.soil_name == "Bog"
+        path = soil_presets.path_of("Bog")
+        assert Soil.load(path) == mine and os.path.dirname(path) in bpy.utils.preset_paths(soil_presets.FOLDER)
+        ground.vertex_groups.new(name="wet").add(range(20), 1.0, "REPLACE")
+        bpy.ops.object.desire_path_paint_add()
+        assert bpy.ops.object.desire_path_soil_load(filepath=path, painted=True) == {"FINISHED"}
+        assert near(soils.soil_of(settings.painted[0]), mine) and settings.painted[0].soil_name == "Bog"
+        settings.soil = "snow"
+        assert settings.soil_name == "" and soils.soil_of(settings) is SOILS["snow"]
+        assert bpy.ops.object.desire_path_soil_load(filepath=path) == {"FINISHED"}
+        assert near(soils.soil_of(settings), mine)
+        assert bpy.ops.object.desire_path_soil_preset_remove() == {"FINISHED"}
+        assert not os.path.exists(path) and near(soils.soil_of(settings), mine)
+        refused(bpy.ops.object.desire_path_soil_preset_remove, "No soil of your own is chosen")
+        refused(bpy.ops.object.desire_path_soil_preset_add, "cannot name a soil", name="../x")
+        refused(bpy.ops.object.desire_path_soil_preset_add, "cannot name a soil", name="")
+    finally:
+        if before is None:
+            del os.environ["BLENDER_USER_SCRIPTS"]
+        else:
+            os.environ["BLENDER_USER_SCRIPTS"] = before

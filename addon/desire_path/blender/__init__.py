@@ -18,6 +18,7 @@ from . import (
     panels,
     panels_walker,
     props,
+    soil_presets,
     soils,
 )
 
@@ -32,6 +33,7 @@ _CLASSES = (
     + op_material.CLASSES
     + soils.CLASSES
     + messages.CLASSES
+    + soil_presets.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES
 )

@@ -5,7 +5,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import bake_job, forward, plants, soils, state, tufts
+from . import bake_job, forward, plants, soil_presets, soils, state, tufts
 from .chosen import grounds, walkers
 
 
@@ -38,7 +38,7 @@ def draw_ground(layout, context, obj):
     column = _column(layout)
     column.prop(settings, "soil")
     column.operator("object.desire_path_material_add", icon="MATERIAL")
-    column.prop(settings, "cell_size", text="Cell [m]")  # all that fits into the sidebar
+    column.prop(settings, "cell_length")
     frames = column.column(align=True)
     frames.prop(settings, "frame_start", text="Frame Start")
     frames.prop(settings, "frame_end")
@@ -143,9 +143,9 @@ def draw_painted(layout, obj):
     side.operator("object.desire_path_paint_add", text="", icon="ADD")
     side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
     if settings.painted:
-        soils.draw(
-            _column(layout), settings.painted[min(settings.painted_index, len(settings.painted) - 1)], save=False
-        )
+        chosen = settings.painted[min(settings.painted_index, len(settings.painted) - 1)]
+        soil_presets.draw(layout, chosen, True)
+        soils.draw(_column(layout), chosen, save=False)
 
 
 def draw_plants(layout, context, obj):
@@ -187,7 +187,7 @@ def draw_output(layout, obj):
     column = _column(layout)
     column.prop(settings, "refine")
     if settings.refine:
-        column.prop(settings, "refine_size", text="Size [m]")
+        column.prop(settings, "refine_length")
         column.prop(settings, "refine_pixels", text="Pixels")
         column.prop(settings, "detail_size", text="Detail [m]")
     column.prop(settings, "attributes")
@@ -215,7 +215,7 @@ def draw_walker(layout, context, obj):
         return
     column = _column(layout)
     column.prop(settings, "ground")
-    column.prop(settings, "mass")
+    column.prop(settings, "weight")
     if not settings.mass:
         column.label(
             text=weight(settings).capitalize() if settings.estimated_mass else "Estimated when recorded", icon="INFO"
@@ -231,7 +231,7 @@ def draw_walker(layout, context, obj):
     if legged and settings.path is not None:
         way = column.column(align=True)
         way.prop(settings, "passes")
-        way.prop(settings, "lateral")
+        way.prop(settings, "scatter")
         way.prop(settings, "path_seed")
         way.prop(settings, "back_and_forth")
     column.prop(settings, "load_model")
@@ -303,10 +303,18 @@ class _Ground:
 
 
 class _Soil(_Ground):
-    bl_label = "Soil Numbers"
+    bl_label = "Soil"
 
     def draw(self, context):
+        soil_presets.draw(self.layout, context.object.desire_path, False)
         soils.draw(_column(self.layout), context.object.desire_path)
+
+
+class _Numbers(_Ground):
+    bl_label = "Physical Numbers"
+
+    def draw(self, context):
+        soils.draw_numbers(_column(self.layout), context.object.desire_path)
 
 
 class _Painted(_Ground):
@@ -338,6 +346,10 @@ class PHYSICS_PT_desire_path_soil(_Physics, _Soil, bpy.types.Panel):
     bl_parent_id = "PHYSICS_PT_desire_path"
 
 
+class PHYSICS_PT_desire_path_numbers(_Physics, _Numbers, bpy.types.Panel):
+    bl_parent_id = "PHYSICS_PT_desire_path_soil"
+
+
 class PHYSICS_PT_desire_path_painted(_Physics, _Painted, bpy.types.Panel):
     bl_parent_id = "PHYSICS_PT_desire_path"
 
@@ -358,6 +370,10 @@ class VIEW3D_PT_desire_path_soil(_Sidebar, _Soil, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
 
+class VIEW3D_PT_desire_path_numbers(_Sidebar, _Numbers, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_desire_path_soil"
+
+
 class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_desire_path"
 
@@ -375,11 +391,13 @@ CLASSES = (
     OBJECT_UL_desire_path_plants,
     PHYSICS_PT_desire_path,
     PHYSICS_PT_desire_path_soil,
+    PHYSICS_PT_desire_path_numbers,
     PHYSICS_PT_desire_path_painted,
     PHYSICS_PT_desire_path_plants,
     PHYSICS_PT_desire_path_output,
     VIEW3D_PT_desire_path,
     VIEW3D_PT_desire_path_soil,
+    VIEW3D_PT_desire_path_numbers,
     VIEW3D_PT_desire_path_painted,
     VIEW3D_PT_desire_path_plants,
     VIEW3D_PT_desire_path_output,

@@ -12,7 +12,7 @@ from bpy.props import (
 )
 
 from ..ground.plants import KINDS
-from . import compat, forward, live, picture, replant, soils, state, watch
+from . import compat, forward, live, picture, replant, soils, state, units, watch
 
 
 def is_ground(_self, obj):
@@ -87,6 +87,7 @@ class DesirePathPaint(bpy.types.PropertyGroup):
         type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
     )
     soil_file: soils.file()
+    soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
 
 
 def kinds(_self, _context, _text):
@@ -176,6 +177,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
     )
     soil_file: soils.file()
+    soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
     cell_size: FloatProperty(
         name="Cell Size [m]",
         default=0.01,
@@ -184,6 +186,15 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         step=0.1,
         precision=4,
         description="Side of a cell of the pressed ground, in metres: smaller shows finer prints",
+    )
+    cell_length: units.length(
+        "cell_size",
+        "Cell Size",
+        "Side of a cell of the pressed ground: smaller shows finer prints",
+        min=0.0,
+        soft_min=0.002,
+        soft_max=0.1,
+        precision=4,
     )
     frame_start: IntProperty(name="Start", default=1, update=_frames_by_hand, description="First frame that is baked")
     frame_end: IntProperty(name="End", default=250, update=_frames_by_hand, description="Last frame that is baked")
@@ -233,6 +244,14 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         step=0.1,
         update=_show_anew,
         description="Shortest edge of the refined copy, in metres; 0 = the cell size",
+    )
+    refine_length: units.length(
+        "refine_size",
+        "Shortest Edge",
+        "Shortest edge of the refined copy; 0 = the cell size",
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
     )
     refine_pixels: FloatProperty(
         name="Refined Pixels",
@@ -325,6 +344,9 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         precision=1,
         description="How heavy the walker is, in kilograms; 0 = estimated from its height",
     )
+    weight: units.mass(
+        "mass", "Mass", "How heavy the walker is; 0 = estimated from its height", min=0.0, soft_max=1000.0, precision=1
+    )
     estimated_mass: FloatProperty(options={"HIDDEN"}, description="What mass 0 came to [kg]")
     mass_center: StringProperty(
         name="Mass Centre",
@@ -371,6 +393,14 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         precision=3,
         step=1,
         description="How far passes lie beside the path, as a standard deviation in metres",
+    )
+    scatter: units.length(
+        "lateral",
+        "Scatter",
+        "How far passes lie beside the path, as a standard deviation",
+        min=0.0,
+        soft_max=1.0,
+        precision=3,
     )
     path_seed: IntProperty(name="Seed", min=0, description="Another number scatters the passes otherwise")
     load_model: EnumProperty(

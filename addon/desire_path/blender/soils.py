@@ -2,7 +2,8 @@
 
     soil_file, if one is set; else soil_numbers, where one was changed by hand; else the preset `soil`
 
-A preset that is chosen is shown by its numbers, which begin anew then.
+A preset that is chosen is shown by its numbers, which begin anew then. EASY has words of people for them, WORDS the
+numbers themselves with their units.
 """
 
 import math
@@ -13,15 +14,15 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..errors import DesirePathError
 from ..ground.soil import NUMBERS, SOILS, Soil
-from . import axes, compat
+from . import axes, compat, units
 
 # what people call a number, and what it is
 WORDS = {
-    "layer_depth": ("Loose [m]", "How thick the soft soil lies over rigid ground, in metres"),
+    "layer_depth": ("Depth [m]", "How thick the soft soil lies over rigid ground, in metres"),
     "young_modulus": ("Stiffness [Pa]", "How hard it resists, in pascal: half of it, prints twice as deep"),
     "poisson_ratio": ("Rim", "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it"),
     "settle_time": ("Yields In [s]", "How long it takes to give way, in seconds"),
-    "rest_angle": ("Max Slope", "Loose soil that is steeper slides"),
+    "rest_angle": ("Slope", "Loose soil that is steeper slides"),
     "push_threshold": (
         "Push [N]",
         "A sideways push this strong leaves the rim on one side alone, in newtons; 0 = half the walker's weight",
@@ -32,6 +33,65 @@ WORDS = {
     "grain_size": ("Lumps [m]", "How far apart places are that differ, in metres"),
     "rebound": ("Spring Back", "Share of a print's depth that comes back when the foot lifts"),
     "heave": ("Bulge [m]", "How wide it bulges around a print, in metres; 0 = loose soil in a heap"),
+}
+HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
+LOOSE = math.pi / 2  # walls that stand at this angle do not crumble [rad]
+
+
+def _soften(self, value):
+    self.young_modulus = axes.typed(10.0 ** (HARD + value * (SOFT - HARD)))
+
+
+def _raise_rim(self, value):
+    self.poisson_ratio = axes.typed(0.5 * value)
+
+
+def _crumble(self, value):
+    self.wall_angle = max(LOOSE * (1.0 - value), NUMBERS["wall_angle"].low)
+
+
+# numbers as people say them, each a property of its own or one of WORDS, in the order of the panel
+EASY = {
+    "softness": units.share(
+        lambda self: (HARD - math.log10(self.young_modulus)) / (HARD - SOFT),
+        _soften,
+        "Softness",
+        "0 like a trodden path, 1 like powder: each tenth more, prints half as deep again",
+    ),
+    "loose_layer": units.length(
+        "layer_depth",
+        "Loose Layer",
+        "How thick the soft soil lies over rigid ground",
+        min=0.0,
+        soft_max=1.0,
+        precision=3,
+    ),
+    "rim": units.share(
+        lambda self: self.poisson_ratio / 0.5,
+        _raise_rim,
+        "Rim",
+        "How much of what is pressed is pushed aside: 0 nothing, 1 all of it",
+    ),
+    "rest_angle": None,
+    "crumble": units.share(
+        lambda self: 1.0 - self.wall_angle / LOOSE,
+        _crumble,
+        "Crumble",
+        "How soon walls of prints come loose and slide: 0 = all stand",
+    ),
+    "roughness": None,
+    "lump_size": units.length(
+        "grain_size", "Lumps", "How far apart places are that differ", min=0.0, soft_max=0.1, precision=4
+    ),
+    "settle_time": None,
+    "slip": units.length(
+        "shear_modulus",
+        "Slip",
+        "How far soles shear it before it carries sideways; 0 = they do not slip",
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+    ),
 }
 _filling = False
 
@@ -54,7 +114,7 @@ ITEMS = items()
 
 def chosen(self, _context):
     """Another preset: its numbers are shown, and those of one's own are gone."""
-    self.soil_file = ""
+    self.soil_file = self.soil_name = ""
     fill(self)
 
 
@@ -100,6 +160,7 @@ class DesirePathSoil(bpy.types.PropertyGroup):
 
 
 DesirePathSoil.__annotations__.update({name: _number(name) for name in WORDS})
+DesirePathSoil.__annotations__.update({name: shown for name, shown in EASY.items() if shown is not None})
 
 
 def fill(settings):
@@ -112,6 +173,14 @@ def fill(settings):
         settings.soil_numbers.changed = False
     finally:
         _filling = False
+
+
+def take(settings, soil):
+    """Take the numbers of a Soil for one's own."""
+    settings.soil_file = ""
+    for name in WORDS:
+        setattr(settings.soil_numbers, name, getattr(soil, name))
+    settings.soil_numbers.changed = True
 
 
 def refill(obj):
@@ -160,17 +229,25 @@ class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):
 
 
 def draw(layout, settings, save=True):
-    """The numbers of a soil."""
+    """A soil as people describe it."""
     column = layout.column()
     column.prop(settings, "soil_file")
     if settings.soil_file:
         return
-    for name in WORDS:
+    for name in EASY:
         column.prop(settings.soil_numbers, name)
     if settings.soil_numbers.changed:
         column.label(text=f"Changed from {settings.soil.replace('-', ' ').capitalize()}", icon="GREASEPENCIL")
     if save:
         column.operator("object.desire_path_soil_save", icon="EXPORT")
+
+
+def draw_numbers(layout, settings):
+    """The physical numbers of a soil, with their units."""
+    column = layout.column()
+    column.active = not settings.soil_file
+    for name in WORDS:
+        column.prop(settings.soil_numbers, name)
 
 
 CLASSES = (OBJECT_OT_desire_path_soil_save,)
