@@ -18,7 +18,7 @@
 #define FALLS 0.2       // outer share of the width over which the rim falls to zero
 #define MAX_WIDE 16000  // cells that a rim can be wide
 #define REACHES 4.0     // widths of a bulge, beyond which it is level
-#define TABLE 256       // heights of a bulge that are known
+#define TABLE 64        // heights of a bulge that are known
 
 // The part of the patch a rim can reach, with a frame of one far cell; distances from where it begins.
 typedef struct Reach
@@ -96,7 +96,10 @@ static double fifth_root(double x)
 {
     if (!(x > 0.0)) return 0.0;
     double root = x > 1.0 ? x : 1.0;
-    for (int k = 0; k < 60; ++k) root -= (root - x / (root * root * root * root)) / 5.0;
+    for (double last = INFINITY; root < last;) {  // Newton's, from above
+        last = root;
+        root -= (root - x / (root * root * root * root)) / 5.0;
+    }
     return root;
 }
 

@@ -62,9 +62,9 @@ def test_defaults():
     settings = obj.desire_path
     assert settings.mass == 75.0 and settings.load_model == "inertia"
     assert settings.soil == "dry-sand" and abs(settings.cell_size - 0.01) < 1e-9
-    for soil in ("dry-sand", "snow", "mud", "soil", "soft-soil", "dry-soil", "wet-soil"):
+    for number, soil in enumerate(("dry-sand", "snow", "mud", "soil", "soft-soil", "dry-soil", "wet-soil")):
         settings.soil = soil
-        assert settings.soil == soil
+        assert settings.soil == soil and settings["soil"] == number  # as files of before have it
 
 
 def test_version_is_a_literal():

@@ -214,7 +214,8 @@ def test_a_state_goes_on_from_rough_ground(tmp_path):
     assert sim.report() == again.report()
 
 
-def test_presets_of_the_papers_are_smooth_and_stand():
+def test_a_soil_tells_its_numbers_where_they_matter():
     for soil in SOILS.values():
         assert soil.told().keys() >= {"layer_depth", "shear_modulus"}
+        assert Soil(**soil.told()) == soil
     assert "roughness" in ROUGH.told() and "grain_size" not in ROUGH.told()

@@ -8,7 +8,9 @@ import pytest
 
 from desire_path import _native
 from desire_path.errors import DesirePathError
-from desire_path.ground.soil import SOILS, Soil, as_soil
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import BY_DEPTH, SOILS, Soil, as_soil
+from tests.scenes import gaits
 
 TABLES = {  # E [MPa], nu, gamma_r [deg] (TRAIL Table 1), tau [s] (SOFT22 Table 1)
     "soft-soil": ((0.7, 2.0), (0.1, 0.3), (10, 15), None),
@@ -45,8 +47,25 @@ def test_a_soil_has_the_numbers_of_the_core():
             replace(Soil(), **{name: lowest - 0.001 * (lowest or 1.0)})
 
 
-def test_every_preset_is_in_the_tables():
-    assert set(SOILS) == set(TABLES)
+def test_presets_of_the_papers_come_first_and_the_others_are_for_looks():
+    assert set(list(SOILS)[: len(TABLES)]) == set(TABLES)  # files keep their places
+    for name in list(SOILS)[len(TABLES) :]:
+        assert SOILS[name].roughness > 0 and SOILS[name].wall_angle < math.radians(86)
+
+
+def test_prints_are_as_deep_as_people_know_them():
+    """A person of 80 kg on one foot, in the order of design and README."""
+    order = ["deep-snow", "fresh-snow", "mud", "wet-soil", "dry-sand", "wet-sand", "packed-snow", "packed-earth"]
+    depths = []
+    for name in order:
+        sim = Simulation(Ground.flat(), name, 0.01)
+        gait, loads = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -80 * 9.81]])
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        depths.append(np.median(sim.read("compression", -9, -2, 18, 4)))
+    assert depths == sorted(depths, reverse=True) and min(-np.diff(depths)) > 1e-4, depths
+    assert 0.08 < depths[0] < 0.2 and depths[-1] > 5e-4
+    assert [name for name in BY_DEPTH if name in order] == order
 
 
 @pytest.mark.parametrize(

@@ -214,7 +214,8 @@ def _passes():
     plants = [Planting("moss", density=90.0, seed=2, rectangle=(-0.2, -0.3, 1.2, 0.3))]
 
     def make(law, heap, threads):
-        return Simulation(ground, ["wet-soil", "dry-soil"], 0.02, law=law, heap=heap, threads=threads, plants=plants)
+        soils = [replace(SOILS["wet-soil"], rebound=0.0), "dry-soil"]
+        return Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads, plants=plants)
 
     def over(x, y):
         return 0.03 + 0.05 * (np.asarray(x) + 0.4) / 2.4

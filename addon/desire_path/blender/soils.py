@@ -13,7 +13,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..errors import DesirePathError
-from ..ground.soil import NUMBERS, SOILS, Soil
+from ..ground.soil import BY_DEPTH, NUMBERS, SOILS, Soil
 from . import axes, compat, units
 
 # what people call a number, and what it is
@@ -97,18 +97,20 @@ _filling = False
 
 
 def items():
-    """The presets for an EnumProperty."""
+    """The presets for an EnumProperty, the softest first; their numbers, which files keep, are those of SOILS."""
     return tuple(
         (
             name,
             name.replace("-", " ").capitalize(),
             f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
             f"{math.degrees(soil.rest_angle):.0f} degrees, yields in {soil.settle_time:.2g} s",
+            list(SOILS).index(name),
         )
-        for name, soil in SOILS.items()
+        for name, soil in ((name, SOILS[name]) for name in BY_DEPTH)
     )
 
 
+USUAL = "dry-sand"
 ITEMS = items()
 
 
@@ -119,7 +121,7 @@ def chosen(self, _context):
 
 
 def preset(description):
-    return EnumProperty(name="Soil", description=description, items=ITEMS, default=ITEMS[0][0], update=chosen)
+    return EnumProperty(name="Soil", description=description, items=ITEMS, default=USUAL, update=chosen)
 
 
 def file():
@@ -142,7 +144,7 @@ def _number(name):
     return FloatProperty(
         name=label,
         description=words,
-        default=getattr(SOILS[ITEMS[0][0]], name),
+        default=getattr(SOILS[USUAL], name),
         min=of.low,
         max=of.high,
         precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave"} else 2,

@@ -76,13 +76,17 @@ def as_soil(soil: str | Soil) -> Soil:
     return soil
 
 
-def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear: float = 0.0) -> Soil:
+def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear: float = 0.0, **others: float) -> Soil:
+    """others: numbers by name; wall_angle in degrees."""
+    if "wall_angle" in others:
+        others["wall_angle"] = math.radians(others["wall_angle"])
     return Soil(
         young_modulus=1e6 * megapascal,
         poisson_ratio=nu,
         rest_angle=math.radians(rest_angle_deg),
         settle_time=tau,
         shear_modulus=shear,
+        **others,
     )
 
 
@@ -95,6 +99,21 @@ _SOILS = {
     "soil": _soil(1.25, 0.35, 30.0, 0.05),
     "soft-soil": _soil(1.35, 0.2, 12.5, 0.1),
     "dry-soil": _soil(0.35, 0.35, 7.5, 0.1),
-    "wet-soil": _soil(0.5, 0.3, 12.5, 0.1),
+    "wet-soil": _soil(0.5, 0.3, 12.5, 0.1, rebound=0.25),
 }
+# For looks alone: as close-ups of prints show them, and as deep beside the others as people know them.
+_SOILS |= {
+    "deep-snow": _soil(
+        0.108, 0.01, 38.0, 0.1, layer_depth=0.4, wall_angle=85.0, roughness=0.3, grain_size=0.016, rebound=0.02
+    ),
+    "fresh-snow": _soil(0.17, 0.03, 38.0, 0.1, wall_angle=82.0, roughness=0.35, grain_size=0.012, rebound=0.03),
+    "wet-sand": _soil(3.5, 0.25, 42.0, 0.05, 0.005, wall_angle=72.0, roughness=0.5, grain_size=0.006, rebound=0.08),
+    "packed-snow": _soil(5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05),
+    "packed-earth": _soil(8.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01, rebound=0.12),
+}
+BY_DEPTH = tuple(
+    sorted(
+        _SOILS, key=lambda name: _SOILS[name].young_modulus / _SOILS[name].layer_depth / (1.0 - _SOILS[name].rebound)
+    )
+)
 SOILS: Mapping[str, Soil] = MappingProxyType(_SOILS)  # by name, to be read: a soil of your own is a Soil
