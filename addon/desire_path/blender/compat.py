@@ -153,6 +153,47 @@ def group_socket(tree, way, kind, name):
     return (tree.inputs if way == "INPUT" else tree.outputs).new(kind, name)
 
 
+def tree_input(tree, name, kind):
+    """A new input of a node tree; returns its socket in the tree's interface."""
+    if hasattr(tree, "interface"):
+        return tree.interface.new_socket(name, in_out="INPUT", socket_type=kind)
+    return tree.inputs.new(kind, name)
+
+
+def input_identifier(tree, name):
+    """How an input of a tree is called where modifiers keep its value; empty: there is none of that name."""
+    if hasattr(tree, "interface"):
+        there = [each for each in tree.interface.items_tree if each.item_type == "SOCKET" and each.in_out == "INPUT"]
+    else:
+        there = tree.inputs
+    return next((each.identifier for each in there if each.name == name), "")
+
+
+def _modifier_inputs(modifier):
+    return getattr(getattr(modifier, "properties", None), "inputs", None)
+
+
+def modifier_input(modifier, identifier):
+    """The value of an input of a nodes modifier."""
+    inputs = _modifier_inputs(modifier)
+    return getattr(inputs, identifier).value if inputs is not None else modifier[identifier]
+
+
+def set_modifier_input(modifier, identifier, value):
+    """Set the value of an input of a nodes modifier."""
+    inputs = _modifier_inputs(modifier)
+    if inputs is not None:
+        getattr(inputs, identifier).value = value
+    else:
+        modifier[identifier] = value
+    modifier.id_data.update_tag()  # Blender sees it by itself only where it is typed
+
+
+def input_path(modifier, identifier):
+    """The data path of an input of a nodes modifier, from the modifier."""
+    return f'["{identifier}"]' if _modifier_inputs(modifier) is None else f".properties.inputs.{identifier}.value"
+
+
 def nodes_modifier(obj, name, tree):
     """A new modifier of an object that runs a tree; older Blenders fill in a tree of their own."""
     modifier = obj.modifiers.new(name, "NODES")

@@ -165,14 +165,16 @@ class _Movers:
         elif animation.action is not None and not solo:
             self._action(animation)
         for curve in animation.drivers:
-            if not curve.mute:
+            if not curve.mute and not playback.animates_ours(animation.id_data, curve.data_path):
                 self._driver(curve.driver)
 
     def _action(self, animation):
         curves = [
             curve
             for curve in compat.curves_played(animation)
-            if not curve.mute and (len(curve.keyframe_points) or len(curve.modifiers) or len(curve.sampled_points))
+            if not curve.mute
+            and not playback.animates_ours(animation.id_data, curve.data_path)
+            and (len(curve.keyframe_points) or len(curve.modifiers) or len(curve.sampled_points))
         ]
         if not curves:
             return

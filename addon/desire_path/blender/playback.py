@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 from ..bake.output import NEW
-from . import axes, clock, compat, tree_numbers
+from . import axes, clock, compat, strengths, tree_numbers
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
@@ -89,12 +89,14 @@ def attach(
         discard(tree)
         ours, tree = old, old.node_group
     else:
+        kept = strengths.values(old) if old is not None else {}
         detach(obj)
         tree.name = f"{MODIFIER} {obj.name}"
         for name, image in shown.items():
             image.name = f"desire_path {name}"
         ours = compat.nodes_modifier(obj, MODIFIER, tree)
         ours.show_expanded = False
+        strengths.give(ours, kept)
     tree[TAG] = mark(frames, index, count)
     compat.move_modifier(obj, ours, place.before if place is not None else before)
     keep(obj, tree, world)
@@ -122,6 +124,12 @@ def _taken_over(obj, tree):
     old.update_tag()
     obj.update_tag(refresh={"DATA"})
     return True
+
+
+def animates_ours(obj, path):
+    """Whether a data path of an object leads into our modifier, which changes nothing that is walked on."""
+    ours = modifier(obj) if isinstance(obj, bpy.types.Object) else None
+    return ours is not None and path.startswith(strengths.start(ours))
 
 
 def interpolates(tree):
@@ -379,8 +387,9 @@ def file_number(wire, index, count, stretch=1.0):
 
 def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy):
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
+    strengths.declare(tree)
     wire = Wiring(tree)
-    entry = wire.add("NodeGroupInput")
+    entry = given = wire.add("NodeGroupInput")
     if place is not None and place.realise:  # the ground is made of instances, which cannot be pressed
         entry = wire.add("GeometryNodeRealizeInstances", Geometry=entry.outputs[0])
     if copy is not None:
@@ -413,13 +422,15 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
             **some,
         )
     split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"}, Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
-    up, raised = axes.lift(world, scale), split.outputs[0]
+    up, rise = axes.lift(world, scale), strengths.rise(wire, given, split.outputs[0], split.outputs[2])
     if detailed:
-        raised = wire.math("ADD", raised, _detail(wire, split.outputs, wire.split(stray)[2]))
+        rise = wire.math(
+            "ADD", rise, strengths.of_prints(wire, given, _detail(wire, split.outputs, wire.split(stray)[2]))
+        )
     if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
-        offset = wire.add("ShaderNodeCombineXYZ", Z=raised).outputs[0]
+        offset = wire.add("ShaderNodeCombineXYZ", Z=rise).outputs[0]
     else:
-        offset = wire.vector("MULTIPLY", tuple(up), raised)
+        offset = wire.vector("MULTIPLY", tuple(up), rise)
     if compat.socket(stored.inputs, "Selection") is not None:
         some = {}  # what is not stored reads zero
     geometry = stored.outputs[0]
@@ -427,6 +438,8 @@ def _tree(obj, shown, index, count, world, scale, smooth, corners, layer_depth, 
         grown = _grown(wire, standing, world, scale) if inside is not None else None
         geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
     geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset, **some).outputs[0]
+
+    geometry = strengths.painted(wire, given, geometry, split.outputs[0], split.outputs[2])
 
     # a group of that name on the object is filled instead of an attribute
     if layer_depth > 0.0:

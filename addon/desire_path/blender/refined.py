@@ -139,6 +139,7 @@ def held(scene, obj, place):
     shown = [each.show_viewport or each.show_render for each in stack_of]
     animation = obj.animation_data
     paths = [each.data_path for each in (*compat.all_curves(animation), *animation.drivers)] if animation else []
+    paths = [each for each in paths if not playback.animates_ours(obj, each)]
     if any(each.type == "PARTICLE_SYSTEM" for each in stack_of):
         return "its particles stand on its own points"
     if obj.instance_type in {"VERTS", "FACES"}:
