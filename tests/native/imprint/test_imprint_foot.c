@@ -222,6 +222,24 @@ TEST(agrees_with_asking_every_sample)
     }
 }
 
+// a triangle that stands on its edge: its lowest corners stand for it, not its tip
+TEST(what_is_seen_edge_on_is_as_low_as_its_lowest)
+{
+    static Ground ground;
+    const float   vertex[9] = {-0.05f, 0.0f, 0.2f, 0.05f, 0.0f, 0.2f, 0.0f, 1e-8f, 1.2f};
+    const int32_t triangle[3] = {0, 1, 2};
+    const DpMesh  mesh = {3, 1, vertex, triangle};
+    lay_centred(&ground, 33, 33, 0.01);
+    CHECK(press(&ground, &mesh, &stand, 1, 1) == DP_OK);
+    int covered = 0;
+    for (int n = 0; n < 33 * ground.patch.row; ++n) {
+        if (n % ground.patch.row >= 33 || !(ground.cover[n] > 0.0f)) continue;
+        CHECK_NEAR(ground.bottom[n], 0.2, 1e-6);
+        ++covered;
+    }
+    CHECK(covered >= 9);
+}
+
 TEST(the_underside_counts_not_the_top)
 {
     static Ground ground;
@@ -509,6 +527,7 @@ int main(void)
     RUN(half_covered_cells_count_half);
     RUN(area_does_not_change_with_the_cell);
     RUN(agrees_with_asking_every_sample);
+    RUN(what_is_seen_edge_on_is_as_low_as_its_lowest);
     RUN(the_underside_counts_not_the_top);
     RUN(shared_edges_do_not_leak);
     RUN(a_mirrored_sole_leaves_a_mirrored_print_to_the_bit);

@@ -56,6 +56,8 @@ TEST(nothing_outside)
     CHECK_NEAR(at(&asked, NX - 0.75, 0.0), 0.75 * NX,
                1e-5);  // and so beyond the last cell of a row
     CHECK_NEAR(at(&asked, 0.0, NY - 0.75), 0.75 * 31.0, 1e-5);
+    CHECK_NEAR(at(&asked, -0.75, 0.0), 0.25, 1e-6);  // outside, and still nearer than a cell
+    CHECK_NEAR(at(&asked, 0.0, -0.75), 0.25, 1e-6);
     CHECK(at(&asked, -1.0, 0.0) == 0.0);
     CHECK(at(&asked, NX, 1.0) == 0.0);
     CHECK(at(&asked, 1.0, -40.0) == 0.0);

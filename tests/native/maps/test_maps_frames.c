@@ -75,6 +75,38 @@ TEST(what_is_set_is_what_is_read)
     dp_frames_destroy(frames);
 }
 
+// noise does not get smaller by packing: it is kept as it is, beside tiles that do
+TEST(what_cannot_be_packed_is_kept_as_it_is)
+{
+    static float rgba[SIDE * SIDE * 4];
+    const char*  path = world_path("noise.exr");
+    DpFrames*    frames;
+    DpMapFile*   map = NULL;
+    uint64_t     state = 7;
+    for (int k = 0; k < SIDE * SIDE * 4; ++k) {
+        uint32_t bits;
+        do {
+            state = state * 6364136223846793005u + 1442695040888963407u;
+            bits = (uint32_t)(state >> 32);
+        } while ((bits >> 23 & 255u) == 255u);  // finite
+        memcpy(&rgba[k], &bits, 4);
+    }
+    CHECK(dp_frames_create(&frames, 2, 1, RGBA, 4, NULL, 0) == DP_OK);
+    CHECK(dp_frames_set_tile(frames, 1, 0, rgba, 0) == DP_OK);
+    CHECK(dp_frames_write(frames, path, 0.0) == DP_OK);
+    CHECK(dp_maps_read(path, &map) == DP_OK);
+    long bad = 0;
+    for (int c = 0; map && c < 4; ++c)  // A, B, G, R
+        for (int j = 0; j < SIDE; ++j)
+            for (int i = 0; i < 2 * SIDE; ++i)
+                bad += !same(map->value[(size_t)((c * SIDE + j) * 2 * SIDE + i)],
+                             i < SIDE ? 0.0f : rgba[(j * SIDE + i - SIDE) * 4 + 3 - c]);
+    CHECK(map && bad == 0);
+    dp_map_file_destroy(map);
+    unlink(path);
+    dp_frames_destroy(frames);
+}
+
 TEST(untouched_ground_costs_next_to_nothing)
 {
     const char*  path = world_path("zeros.exr");
@@ -267,6 +299,7 @@ int main(void)
 {
     RUN(files_are_listed_with_what_they_hold);
     RUN(what_is_set_is_what_is_read);
+    RUN(what_cannot_be_packed_is_kept_as_it_is);
     RUN(untouched_ground_costs_next_to_nothing);
     RUN(the_same_bytes_for_any_number_of_workers);
     RUN(channels_are_found_by_name);

@@ -1,5 +1,6 @@
 // how much of the ground is held. TRAIL (7), TRAIL (8), MODEL 11.9
 #include "lawn.h"
+#include "plants/plant_inside.h"
 
 #define N 20
 
@@ -78,10 +79,34 @@ TEST(paper_is_as_printed)
     dp_plants_destroy(plants);
 }
 
+// What treading wears rises as its strength comes back, and no faster than it swings; what it does not wear swings.
+TEST(what_is_worn_rises_as_it_heals)
+{
+    float                height[N * N], rate[N * N], heal[N * N], limp[N * N], broken[N * N];
+    const DpPlantStature out = {height, rate, heal, limp, broken};
+    for (int k = 0; k < 3; ++k) {
+        DpPlantKind kind = dp_plant_kind_default();
+        kind.degrade_rate = k == 0 ? 0.0f : 0.1f;
+        kind.recover_rate = k == 2 ? 100.0f : 0.02f, kind.strength = 0.4f;
+        DpPlants*    plants = lawn(&kind, 25, 25, 0.08, 1);
+        const double swing = dp_plant_rise_rate(&kind);
+        dp_plants_stature(plants, &window, &out);
+        for (int n = 0; n < N * N; ++n) {
+            CHECK_CLOSE(height[n], (double)kind.height, 1e-5);
+            CHECK_CLOSE(rate[n], swing, 1e-5);
+            CHECK_CLOSE(heal[n], k == 1 ? 0.02 / 0.4 : swing, 1e-5);
+            CHECK_CLOSE(limp[n], 1.0 - cos((double)kind.degrade_angle), 1e-4);
+            CHECK_NEAR(broken[n], 0.0, 1e-6);
+        }
+        dp_plants_destroy(plants);
+    }
+}
+
 int main(void)
 {
     RUN(full_cover_is_1_half_broken_is_a_half_none_is_0);
     RUN(a_thin_stand_covers_less);
     RUN(paper_is_as_printed);
+    RUN(what_is_worn_rises_as_it_heals);
     return check_done();
 }

@@ -56,6 +56,28 @@ TEST(bare_ground_grows_again_from_around)
     }
 }
 
+// what grows anew stands where it grows, and still
+TEST(what_grows_anew_stands_still)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.regrow_rate = 1.0f, kind.seed_share = 1.0f;
+    DpPlants* plants = lawn(&kind, 1, 1, 1.0, 5);
+    float     rest[84], at[84], speed[84], moved[84];
+    double    none[20] = {0}, strength[20];
+    CHECK(dp_plants_read(plants, 0, 0, rest, NULL, NULL) == DP_OK);
+    for (int k = 0; k < 84; ++k) speed[k] = 0.5f, moved[k] = rest[k] + 0.02f;
+    CHECK(dp_plants_write(plants, 0, 0, moved, speed, none) == DP_OK);
+    CHECK(dp_plants_advance_time(plants, 1e4) == DP_OK);
+    CHECK(dp_plants_read(plants, 0, 0, at, speed, strength) == DP_OK);
+    CHECK_NEAR(dp_plants_alpha(plants, 0, 0), 1.0, 0.0);
+    for (int k = 0; k < 84; ++k) {
+        CHECK_NEAR(at[k], rest[k], 1e-7);
+        CHECK(!(speed[k] > 0.0f || speed[k] < 0.0f));
+    }
+    for (int b = 0; b < 20; ++b) CHECK(strength[b] > 0.0);
+    dp_plants_destroy(plants);
+}
+
 // kinds that share a ground grow at once: none finds the others grown already
 TEST(stands_grow_again_side_by_side)
 {
@@ -85,5 +107,6 @@ int main(void)
     RUN(regrowth_is_logistic);
     RUN(bare_ground_grows_again_from_around);
     RUN(stands_grow_again_side_by_side);
+    RUN(what_grows_anew_stands_still);
     return check_done();
 }

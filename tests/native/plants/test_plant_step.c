@@ -133,6 +133,36 @@ TEST(boxes_that_meet_are_one)
     dp_plants_destroy(plants);
 }
 
+// a box that has grown by another meets what neither met
+TEST(boxes_that_have_grown_meet_others)
+{
+    const float     place[3][2] = {{0.3f, 0.0f}, {2.0f, 0.5f}, {1.0f, 1.9f}};
+    const float     span[3] = {0.6f, 0.6f, 1.0f};
+    static float    bottom[3][SOLE_SIDE * SOLE_SIDE];
+    DpPlants*       plants = dp_plants_create(1);
+    DpPlantCollider c[3];
+    int             all = 0;
+    for (int k = 0; k < 3; ++k) {
+        DpPlantKind kind = dp_plant_kind_default();
+        const float root[3] = {place[k][0], place[k][1], 0.0f}, heading = 0.0f;
+        int         stand;
+        kind.strength = 1e-6f, kind.root_radius = span[k];
+        CHECK(dp_plants_add(plants, &kind, root, &heading, 1, &stand) == DP_OK && stand == k);
+        c[k] = sole(bottom[k], 0.01, (double)root[0], (double)root[1], 0.0, 0.28, 0.10, 0.0);
+    }
+    for (int f = 0; f < 30; ++f) {
+        DpPlantsReport told;
+        CHECK(dp_plants_step(plants, NULL, c, 3, 1.0 / 60, 1, &told) == DP_OK);
+        for (int a = 0; a < told.changes; ++a)
+            for (int b = 0; b < a; ++b)
+                CHECK(told.box[a].x0 > told.box[b].x1 || told.box[b].x0 > told.box[a].x1 ||
+                      told.box[a].y0 > told.box[b].y1 || told.box[b].y0 > told.box[a].y1);
+        all += told.changes == 1 && told.box[0].x1 - told.box[0].x0 > 2.7;
+    }
+    CHECK(all > 0);  // all three broke in one step
+    dp_plants_destroy(plants);
+}
+
 // however many they are, each change lies in one of the boxes
 TEST(many_changes_share_boxes)
 {
@@ -217,6 +247,7 @@ int main(void)
     RUN(what_broke_is_told_and_where);
     RUN(changes_far_apart_have_boxes_of_their_own);
     RUN(boxes_that_meet_are_one);
+    RUN(boxes_that_have_grown_meet_others);
     RUN(many_changes_share_boxes);
     RUN(several_kinds_stand_on_one_ground);
     RUN(bad_steps_are_refused);

@@ -1,7 +1,9 @@
 // One walk leaves the same ground, to the bit, wherever its poses come from; and what fails to load
 // leaves what was followed.
+#include "base/vec.h"
 #include "check.h"
 #include "sim/planted.h"
+#include "sim/sim_inside.h"
 
 enum
 {
@@ -232,11 +234,34 @@ TEST(what_fails_to_load_leaves_what_was_followed)
     CHECK(dp_bytes_live() == 0);
 }
 
+// who comes, or has gone, sweeps nothing: there is no way from where it was
+TEST(who_comes_sweeps_nothing)
+{
+    Stride    s = stride_make(1, 2, 80.0, STRIDE_RATE);
+    World     world = lawn(1);
+    DpMotion* motion = NULL;
+    DpTrack   track = cut(&s, 10, 20, 0);
+    CHECK(dp_motion_tracks(&motion, &s.gait, &track, 1) == DP_OK);
+    cut_drop(&track);
+    CHECK(dp_sim_follow(world.sim, motion) == DP_OK);
+    for (int sample = 6; sample < 34; ++sample) {
+        const SweptSole* swept = dp_sweep_path(world.sim, 0, sample);
+        const bool       there = sample + 1 >= 10 && sample + 1 < 30;
+        CHECK(swept->jumps == !(sample >= 10 && there));
+        CHECK(isfinite(swept->low) == there && isfinite(swept->ground) == there);
+        if (swept->jumps) CHECK(memcmp(&swept->from, &swept->to, sizeof swept->to) == 0);
+        if (swept->jumps) CHECK(!(dp_length(swept->displacement) > 0.0));
+    }
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 int main(void)
 {
     RUN(every_source_leaves_the_same_bits);
     RUN(who_comes_and_goes_meets_nothing_on_the_way);
     RUN(a_thousand_walkers_in_turn);
     RUN(what_fails_to_load_leaves_what_was_followed);
+    RUN(who_comes_sweeps_nothing);
     return check_done();
 }

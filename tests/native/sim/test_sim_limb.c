@@ -29,6 +29,8 @@ static Scene scene_make(void)
     return s;
 }
 
+static double ground_height;  // of the next scene [m]
+
 static Limb* load(Scene* s, int parts, const DpMesh* sole)
 {
     static const double    time[] = {0.0, 1.0, 2.0};
@@ -38,7 +40,7 @@ static Limb* load(Scene* s, int parts, const DpMesh* sole)
     const DpMesh           soles[] = {*sole, *sole};
     const DpSoil           soil = dp_soil_default();
     const DpTerrainOptions options = {{CELL, 0.0, 0.0}, &soil, 1, 1};
-    const DpGround         flat = {.kind = DP_GROUND_FLAT};
+    const DpGround         flat = {.kind = DP_GROUND_FLAT, .height = ground_height};
     const DpSimOptions     chosen = dp_sim_options_default();
     const DpGait           gait = {.times = 3,
                                    .walkers = 1,
@@ -104,6 +106,24 @@ TEST(forces_add_and_their_points_are_weighed)
     scene_drop(&s);
 }
 
+// on a mountain heights count from the terrain's datum: those of poses and of the centre of pressure
+TEST(heights_count_from_the_datum)
+{
+    Scene s = scene_make();
+    ground_height = 2000.25;
+    for (int t = 0; t < 3; ++t) {
+        pose_of(&s, 0, t)[2] = 2000.5;
+        s.force[3 * t + 2] = -100.0, s.point[3 * t + 2] = 2000.375;
+    }
+    const Limb*  limb = load(&s, 1, &box);
+    const double datum = dp_terrain_datum(s.terrain);
+    ground_height = 0.0;
+    CHECK(fabs(2000.25 - datum) < 17.0);
+    CHECK_NEAR(dp_limb_pose(s.sim, 0, 0, 0.5).at.z, 2000.5 - datum, 1e-9);
+    CHECK_NEAR(dp_limb_force(s.sim, limb, 0, 0.5).point.z, 2000.375 - datum, 1e-9);
+    scene_drop(&s);
+}
+
 TEST(cells_hold_both_ends_and_a_margin)
 {
     Scene s = scene_make();
@@ -159,12 +179,28 @@ TEST(what_rolls_does_so_by_half_cells)
     }
 }
 
+// a plate that rocks from edge to edge: no corner slides, but what it stands on moves all along it
+TEST(what_rocks_does_so_by_half_cells)
+{
+    Scene s = scene_make();
+    for (int t = 0; t < 3; ++t) {
+        const double pitch = t == 0 ? 0.2 : -0.2;
+        pose_of(&s, 0, t)[3] = cos(0.5 * pitch), pose_of(&s, 0, t)[5] = sin(0.5 * pitch);
+    }
+    const Limb* limb = load(&s, 1, &box);
+    CHECK(dp_limb_substeps(s.sim, limb, 0) == (int)ceil(0.2 * cos(0.2) / (0.5 * CELL)));
+    CHECK(dp_limb_substeps(s.sim, limb, 1) == 1);
+    scene_drop(&s);
+}
+
 int main(void)
 {
     RUN(poses_between_samples_are_between_and_meet_them);
     RUN(forces_add_and_their_points_are_weighed);
+    RUN(heights_count_from_the_datum);
     RUN(cells_hold_both_ends_and_a_margin);
     RUN(what_slides_does_so_by_half_cells);
     RUN(what_rolls_does_so_by_half_cells);
+    RUN(what_rocks_does_so_by_half_cells);
     return check_done();
 }

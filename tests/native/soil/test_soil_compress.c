@@ -61,6 +61,32 @@ TEST(even_ground_is_exact)
     ground_free(&ground);
 }
 
+// What would press it twice as far as it can be pressed goes on a hundredth of the rest: MODEL 6.2
+TEST(rigid_ground_is_a_hundred_times_as_hard)
+{
+    DpSoil soil = wet();
+    soil.layer_depth = 0.05f;
+    const double    rigid = 0.95 * 0.05, load = 2.0 * rigid * 0.35e6 * 0.028 / 0.05;
+    const BoxSole   sole = {.x = 0.0025, .y = 0.00125, .length = 0.28, .width = 0.10};
+    Ground          ground = ground_make(60, 40, 0.01, soil);
+    const DpPressed p = stand(&ground, sole, load, DP_CONTACT_SOLE, 0.3, 0.01);
+    CHECK_CLOSE(p.sink, rigid + rigid / 100.0, 1e-6);
+    CHECK_CLOSE(p.deepest, rigid, 1e-6);
+    CHECK_CLOSE(p.firm, rigid * 0.028, 1e-6);
+    ground_free(&ground);
+}
+
+// A first touch carries on a twentieth of the sole at least: on less of it, as much less.
+TEST(a_first_touch_is_no_needle)
+{
+    const BoxSole   sole = {.length = 0.28, .width = 0.10, .pitch = 0.5};  // a row of 10 cells
+    Ground          ground = ground_make(60, 40, 0.01, wet());
+    const DpPressed p = stand(&ground, sole, 5.0, DP_CONTACT_SOLE, 0.3, 0.01);
+    CHECK_CLOSE(p.area, 0.001, 1e-6);
+    CHECK_CLOSE(p.firm, 5.0 * (0.001 / (0.05 * 0.028)) * 0.30 / 0.35e6, 1e-3);
+    ground_free(&ground);
+}
+
 TEST(proportional)
 {
     const BoxSole half = {.length = 0.1375, .width = 0.10};
@@ -424,6 +450,8 @@ int main(void)
 {
     RUN(flat_sole_is_trail_10);
     RUN(even_ground_is_exact);
+    RUN(rigid_ground_is_a_hundred_times_as_hard);
+    RUN(a_first_touch_is_no_needle);
     RUN(proportional);
     RUN(frame_rate_does_not_matter);
     RUN(yields_at_its_rate);

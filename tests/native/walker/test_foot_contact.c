@@ -218,6 +218,37 @@ TEST(falling_ball_touches_in_time)
     scene_free(&s);
 }
 
+// A runner's foot that lands sliding, faster than feet that let go, stays on until it has been slower.
+TEST(a_foot_that_lands_fast_is_let_go_only_once_it_was_slower)
+{
+    enum
+    {
+        N = 192
+    };
+    Scene  s = scene_make(N, RATE, 1, 1);
+    double x = 0.0;
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE;
+        const double speed = now < 0.5 ? 5.0 : now < 0.8 ? 1.4 : now < 1.2 ? 0.0 : 5.0;
+        const double z = now < 0.5   ? 0.3 - 0.6 * now
+                         : now < 1.2 ? 0.0
+                                     : fmin(2.0 * (now - 1.2), 0.3);
+        scene_com(&s, t, 4.0 * now, 0.0, 1.0);
+        scene_put(&s, N, 0, t, x, 0.0, z);
+        x += speed / RATE;
+    }
+    uint8_t               on[N];
+    double                clearance[1];
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    for (int t = 0; t < N; ++t) {
+        const double now = (double)t / RATE;
+        if (now > 0.55 && now < 1.15) CHECK(on[t]);
+        if (now < 0.4 || now > 1.3) CHECK(!on[t]);
+    }
+    scene_free(&s);
+}
+
 TEST(somebody_carries_what_does_not_fall)
 {
     // the left foot stands on the ground for 1 s, then on a 30 cm block while the right swings
@@ -483,6 +514,7 @@ int main(void)
     RUN(nothing_touches_where_there_is_no_ground);
     RUN(flight_carries_nobody);
     RUN(falling_ball_touches_in_time);
+    RUN(a_foot_that_lands_fast_is_let_go_only_once_it_was_slower);
     RUN(somebody_carries_what_does_not_fall);
     RUN(who_glides_stands_on_both_feet);
     RUN(who_hangs_presses_nothing);

@@ -1,0 +1,72 @@
+// Who carries how much: ramps, and the place over which the weight must be. MODEL 4.3, SOFT22 (5)
+#include "base/vec.h"
+#include "check.h"
+#include "walker/walker_inside.h"
+
+#define SPAN 0.3  // support_span [m]
+
+static double sum_of(const double* share, int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) sum += share[i];
+    return sum;
+}
+
+// a = (mu s + 2 lambda q a*) / (mu + 2 lambda q), q = s (1 - s), lambda = d^2 / (d^2 + span^2)
+TEST(two_supports_are_the_closed_form)
+{
+    const double apart[3] = {0.05, 0.3, 1.2}, trust[3] = {0.0, 0.25, 4.0};
+    for (int d = 0; d < 3; ++d)
+        for (int m = 0; m < 3; ++m)
+            for (double ramp = 0.1; ramp < 1.0; ramp += 0.2) {
+                const DpVec3 at[2] = {{0.1, 0.2, 0.0}, {0.1 + apart[d], 0.2, 0.0}};
+                const double over = 0.7;  // a* of the second support
+                const DpVec3 target = {0.1 + over * apart[d], 0.5, 0.3};  // beside their line
+                double       share[2] = {1.0 - ramp, ramp};
+                const double square = apart[d] * apart[d];
+                const double lambda = square / (square + SPAN * SPAN), q = ramp * (1.0 - ramp);
+                dp_walker_share(share, at, 2, target, trust[m], SPAN);
+                CHECK_NEAR(
+                    share[1],
+                    (trust[m] * ramp + 2.0 * lambda * q * over) / (trust[m] + 2.0 * lambda * q),
+                    1e-6);
+                CHECK_NEAR(sum_of(share, 2), 1.0, 1e-12);
+            }
+}
+
+// a foot whose ramp has not begun carries nothing, though the weight lies over it
+TEST(whom_the_ramps_give_nothing_gets_nothing)
+{
+    const DpVec3 at[3] = {{0.0, 0.0, 0.0}, {0.4, 0.0, 0.0}, {0.2, 0.6, 0.0}};
+    double       share[3] = {0.5, 0.5, 0.0};
+    dp_walker_share(share, at, 3, at[2], 0.25, SPAN);
+    CHECK(!(share[2] > 0.0 || share[2] < 0.0));
+    CHECK_NEAR(share[0], 0.5, 1e-9);
+    CHECK_NEAR(share[1], 0.5, 1e-9);
+}
+
+// without trust in the ramps three supports carry so that their mean lies where it should
+TEST(three_supports_meet_the_target)
+{
+    const DpVec3 at[3] = {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
+    const DpVec3 target = {0.6, 0.4, 0.0};
+    double       share[3] = {0.4, 0.3, 0.3};
+    DpVec3       mean = {0.0, 0.0, 0.0};
+    dp_walker_share(share, at, 3, target, 0.0, SPAN);
+    for (int i = 0; i < 3; ++i) mean = dp_add(mean, dp_scale(at[i], share[i]));
+    CHECK_NEAR(mean.x, target.x, 1e-4);
+    CHECK_NEAR(mean.y, target.y, 1e-4);
+    CHECK_NEAR(sum_of(share, 3), 1.0, 1e-12);
+    double far[3] = {0.4, 0.3, 0.3};
+    dp_walker_share(far, at, 3, dp_vec3(-5.0, -5.0, 0.0), 0.0, SPAN);  // outside: nobody pulls
+    for (int i = 0; i < 3; ++i) CHECK(far[i] >= 0.0);
+    CHECK(far[0] > 0.999);
+}
+
+int main(void)
+{
+    RUN(two_supports_are_the_closed_form);
+    RUN(whom_the_ramps_give_nothing_gets_nothing);
+    RUN(three_supports_meet_the_target);
+    return check_done();
+}
