@@ -9,20 +9,23 @@ from __future__ import annotations
 import math
 import os
 import struct
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
-from .output import NEW, OWNER, check_owner, free, owner_of, settle, told  # noqa: F401  (found here, too)
+from .contents import NEW, OWNER, index_data, owner_of  # noqa: F401  (found here, too)
+from .output import check_owner, free, settle  # noqa: F401
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
 INPUTS = "inputs"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
-MOST_SIDE = 1 << 30  # cells of a frame
+MAX_SIDE = 1 << 30  # cells of a frame
 AT_ONCE = 64  # frames are looked at
-MOST_FRAME = 1 << 31  # a frame's number may be
+MAX_FRAME = 1 << 31  # a frame's number may be
 
 
 @dataclass(frozen=True)
@@ -42,51 +45,52 @@ class FrameIndex:
     complete: bool
     lean: bool = False  # with lean_0000.exr .., how the grass lies
     owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
-    inputs: dict = field(default_factory=dict)  # words for what it was made from, as Bake was given them
+    inputs: dict[str, Any] = field(default_factory=dict)  # words for what it was made from, as Bake was given them
 
     @property
-    def missing(self):
+    def missing(self) -> int:
         """How many frames are still to be baked."""
         return self.frame_end - self.frame_start + 1 - self.frames
 
-    def path(self, number):
+    def path(self, number: int) -> str:
         """File of playback frame `number`: 0 = at rest, 1 = frame_start, .."""
         return frame_path(self.folder, number)
 
-    def lean_path(self, number):
+    def lean_path(self, number: int) -> str:
         """The same of how the grass lies, if `lean`."""
         return frame_path(self.folder, number, "lean")
 
 
-def frame_path(frames_folder, number, film="trail"):
+def frame_path(frames_folder: str, number: int, film: str = "trail") -> str:
     """trail_0001.exr or lean_0001.exr and so on."""
     return os.path.join(frames_folder, frame_name(number, film))
 
 
-def frame_name(number, film="trail"):
+def frame_name(number: int, film: str = "trail") -> str:
     return f"{film}_{number:04d}.exr"
 
 
-def _films(lean):
+def _films(lean: bool) -> tuple[str, ...]:
     return ("trail", "lean") if lean else ("trail",)
 
 
-def frames_there(frames_folder, lean, most=MOST_FRAME):
-    """How many frames, at most `most`, are whole, counted from number 1 on; -1 without the ground at rest."""
+def frames_there(frames_folder: str, lean: bool, up_to: int = MAX_FRAME) -> int:
+    """How many frames, up to number `up_to`, are whole, counted from number 1 on; -1 without the ground at rest."""
     number = -1
-    while number < most and all(_is_whole_frame(frame_path(frames_folder, number + 1, film)) for film in _films(lean)):
+    while number < up_to and all(_is_entire(frame_path(frames_folder, number + 1, film)) for film in _films(lean)):
         number += 1
     return number
 
 
-def _is_whole_frame(path):
+def _is_entire(path: str) -> bool:
     """Whether a tiled OpenEXR file is there to its end: its last tile ends where the file does. Files appear
     whole, but a disk that fails and a copy that stops leave less; what the tiles hold is not looked at."""
     try:
         with atomic_file.reader(path) as file:
             long = os.fstat(file.fileno()).st_size
             head = file.read(1 << 16)
-            found, at = {}, 8
+            found: dict[bytes, bytes] = {}
+            at = 8
             if head[:4] != _MAGIC:
                 return False
             while head[at] != 0:  # attributes: name, type, size, value
@@ -114,24 +118,26 @@ def _is_whole_frame(path):
 # ---- checksums -----------------------------------------------------------------------------------------------
 
 
-def list_sums(frames, known):
+def list_sums(frames: str, known: Mapping[str, str]) -> None:
     """Begin the list of checksums with those of frames and maps that are there already, a dict by name. The core adds
     each file as soon as it is there (Film.list_files): what a bake that goes on may rely on."""
     with atomic_file.file(os.path.join(frames, SUMS), "The list of checksums", "w", False, encoding="utf-8") as file:
         file.writelines(f"{name} {found}\n" for name, found in known.items())
 
 
-def _sum(path):
+def _sum(path: str) -> str:
     """How many bytes a file has, and their digest, as the core lists it."""
     with atomic_file.reader(path) as file:
         content = file.read()
     return f"{len(content)}:{_native.digest(content).hex()}"
 
 
-def frames_sound(frames, lean):
+def frames_sound(frames: str, lean: bool) -> tuple[int, dict[str, str], dict[str, str]]:
     """(how many frames are bit for bit what was written, from number 1 on, -1 without the ground at rest; their
     checksums by name; those of all files that were written)."""
-    known, sound, number = {}, {}, -1
+    known: dict[str, str] = {}
+    sound: dict[str, str] = {}
+    number = -1
     try:
         with atomic_file.reader(os.path.join(frames, SUMS)) as file:
             for line in file:
@@ -149,7 +155,7 @@ def frames_sound(frames, lean):
             number += 1
 
 
-def is_sound(folder, name, known):
+def is_sound(folder: str, name: str, known: Mapping[str, str]) -> bool:
     """Whether a file is bit for bit what was written; known: checksums by name."""
     path = os.path.join(folder, name)
     try:
@@ -161,7 +167,7 @@ def is_sound(folder, name, known):
 # ---- the index ----------------------------------------------------------------------------------------------
 
 
-def read_index(folder, just_baked=False):
+def read_index(folder: str | os.PathLike[str], just_baked: bool = False) -> FrameIndex:
     """What can be played from a bake folder: its FrameIndex. A bake that was stopped counts, with
     complete False. Raises DesirePathError when there is nothing to play.
 
@@ -173,7 +179,7 @@ def read_index(folder, just_baked=False):
         path = os.path.join(frames, "index.json")
         if not os.path.exists(path):
             continue
-        data = told(frames)
+        data = index_data(frames)
         if "format" not in data:
             raise DesirePathError(f"{path} is damaged: bake again.")
         if data["format"] != FORMAT:
@@ -188,11 +194,11 @@ def read_index(folder, just_baked=False):
     raise DesirePathError(f"There is no bake in {folder}: bake the ground first.")
 
 
-def _index(frames, data, just_baked):
+def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex:
     cell, rate = _number(data["cell"]), _number(data["frame_rate"])
-    nx, ny = (_whole(data[name], 1, MOST_SIDE) for name in ("nx", "ny"))
-    first = _whole(data["frame_start"], -MOST_FRAME, MOST_FRAME)
-    last = _whole(data["frame_end"], first, MOST_FRAME)
+    nx, ny = (_count(data[name], 1, MAX_SIDE) for name in ("nx", "ny"))
+    first = _count(data["frame_start"], -MAX_FRAME, MAX_FRAME)
+    last = _count(data["frame_end"], first, MAX_FRAME)
     if cell <= 0.0 or rate <= 0.0:
         raise ValueError
     count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
@@ -215,13 +221,14 @@ def _index(frames, data, just_baked):
     )
 
 
-def _number(value):
+def _number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError
     return float(value)
 
 
-def _whole(value, least, most):
-    if not least <= _number(value) <= most or value != int(value):
+def _count(value: object, low: int, high: int) -> int:
+    number = _number(value)
+    if not low <= number <= high or number != int(number):
         raise ValueError
-    return int(value)
+    return int(number)

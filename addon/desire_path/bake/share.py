@@ -9,17 +9,23 @@ from __future__ import annotations
 import json
 import os
 import shutil
+from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
 from ..ground import maps, plant_mesh
-from ..ground.sim import TILE
+from ..ground.parcels import Parcel
+from ..ground.sim import TILE, Simulation
+from ..loads.force import FootForce
 from ..version import VERSION
-from .folder import FORMAT, INPUTS, OWNER, SUMS, frame_path, frames_sound, is_sound, list_sums, told
+from .contents import OWNER, index_data
+from .folder import FORMAT, INPUTS, SUMS, frame_path, frames_sound, is_sound, list_sums
 from .output import Output
+from .plan import Plan
 
 PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it grows
 MAP_FILMS = ("second_", "pass_")
@@ -30,25 +36,30 @@ class Share:
     """plan: the Plan of the bake; parcel: its Parcel; sim: the Simulation it lies on; loads: what
     presses there; tiles: (x, y, nx, ny) it films."""
 
-    def __init__(self, plan, parcel, sim, loads, tiles):
+    def __init__(
+        self, plan: Plan, parcel: Parcel, sim: Simulation, loads: FootForce, tiles: tuple[int, int, int, int]
+    ) -> None:
         self.plan, self.parcel, self.sim, self.loads, self.tiles = plan, parcel, sim, loads, tiles
-        self.plants = parcel.plants
+        self.plants: Any = parcel.plants
         self.out = Output(parcel.folder, parcel.owner)
-        self.films = self.start = self.mesh = None
-        self.done = None  # frames that are there already, -1 = not even the ground at rest; None until begin()
-        self.place, self.sums = None, {}  # where they lie, a folder as bake.new, and the checksums of their files
+        self.mesh: plant_mesh.Writer | None = None
+        self.begun = False
+        self.found = -1  # frames that are there already, -1 = not even the ground at rest
+        self.place = ""  # where they lie, a folder as bake.new
+        self.sums: dict[str, str] = {}  # the checksums of their files by name
         self.sound_to = -1  # up to this frame all files are there, maps too
-        self.report = None
-        self.final = None  # the planes of maps_final.exr, when the bake is whole
+        self.report: dict[str, Any] | None = None
+        self.final: dict[str, np.ndarray] | None = None  # the planes of maps_final.exr, when the bake is whole
 
     @property
-    def window(self):
+    def window(self) -> tuple[int, int, int, int]:
         """Cells (i0, j0, nx, ny) of its tiles."""
-        return tuple(TILE * each for each in self.tiles)
+        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        return i0, j0, nx, ny
 
     # ---- what is made ---------------------------------------------------------------------------
 
-    def find(self, signature):
+    def find(self, signature: str) -> None:
         """Look at what the very same bake left, and at the ground before its first step."""
         plan = self.plan
         self.index = self._index(signature)
@@ -58,7 +69,7 @@ class Share:
             count = plan.frame_end - plan.frame_start + 1
             self.mesh = plant_mesh.Writer(self.sim, plan.frame_start, count, self.plants)
 
-    def begin(self, frame, states):
+    def begin(self, frame: int, states: Sequence[str]) -> None:
         """Open its films and its files after a frame, 0 = the begin; what was found and still counts is kept, so the
         files named in `states`."""
         self.films = self.sim.open_frames(*self.tiles)
@@ -71,20 +82,20 @@ class Share:
             self.films.list_files(os.path.join(fresh, SUMS))
             if self.mesh:
                 self.mesh.open(os.path.join(fresh, PLANTS), frame)
-            self.done = self.found
+            self.begun = True
         except OSError as problem:
             raise DesirePathError(
                 f"The folder {self.out.folder} cannot be written ({problem.strerror}): choose another one."
             ) from None
 
-    def _is_planted(self):
+    def _is_planted(self) -> bool:
         return any(self.sim.plantings[number] in self.plants for _, number, _ in self.sim.stands)
 
-    def _find(self):
+    def _find(self) -> None:
         """Which frames and maps of the very same bake are there, bit for bit."""
-        self.found = -1  # frames
+        listed: dict[str, str] = {}
         for place in (self.out.new, self.out.folder):
-            old = told(os.path.join(place, "frames"))
+            old = index_data(os.path.join(place, "frames"))
             if (
                 self.plan.output.resume
                 and old
@@ -103,7 +114,7 @@ class Share:
             if name:
                 self.sums[name] = listed[name]
 
-    def _keep(self, frame, states):
+    def _keep(self, frame: int, states: Sequence[str]) -> None:
         """Let bake.new hold what was found and still counts, and nothing else."""
         later = {self.plan.map_name(self.plan.frame_start + number) for number in range(frame, self.sound_to)}
         self.sums = {name: found for name, found in self.sums.items() if name not in later}
@@ -115,91 +126,93 @@ class Share:
                 folder = "maps" if name.startswith(MAP_FILMS) else "frames"
                 _link(os.path.join(self.place, folder, name), self.out.path(folder, name))
 
-    def plants_known(self, frame):
+    def plants_known(self, frame: int) -> str | None:
         """Digest of the plants' mesh that was written up to a frame; None where none is."""
-        return self.mesh and self.mesh.known(os.path.join(self.place, "frames", PLANTS), frame)
+        return self.mesh.known(os.path.join(self.place, "frames", PLANTS), frame) if self.mesh else None
 
-    def plants_digest(self):
+    def plants_digest(self) -> str | None:
         """The same of what was written by now."""
-        return self.mesh and self.mesh.digest()
+        return self.mesh.digest() if self.mesh else None
 
-    def write(self, number, seconds):
+    def write(self, number: int, seconds: float) -> None:
         """One frame of every film, and the plants, unless it is there already."""
-        fresh = self.out.path("frames") if number > self.done else None
+        fresh = self.out.path("frames") if number > self.found else None
         self.films.write_frame(fresh and frame_path(fresh, number), seconds)
         if self.plants:
             self.films.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
         if self.mesh and number:
             self.mesh.add(self.sim)
 
-    def map(self, frame):
+    def map(self, frame: int) -> None:
         """The map of a scene frame, if it has one."""
         name = self.plan.map_name(frame)
         if name:
             self.films.write_maps(self.out.path("maps", name), self.plan.time(frame))
 
-    def end(self):
+    def end(self) -> None:
         """The first and the last maps."""
         self.films.write_maps(self.out.path("maps_final.exr"), self.plan.time(self.plan.frame_end))
-        maps.write(
-            self.out.path("maps_start.exr"),
-            self.start,
-            [("time", 0.0), *((f"unit_{name}", unit) for name, unit in START.items())] + self._notes(),
-        )
+        notes: list[tuple[str, str | float]] = [
+            ("time", 0.0),
+            *((f"unit_{name}", unit) for name, unit in START.items()),
+            *self._notes(),
+        ]
+        maps.write(self.out.path("maps_start.exr"), self.start, notes)
         self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
         if self.mesh:
             self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 
-    def conclude(self, report):
+    def conclude(self, report: dict[str, Any]) -> None:
         """The bake is whole: write its report and say so in its index."""
         self.report = report
         self._write_json(("report.json",), report, "The report")
         self._write_json(("frames", "index.json"), {**self.index, "complete": True}, "The index of the frames")
 
-    def _write_json(self, names, data, what):
+    def _write_json(self, names: tuple[str, ...], data: object, what: str) -> None:
         """Below bake.new, all of which Output.ready() syncs at once."""
         atomic_file.write_json(self.out.path(*names), data, what, sync=False)
 
-    def ready(self):
+    def ready(self) -> None:
         """The bake is whole, here and soon on every ground."""
         self._close()
         self.out.ready()
 
-    def stop(self):
+    def stop(self) -> None:
         """The bake was stopped: what there is of it is shown, unless a whole bake is."""
         self._close()
         self.report = self.final = None
-        if self.done is None:
+        if not self.begun:
             return
         if len(self.plan.parcels) == 1 or self.is_pressed():
             self.out.publish_stopped()
 
-    def leave(self):
+    def leave(self) -> None:
         """Nobody came here: nothing of it is shown."""
         self._close()
         self.out.drop()
 
-    def _close(self):
+    def _close(self) -> None:
         if self.mesh:
             self.mesh.close()
 
     # ---- what it says ---------------------------------------------------------------------------
 
     @cached_property
-    def own(self):
+    def own(self) -> np.ndarray:
         """Which cells of the window lie on this ground (ny, nx)."""
         i0, j0, nx, ny = self.window
         cell, (ox, oy) = self.sim.cell_size, self.sim.origin
         x, y = np.meshgrid(ox + cell * (i0 + 0.5 + np.arange(nx)), oy + cell * (j0 + 0.5 + np.arange(ny)))
         return self.parcel.has(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(ny, nx)
 
-    def is_pressed(self):
+    def is_pressed(self) -> bool:
         """Whether anything has changed on this ground."""
         return any((self.sim.read(name, *self.window)[self.own] > 0.0).any() for name in ("compression", "heap"))
 
-    def numbers(self):
+    def numbers(self) -> dict[str, float]:
         """Depth [m] and volumes [m^3] of what was pressed into this ground, of several."""
-        pressed, heap = (self.final[name][self.own].astype(float) for name in ("compression", "heap"))
+        final = self.final or {}
+        pressed, heap = (final[name][self.own].astype(float) for name in ("compression", "heap"))
         area = self.sim.cell_size**2
         return {
             "deepest_m": float(pressed.max(initial=0.0)),
@@ -207,7 +220,7 @@ class Share:
             "heaped_m3": float(heap.sum()) * area,
         }
 
-    def _index(self, signature):
+    def _index(self, signature: str) -> dict[str, Any]:
         plan = self.plan
         tx, ty, nx, ny = self.tiles
         ox, oy = self.sim.origin
@@ -230,7 +243,7 @@ class Share:
             **({INPUTS: self.parcel.inputs} if self.parcel.inputs else {}),
         }
 
-    def _notes(self):
+    def _notes(self) -> list[tuple[str, str | float]]:
         index = self._index("")
         notes = [
             ("software", f"Desire Path {VERSION}"),
@@ -241,10 +254,10 @@ class Share:
         ]
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 
-    def _fields(self):
+    def _fields(self) -> tuple[maps.Map, ...]:
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
 
-    def _start_maps(self):
+    def _start_maps(self) -> dict[str, np.ndarray]:
         strength = self.sim.read("plant_strength", *self.window)
         modulus = self.sim.read("young_modulus", *self.window)
         planes = {
@@ -259,7 +272,7 @@ class Share:
         return planes
 
 
-def _link(path, to):
+def _link(path: str, to: str) -> None:
     """The same file under another name, too; a copy, where the disk has no such names."""
     try:
         os.link(path, to)

@@ -3,7 +3,7 @@
 import os
 
 from ..bake.bake import read_index
-from ..bake.output import MAPS_ALWAYS, is_whole
+from ..bake.contents import MAPS_ALWAYS, is_complete
 from ..errors import DesirePathError
 from . import cover, ground, home, materials, plants, playback, refined, stems, trash
 from .home import folder
@@ -115,7 +115,7 @@ def lost(index):
 
 def was_whole(index):
     """Whether a bake came to its end, whatever has become of its files."""
-    return is_whole(index.folder)
+    return is_complete(index.folder)
 
 
 def free(obj):

@@ -77,7 +77,7 @@ def _frames(folder):
 
 
 def _range(frames):
-    data = output.told(frames)
+    data = output.index_data(frames)
     try:
         first, last = int(data["frame_start"]), int(data["frame_end"])
     except (KeyError, TypeError, ValueError):
