@@ -7,7 +7,7 @@ import numpy as np
 from scenes import meshes, people
 from test_bake import state
 
-from desire_path.blender import compat, playback
+from desire_path.blender import compat, playback, refined
 
 LOW = 0.8  # of the deepest print at least is shown
 
@@ -301,3 +301,38 @@ def test_details_are_those_of_the_soils(folder):
     bpy.ops.object.desire_path_bake()
     earth = compat.vectors(copy_of(ground).data, playback.DETAIL)
     assert not earth[:, 0].any() and np.ptp(earth[:, 1]) > 0.003
+
+
+def test_a_copy_whose_ground_was_shaped_otherwise_since_is_outdated(folder):
+    ground = plane(cuts=3)
+    shape = ground.modifiers.new("Raised", "DISPLACE")
+    shape.strength, shape.mid_level = 0.1, 0.0
+    baked(folder, ground)
+    assert copy_of(ground) is not None and ground.desire_path.bake_state == "FRESH"
+    shape.strength = 0.3
+    bpy.context.view_layer.update()
+    assert ground.desire_path.bake_state == "OUTDATED" and "ground" in ground.desire_path.missing
+
+
+def test_applied_it_leaves_nothing_behind(folder):
+    ground = baked(folder, plane())
+    fine = len(seen(ground).vertices)
+    bpy.ops.object.modifier_apply(modifier=playback.modifier(ground).name)
+    bpy.context.view_layer.update()
+    assert len(ground.data.vertices) == fine and deepest(ground) > 0.005
+    for kind in ("objects", "meshes", "node_groups", "images"):
+        assert not [each.name for each in getattr(bpy.data, kind) if each.name.lower().startswith("desire")], kind
+
+
+def test_a_panorama_has_pixels_too():
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 2000, 1000, 100
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type = "PANO"
+    lens = camera.data if hasattr(camera.data, "panorama_type") else camera.data.cycles
+    lens.panorama_type = "EQUIRECTANGULAR"
+    wide = refined.pixel(scene, camera, np.array([1.0, 10.0]))
+    assert np.allclose(wide, np.array([1.0, 10.0]) * np.pi / 1000)
+    lens.panorama_type = "FISHEYE_EQUIDISTANT"
+    lens.fisheye_fov = np.pi / 2
+    assert np.allclose(refined.pixel(scene, camera, np.array([2.0])), 2.0 * np.pi / 2 / 2000, rtol=1e-5)

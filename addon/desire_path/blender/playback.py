@@ -213,6 +213,12 @@ def detach(obj):
         discard(tree)
 
 
+def sweep():
+    """Remove trees of ours that nobody uses any more, as once they were applied."""
+    for tree in [each for each in bpy.data.node_groups if each.library is None and each.users == 0 and STACK in each]:
+        discard(tree)
+
+
 def discard(tree):
     """Remove a tree of ours that nobody uses, and its images if nobody else does."""
     if tree.users > 0:

@@ -182,7 +182,7 @@ def _as_seen(scene, obj, surface, index, wanted):
         beside = np.maximum(np.maximum(wanted.corners - place[:2], place[:2] - wanted.corners - wanted.block), 0.0)
         above = place[2] - np.clip(place[2], low, high)
         nearest = np.minimum(nearest, np.sqrt((beside**2).sum(axis=1) + above**2))
-    return replace(wanted, sizes=np.maximum(wanted.sizes, pixels * _pixel(scene, camera, nearest)))
+    return replace(wanted, sizes=np.maximum(wanted.sizes, pixels * pixel(scene, camera, nearest)))
 
 
 def _camera_places(scene, camera, index):
@@ -194,15 +194,28 @@ def _camera_places(scene, camera, index):
         ) * axes.unit_scale(scene)
 
 
-def _pixel(scene, camera, distance):
+def pixel(scene, camera, distance):
     """How wide a pixel of a camera is at a distance [m]."""
     lens, render = camera.data, scene.render
     sides = np.array((render.resolution_x, render.resolution_y)) * render.resolution_percentage / 100.0
     fit = {"HORIZONTAL": 0, "VERTICAL": 1}.get(lens.sensor_fit, int(sides[1] > sides[0]))
     if lens.type == "ORTHO":
         return np.full(len(distance), lens.ortho_scale * axes.unit_scale(scene) / sides.max())
+    if lens.type == "PANO":
+        return distance * (_angles(lens) / sides).min()
     sensor = lens.sensor_height if lens.sensor_fit == "VERTICAL" else lens.sensor_width
     return distance * sensor / lens.lens / sides[fit]
+
+
+def _angles(lens):
+    """How much a panorama sees along both sides of its picture [rad]."""
+    its = lens if hasattr(lens, "panorama_type") else getattr(lens, "cycles", None)
+    kind = getattr(its, "panorama_type", "EQUIRECTANGULAR")
+    if kind == "EQUIRECTANGULAR" and its is not None:
+        return np.array((its.longitude_max - its.longitude_min, its.latitude_max - its.latitude_min))
+    if kind.startswith("FISHEYE"):
+        return np.full(2, its.fisheye_fov)
+    return np.array((2.0 * np.pi, np.pi))
 
 
 def _numbers(data, name, count, kind):

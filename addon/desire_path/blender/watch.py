@@ -30,7 +30,10 @@ def look(scene, obj):
     """Let a ground show its bake where it belongs, whatever was done to it since."""
     global _working
     ours = playback.modifier(obj)
-    if ours is None or obj.mode == "EDIT" or playback.STACK not in ours.node_group:
+    if ours is None:
+        playback.sweep()
+        return
+    if obj.mode == "EDIT" or playback.STACK not in ours.node_group:
         return
     tree, now = ours.node_group, np.array(obj.matrix_world, np.float64)
     before, _lay[obj.name_full] = _lay.get(obj.name_full), now
