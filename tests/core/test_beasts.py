@@ -45,7 +45,7 @@ def test_a_mesh_tells_where_the_weight_is():
     assert mass.by_volume(bones, rig, replace(hide, weights={})) is None
     with pytest.raises(DesirePathError, match="no mesh is bound"):
         mass.estimate(bones, rig)
-    assert "litres of its mesh" in mass.told_by_volume("Dog", 1000 * whole, whole)
+    assert "litres of its mesh" in mass.sentence_by_volume("Dog", 1000 * whole, whole)
 
 
 def test_at_rest_four_feet_balance_about_the_mass_centre():

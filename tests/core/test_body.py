@@ -96,8 +96,9 @@ def walk(skeleton, turn=np.eye(3), scale=1.0, toes_bend=True, count=240, rate=12
     return Motion(time, skeleton.names, around @ world)
 
 
-def gait(skeleton, motion, **more):
-    return body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, **more)
+def gait(skeleton, motion, skin=None, tread=None, **more):
+    soles = body.SoleSource(skin, tread)
+    return body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, soles=soles, **more)
 
 
 def places(g, part):
@@ -149,6 +150,14 @@ def test_flat_soles_are_level_and_point_ahead(roll, facing):
         assert length == pytest.approx(1.17 * 0.20, rel=0.03)
         assert across == pytest.approx(0.36 * length, rel=0.05)
         assert -0.03 < both[:, 2].min() < 0.03  # near where the ground of the clip is
+
+
+def test_what_soles_come_from_may_be_given_one_by_one():
+    bones = person()
+    motion = walk(bones)
+    with pytest.warns(DeprecationWarning, match=r"written gait_from_bones\(soles=SoleSource\(skin=\.\.\)\)"):
+        old = body.gait_from_bones(bones, motion, mass=70.0, frame_rate=120.0, skin=boots())
+    assert old == gait(bones, motion, skin=boots()) != gait(bones, motion)
 
 
 def test_parts_tile_without_a_gap():

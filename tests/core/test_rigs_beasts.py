@@ -5,6 +5,7 @@ import pytest
 
 from desire_path.rig import body, rig_names, rigs
 from desire_path.rig.body import Motion, Skeleton
+from desire_path.rig.skeleton import SampledBones
 from tests.core import test_rigs
 from tests.core.test_rigs import person, skeleton
 
@@ -318,4 +319,4 @@ def test_up_is_where_the_legs_go(name):
     rig = rigs.detect(made)
     made.rest[0, 1, 3] = 1.9
     motion = Motion(np.array([0.0]), made.names, made.rest[None])
-    np.testing.assert_array_equal(body.rest_up(body._Bones(made, motion), rig), (0.0, 0.0, 1.0))
+    np.testing.assert_array_equal(body.rest_up(SampledBones(made, motion), rig), (0.0, 0.0, 1.0))

@@ -9,7 +9,7 @@ from scenes import beasts
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.motion import rotation
 from desire_path.rig import body, rigs, slope
-from desire_path.rig.body import Motion
+from desire_path.rig.body import Motion, SoleSource
 from desire_path.rig.foot import FootShape
 from tests.core.test_body import person, walk
 from tests.core.test_place import plane
@@ -38,7 +38,9 @@ def test_a_tilted_walk_is_the_walk_tilted(toes, axis):
     normal = turn[:, 2]
     land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
     flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
-    tilted = body.gait_from_bones(skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0, land=land)
+    tilted = body.gait_from_bones(
+        skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0, soles=body.SoleSource(land=land)
+    )
     np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=2e-3)
     np.testing.assert_allclose(
         rotation.matrix(tilted.pose[..., 3:]), turn @ rotation.matrix(flat.pose[..., 3:]), atol=0.02
@@ -60,7 +62,7 @@ def test_level_feet_over_a_slope_stay_level():
         Simulation(plane(0.1, 0.25)),
         Simulation(Ground.heights(np.zeros((3, 3)), 0.1, 50.0, 50.0)),
     ):
-        same = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, land=land)
+        same = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, soles=SoleSource(land=land))
         np.testing.assert_array_equal(same.pose, flat.pose)
 
 
@@ -77,7 +79,9 @@ def test_known_shapes_are_kept():
         toe_turn=np.eye(3),
         ball_side=0.0,
     )
-    gait = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0, shapes={"foot.L": shape})
+    gait = body.gait_from_bones(
+        skeleton, motion, mass=70.0, frame_rate=120.0, soles=SoleSource(shapes={"foot.L": shape})
+    )
     left = gait.soles[2 * gait.limb_name.index("foot.L")].vertices
     assert left[:, 0].min() == pytest.approx(-0.04, abs=1e-6)
     turn = motion.matrix[:, motion.bones.index("foot.L"), :3, :3]
@@ -135,7 +139,7 @@ def test_a_beast_of_a_level_floor_stays_level(toes, roll, along, across):
         rig = rigs.build(bones, [replace(foot, toe=None) for foot in rig.feet])
     flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0, rig=rig)
     same = body.gait_from_bones(
-        bones, motion, mass=30.0, frame_rate=120.0, rig=rig, land=Simulation(plane(across, along))
+        bones, motion, mass=30.0, frame_rate=120.0, rig=rig, soles=SoleSource(land=Simulation(plane(across, along)))
     )
     np.testing.assert_array_equal(same.pose, flat.pose)
 
@@ -148,5 +152,7 @@ def test_a_beast_of_a_hill_lies_on_it(roll, axis):
     normal = turn[:, 2]
     land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
     flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0)
-    tilted = body.gait_from_bones(bones, on_hill(motion, turn), mass=30.0, frame_rate=120.0, land=land)
+    tilted = body.gait_from_bones(
+        bones, on_hill(motion, turn), mass=30.0, frame_rate=120.0, soles=body.SoleSource(land=land)
+    )
     np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=5e-3)

@@ -153,11 +153,23 @@ def test_a_crate_on_a_rope_presses_nothing():
         (dict(triangles=np.zeros((0, 3), int)), "no faces"),
         (dict(vertices=np.full((8, 3), np.nan)), "NaN or infinite"),
         (dict(mass=0.0), "mass"),
+        (dict(triangles=[(0, 1, 8)]), "face without its vertices"),
+        (dict(triangles=[(0, 1, -1)]), "face without its vertices"),
+        (dict(matrix=np.eye(4)), r"shape \(4, 4\) where .* is needed"),
     ],
 )
 def test_bad_bodies_are_refused(change, words):
     vertices, faces = box((0.2, 0.2, 0.2))
     time, matrix = still(0.1)
-    told = dict(vertices=vertices, triangles=faces, mass=5.0, frame_rate=60.0) | change
+    given = dict(matrix=matrix, vertices=vertices, triangles=faces, mass=5.0, frame_rate=60.0) | change
     with pytest.raises(DesirePathError, match=words):
-        solid.gait_from_solid(time, matrix, **told)
+        solid.gait_from_solid(time, **given)
+
+
+def test_what_is_said_of_a_body_may_be_given_one_by_one():
+    vertices, faces = box((0.2, 0.2, 0.2))
+    body = (*still(0.1), vertices, faces)
+    new = solid.gait_from_solid(*body, mass=5.0, frame_rate=60.0, options=solid.SolidOptions("Crate", 7, ("Odd.",)))
+    with pytest.warns(DeprecationWarning, match=r"SolidOptions\(name=.*frame_start=.*warnings="):
+        old = solid.gait_from_solid(*body, mass=5.0, frame_rate=60.0, name="Crate", frame_start=7, warnings=["Odd."])
+    assert old == new and new.walker_name == ("Crate",) and new.frame_start == 7 and new.warnings == ("Odd.",)

@@ -143,5 +143,8 @@ def test_a_tread_of_no_use():
     bad[3, 1] = np.nan
     with pytest.raises(DesirePathError, match="'Boot' has NaN"):
         gait(bones, motion, tread=Tread(bad, FACES, "'Boot'"))
+    for faces in ([(0, 1, 10**6)], [(0, 1, -1)]):
+        with pytest.raises(DesirePathError, match="'Boot' has a face without its vertices"):
+            gait(bones, motion, tread=Tread(boot().vertices, np.array(faces), "'Boot'"))
     large = Tread(boot().vertices * 10.0, boot().triangles, "'Boot'")
     assert any("2.90 m long under a foot" in each for each in gait(bones, motion, tread=large).warnings)

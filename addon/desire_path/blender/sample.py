@@ -178,7 +178,7 @@ def weight(armature, shape, found, volume=None):
         return axes.typed(settings.mass), ()
     if volume:
         settings.estimated_mass = mass.DENSITY * volume
-        return mass.DENSITY * volume, (mass.told_by_volume(armature.name, mass.DENSITY * volume, volume),)
+        return mass.DENSITY * volume, (mass.sentence_by_volume(armature.name, mass.DENSITY * volume, volume),)
     kilograms, height = mass.estimate(shape, found, armature.name)
     settings.estimated_mass = kilograms
     return kilograms, (mass.sentence(armature.name, kilograms, height),)
@@ -248,12 +248,14 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         mass=kilograms,
         name=armature.name,
         rig=found,
-        skin=worn,
-        tread=tread(scene, armature, found.feet, world, scale, frames),
         frame_rate=rate,
         frame_start=frame_start,
-        land=land,
-        shapes=placed(armature),
+        soles=body.SoleSource(
+            skin=worn,
+            tread=tread(scene, armature, found.feet, world, scale, frames),
+            land=land,
+            shapes=placed(armature),
+        ),
     )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
     return replace(gait, warnings=size + gait.warnings + told + rode)
@@ -297,10 +299,8 @@ def _solid(scene, obj, frames, samples, rate, scale):
         vertices,
         faces,
         mass=kilograms,
-        name=obj.name,
         frame_rate=rate,
-        frame_start=round(frames[0]),
-        warnings=told + estimated,
+        options=solid.SolidOptions(obj.name, round(frames[0]), told + estimated),
     )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
     return replace(gait, warnings=gait.warnings + rode)
@@ -322,7 +322,7 @@ def _solid_weight(obj, vertices, faces):
             f"The mass of '{obj.name}' cannot be estimated, since its mesh is not closed: give it a mass in kilograms."
         )
     settings.estimated_mass = mass.DENSITY * volume
-    return mass.DENSITY * volume, [mass.told_by_volume(obj.name, mass.DENSITY * volume, volume)]
+    return mass.DENSITY * volume, [mass.sentence_by_volume(obj.name, mass.DENSITY * volume, volume)]
 
 
 def simulated(obj):

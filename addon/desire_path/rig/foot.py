@@ -3,6 +3,8 @@
 bones of a foot ---flat samples of the clip, or the rest pose---> FootShape ---> poses, soles, points
 """
 
+from __future__ import annotations
+
 import copy
 from dataclasses import dataclass, replace
 
@@ -11,9 +13,8 @@ import numpy as np
 from ..errors import DesirePathError
 from ..motion import rotation, stays
 from ..motion import size as sizes
-from ..motion.gait import BALL, HEEL, TIP, Sole
-from . import rig_names, sole
-from . import sole_mesh as treads
+from .rigs import Foot as Slots
+from .skeleton import SampledBones
 
 HEEL_BEHIND = 0.17  # the heel lies this share of ankle-to-tip behind the ankle, on the ground
 HEEL_FAR = 0.6  # a heel bone farther behind than this share of ankle-to-tip is none
@@ -28,7 +29,7 @@ LONG = 2.0  # nor does one longer than this many times ankle-to-ball
 SIDEWAYS = np.cos(np.radians(70.0))  # a last bone that points so far off the way the body faces tells no foot
 FAR_TAIL = 0.6  # nor does one longer than this share of the leg
 GUESS = (0.17, 0.06)  # ankle to ball where nothing tells: ahead and down, in shares of the leg
-PAW = 0.6  # a beast's foot that goes down by this share of ankle-to-ball stands on its toes alone
+PAW = 0.6  # a foot of many that goes down by this share of ankle-to-ball stands on its toes alone
 PAW_PAD = 0.3  # such a foot presses this share of the toes' length behind the ball
 PAW_SKIN = 0.06  # the paw's sole lies this share of its length under its lowest joint
 BALL_PAD = 0.06  # the ball presses this share of the foot behind its joint
@@ -58,9 +59,17 @@ class FootShape:
 class Foot:
     """The bones of one foot over the clip."""
 
-    def __init__(self, bones, foot, leg, person, known=None, beast=False):
+    def __init__(
+        self,
+        bones: SampledBones,
+        foot: Slots,
+        leg: float,
+        person: bool,
+        known: FootShape | None = None,
+        multipod: bool = False,
+    ) -> None:
         self.bones, self.slots = bones, foot
-        self.beast = beast  # walks on more than two legs
+        self.multipod = multipod  # walks on more than two legs
         self.known = known  # its FootShape, where the clip need not tell
         length = bones.length[bones.row[foot.foot]]
         self.toe = foot.toe
@@ -74,59 +83,66 @@ class Foot:
                 )
         self.leg = leg
         self.size = leg / sizes.LEG  # its leg in those of a grown person
-        self.held = None  # samples at which the body keeps its pose: what other ones tell goes before them (T,)
+        self.held: np.ndarray | None = (
+            None  # samples at which the body keeps its pose: what other ones tell goes before them (T,)
+        )
         self.person = person  # walks on two legs below its hips
-        self.made = None  # ball and tip seen from the ankle in the foot bone's axes, where the bone tells nothing
-        self.ahead = None if beast or not self.toe else self._ahead()
-        self.tip = None  # a far "toe" bone: its head is the tip
-        if self.toe and not beast and self._far():
+        self.assumed: np.ndarray | None = (
+            None  # ball and tip seen from the ankle in the foot bone's axes, where the bone tells nothing
+        )
+        self.ahead = None if multipod else self._ahead()
+        self.tip: str | None = None  # a far "toe" bone: its head is the tip
+        if not multipod and self._far():
             self.tip, self.toe = self.toe, None
-        self.ends_at_tip = not self.toe and (self.tip or length > FOOT_TO_LEG * leg > 0)
+        self.ends_at_tip = not self.toe and bool(self.tip or length > FOOT_TO_LEG * leg > 0)
 
-    def over(self, bones):
+    def over(self, bones: SampledBones) -> Foot:
         """The same foot, of bones that were moved."""
         other = copy.copy(self)
         other.bones = bones
         return other
 
-    def face(self, ahead, up):
+    def face(self, ahead: np.ndarray, up: np.ndarray) -> None:
         """Make up a foot that points ahead where its only bone points to one side, or far away."""
         bones, name = self.bones, self.slots.foot
-        way = bones.rest_point(name, 1.0) - bones.rest_point(name)
-        length, level = np.linalg.norm(way), way - (way @ up) * up
+        axis = bones.rest_point(name, 1.0) - bones.rest_point(name)
+        length, level = np.linalg.norm(axis), axis - (axis @ up) * up
         aside = abs(level @ ahead) < SIDEWAYS * np.linalg.norm(level) and np.linalg.norm(level) > 0.3 * length
         if self.slots.toe or not (aside or length > FAR_TAIL * self.leg):
             return
         ball = self.leg * (GUESS[0] * ahead - GUESS[1] * up)
         tip = ball + self.leg * TOE_GUESS * GUESS[0] * ahead
-        self.made = np.stack([ball, tip]) @ rotation.square(bones.rest[bones.row[name], :3, :3])
+        self.assumed = np.stack([ball, tip]) @ rotation.square(bones.rest[bones.row[name], :3, :3])
         self.ends_at_tip = False
 
-    def _ahead(self):
+    def _ahead(self) -> np.ndarray | None:
         """Where the toes end, from the ball in the toe bone's axes, where its tail does not tell; else None."""
-        ankle, ball = (self.bones.rest_point(name) for name in (self.slots.foot, self.toe))
+        if not self.toe:
+            return None
+        ankle, ball = self.bones.rest_point(self.slots.foot), self.bones.rest_point(self.toe)
         run, toe = ball - ankle, self.bones.rest_point(self.toe, 1.0) - ball
-        reach, length = np.linalg.norm(run), np.linalg.norm(toe)
-        if length < LONG * reach and run @ toe > np.cos(ASTRAY) * reach * length:
+        run_length, toe_length = np.linalg.norm(run), np.linalg.norm(toe)
+        if toe_length < LONG * run_length and run @ toe > np.cos(ASTRAY) * run_length * toe_length:
             return None
         return rotation.square(self.bones.rest[self.bones.row[self.toe], :3, :3]).T @ (TOE_GUESS * run)
 
-    def _far(self):
+    def _far(self) -> bool:
         """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
-        ankle, ball, tip = (
-            self.bones.rest_point(n, a) for n, a in ((self.slots.foot, 0.0), (self.toe, 0.0), (self.toe, 1.0))
-        )
-        reach = np.linalg.norm(ball - ankle)
-        return reach > FOOT_TO_LEG * self.leg > 0 and np.linalg.norm(tip - ball) < 0.35 * reach
+        if not self.toe:
+            return False
+        ankle, ball = self.bones.rest_point(self.slots.foot), self.bones.rest_point(self.toe)
+        tip = self.bones.rest_point(self.toe, 1.0)
+        run = float(np.linalg.norm(ball - ankle))
+        return run > FOOT_TO_LEG * self.leg > 0 and bool(np.linalg.norm(tip - ball) < 0.35 * run)
 
-    def joints(self, rest=False):
+    def joints(self, rest: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """ankle, ball, tip: (T, 3) each, or (3,) in the rest pose."""
         at = self.bones.rest_point if rest else self.bones.point
         foot, toe = self.slots.foot, self.toe
         ankle, tail = at(foot), at(foot, 1.0)
-        if self.made is not None:
+        if self.assumed is not None:
             turn = rotation.square(self.bones.rest[self.bones.row[foot], :3, :3]) if rest else self.bones.turn(foot)
-            return ankle, ankle + turn @ self.made[0], ankle + turn @ self.made[1]
+            return ankle, ankle + turn @ self.assumed[0], ankle + turn @ self.assumed[1]
         if toe and self.ahead is not None:
             turn = rotation.square(self.bones.rest[self.bones.row[toe], :3, :3]) if rest else self.bones.turn(toe)
             return ankle, at(toe), at(toe) + turn @ self.ahead
@@ -138,7 +154,7 @@ class Foot:
             return ankle, ankle + share * (tail - ankle), tail
         return ankle, tail, tail + TOE_GUESS * (tail - ankle)
 
-    def bends(self):
+    def bends(self) -> bool:
         """Does the toe bone turn against the foot bone at all?"""
         if not self.toe:
             return False
@@ -146,15 +162,15 @@ class Foot:
         apart = np.einsum("tij,ij->t", between, between[0])
         return bool(np.arccos(np.clip((apart.min() - 1) / 2, -1, 1)) > STIFF)
 
-    def low(self, told):
+    def low(self, seen: np.ndarray) -> np.ndarray:
         """Where ankle and ball are as low as where they stand in the samples of a mask, if it has any (T,)."""
-        return self._height(told if told.any() else ~told) < DOWN * self.leg
+        return self._height(seen if seen.any() else ~seen) < DOWN * self.leg
 
-    def _height(self, told):
+    def _height(self, seen: np.ndarray) -> np.ndarray:
         """Of ankle and ball over their lowest places in the samples of a mask, the greater (T,)."""
-        return np.maximum(*(joint[:, 2] - np.quantile(joint[told, 2], 0.02) for joint in self.joints()[:2]))
+        return np.maximum(*(joint[:, 2] - np.quantile(joint[seen, 2], 0.02) for joint in self.joints()[:2]))
 
-    def flat(self, time):
+    def flat(self, time: np.ndarray) -> np.ndarray:
         """Samples at which the foot stands flat: low or slow, neither rising nor turning.
 
         A pose that is held in mid-step says least of that, since a foot in the air is as still in it as one that
@@ -169,7 +185,7 @@ class Foot:
                 return flat
         return self._flat(time, tell)
 
-    def _flat(self, time, told):
+    def _flat(self, time: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """flat() of the samples in a mask.
 
         A runner's foot is hardly ever still: where nothing is found, up to four times as much goes.
@@ -181,11 +197,11 @@ class Foot:
         spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0) * pace
         speed = np.maximum(np.linalg.norm(v_ankle, axis=1), np.linalg.norm(v_ball, axis=1))
         rise = np.maximum(abs(v_ankle[:, 2]), abs(v_ball[:, 2]))
-        low = self._height(told) < LOW * self.leg
+        low = self._height(seen) < LOW * self.leg
         over_ball = ankle[:, 2] - ball[:, 2]
         for more in (1.0, 2.0, 4.0):
             slow = (speed < more * FLAT_SPEED) | (low & (rise < more * 0.5 * FLAT_RISE))
-            flat = told & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
+            flat = seen & slow & (rise < more * FLAT_RISE) & (spin < more * FLAT_TURN)
             if more > 1.0:
                 flat &= low
             if flat.any():  # of those, the ones with the heel down
@@ -195,7 +211,7 @@ class Foot:
                 return flat
         return np.zeros(len(time), bool)
 
-    def _heel(self, foot_turn, frame, weight, heel_x, tip_x):
+    def _heel(self, foot_turn: np.ndarray, frame: np.ndarray, weight: np.ndarray, heel_x: float, tip_x: float) -> float:
         """x of the heel's end: a heel bone tells it, where it lies behind the ankle."""
         if not self.slots.heel:
             return heel_x
@@ -209,7 +225,9 @@ class Foot:
         behind = min(end[0] for end in ends)
         return behind if -HEEL_FAR * tip_x < behind < 0.0 else heel_x
 
-    def shape(self, time, up_rest, ahead_rest, skinned):
+    def shape(
+        self, time: np.ndarray, up_rest: np.ndarray, ahead_rest: np.ndarray, skinned: bool
+    ) -> tuple[FootShape, np.ndarray]:
         """Joints in the flat foot, from the clip itself, else from the rest pose."""
         flat = self.flat(time)
         if self.known is not None and not skinned:
@@ -219,7 +237,8 @@ class Foot:
             row = self.bones.row
             foot_turn = rotation.square(self.bones.rest[row[self.slots.foot], :3, :3])[None]
             toe_turn = rotation.square(self.bones.rest[row[self.toe], :3, :3])[None] if self.toe else None
-            up, ahead, weight = up_rest, ahead_rest, np.ones(1)
+            up, weight = up_rest, np.ones(1)
+            ahead: np.ndarray | None = ahead_rest
         else:
             weight = stays.votes(flat, time, self.size)[flat]
             ankle, ball, tip = (j[flat] for j in self.joints())
@@ -236,19 +255,18 @@ class Foot:
         frame = rotation.frame(across, up)
         inside = lambda p: stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
         ball_in, tip_in = inside(ball), inside(tip)
-        turns = tuple(
-            None if each is None else rotation.mean_turn(np.swapaxes(each, 1, 2) @ frame, weight)
-            for each in (foot_turn, toe_turn)
-        )
-        if self.beast and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
-            return self._paw(ball_in, tip_in, turns), flat
-        reach = ball_in[0]
-        if reach < 0.02 * self.leg:  # an upright foot bone tells nothing of the foot's length
-            reach = 0.17 * self.leg
-        toes = tip_in[0] - reach
-        if not TOE_SHARE[0] * reach <= toes <= TOE_SHARE[1] * reach:
-            toes = TOE_GUESS * reach
-        tip_x = reach + toes
+        mean = lambda turn: rotation.mean_turn(np.swapaxes(turn, 1, 2) @ frame, weight)
+        foot_in = mean(foot_turn)
+        toe_in = None if toe_turn is None else mean(toe_turn)
+        if self.multipod and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):
+            return self._paw(ball_in, tip_in, foot_in, toe_in), flat
+        ball_x = ball_in[0]
+        if ball_x < 0.02 * self.leg:  # an upright foot bone tells nothing of the foot's length
+            ball_x = 0.17 * self.leg
+        toes = tip_in[0] - ball_x
+        if not TOE_SHARE[0] * ball_x <= toes <= TOE_SHARE[1] * ball_x:
+            toes = TOE_GUESS * ball_x
+        tip_x = ball_x + toes
         heel_x = -HEEL_BEHIND * tip_x
         length = tip_x - heel_x
         if self.person and not skinned and length < SHORT_FOOT * FOOT_OF_LEG * self.leg:
@@ -259,148 +277,13 @@ class Foot:
             heel_x = self._heel(foot_turn, frame, weight, heel_x, tip_x)
         # the sole lies under the lowest joint, the ankle no lower over it than in people
         ankle_height = max(ANKLE_HEIGHT * length, -ball_in[2] + 0.06 * length)
-        return FootShape(reach, tip_x, heel_x, ankle_height, ankle_height + ball_in[2], *turns, ball_in[1]), flat
+        return FootShape(
+            ball_x, tip_x, heel_x, ankle_height, ankle_height + ball_in[2], foot_in, toe_in, ball_in[1]
+        ), flat
 
-    def _paw(self, ball, tip, turns):
+    def _paw(self, ball: np.ndarray, tip: np.ndarray, foot_turn: np.ndarray, toe_turn: np.ndarray | None) -> FootShape:
         """The shape of a foot on its toes: its heel is in the air, what presses lies around the ball and ahead."""
         toes = max(tip[0] - ball[0], 0.03 * self.leg)
         heel, end = ball[0] - PAW_PAD * toes, ball[0] + toes
         height = -min(ball[2], tip[2]) + PAW_SKIN * (end - heel)
-        return FootShape(ball[0], end, heel, height, height + ball[2], *turns, ball[1])
-
-
-def _level_toe(turn, ball, low):
-    """Turn of a toe part without a bone of its own: level until the ball has left the ground.
-
-    turn (T, 3, 3) of the heel part, ball (T,) height of the ball over its resting height [m]; `low`
-    [m] is the height over which the toes follow the foot again. TRAIL (2) gives it thus.
-    """
-    forward = turn[:, :, 0]
-    level = rotation.frame(forward, (0.0, 0.0, 1.0))
-    steep = np.hypot(forward[:, 0], forward[:, 1]) < 0.2
-    level[steep] = turn[steep]
-    bend = np.clip(-forward[:, 2], 0.0, None) > 0.0  # heel above ball
-    lift = np.clip((ball - 0.3 * low) / (0.7 * low), 0.0, 1.0)
-    follow = np.where(bend, lift * lift * (3 - 2 * lift), 1.0)
-    mixed = level + follow[:, None, None] * (turn - level)
-    return rotation.square(mixed)
-
-
-def parts(bones, foot, time, up_rest, ahead_rest, left, skin, skeleton, laid, warnings):
-    """Poses, soles and contact points of the two parts of one foot. laid: a tread, or None."""
-    at_foot = laid is not None and laid.at_foot
-    shape, flat = foot.shape(time, up_rest, ahead_rest, skin is not None or at_foot)
-    if skin is None and not at_foot and not flat.any() and len(time) > 2:
-        warnings.append(f"{foot.slots.foot} never stands flat: its sole was laid by the rest pose.")
-    soles = None
-    if skin is not None:
-        soles = _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest)
-        if soles is None and laid is None:
-            warnings.append(f"No faces of the mesh move with {foot.slots.foot}: it got the built-in sole.")
-    if laid is not None:
-        soles, below = treads.soles(laid, left, shape.ball)
-        if at_foot:  # as thick as it was modelled
-            shape.ball_height += below - shape.ankle_height
-            shape.ankle_height = below
-    heel_turn = bones.turn(foot.slots.foot) @ shape.foot_turn
-    ankle, ball, _ = foot.joints()
-    heel_at = ankle - heel_turn[:, :, 2] * shape.ankle_height
-    ball_in_foot = np.array([shape.ball, 0.0, 0.0])
-    if foot.bends():
-        toe_turn = bones.turn(foot.toe) @ shape.toe_turn
-        toe_at = ball - toe_turn @ np.array([0.0, shape.ball_side, shape.ball_height])
-    else:
-        under = heel_at + heel_turn @ ball_in_foot
-        rest_height = (
-            stays.median(under[:, 2], stays.votes(flat, time, foot.size))
-            if flat.any()
-            else np.quantile(under[bones.tell, 2], 0.05)
-        )
-        low = 0.25 * (shape.tip - shape.heel)
-        toe_turn = _level_toe(heel_turn, under[:, 2] - rest_height, low)
-        toe_at = under
-    heel_x, tip_x = shape.heel, shape.tip
-    if soles is None:
-        soles = sole.built_in(shape.heel, shape.ball, shape.tip, left)
-    else:
-        heel_x = float(soles[0].vertices[:, 0].min())
-        tip_x = shape.ball + float(soles[1].vertices[:, 0].max())
-    length = tip_x - heel_x
-    toe_length = tip_x - shape.ball
-    points = [
-        (0, HEEL, (heel_x + 0.09 * length, 0.0, 0.0)),
-        (0, BALL, (shape.ball - BALL_PAD * length, 0.0, 0.0)),
-        (1, BALL, (0.0, 0.0, 0.0)),
-        (1, TIP, (toe_length - 0.04 * length, 0.0, 0.0)),
-    ]
-    poses = [
-        np.concatenate([at, rotation.quaternion(turn)], axis=1)
-        for at, turn in ((heel_at, heel_turn), (toe_at, toe_turn))
-    ]
-    return poses, soles, points
-
-
-def _to_frame(bones, foot, shape):
-    """Rest space to the frame of a flat foot, its ankle at the origin (4, 4)."""
-    turn = rotation.square(bones.rest[bones.row[foot.slots.foot], :3, :3]) @ shape.foot_turn
-    out = np.eye(4)
-    out[:3, :3] = turn.T
-    out[:3, 3] = -turn.T @ foot.joints(rest=True)[0]
-    return out
-
-
-def lay_tread(bones, feet, lefts, tread, time, up_rest, ahead_rest):
-    """The tread under one foot of the rest pose, left feet asked first."""
-    places = []
-    for foot, left in sorted(zip(feet, lefts), key=lambda each: not each[1]):
-        shape, _ = foot.shape(time, up_rest, ahead_rest, True)
-        places.append((_to_frame(bones, foot, shape), shape.heel, shape.tip, left))
-    return treads.lay(tread, places, up_rest, ahead_rest)
-
-
-def _skin_soles(bones, foot, shape, skin, skeleton, up_rest, ahead_rest):
-    """Soles from the rest pose's skin, laid so that its lowest vertex is at z = 0; None if none."""
-    parents = [int(p) for p in skeleton.parents]
-
-    def family(name, stop):
-        row, found = bones.row[name], set()
-        for b, other in enumerate(skeleton.names):
-            up = b
-            while up >= 0 and up != row and skeleton.names[up] not in stop:
-                up = parents[up]
-            if up == row:
-                found.add(other)
-        return found
-
-    toe_family = family(foot.toe, ()) if foot.toe else set()
-    foot_family = family(foot.slots.foot, ()) - toe_family
-    if foot.slots.heel and foot.slots.heel not in toe_family:  # need not hang on the foot
-        foot_family.add(foot.slots.heel)
-    if foot.toe:  # small toes beside the chosen one
-        for name in list(foot_family):
-            if name != foot.slots.foot and rig_names.is_toe(name):
-                foot_family.discard(name)
-                toe_family.add(name)
-    to_frame = _to_frame(bones, foot, shape)
-    cut = sole.from_skin(skin, foot_family, toe_family, to_frame, 0.0)
-    if cut is None or cut[0] is None:
-        return None
-    if cut[1] is None:  # no toe bone, or none that moves faces: split at the ball
-        vertices, triangles = cut[0]
-        ahead = vertices[triangles, 0].mean(axis=1) > shape.ball
-        cut = [_pick(vertices, triangles[~ahead]), _pick(vertices, triangles[ahead])]
-        if cut[0] is None or cut[1] is None:
-            return None
-    floor = min(cut[0][0][:, 2].min(), cut[1][0][:, 2].min())
-    shape.ball_height += -floor - shape.ankle_height
-    shape.ankle_height = -floor
-    heel = cut[0][0] - (0.0, 0.0, floor)
-    toe = cut[1][0] - (shape.ball, 0.0, floor)
-    return Sole(heel, cut[0][1]), Sole(toe, cut[1][1])
-
-
-def _pick(vertices, triangles):
-    if not len(triangles):
-        return None
-    used, packed = np.unique(triangles, return_inverse=True)
-    return vertices[used], packed.reshape(-1, 3).astype("i4")
+        return FootShape(ball[0], end, heel, height, height + ball[2], foot_turn, toe_turn, ball[1])

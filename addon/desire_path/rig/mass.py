@@ -4,11 +4,14 @@ legs of the rest pose --Winter--> standing height --body mass index--> mass of a
 mesh of the rest pose --volume of each bone--> segments, mass of anything else
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ..errors import DesirePathError
 from ..motion import rotation
-from .rigs import Segment
+from .rigs import Rig, Segment
+from .skeleton import Skeleton, Skin
 
 # Winter, Biomechanics and Motor Control of Human Movement, 4th ed., figure 4.1: hip joint at 0.530 of
 # the height, ankle at 0.039.
@@ -25,7 +28,7 @@ DENSITY = 1000.0  # of living bodies, that of water within a few per cent [kg/m^
 SMALL = 0.005  # bones that move less than this share of the volume are not worth sampling
 
 
-def standing_height(skeleton, rig):
+def standing_height(skeleton: Skeleton, rig: Rig) -> float | None:
     """Height of a person with these legs, stretched [m]; None where legs tell none."""
     if len(rig.feet) != 2:
         return None
@@ -33,14 +36,14 @@ def standing_height(skeleton, rig):
     at = np.asarray(skeleton.rest, float)[:, :3, 3]
     legs = []
     for foot in rig.feet:
-        joints = [name for name in (foot.thigh or rig.hips, foot.shank if foot.thigh else None, foot.foot) if name]
-        joints = at[[row[name] for name in joints]]
+        names = [name for name in (foot.thigh or rig.hips, foot.shank if foot.thigh else None, foot.foot) if name]
+        joints = at[[row[name] for name in names]]
         legs.append(float(np.linalg.norm(np.diff(joints, axis=0), axis=1).sum()))
     leg = float(np.mean(legs))
     return leg / LEG if min(legs) > 0.0 else None
 
 
-def by_volume(skeleton, rig, skin):
+def by_volume(skeleton: Skeleton, rig: Rig, skin: Skin) -> tuple[tuple[Segment, ...], float] | None:
     """(segments, volume [m^3]) of a body whose mesh is bound to its bones: one segment a bone, with its
     share of what lies between the faces and the lines of their bones. None where the mesh holds nothing."""
     row = {name: i for i, name in enumerate(skeleton.names)}
@@ -52,35 +55,35 @@ def by_volume(skeleton, rig, skin):
     owner = share.argmax(axis=0)
     rest = np.asarray(skeleton.rest, float)[[row[name] for name in names]]
     length = np.asarray(skeleton.length, float)[[row[name] for name in names]]
-    head, way = rest[:, :3, 3], rotation.unit(rest[:, :3, 1])
+    head, axes = rest[:, :3, 3], rotation.unit(rest[:, :3, 1])
     middle = corner.mean(axis=1)
-    along = np.clip(((middle - head[owner]) * way[owner]).sum(axis=1), 0.0, length[owner])
-    line = head[owner] + along[:, None] * way[owner]
+    along = np.clip(((middle - head[owner]) * axes[owner]).sum(axis=1), 0.0, length[owner])
+    line = head[owner] + along[:, None] * axes[owner]
     a, b, c = (corner[:, k] - line for k in range(3))
     part = (np.cross(a, b) * c).sum(axis=1) / 4.0  # of the wedge from the bone's line to the face
     part = part * (np.sign(part.sum()) or 1.0)  # a mirrored mesh is inside out
     centre = (2.0 * middle + line) / 3.0
     volume = np.bincount(owner, part, len(names))
-    whole = volume.sum()
+    total = volume.sum()
     inside = abs((np.cross(corner[:, 0], corner[:, 1]) * corner[:, 2]).sum()) / 6.0  # if it is closed
     feet = np.mean([np.asarray(skeleton.rest, float)[row[foot.foot], :3, 3] for foot in rig.feet], axis=0)
     segments = []
     for k, name in enumerate(names):
-        if volume[k] <= SMALL * whole or not length[k] > 0.0:
+        if volume[k] <= SMALL * total or not length[k] > 0.0:
             continue
         at = np.stack([np.bincount(owner, part * centre[:, c], len(names))[k] for c in range(3)]) / volume[k]
-        share_of_bone = float((at - head[k]) @ way[k] / length[k])
-        off = at - head[k] - (at - head[k]) @ way[k] * way[k]
+        share_of_bone = float((at - head[k]) @ axes[k] / length[k])
+        off = at - head[k] - (at - head[k]) @ axes[k] * axes[k]
         up = head.mean(axis=0) - feet
         axis = int(np.argmax(abs(up)))
         lift = float(off[axis] * np.sign(up[axis]))
-        segments.append(Segment(name, float(volume[k] / whole), 0.0, ((name, share_of_bone),), (), lift))
-    if 0.5 * whole < inside < 2.0 * whole:
-        whole = inside
-    return (tuple(segments), float(whole)) if segments else None
+        segments.append(Segment(name, float(volume[k] / total), 0.0, ((name, share_of_bone),), (), lift))
+    if 0.5 * total < inside < 2.0 * total:
+        total = inside
+    return (tuple(segments), float(total)) if segments else None
 
 
-def told_by_volume(name, mass, volume):
+def sentence_by_volume(name: str, mass: float, volume: float) -> str:
     """What is told where a mass was estimated from a mesh."""
     return (
         f"{name} weighs {mass:.3g} kg by an estimate from the {volume * 1000:.3g} litres of its mesh: set a "
@@ -88,7 +91,7 @@ def told_by_volume(name, mass, volume):
     )
 
 
-def estimate(skeleton, rig, name="Walker"):
+def estimate(skeleton: Skeleton, rig: Rig, name: str = "Walker") -> tuple[float, float]:
     """(mass [kg], height [m]) of a walker, or a DesirePathError where there is no telling."""
     height = standing_height(skeleton, rig)
     if height is None:
@@ -99,12 +102,12 @@ def estimate(skeleton, rig, name="Walker"):
     return BODY_MASS_INDEX * height**2, height
 
 
-def sentence(name, mass, height):
+def sentence(name: str, mass: float, height: float) -> str:
     """What is told where a mass was estimated."""
     return f"{name} weighs {mass:.3g} kg by an estimate from its height of {height:.2f} m: set a mass to use another."
 
 
-def odd_size(name, height, kilograms=None, chosen=True):
+def odd_size(name: str, height: float, kilograms: float | None = None, chosen: bool = True) -> tuple[str, bool] | None:
     """(a sentence about one with two legs who is of no person's size, can that not be?), None where all is well.
 
     kilograms: the mass that was given, None: none. One whose mass goes with the size is meant to be as large. chosen:

@@ -3,18 +3,22 @@
 names --rig_names.read--> words, side, place --find--> the best bone for a slot
 """
 
+from __future__ import annotations
+
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .rig_names import FORE_SHANK, FORE_THIGH, NEVER_WORDS, SHANK, THIGH, rank_of, read
+from .skeleton import Skeleton
 
 
 class Bones:
     """A skeleton with its names read."""
 
-    def __init__(self, skeleton):
+    def __init__(self, skeleton: Skeleton) -> None:
         self.names = tuple(skeleton.names)
         self.parents = [int(p) for p in skeleton.parents]
         rt = any(re.search(r"(^|[^A-Za-z])rt([^A-Za-z]|$)", n.lower()) for n in self.names)
@@ -24,29 +28,34 @@ class Bones:
         self.tail = self.head + rest[:, :3, 1] * np.asarray(skeleton.length, float)[:, None]
         self.size = float(np.ptp(self.head, axis=0).max()) if len(self.head) else 0.0
 
-    def chain(self, bone):
+    def chain(self, bone: int) -> list[int]:
         """The bone and its ancestors, upward."""
-        seen = []
+        seen: list[int] = []
         while bone >= 0 and bone not in seen:
             seen.append(bone)
             bone = self.parents[bone]
         return seen
 
-    def under(self, bone, ancestor):
+    def under(self, bone: int, ancestor: int) -> bool:
+        """Does a bone hang on another, however far below it?"""
         return bone != ancestor and ancestor in self.chain(bone)
 
-    def apart(self, a, b):
+    def apart(self, a: int, b: int) -> float:
+        """How far two bones' heads are apart [m]."""
         return float(np.linalg.norm(self.head[a] - self.head[b]))
 
-    def beside(self, bone, point):
+    def beside(self, bone: int, point: np.ndarray) -> float:
         """How far a point is from a bone, anywhere along it."""
-        way = self.tail[bone] - self.head[bone]
-        along = np.clip((point - self.head[bone]) @ way / max(way @ way, 1e-18), 0.0, 1.0)
-        return float(np.linalg.norm(self.head[bone] + along * way - point))
+        axis = self.tail[bone] - self.head[bone]
+        along = np.clip((point - self.head[bone]) @ axis / max(axis @ axis, 1e-18), 0.0, 1.0)
+        return float(np.linalg.norm(self.head[bone] + along * axis - point))
 
-    def find(self, table, side="", place=None, where=None):
+    def find(
+        self, table: Sequence[str], side: str = "", place: str | None = None, where: Callable[[int], bool] | None = None
+    ) -> int:
         """The best bone for a slot: layer first, then pattern; -1 if none."""
-        best, found = None, -1
+        best: tuple[int, int, int, int] | None = None
+        found = -1
         for b, name in enumerate(self.read):
             if name.side != side or NEVER_WORDS & set(name.words):
                 continue
@@ -75,7 +84,7 @@ class Found:
 # ---- thighs and shanks ---------------------------------------------------------------------------------
 
 
-def find_legs(bones, foot, place=None):
+def find_legs(bones: Bones, foot: int, place: str | None = None) -> tuple[int, int]:
     """(thigh, shank) above a foot bone, -1 each where there are none."""
     side = bones.read[foot].side
     place = bones.read[foot].place if place is None else place
@@ -86,7 +95,7 @@ def find_legs(bones, foot, place=None):
     return thigh, shank
 
 
-def _legs_by_name(bones, side, place, foot):
+def _legs_by_name(bones: Bones, side: str, place: str, foot: int) -> tuple[int, int]:
     """Thigh and shank of a foot: on its own chain where it has one, else by name alone."""
     on_chain = set(bones.chain(foot)[1:])
     shank = bones.find(("knee",), side, where=on_chain.__contains__)
@@ -110,7 +119,7 @@ def _legs_by_name(bones, side, place, foot):
     return thigh, shank
 
 
-def legs_by_structure(bones, foot):
+def legs_by_structure(bones: Bones, foot: int) -> tuple[int, int]:
     """Thigh and shank from the two bones above a foot, where they are long enough for legs."""
     above = list(bones.chain(foot)[1:])
     shank = thigh = -1

@@ -4,9 +4,13 @@ names of feet --> hind pair, people's feet     hands the body stands on, more na
 no names      --> rig_shape.py
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
 import numpy as np
 
-from .rig_bones import Found, find_legs
+from .rig_bones import Bones, Found, find_legs
 from .rig_names import FINGERS, FOOT, FORE, HEEL, HOOF, NEVER_WORDS, TOE, rank_of
 from .rig_shape import STEEP, by_structure
 
@@ -16,7 +20,7 @@ APART = 0.25  # and is farther than this from them, in heights of the leg
 WRIST = 0.5  # a hand that is a foot begins in the lower share of it: people's hang higher
 
 
-def _foot_of(bones, foot, place):
+def _foot_of(bones: Bones, foot: int, place: str) -> tuple[int, int, int]:
     """(foot, toe, heel) around a bone named like a foot."""
     side = bones.read[foot].side
     ankle = bones.find(("ankle",), side, place)
@@ -31,7 +35,7 @@ def _foot_of(bones, foot, place):
     if hoof >= 0 and bones.read[hoof].layer <= layer:
         return hoof, -1, -1  # what is called the foot of a horse is up its leg
 
-    def beside(b):
+    def beside(b: int) -> bool:
         return under(b) or (bones.apart(b, foot) < near and bones.read[b].layer == layer)
 
     toe = bones.find(TOE, side, place, where=beside)
@@ -48,7 +52,7 @@ def _foot_of(bones, foot, place):
     return foot, toe, heel
 
 
-def _middle_toe(bones, under, layer):
+def _middle_toe(bones: Bones, under: Callable[[int], bool], layer: int) -> int:
     """The first bone of the middle one of single toes, whatever their numbers; -1 if there are none."""
     toes = [
         b
@@ -64,7 +68,8 @@ def _middle_toe(bones, under, layer):
     return min(toes, key=lambda b: np.linalg.norm(bones.head[b] - middle), default=-1)
 
 
-def _by_name(bones, side, place):
+def _by_name(bones: Bones, side: str, place: str) -> tuple[int, int, int] | None:
+    """(foot, toe, heel) of a side and place, by the foot's name; None where none is named so."""
     foot = bones.find(FOOT, side, place)
     return _foot_of(bones, foot, place) if foot >= 0 else None
 
@@ -72,18 +77,18 @@ def _by_name(bones, side, place):
 class _Stand:
     """How the feet that are known stand, to tell whether others do: up, floor and height of their legs."""
 
-    def __init__(self, bones, feet):
+    def __init__(self, bones: Bones, feet: Iterable[int]) -> None:
         self.bones = bones
         tops = [next((b for b in find_legs(bones, foot) if b >= 0), bones.chain(foot)[-1]) for foot in feet]
         self.tops = set(tops)
-        ways = np.array(
+        axes = np.array(
             [
                 bones.head[top] - max(self.ends(foot), key=lambda at: np.linalg.norm(at - bones.head[top]))
                 for top, foot in zip(tops, feet)
             ]
         )
-        legs = ways.mean(axis=0)
-        share = np.abs(legs) / max(np.linalg.norm(ways, axis=1).mean(), 1e-12)
+        legs = axes.mean(axis=0)
+        share = np.abs(legs) / max(np.linalg.norm(axes, axis=1).mean(), 1e-12)
         self.axis = 2 if share.max() < CLEAR and share[2] > STEEP else int(np.argmax(share))
         self.sign = np.sign(legs[self.axis]) or 1.0
         self.floor = max(self.low(foot) for foot in feet)
@@ -91,25 +96,26 @@ class _Stand:
         self.feet = list(feet)
         self.layer = max(bones.read[foot].layer for foot in feet)
 
-    def level(self, points):
-        return self.sign * points[..., self.axis]
+    def level(self, points: np.ndarray) -> np.ndarray:
+        """How high points (.., 3) are [m]."""
+        return np.asarray(self.sign * points[..., self.axis])
 
-    def ends(self, bone):
+    def ends(self, bone: int) -> list[np.ndarray]:
         """The points of a foot; a last bone counts no farther than it is from the one before."""
-        bones, found = self.bones, []
+        bones, found = self.bones, list[np.ndarray]()
         for b in range(len(bones.names)):
             if bone not in bones.chain(b) or bones.read[b].layer > max(2, bones.read[bone].layer):
                 continue
-            way, above = bones.tail[b] - bones.head[b], bones.parents[b]
-            reach = bones.apart(b, above) if above >= 0 else 0.0
-            found += [bones.head[b], bones.head[b] + way * min(1.0, reach / max(np.linalg.norm(way), 1e-12))]
+            axis, above = bones.tail[b] - bones.head[b], bones.parents[b]
+            length = bones.apart(b, above) if above >= 0 else 0.0
+            found += [bones.head[b], bones.head[b] + axis * min(1.0, length / max(float(np.linalg.norm(axis)), 1e-12))]
         return found
 
-    def low(self, bone):
+    def low(self, bone: int) -> float:
         """How low a foot reaches."""
         return float(min(map(self.level, self.ends(bone))))
 
-    def holds(self, foot, hand=False):
+    def holds(self, foot: int, hand: bool = False) -> bool:
         """Does the body stand on this bone, with a leg of its own, beside the feet that are known?"""
         bones = self.bones
         if bones.read[foot].layer > self.layer:
@@ -121,14 +127,14 @@ class _Stand:
         top = find_legs(bones, foot)[0]
         if top < 0 or top in self.tops or abs(self.low(foot) - self.floor) > STANDS * self.height:
             return False
-        return not hand or self.level(bones.head[foot]) - self.floor < WRIST * self.height
+        return not hand or bool(self.level(bones.head[foot]) - self.floor < WRIST * self.height)
 
 
-def _pairs(bones, table, stand, place=None):
+def _pairs(bones: Bones, table: Sequence[str], stand: _Stand, place: str | None = None) -> list[tuple[int, int]]:
     """Pairs of bones named by a table that the body stands on, beside those known: [(left, right)], best first."""
     sides = []
     for side in ("L", "R"):
-        known, taken = list(stand.feet), []
+        known, taken = list(stand.feet), list[int]()
         holds = lambda b: stand.holds(b, table is FORE)
         while (bone := bones.find(table, side, place, where=holds)) >= 0:
             taken.append(bone)
@@ -144,13 +150,13 @@ def _pairs(bones, table, stand, place=None):
     return out
 
 
-def _off_mirror(bones, a, b):
+def _off_mirror(bones: Bones, a: int, b: int) -> float:
     """How far two bones are from being each other's mirror image across the side axis that parts them."""
     apart = np.abs(bones.head[a] - bones.head[b])
     return float(np.sort(apart)[:2].sum())
 
 
-def find_feet(bones):
+def find_feet(bones: Bones) -> tuple[list[Found], bool]:
     """([Found], whether the rig's shape told instead of names)."""
     found = []
     for side in ("L", "R"):
@@ -174,9 +180,9 @@ def find_feet(bones):
     return found, False
 
 
-def _more(bones, feet, places):
+def _more(bones: Bones, feet: list[int], places: set[str]) -> list[Found]:
     """The other feet of a body that stands on more than two: named fore and mid, hands, more of the same name."""
-    found = []
+    found: list[Found] = []
     for table, place, word in ((FOOT, "front", "front"), (FOOT, "mid", "mid"), (FORE, None, "front"), (FOOT, None, "")):
         if place in places or (word == "front" and any(each.place == "front" for each in found)):
             continue
@@ -189,5 +195,6 @@ def _more(bones, feet, places):
     return found
 
 
-def _word(side, place):
+def _word(side: str, place: str) -> str:
+    """What a foot is called for people."""
     return f"{dict(L='left', R='right').get(side, '')} {place}".strip() or "foot"

@@ -6,7 +6,10 @@ matches the last words of a name, so that a character's own name in front (`Bob 
 harm, nor does the number that Blender puts behind a copy (`foot.L.001`).
 """
 
+from __future__ import annotations
+
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 # ---- the tables ----------------------------------------------------------------------------------
@@ -176,21 +179,21 @@ _HAND = set(FORE) | {"finger", "fingers"}
 
 @dataclass(frozen=True)
 class Name:
-    words: tuple  # without side, layer and place
+    words: tuple[str, ...]  # without side, layer and place
     side: str  # "L", "R" or ""
     layer: int
     place: str = ""  # of a limb among many: "front", "mid", or "" for the hind ones and those of people
     size: int = 0  # how many words there were besides side and layer
 
 
-def read(name, lf_is_left=False):
+def read(name: str, lf_is_left: bool = False) -> Name:
     """Words, side, layer and place of a bone's name. lf_is_left: `lf` means left, as where `rt` is right."""
     bare = name.rsplit(":", 1)[-1]
     raw = _WORD.findall(bare)
     if lf_is_left:
         raw = ["left" if word.lower() == "lf" else word for word in raw]
     at = _side_at([word.lower() for word in raw])
-    words, side, layer, place = [], "" if at is None else SIDE_WORDS[raw[at].lower()], 2, ""
+    words, side, layer, place = list[str](), "" if at is None else SIDE_WORDS[raw[at].lower()], 2, ""
     for k, word in enumerate(raw):
         word = word.lower()
         if k == at:
@@ -212,18 +215,19 @@ def read(name, lf_is_left=False):
         words = [w for w in words if w not in CONTROL_WORDS] if bare.startswith("c_") else words
     size = len(words)
     if (_LIMB | _HAND) & set(words):
-        words, place, side = _placed(words, side)
+        kept, place, side = _placed(words, side)
+        return Name(kept, side, layer, place, size)
     return Name(tuple(words), side, layer, place, size)
 
 
-def _side_at(words):
+def _side_at(words: Sequence[str]) -> int | None:
     """Which word says left or right: one in full before a letter, the last letter before others (`r_toe.L`)."""
     full = [k for k, word in enumerate(words) if word in SIDE_WORDS and word not in ("l", "r")]
     letters = [k for k, word in enumerate(words) if word in ("l", "r")]
     return full[0] if full else letters[-1] if letters else None
 
 
-def _fused(word):
+def _fused(word: str) -> tuple[str, str, str]:
     """(word, place word or "", side or "") of words written as one: `lfoot`, `forefoot`, `frontleftpaw`."""
     for place in ("", *PLACE_WORDS):
         for mark in ("", "left", "right", "l", "r"):
@@ -233,7 +237,7 @@ def _fused(word):
     return word, "", ""
 
 
-def _placed(words, side):
+def _placed(words: Sequence[str], side: str) -> tuple[tuple[str, ...], str, str]:
     """(words without those that say which limb, the place they say, the side)."""
     kept, place, hand = [], "", _HAND & set(words)
     for k, word in enumerate(words):
@@ -249,19 +253,19 @@ def _placed(words, side):
     return tuple(kept or words), place, side
 
 
-def rank_of(words, table):
+def rank_of(words: Sequence[str], table: Sequence[str]) -> int | None:
     """Index of the first pattern that ends the name, or None; a copy's number is passed over last."""
     text = " ".join(words)
     for rank, pattern in enumerate(table):
         if text == pattern or text.endswith(" " + pattern):
             return rank
     if len(words) > 1 and len(words[-1]) == 3 and words[-1].isdigit():
-        rank = rank_of(words[:-1], table)
-        return None if rank is None else rank + len(table)
+        copied = rank_of(words[:-1], table)
+        return None if copied is None else copied + len(table)
     return None
 
 
-def is_toe(name):
+def is_toe(name: str) -> bool:
     """Is a bone named like a toe?"""
     words = read(name).words
     return rank_of(words, TOE) is not None or any("toe" in w for w in words)

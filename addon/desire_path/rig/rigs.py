@@ -3,7 +3,11 @@
 Skeleton --rig_feet.find_feet--> feet, toes, heels --rig_bones.find_legs--> thighs, shanks --build--> Rig
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,6 +15,7 @@ from ..errors import DesirePathError
 from .rig_bones import Bones, find_legs
 from .rig_feet import find_feet
 from .rig_names import CHEST, HEAD, HIPS, NECK
+from .skeleton import Skeleton
 
 # Winter, Biomechanics and Motor Control of Human Movement, 4th ed., table 4.1: share of the body's
 # mass, and how far along the segment its centre lies from the first joint.
@@ -23,12 +28,16 @@ SOLE = (0.0145, 0.500)  # foot: ankle to ball
 TRUNK_LIFT = 0.296
 HIPS_NEAR = 0.75  # a bone named like hips lies this near to the legs' tops, in leg lengths: `spine` may be a tail
 
+Points: TypeAlias = tuple[tuple[str, float], ...]  # bones, and where along them: 0 head .. 1 tail
+
 
 # ---- what comes out --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Foot:
+    """The bones of one foot, by name."""
+
     limb: str  # a word for people: "left", "right", "left front" ..
     foot: str  # the bone whose head is the ankle
     toe: str | None = None  # the bone whose head is the ball
@@ -39,7 +48,7 @@ class Foot:
 
 @dataclass(frozen=True)
 class Segment:
-    """A piece of the body: its mass sits `along` the way from start to end.
+    """A piece of the body: its mass sits `along` from start to end.
 
     start and end are means of points ((bone, 0 head .. 1 tail), ..); without an end the centre lies
     `lift` [m] above start. A leg without a knee bone goes from start to end as a whole: its segment is
@@ -49,23 +58,25 @@ class Segment:
     name: str
     mass: float  # share of the body
     along: float
-    start: tuple
-    end: tuple = ()
+    start: Points
+    end: Points = ()
     lift: float = 0.0
     knee: str = ""  # "above", "below", or "" for a segment from joint to joint
 
 
 @dataclass(frozen=True)
 class Rig:
-    feet: tuple  # Foot
+    """Which bones of an armature are what."""
+
+    feet: tuple[Foot, ...]
     hips: str | None = None
-    segments: tuple = ()
-    warnings: tuple = ()
+    segments: tuple[Segment, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     @property
-    def bones(self):
+    def bones(self) -> tuple[str, ...]:
         """Names that must be sampled, each once."""
-        names = [n for f in self.feet for n in (f.foot, f.toe)]
+        names: list[str | None] = [n for f in self.feet for n in (f.foot, f.toe)]
         names += [self.hips] + [n for s in self.segments for n, _ in s.start + s.end]
         return tuple(dict.fromkeys(n for n in names if n))
 
@@ -73,13 +84,18 @@ class Rig:
 # ---- finding feet -----------------------------------------------------------------------------------
 
 
-def legs(skeleton, foot):
+def legs(skeleton: Skeleton, foot: str) -> tuple[str | None, str | None]:
     """Names of thigh and shank above a foot bone, None each where there are none."""
     bones = Bones(skeleton)
-    return tuple(bones.names[b] if b >= 0 else None for b in find_legs(bones, bones.names.index(foot)))
+    if foot not in bones.names:
+        raise DesirePathError(
+            f"The armature has no bone {foot}: it was renamed or removed; choose the foot bone again."
+        )
+    thigh, shank = find_legs(bones, bones.names.index(foot))
+    return bones.names[thigh] if thigh >= 0 else None, bones.names[shank] if shank >= 0 else None
 
 
-def detect(skeleton):
+def detect(skeleton: Skeleton) -> Rig:
     """Feet, hips and segments of a skeleton, or a DesirePathError that says what is missing."""
     bones = Bones(skeleton)
     if not bones.names:
@@ -99,7 +115,11 @@ def detect(skeleton):
         )
     name = lambda b: bones.names[b] if b >= 0 else None
     feet = [
-        Foot(each.limb, *map(name, (each.foot, each.toe, each.heel) + find_legs(bones, each.foot, each.place)))
+        Foot(
+            each.limb,
+            bones.names[each.foot],
+            *map(name, (each.toe, each.heel, *find_legs(bones, each.foot, each.place))),
+        )
         for each in found
     ]
     return build(skeleton, feet, warnings=warnings)
@@ -108,7 +128,7 @@ def detect(skeleton):
 # ---- segments -----------------------------------------------------------------------------------------
 
 
-def _hips(bones, feet):
+def _hips(bones: Bones, feet: Sequence[Foot]) -> int:
     """The bone named like hips that lies at the legs, else the one on which the first two of them hang."""
     row = {name: k for k, name in enumerate(bones.names)}
     ground = np.mean([bones.head[row[f.foot]] for f in feet], axis=0)
@@ -117,10 +137,14 @@ def _hips(bones, feet):
     if tops:
         top = bones.head[tops].mean(axis=0)
         leg = float(np.mean([bones.apart(row[f.thigh], row[f.foot]) for f in feet[:2] if f.thigh]))
-    near = lambda b: not tops or np.linalg.norm(bones.head[b] - top) < HIPS_NEAR * leg
-    high = lambda b: np.linalg.norm(bones.head[b] - ground) > 0.25 * bones.size
-    if len(feet) > 2 and tops:  # a trunk passes its legs, wherever it begins
-        high = lambda b: bones.beside(b, top) < HIPS_NEAR * leg
+    near = lambda b: not tops or bool(np.linalg.norm(bones.head[b] - top) < HIPS_NEAR * leg)
+    passes = len(feet) > 2 and bool(tops)  # a trunk passes its legs, wherever it begins
+
+    def high(b: int) -> bool:
+        if passes:
+            return bones.beside(b, top) < HIPS_NEAR * leg
+        return bool(np.linalg.norm(bones.head[b] - ground) > 0.25 * bones.size)
+
     named = bones.find(HIPS[:2] if len(feet) > 2 else HIPS, "", where=lambda b: high(b) and near(b))
     if (
         named >= 0
@@ -138,7 +162,7 @@ def _hips(bones, feet):
     return row.get(twin, shared[0])
 
 
-def build(skeleton, feet, hips=None, *, warnings=()):
+def build(skeleton: Skeleton, feet: Sequence[Foot], hips: str | None = None, *, warnings: Iterable[str] = ()) -> Rig:
     """A Rig from chosen feet: hips found where not given, segments from whatever bones there are."""
     bones = Bones(skeleton)
     for foot in feet:
@@ -171,12 +195,12 @@ def build(skeleton, feet, hips=None, *, warnings=()):
         # a body hung between its legs: no table fits every animal
         segments.append(Segment("trunk", 0.8, 0.0, tops if len(tops) == len(feet) else hip))
     else:
-        top = bones.find(NECK, "")
-        end = ((bones.names[top], 0.0),) if top >= 0 else ()
-        if top < 0 and (top := bones.find(HEAD, "")) >= 0:
-            end = ((bones.names[top], 0.0),)
-        if top < 0 and (top := bones.find(CHEST, "")) >= 0:
-            end = ((bones.names[top], 1.0),)
+        neck = bones.find(NECK, "")
+        end: Points = ((bones.names[neck], 0.0),) if neck >= 0 else ()
+        if neck < 0 and (neck := bones.find(HEAD, "")) >= 0:
+            end = ((bones.names[neck], 0.0),)
+        if neck < 0 and (neck := bones.find(CHEST, "")) >= 0:
+            end = ((bones.names[neck], 1.0),)
         if end and at >= 0 and end[0][0] == bones.names[at]:
             end = ()
         legs = [

@@ -4,10 +4,16 @@ A foot's frame while it is flat: x forward, y left, z up, the origin on the grou
 The heel part reaches from the heel to the ball, the toe part from the ball to the tip.
 """
 
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TypeAlias
+
 import numpy as np
 
-from ..motion.gait import Sole
+from ..motion.gait import Gait, Sole
 from ..motion.rotation import turned
+from .skeleton import Skin
 
 # Half widths of a left shoe in shares of its length, seen from above: (from heel 0 to tip 1, inner, outer).
 # The widest place, at the ball, is 0.36 wide; last-makers' proportions.
@@ -44,18 +50,22 @@ SHAPED = 8.0  # .. and cells that show its shape
 UNDERSIDE = 0.15  # faces lower than this share of a foot's length are under it, if they look more down than aside
 OVERLAP = 0.012  # the toe part reaches back under the heel part, so that a bent foot has no gap [m]
 
+MAX_FACES = 4000  # under a foot: heavier meshes are thinned to the underside
+Faces: TypeAlias = tuple[np.ndarray, np.ndarray]  # vertices (V, 3) [m], triangles (F, 3)
 
-def _half_widths(u):
+
+def _half_widths(u: float) -> tuple[np.ndarray, np.ndarray]:
+    """Inner and outer half width at a share of the length, in shares of it."""
     return (np.interp(u, OUTLINE[:, 0], OUTLINE[:, 1]), np.interp(u, OUTLINE[:, 0], OUTLINE[:, 2]))
 
 
-def _edge_rise(inset, radius):
+def _edge_rise(inset: np.ndarray | float, radius: float) -> np.ndarray:
     """Height of a rounded edge at a distance from the outline."""
     s = np.clip(inset / max(radius, 1e-9), 0.0, 1.0)
-    return radius * (1.0 - np.sqrt(np.maximum(1.0 - (1.0 - s) ** 2, 0.0)))
+    return np.asarray(radius * (1.0 - np.sqrt(np.maximum(1.0 - (1.0 - s) ** 2, 0.0))))
 
 
-def built_in(heel, ball, tip, left):
+def built_in(heel: float, ball: float, tip: float, left: bool) -> tuple[Sole, Sole]:
     """Soles of the heel part and the toe part from x positions [m] in the foot's frame."""
     length = tip - heel
     split = (ball - heel) / length
@@ -67,7 +77,7 @@ def built_in(heel, ball, tip, left):
     return heel_part, toe_part
 
 
-def _strip(stations, heel, length, left, origin, back):
+def _strip(stations: np.ndarray, heel: float, length: float, left: bool, origin: float, back: float | None) -> Sole:
     """A band of the sole as quads cut in two, nine columns wide. `origin` becomes x = 0."""
     radius = min(ROUND, 0.04 * length)
     sign = 1.0 if left else -1.0
@@ -102,8 +112,10 @@ def _strip(stations, heel, length, left, origin, back):
 # ---- the character's own underside -------------------------------------------------------------------
 
 
-def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
-    """(faces of the heel part, of the toe part) as (vertices, triangles) in the foot's frame, or None.
+def from_skin(
+    skin: Skin, foot_bones: Collection[str], toe_bones: Collection[str], to_frame: np.ndarray, ankle_height: float
+) -> tuple[Faces | None, Faces | None]:
+    """Faces of the heel part and of the toe part in the foot's frame, None each where no face is its.
 
     A face belongs to the bone that moves most of it; those just behind the toes belong to both, so that a
     bent foot has no gap. to_frame (4, 4) takes the skin's rest space to
@@ -112,7 +124,7 @@ def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
     """
     names = list(skin.weights)
     if not names or not len(skin.triangles):
-        return None
+        return None, None
     weights = np.stack([np.asarray(skin.weights[n], float) for n in names])
     owner = weights.argmax(axis=0)
     owner[weights.max(axis=0) <= 0] = -1
@@ -122,19 +134,18 @@ def from_skin(skin, foot_bones, toe_bones, to_frame, ankle_height):
     vertices = np.asarray(skin.vertices, float) @ to_frame[:3, :3].T + to_frame[:3, 3]
     votes = kind[triangles]
     height = vertices[triangles, 2].max(axis=1)
-    soles = []
+    soles: list[Faces | None] = []
     for part in (1, 2):
         mine = (votes == part).sum(axis=1)
         # a face on the seam goes to the toe part if it has no majority, so that none is lost
         chosen = (mine >= 2) | ((part == 2) & (mine == 1) & ((votes == 1).sum(axis=1) == 1))
         chosen &= height < ankle_height
         soles.append(cut(vertices, triangles[chosen]))
-    if soles[0] is not None and soles[1] is not None:
-        soles[1] = _lapped(*soles)
-    return soles
+    heel, toe = soles
+    return heel, toe if heel is None or toe is None else _lapped(heel, toe)
 
 
-def _lapped(heel, toe):
+def _lapped(heel: Faces, toe: Faces) -> Faces:
     """The toe part with a lap under the heel part, as the built-in sole has it."""
     back = toe[0][:, 0].min() - OVERLAP
     corners = [piece for corner in heel[0][heel[1]] for piece in _ahead(corner, back)]
@@ -145,7 +156,7 @@ def _lapped(heel, toe):
     return np.concatenate((toe[0], lap.reshape(-1, 3))), np.concatenate((toe[1], faces))
 
 
-def _ahead(corner, back):
+def _ahead(corner: np.ndarray, back: float) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """The part of a triangle (3, 3) that lies ahead of x = back, as triangles that face the same way."""
     kept = []
     for a, b in zip(corner, np.roll(corner, -1, axis=0)):
@@ -156,16 +167,16 @@ def _ahead(corner, back):
     return [(kept[0], kept[k], kept[k + 1]) for k in range(1, len(kept) - 1)]
 
 
-def cut(vertices, triangles, most=4000):
+def cut(vertices: np.ndarray, triangles: np.ndarray, max_faces: int = MAX_FACES) -> Faces | None:
     """The faces alone, heavy meshes thinned to the underside."""
     if not len(triangles):
         return None
     corner = vertices[triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     size = np.linalg.norm(normal, axis=1)
-    whole = size > 1e-14
-    triangles, corner, normal = triangles[whole], corner[whole], normal[whole] / size[whole, None]
-    if len(triangles) > most:
+    proper = size > 1e-14
+    triangles, corner, normal = triangles[proper], corner[proper], normal[proper] / size[proper, None]
+    if len(triangles) > max_faces:
         low = vertices[np.unique(triangles), 2].min()
         under = (normal[:, 2] < -0.2) & (corner[:, :, 2].min(axis=1) < low + 0.04)
         if under.sum() > 50:
@@ -176,11 +187,11 @@ def cut(vertices, triangles, most=4000):
     return vertices[used], packed.reshape(-1, 3).astype("i4")
 
 
-def coarse_cells(gait, cell):
+def coarse_cells(gait: Gait, cell: float) -> list[str]:
     """Sentences about walkers whose every foot is but a few cells [m] wide, with the cells that would show it."""
     if not (np.isfinite(cell) and cell > 0.0):
         return []  # the bake refuses it
-    told = []
+    warnings = []
     for walker, name in enumerate(gait.walker_name):
         wide = 0.0
         for part in np.flatnonzero(np.asarray(gait.limb_walker)[gait.part_limb] == walker):
@@ -188,16 +199,16 @@ def coarse_cells(gait, cell):
             lies = turned(lowest, np.asarray(gait.soles[part].vertices, float))
             wide = max(wide, float(np.ptp(lies[:, :2], axis=0).min()))
         if 0.0 < wide < NARROW * cell:
-            told.append(
+            warnings.append(
                 f"The soles of {name} are {wide / cell:.1f} cells of {cell:g} m wide, too few for a print to have "
                 f"their shape: choose a cell size of {max(wide / SHAPED, 0.0005):.1g} m or so."
             )
-    return told
+    return warnings
 
 
-def few_faces(gait, cell):
+def few_faces(gait: Gait, cell: float) -> list[str]:
     """Sentences about feet whose soles have too few faces for prints in cells of this size [m] to have a shape."""
-    found = {}
+    found: dict[tuple[int, int], list[str]] = {}
     for limb, name in enumerate(gait.limb_name):
         soles = [
             gait.soles[part]

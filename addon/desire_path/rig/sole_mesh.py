@@ -3,6 +3,9 @@
 mesh in rest space --nearest foot, or centred--> under one foot --mirrored, cut at the ball--> soles
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,14 +13,17 @@ import numpy as np
 from ..errors import DesirePathError
 from ..motion.gait import Sole
 from . import sole
+from .sole import Faces
 
 LIKELY = (0.5, 2.5)  # a sole is this many times as long as its foot; else something is scaled wrongly
 ASIDE = 0.2  # one that lies at a foot has its middle this near to the ankle's line, in foot lengths
-LEAST_PART = 0.05  # heel and toe part each get this share of the length at least
+MIN_PART = 0.05  # heel and toe part each get this share of the length at least
 
 
 @dataclass(frozen=True)
 class Tread:
+    """A mesh that is the sole of every foot."""
+
     vertices: np.ndarray  # in the skeleton's rest space (V, 3) [m]
     triangles: np.ndarray  # (F, 3), seen counter-clockwise from outside
     name: str = "The sole"
@@ -32,10 +38,10 @@ class Laid:
     triangles: np.ndarray
     left: bool
     at_foot: bool
-    warnings: tuple = ()
+    warnings: tuple[str, ...] = ()
 
 
-def lay(tread, feet, up, ahead):
+def lay(tread: Tread, feet: Sequence[tuple[np.ndarray, float, float, bool]], up: np.ndarray, ahead: np.ndarray) -> Laid:
     """Lay a tread under the foot it lies at in the rest pose, else centred under a left one.
 
     feet: (rest space to the foot's frame with the ankle at 0 (4, 4), heel x, tip x, is it a left one)
@@ -44,10 +50,12 @@ def lay(tread, feet, up, ahead):
     triangles = np.asarray(tread.triangles, "i8").reshape(-1, 3)
     if not len(triangles):
         raise DesirePathError(f"{tread.name} has no faces to be a sole: choose a mesh with faces.")
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise DesirePathError(f"{tread.name} has a face without its vertices: repair the mesh.")
     used = vertices[np.unique(triangles)]
     if not np.isfinite(used).all():
         raise DesirePathError(f"{tread.name} has NaN or infinite vertices: repair the mesh.")
-    best = None
+    best: tuple[float, np.ndarray, bool] | None = None
     for to_foot, heel, tip, left in feet:
         own = used @ to_foot[:3, :3].T + to_foot[:3, 3]
         low, high = own.min(axis=0), own.max(axis=0)
@@ -62,7 +70,7 @@ def lay(tread, feet, up, ahead):
         _, to_foot, left = best
         placed = vertices @ to_foot[:3, :3].T + to_foot[:3, 3]
         keep = placed[triangles, 2].min(axis=1) < 0.0  # a boot's shaft presses nothing
-        triangles, warnings = triangles[keep], []
+        triangles, warnings = triangles[keep], list[str]()
     else:
         left = True
         turn = np.stack([ahead, np.cross(up, ahead), up])
@@ -84,7 +92,7 @@ def lay(tread, feet, up, ahead):
     return Laid(placed, triangles, left, best is not None, tuple(warnings))
 
 
-def soles(laid, left, ball):
+def soles(laid: Laid, left: bool, ball: float) -> tuple[tuple[Sole, Sole], float]:
     """((heel part, toe part), how deep the lowest place is under z = 0) for a foot with its ball at
     x = ball; the soles' lowest place is at z = 0."""
     vertices, triangles = laid.vertices.copy(), laid.triangles
@@ -94,14 +102,14 @@ def soles(laid, left, ball):
     floor = float(vertices[:, 2].min())
     vertices[:, 2] -= floor
     low, high = vertices[:, 0].min(), vertices[:, 0].max()
-    edge = LEAST_PART * (high - low)
+    edge = MIN_PART * (high - low)
     at = float(np.clip(ball, low + edge, high - edge))
     heel, _ = split(vertices, triangles, at)
     _, toe = split(vertices, triangles, at - sole.OVERLAP)  # laps under, as the built-in sole does
     return (Sole(*heel), Sole(toe[0] - (ball, 0.0, 0.0), toe[1])), -floor
 
 
-def split(vertices, triangles, x):
+def split(vertices: np.ndarray, triangles: np.ndarray, x: float) -> list[Faces]:
     """Cut a mesh by a plane across: what lies behind x, and what lies ahead of it."""
     parts = []
     for sign in (1.0, -1.0):
@@ -114,12 +122,12 @@ def split(vertices, triangles, x):
         points = np.concatenate(corners).reshape(-1, 3)
         unique, packed = np.unique(points, axis=0, return_inverse=True)
         faces = packed.reshape(-1, 3)
-        whole = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 0] != faces[:, 2])
-        parts.append((unique, faces[whole].astype("i4")))
+        proper = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 0] != faces[:, 2])
+        parts.append((unique, faces[proper].astype("i4")))
     return parts
 
 
-def _clipped(corner, depth):
+def _clipped(corner: np.ndarray, depth: np.ndarray) -> np.ndarray:
     """The part of a triangle with depth below 0, as triangles (n, 3, 3)."""
     outline = []
     for k in range(3):
