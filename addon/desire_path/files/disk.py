@@ -88,8 +88,8 @@ def memory_free() -> float:
     """Bytes of memory that programs may still have, about; infinite where the system does not say."""
     try:
         with open("/proc/meminfo", encoding="ascii") as file:
-            told = dict(line.split(":", 1) for line in file)
-        return 1024.0 * sum(int(told[name].split()[0]) for name in ("MemAvailable", "SwapFree"))
+            amounts = dict(line.split(":", 1) for line in file)
+        return 1024.0 * sum(int(amounts[name].split()[0]) for name in ("MemAvailable", "SwapFree"))
     except (OSError, KeyError, ValueError, IndexError):
         return float("inf")
 

@@ -1,7 +1,7 @@
 """Arrays of an .npz file, read so that no file, however damaged or ill meant, costs more than it may.
 
 What the file says of itself is held against what is there before memory is asked for: sizes, types, shapes. Packed
-members may be no larger than `most` bytes when unpacked; encrypted ones, pickled objects and bare .npy are refused.
+members may be no larger than `max_bytes` when unpacked; encrypted ones, pickled objects and bare .npy are refused.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 
 from . import atomic_file
 
-MOST = 2 << 30  # bytes of all arrays together
-_MOST_ARRAYS = 64
-_MOST_HEADER = 4096  # bytes
-_MOST_PACKED = 1100  # times as long as packed; deflate's own bound is 1032
+MAX_BYTES = 2 << 30  # bytes of all arrays together
+_MAX_ARRAYS = 64
+_MAX_HEADER = 4096  # bytes
+_MAX_PACKED = 1100  # times as long as packed; deflate's own bound is 1032
 _KINDS = "biufU"  # types of arrays: truth, numbers, text
 _DAMAGE = (
     OSError,
@@ -42,15 +42,15 @@ class Damaged(Exception):
     """The file is no .npz that may be read; the text is a clause that says why."""
 
 
-def read(path: str | os.PathLike[str], most: int = MOST) -> dict[str, np.ndarray]:
+def read(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> dict[str, np.ndarray]:
     """The arrays of a file by name. FileNotFoundError, PermissionError, or Damaged for whatever else is wrong."""
     try:
         with atomic_file.reader(path) as file:
             long = os.fstat(file.fileno()).st_size
-            if long > most:
-                raise Damaged(f"it is larger than {most / 1e9:.1f} GB")
+            if long > max_bytes:
+                raise Damaged(f"it is larger than {max_bytes / 1e9:.1f} GB")
             with zipfile.ZipFile(file) as box:
-                return _unpacked(box, most, long)
+                return _unpacked(box, max_bytes, long)
     except (FileNotFoundError, PermissionError):
         raise
     except zipfile.BadZipFile:
@@ -65,13 +65,13 @@ def _clause(problem: Exception) -> str:
     return " ".join(str(problem).split())[:100] or type(problem).__name__
 
 
-def _unpacked(box: zipfile.ZipFile, most: int, long: int) -> dict[str, np.ndarray]:
+def _unpacked(box: zipfile.ZipFile, max_bytes: int, long: int) -> dict[str, np.ndarray]:
     members = box.infolist()
-    if len(members) > _MOST_ARRAYS:
+    if len(members) > _MAX_ARRAYS:
         raise Damaged(f"it holds {len(members)} files")
-    if sum(member.file_size for member in members) > most:
-        raise Damaged(f"its arrays take more than {most / 1e9:.1f} GB")
-    if any(member.file_size > _MOST_PACKED * member.compress_size for member in members) or long < sum(
+    if sum(member.file_size for member in members) > max_bytes:
+        raise Damaged(f"its arrays take more than {max_bytes / 1e9:.1f} GB")
+    if any(member.file_size > _MAX_PACKED * member.compress_size for member in members) or long < sum(
         member.compress_size for member in members
     ):
         raise Damaged("it says that it holds more than it can")
@@ -89,12 +89,12 @@ def _head(box: zipfile.ZipFile, member: zipfile.ZipInfo) -> tuple[int, np.dtype,
             raise Damaged(f"{member.filename[:40]} is no array")
         size = begin[8:] if begin[6] == 1 else begin[8:] + stream.read(2)
         long = int.from_bytes(size, "little")
-        if long > _MOST_HEADER:
+        if long > _MAX_HEADER:
             raise Damaged(f"the head of {member.filename[:40]} is too long")
-        told = ast.literal_eval(stream.read(long).decode("latin-1").strip())
-    if not isinstance(told, dict) or set(told) != {"descr", "fortran_order", "shape"}:
+        header = ast.literal_eval(stream.read(long).decode("latin-1").strip())
+    if not isinstance(header, dict) or set(header) != {"descr", "fortran_order", "shape"}:
         raise Damaged(f"the head of {member.filename[:40]} is damaged")
-    shape, kind = told["shape"], np.dtype(str(told["descr"]))
+    shape, kind = header["shape"], np.dtype(str(header["descr"]))
     if not isinstance(shape, tuple) or not all(type(n) is int and n >= 0 for n in shape) or len(shape) > 4:
         raise Damaged(f"{member.filename[:40]} has no shape")
     if kind.kind not in _KINDS:
@@ -102,7 +102,7 @@ def _head(box: zipfile.ZipFile, member: zipfile.ZipInfo) -> tuple[int, np.dtype,
     before = 8 + len(size) + long
     if before + math.prod(shape) * kind.itemsize != member.file_size:
         raise Damaged(f"{member.filename[:40]} has not as many values as it says")
-    return before, kind, bool(told["fortran_order"]), shape
+    return before, kind, bool(header["fortran_order"]), shape
 
 
 def _array(

@@ -49,14 +49,14 @@ def load(kind: type[Record], path: str | os.PathLike[str], tag: str, version: in
             f"choose a file that {name}.save() wrote."
         ) from None
     try:
-        told = json.loads(text.decode("utf-8")) if len(text) <= MAX_TEXT else None
+        given = json.loads(text.decode("utf-8")) if len(text) <= MAX_TEXT else None
     except (ValueError, RecursionError, MemoryError):
         raise DesirePathError(f"{path} is not a {what}: save one with {name}.save().") from None
-    told = told if isinstance(told, dict) else {}
-    found = told.pop(tag, None)
+    given = given if isinstance(given, dict) else {}
+    found = given.pop(tag, None)
     if type(found) is not int or found != version:
         raise DesirePathError(f"{path} is not a {what} of this version: save one with {name}.save().")
-    unknown = sorted(set(told) - {each.name for each in fields(kind)})
+    unknown = sorted(set(given) - {each.name for each in fields(kind)})
     if unknown:
         raise DesirePathError(f"{path} says {unknown[0][:40]}, which no {what.split()[0]} has: remove it.")
-    return kind(**told)
+    return kind(**given)

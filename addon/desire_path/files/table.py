@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from ..errors import DesirePathError
 from . import atomic_file
 
-MOST = 1 << 25  # bytes of a table
+MAX_BYTES = 1 << 25  # bytes of a table
 
 
 def read(
@@ -24,9 +24,9 @@ def read(
     columns = columns or ",".join(needed)
     try:
         with atomic_file.reader(path) as file:
-            if os.fstat(file.fileno()).st_size > MOST:
+            if os.fstat(file.fileno()).st_size > MAX_BYTES:
                 raise DesirePathError(
-                    f"{path} is larger than {MOST >> 20} MB: give a shorter table with the columns {columns}."
+                    f"{path} is larger than {MAX_BYTES >> 20} MB: give a shorter table with the columns {columns}."
                 )
             stream = io.TextIOWrapper(file, encoding="utf-8-sig", newline="")
             rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]

@@ -48,11 +48,11 @@ def votes(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
 
 def thinned(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
     """The mask (T,) with VOTE of every stay in it, spread over its length: samples that count the same."""
-    most = max(2, round(VOTE * np.sqrt(size) * (len(time) - 1) / max(time[-1] - time[0], 1e-9)))
+    max_samples = max(2, round(VOTE * np.sqrt(size) * (len(time) - 1) / max(time[-1] - time[0], 1e-9)))
     few = np.zeros(len(mask), bool)
     edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
     for first, after in zip(edge[::2], edge[1::2]):
-        few[np.linspace(first, after - 1, min(after - first, most)).round().astype(int)] = True
+        few[np.linspace(first, after - 1, min(after - first, max_samples)).round().astype(int)] = True
     return few
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 ROUNDING = 0.3  # corners are rounded over about this length [m]
 STEP = 0.01  # distance of the curve's samples, where the path is not too long [m]
-MOST = 400_000  # samples
+MAX_SAMPLES = 400_000  # samples
 FARTHEST = 1e7  # a place may lie from the origin [m]
 
 
@@ -33,7 +33,7 @@ class Path:
             raise DesirePathError("The path has no length: give it at least two places that lie apart.")
         self.has_height = points.shape[1] == 3
         along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))]
-        step = max(STEP, along[-1] / MOST)
+        step = max(STEP, along[-1] / MAX_SAMPLES)
         count = max(int(np.ceil(along[-1] / step)), 8) + 1
         even = np.linspace(0.0, along[-1], count)
         line = np.stack([np.interp(even, along, column) for column in points.T], axis=1)
@@ -97,13 +97,13 @@ def _checked(points: ArrayLike) -> np.ndarray:
 
 def _smoothed(line: np.ndarray, sigma: float) -> np.ndarray:
     """The line under a Gaussian of so many samples; mirrored through its ends, so that they stay."""
-    reach = min(int(np.ceil(3.0 * sigma)), len(line) - 1)
-    if reach < 1:
+    half = min(int(np.ceil(3.0 * sigma)), len(line) - 1)
+    if half < 1:
         return line
-    weight = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
+    weight = np.exp(-0.5 * (np.arange(-half, half + 1) / sigma) ** 2)
     weight /= weight.sum()
-    before = 2.0 * line[0] - line[reach:0:-1]
-    after = 2.0 * line[-1] - line[-2 : -reach - 2 : -1]
+    before = 2.0 * line[0] - line[half:0:-1]
+    after = 2.0 * line[-1] - line[-2 : -half - 2 : -1]
     long = np.concatenate([before, line, after])
     return np.stack([np.convolve(column, weight, "valid") for column in long.T], axis=1)
 

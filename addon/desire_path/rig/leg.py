@@ -21,10 +21,10 @@ def length(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray) -> np.ndarray:
 
 def drop(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray, target: np.ndarray) -> np.ndarray:
     """How far hips have to come down for the ankle to reach its target (T,) >= 0; +Z is up."""
-    most = np.maximum(STRETCH * length(hip, knee, ankle), np.linalg.norm(ankle - hip, axis=1))
+    longest = np.maximum(STRETCH * length(hip, knee, ankle), np.linalg.norm(ankle - hip, axis=1))
     apart = target - hip
     aside = np.hypot(apart[:, 0], apart[:, 1])
-    hang = np.sqrt(np.maximum(most**2 - aside**2, 0.0))
+    hang = np.sqrt(np.maximum(longest**2 - aside**2, 0.0))
     return np.maximum(-apart[:, 2] - hang, 0.0)
 
 
@@ -53,16 +53,16 @@ def reach(
     ahead (T, 3): where the foot points, for legs too straight to say where their knee bends.
     """
     upper, lower = np.linalg.norm(knee - hip, axis=1), np.linalg.norm(ankle - knee, axis=1)
-    whole = upper + lower
+    full = upper + lower
     line, wanted = rotation.unit(ankle - hip), rotation.unit(target - hip)
-    far = np.clip(np.linalg.norm(target - hip, axis=1), abs(upper - lower) + 1e-6 * whole, (1 - 1e-7) * whole)
+    far = np.clip(np.linalg.norm(target - hip, axis=1), abs(upper - lower) + 1e-6 * full, (1 - 1e-7) * full)
 
     across = lambda v: v - np.sum(v * line, axis=1, keepdims=True) * line
     pole, side = across(knee - hip), rotation.unit(across(ahead))
     to_side = np.sum(pole * side, axis=1)
-    if np.median(to_side / whole) < -ELBOW:  # an elbow, or a bird's knee
+    if np.median(to_side / full) < -ELBOW:  # an elbow, or a bird's knee
         side, to_side = -side, -to_side
-    pole = pole + np.maximum(FORWARD * whole - to_side, 0.0)[:, None] * side
+    pole = pole + np.maximum(FORWARD * full - to_side, 0.0)[:, None] * side
     pole = rotation.unit(pole)
 
     turned = turn_between(line, wanted)
