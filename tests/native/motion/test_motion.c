@@ -170,11 +170,41 @@ TEST(a_live_motion_keeps_what_is_needed)
     CHECK(dp_bytes_live() == 0);
 }
 
+// poses of who is not there may be anything, and whatever is forgotten, the last sample stays
+TEST(absent_walkers_are_not_looked_at_and_the_last_sample_stays)
+{
+    Recording     r;
+    DpMotion*     motion = NULL;
+    DpPartState   state;
+    const uint8_t only_first[WALKERS] = {1, 0}, only_second[WALKERS] = {0, 1};
+    double        pose[7 * PARTS] = {0}, force[3 * PARTS] = {0}, point[3 * PARTS] = {0};
+    const uint8_t touching[PARTS] = {1, 1, 1};
+    fill(&r);
+    for (int p = 0; p < PARTS; ++p) pose[7 * p + 3] = 1.0;
+    const DpLoadedPoses now = {pose, touching, force, point};
+    CHECK(dp_motion_live(&motion, &r.gait) == DP_OK);
+    const int absent = 1;  // the part of walker 1
+    pose[7 * absent] = NAN, force[3 * absent] = INFINITY;
+    CHECK(dp_motion_push(motion, 0.0, only_first, &now) == DP_OK);
+    CHECK(dp_motion_push(motion, 0.1, only_second, &now) == DP_BAD_ARGUMENT);
+    CHECK(dp_motion_push(motion, 0.1, NULL, &now) == DP_BAD_ARGUMENT);
+    CHECK(dp_motion_push(motion, 0.1, only_first, &now) == DP_OK);
+    CHECK(!dp_motion_touching(motion, absent, 1) && dp_motion_samples(motion) == 2);
+    dp_motion_forget(motion, 500);
+    CHECK(dp_motion_there(motion, 0, 1) && !dp_motion_there(motion, 0, 0));
+    CHECK(dp_motion_push(motion, 0.05, only_first, &now) == DP_BAD_ARGUMENT);  // no earlier
+    CHECK(dp_motion_push(motion, 0.2, only_first, &now) == DP_OK);
+    CHECK(dp_motion_part(motion, 2, 2, &state) && !dp_motion_part(motion, absent, 2, &state));
+    dp_motion_destroy(motion);
+    CHECK(dp_bytes_live() == 0);
+}
+
 int main(void)
 {
     RUN(a_recording_is_given_back);
     RUN(who_is_not_there_takes_no_memory);
     RUN(what_cannot_be_followed_is_refused);
     RUN(a_live_motion_keeps_what_is_needed);
+    RUN(absent_walkers_are_not_looked_at_and_the_last_sample_stays);
     return check_done();
 }

@@ -52,6 +52,32 @@ TEST(pressure_carries_the_load_for_any_number_of_workers)
     stride_drop(&s);
 }
 
+// soles that share a cell share its load: what they press with adds
+TEST(soles_on_one_cell_add)
+{
+    Stride s = stride_make(1, 2, 80.0, 60.0);
+    World  world;
+    float  out[6 * 4];
+    CHECK(world_make(&world, NULL, 0, 0, 0, 0, 0.01, 1) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_sim_run(world.sim, 1) == DP_OK);
+    for (int l = 0; l < 2; ++l) {  // cells 10 + l .. 12 + l, of a row of four
+        Pressing* pressing = &world.sim->pressing[l];
+        CHECK(dp_make_room(&pressing->value, 8, sizeof *pressing->value));
+        for (int k = 0; k < 8; ++k) pressing->value[k] = (float)((l + 1) * (1 + k));
+        pressing->at = (DpCellRect){10 + l, 13 + l, 5, 7};
+        pressing->i0 = 10 + l, pressing->j0 = 5, pressing->row = 4;
+    }
+    dp_sim_pressure(world.sim, 9, 4, 6, 4, out);
+    const float row[2][6] = {{0, 1, 2 + 2, 3 + 4, 6, 0}, {0, 5, 6 + 10, 7 + 12, 14, 0}};
+    for (int i = 0; i < 6; ++i) {
+        CHECK(out[i] == 0.0f && out[18 + i] == 0.0f);
+        CHECK(out[6 + i] == row[0][i] && out[12 + i] == row[1][i]);
+    }
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 static void count_tile(void* context, long tx, long ty)
 {
     (void)tx, (void)ty;
@@ -82,6 +108,7 @@ TEST(settled_ground_bears_nothing)
 
 int main(void)
 {
+    RUN(soles_on_one_cell_add);
     RUN(pressure_carries_the_load_for_any_number_of_workers);
     RUN(settled_ground_bears_nothing);
     return check_done();
