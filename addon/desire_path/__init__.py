@@ -46,9 +46,9 @@ __getattr__, __dir__, __all__ = lazy.names(
 _blender = lazy.module(".blender", __name__)  # bpy is needed for this half alone
 
 
-def register():
+def register() -> None:
     _blender.register()
 
 
-def unregister():
+def unregister() -> None:
     _blender.unregister()

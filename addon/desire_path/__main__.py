@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Sequence
+from typing import Any
 
 from .bake.bake import Bake
 from .bake.options import FILMS, BakeOptions, BakeOutput
@@ -17,6 +19,7 @@ from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
 from .ground.soil import SOILS, as_soil
 from .loads import plot, walker
+from .loads.force import FootForce
 from .loads.report import sentences, summary, write_contacts
 from .motion import jumps
 from .motion.gait import Gait
@@ -30,7 +33,7 @@ SOIL_HELP = f"one of {', '.join(SOILS)}, or a .json file that Soil.save or Save 
 SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 
 
-def _ground(text, spacing):
+def _ground(text: str, spacing: float | None) -> Ground:
     """Ground from the command line: "flat", "flat:0.3", or an EXR of heights or of a bake's maps."""
     if text == "flat" or text.startswith("flat:"):
         try:
@@ -40,23 +43,23 @@ def _ground(text, spacing):
     return Ground.read(text, spacing)
 
 
-def _cells(args, ground):
+def _cells(args: argparse.Namespace, ground: Ground) -> tuple[float, tuple[float, float]]:
     """Side and origin of the cells: as they are told, else those of the trail that goes on, else 1 cm from (0, 0)."""
     left = ground.trail
     cell = args.cell or (left.cell if left else 0.01)
     return cell, args.origin or ((left.x0, left.y0) if left else (0.0, 0.0))
 
 
-def _kind(text):
+def _kind(text: str) -> str | Kind:
     """A kind's name, or a file that Kind.save or the fit wrote."""
     return Kind.load(text) if text.endswith(".json") else text
 
 
-def _walk(path):
+def _walk(path: str) -> Gait:
     return jumps.found(Gait.load(path))
 
 
-def _planting(text, seed):
+def _planting(text: str, seed: int) -> Planting:
     """A planting from the command line: KIND or KIND:DENSITY."""
     name, _, density = text.partition(":")
     try:
@@ -67,14 +70,14 @@ def _planting(text, seed):
         raise DesirePathError(f"'{text}' cannot be planted: write KIND or KIND:PLANTS for each m^2.") from None
 
 
-def _counts(text):
+def _counts(text: str) -> list[int]:
     try:
         return [int(word) for word in text.split(",")]
     except ValueError:
         raise DesirePathError(f"'{text}' are no counts of passes: write whole numbers with commas.") from None
 
 
-def _along(args, gait, ground):
+def _along(args: argparse.Namespace, gait: Gait, ground: Ground) -> Gait:
     """The walk carried along a path over this ground, if it is to be."""
     if not args.along:
         if args.passes != 1:
@@ -93,14 +96,14 @@ def _along(args, gait, ground):
     )
 
 
-def _bar(fraction, what):
+def _bar(fraction: float, what: str) -> None:
     if sys.stderr.isatty():
         full = int(40 * fraction)
         line = f"\r[{'#' * full}{'.' * (40 - full)}] {what}"
         print(line, end="" if fraction < 1 else "\n", file=sys.stderr, flush=True)
 
 
-def _bake(args):
+def _bake(args: argparse.Namespace) -> None:
     limits = Limits.read(args.limit)
     gait, ground = _walk(args.walk), _ground(args.ground, args.spacing)
     plants = [_planting(text, args.seed) for text in args.plants]
@@ -132,7 +135,7 @@ def _bake(args):
     word = "pass" if bake.film == "passes" else "frame"
     for progress in bake.run():
         _bar(progress.fraction, f"{word} {progress.frame}")
-    report = bake.report
+    report: dict[str, Any] = bake.report or {}
     print(f"contacts      {report['contacts']}")
     print(f"deepest       {1000 * report['deepest_m']:.1f} mm")
     print(
@@ -147,7 +150,7 @@ def _bake(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
-def _pressed(args):
+def _pressed(args: argparse.Namespace) -> tuple[Gait, FootForce]:
     """The walk and its loads, as they are asked for."""
     gait, more = _walk(args.walk), {}
     if args.settle_time is not None:
@@ -159,7 +162,7 @@ def _pressed(args):
     return gait, walker.loads(gait, args.model, **more)
 
 
-def _loads(args):
+def _loads(args: argparse.Namespace) -> None:
     gait, loads = _pressed(args)
     walker.write_loads(args.out, gait, loads)
     if args.contacts:
@@ -171,7 +174,7 @@ def _loads(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
-def _plot(args):
+def _plot(args: argparse.Namespace) -> None:
     gait, loads = _pressed(args)
     plot.write(args.out, gait, loads)
     for warning in loads.warnings:
@@ -179,7 +182,7 @@ def _plot(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
-def _lane(args):
+def _lane(args: argparse.Namespace) -> None:
     rows = trampling.measure(
         _kind(args.kind),
         lane=trampling.Lane(
@@ -201,7 +204,7 @@ def _lane(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
-def _fit(args):
+def _fit(args: argparse.Namespace) -> None:
     found = calibrate.fit(
         trampling.read(args.cover),
         _kind(args.kind),
@@ -217,7 +220,7 @@ def _fit(args):
     print(f"written to    {os.path.abspath(args.out)}")
 
 
-def _load_options(task):
+def _load_options(task: argparse.ArgumentParser) -> None:
     task.add_argument(
         "--settle-time", type=float, metavar="T", help="tau of the model impulse, in which the soil yields [s] (0.2)"
     )
@@ -227,7 +230,7 @@ def _load_options(task):
     task.add_argument("--spacing", type=float, help="distance of the EXR's samples [m], if its header does not say")
 
 
-def _parser():
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
     tasks = parser.add_subparsers(required=True, metavar="bake | loads | plot | lane | fit")
@@ -342,7 +345,7 @@ def _parser():
     return parser
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; 0 when it worked, 1 with one sentence on stderr when it did not."""
     args = _parser().parse_args(arguments)
     try:

@@ -11,12 +11,14 @@ from __future__ import annotations
 import math
 import os
 import shutil
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
+from typing import Any
 
 from .errors import DesirePathError
 from .files import disk
 
-MOST_PIXELS = 1 << 27  # of one frame
+MAX_PIXELS = 1 << 27  # of one frame
 SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
 CELL_BYTES = 60  # of memory, for each cell of a frame
 PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
@@ -39,12 +41,12 @@ class Limits:
 
     frames: float = 250_000  # files it writes for playback, one a frame
     seconds: float = 86_400.0  # of the walk
-    cells: float = MOST_PIXELS  # of one frame
+    cells: float = MAX_PIXELS  # of one frame
     plants: float = 4_000_000  # of one planting
     memory: float | None = None  # [bytes]; None = what is free
     disk: float | None = None  # [bytes]; None = what is free where the files go
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for each in fields(self):
             value = getattr(self, each.name)
             if value is None and each.default is None:
@@ -55,7 +57,7 @@ class Limits:
                 )
 
     @staticmethod
-    def read(words):
+    def read(words: Iterable[str]) -> Limits:
         """Limits from words NAME=NUMBER; memory and disk in GB."""
         found = {}
         for word in words:
@@ -71,14 +73,14 @@ class Limits:
                 )
         return Limits(**found)
 
-    def check(self, name, amount, folder=None):
+    def check(self, name: str, amount: float, folder: str | None = None) -> None:
         """Refuse a bake that takes more of something than it may.
 
         folder: where the files go, for `disk`
         """
         most, free = getattr(self, name), False
         if most is None:
-            most, free = _free(name, folder), True
+            most, free = _free(name, folder or os.curdir), True
         if amount <= most:
             return
         unit, advice = ADVICE[name]
@@ -90,13 +92,13 @@ class Limits:
         )
 
 
-def _number(value):
+def _number(value: float) -> str:
     if not value < 1e15:
         return f"{value:.3g}"
     return f"{value:,.0f}" if value >= 100 or value == int(value) else f"{value:.3g}"
 
 
-def _free(name, folder):
+def _free(name: str, folder: str) -> float:
     """Bytes of memory or disk that may still be had; no end of them where nobody knows."""
     if name == "memory":
         return disk.memory_free()
@@ -108,12 +110,12 @@ def _free(name, folder):
         return math.inf
 
 
-def frame_bytes(cells, pressed, lean):
+def frame_bytes(cells: float, pressed: float, lean: bool) -> float:
     """Bytes of an average frame's files. pressed: cells of all prints; lean: with a second picture of grass."""
     return (2.0 if lean else 1.0) * (REST_BYTES * cells + 0.5 * PRINT_BYTES * min(pressed, cells))
 
 
-def pressed_area(gait, touching):
+def pressed_area(gait: Any, touching: Iterable[Any]) -> float:
     """Of all prints of a walk together, about [m^2]: each time a part comes down it leaves its sole's.
 
     touching: (P, T), whether each part of the recording's feet is on the ground

@@ -5,10 +5,14 @@
 The package has another name inside Blender (bl_ext.user_default.desire_path), so a finder serves one package.
 """
 
+from __future__ import annotations
+
 import sys
 import warnings
-from importlib import import_module
+from collections.abc import Callable, Sequence
+from importlib import abc, import_module
 from importlib.machinery import ModuleSpec
+from types import ModuleType
 
 MODULES = {
     name: f"{room}.{name}"
@@ -31,28 +35,28 @@ MODULES = {
 }
 
 
-class Loader:
+class Loader(abc.Loader):
     """Gives the module that is there already, under one more name."""
 
-    def __init__(self, name):
+    def __init__(self, name: str) -> None:
         self.name = name
 
-    def create_module(self, spec):
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = import_module(self.name)
         self.spec = module.__spec__
         return module
 
-    def exec_module(self, module):
+    def exec_module(self, module: ModuleType) -> None:
         module.__spec__ = self.spec  # the import system puts the asked one there
 
 
 class Finder:
     """Finds a package's modules by their old names."""
 
-    def __init__(self, package):
+    def __init__(self, package: str) -> None:
         self.package = package
 
-    def asked(self, name, calls):
+    def asked(self, name: str, calls: int) -> str:
         """What a module is called, after a warning to who asks for it, so many calls up."""
         new = f"{self.package}.{MODULES[name]}"
         warnings.warn(
@@ -60,13 +64,15 @@ class Finder:
         )
         return new
 
-    def find_spec(self, name, path=None, target=None):
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
         package, _, last = name.rpartition(".")
         if package == self.package and last in MODULES:
             return ModuleSpec(name, Loader(self.asked(last, 2)))
         return None
 
-    def attribute(self, name):
+    def attribute(self, name: str) -> ModuleType | None:
         """The module of an old name, from now on an attribute of the package; None where it is none."""
         if name not in MODULES:
             return None
@@ -75,7 +81,7 @@ class Finder:
         return module
 
 
-def serve(package):
+def serve(package: str) -> Callable[[str], ModuleType | None]:
     """Let the package's modules be imported by their old names, however often it is loaded anew.
 
     Returns what finds them as the package's attributes: name -> module or None.

@@ -5,7 +5,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +53,7 @@ def test_a_soil_is_taken_from_a_file_and_changed(tmp_path, walk):
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "folder" / "report.json").read_text())["parameters"]["soils"]
-    assert told == [asdict(replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2))]
+    assert told == [replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2).told()]
 
 
 def test_kinds_add_up_however_they_are_listed(tmp_path, walk):

@@ -17,6 +17,7 @@ import hashlib
 import json
 import sys
 import tempfile
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(HERE)]
 
 from worlds import worlds  # noqa: E402
 
-from desire_path import Bake, Gait, Ground, Planting, _native, place_feet  # noqa: E402
+from desire_path import Bake, BakeOptions, BakeOutput, Gait, Ground, Planting, _native, place_feet  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.motion.scatter import Scatter  # noqa: E402
@@ -177,14 +178,22 @@ def baked():
 
 def baked_files(gait, *, broken=False, **options):
     """Bake, and digest every picture and the plants: {file: 16 letters}, frames as one. broken: off and on again."""
+    words = {name: options.pop(name) for name in ("soils", "plants") if name in options}
+    records = [
+        record(**{each.name: options.pop(each.name) for each in fields(record) if each.name in options})
+        for record in (BakeOptions, BakeOutput)
+    ]
+    if options:
+        raise TypeError(f"a bake has no options {', '.join(options)}")
+    words |= {"options": records[0], "output": records[1]}
     with tempfile.TemporaryDirectory() as folder:
         if broken:
-            steps = Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **options).run()
+            steps = Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **words).run()
             for step in steps:
                 if step.fraction > 0.5:
                     break
             steps.close()
-        for _ in Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **options).run():
+        for _ in Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **words).run():
             pass
         files = {str(file.relative_to(folder)): file for file in sorted(Path(folder).rglob("*")) if file.is_file()}
         found = {
