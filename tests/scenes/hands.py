@@ -85,7 +85,7 @@ class Hands:
         return found.reshape(height, width, 4)[:, :, :3]
 
 
-def until(condition, seconds=60):
+def until(condition, seconds=180):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "waited too long"

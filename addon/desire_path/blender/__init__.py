@@ -20,6 +20,7 @@ from . import (
     props,
     soil_presets,
     soils,
+    translations,
 )
 
 _CLASSES = (
@@ -44,6 +45,7 @@ def register():
     for each in _CLASSES:
         bpy.utils.register_class(each)
     op_walk_it.register()
+    translations.register()
     handlers.register()
     if not bpy.app.binary_path:
         # bpy as a module: 4.5 never ends while an operator or handler of Python is registered
@@ -55,6 +57,7 @@ def unregister():
     handlers.unregister()
     op_forces.hide()
     op_walk_it.unregister()
+    translations.unregister()
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)
     props.unregister()

@@ -180,7 +180,7 @@ floor. Makes a new action; the one it had stays"""
     bl_options = {"REGISTER", "UNDO"}
 
     into_prints: BoolProperty(
-        name="Into Prints", description="Let the feet down into the prints that are baked, and the body with them"
+        name="Sink into Prints", description="Let the feet down into the prints that are baked, and the body with them"
     )
 
     @classmethod

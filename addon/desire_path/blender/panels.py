@@ -79,6 +79,7 @@ def draw_ground(layout, context, obj):
         row.operator("wm.desire_path_messages_copy", text="", icon="COPYDOWN")
         draw_state(layout, context, obj)
     draw_result(layout, context, settings)
+    layout.operator("object.desire_path_remove", text="Remove Ground", icon="X")
 
 
 def draw_state(layout, context, obj):
@@ -195,7 +196,6 @@ def draw_output(layout, obj):
     column.prop(settings, "law")
     column.prop(settings, "heap")
     column.prop(settings, "threads")
-    column.operator("object.desire_path_remove", text="Remove Ground", icon="X")
 
 
 def weight(settings):
@@ -241,9 +241,10 @@ def draw_walker(layout, context, obj):
         row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
     row.operator("object.desire_path_record", text="Record", icon="REC")
     if legged:
-        row = layout.row(align=True)
-        row.operator("object.desire_path_place_feet", icon="CON_FLOOR")
-        row.operator("object.desire_path_place_feet", text="Into Prints", icon="TRIA_DOWN_BAR").into_prints = True
+        layout.label(text="Feet on Slopes")
+        feet = layout.column(align=True)
+        feet.operator("object.desire_path_place_feet", icon="CON_FLOOR").into_prints = False
+        feet.operator("object.desire_path_place_feet", text="Sink into Prints", icon="TRIA_DOWN_BAR").into_prints = True
         column = _column(layout)
         column.prop(settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")

@@ -28,7 +28,7 @@ def draw_rig(layout, obj):
     column.prop_search(settings, "hips", bones, "bones")
     column.prop_search(settings, "mass_center", bones, "bones")
     if not settings.mass_center:
-        column.label(text="From the segments of the body", icon="INFO")
+        column.label(text="From the body", icon="INFO")
 
 
 def draw_forces(layout, context, obj):
@@ -37,7 +37,7 @@ def draw_forces(layout, context, obj):
     row = layout.row(align=True)
     row.operator(
         "object.desire_path_forces_show",
-        text="Hide Forces" if shown else "Show Forces",
+        text="Hide" if shown else "Show",
         icon="HIDE_OFF" if shown else "HIDE_ON",
         depress=shown,
     )

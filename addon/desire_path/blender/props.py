@@ -349,7 +349,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     )
     estimated_mass: FloatProperty(options={"HIDDEN"}, description="What mass 0 came to [kg]")
     mass_center: StringProperty(
-        name="Mass Centre",
+        name="Centre",
         description="A bone that begins at the body's mass centre; empty = found from the segments of the body",
     )
     sole: PointerProperty(
@@ -367,7 +367,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         "of its own. Off: the clip as it was",
     )
     place_feet: BoolProperty(
-        name="Placed Feet in Prints",
+        name="Prints Only",
         description="Prints are pressed as if the feet were placed on the ground's "
         "slopes; the character stays as it is. Place Feet changes the character too",
     )
@@ -407,12 +407,12 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         name="Load",
         description="How the weight on each foot is found",
         items=(
-            ("inertia", "Body in motion", "From how the body's mass centre moves: walks, runs, jumps, landings"),
+            ("inertia", "In Motion", "From how the body's mass centre moves: walks, runs, jumps, landings"),
             ("impulse", "Impulse", "Weight, and an impulse at every touch-down"),
         ),
     )
     subframes: IntProperty(
-        name="Samples a Frame",
+        name="Subframes",
         default=1,
         min=1,
         max=16,

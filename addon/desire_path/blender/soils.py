@@ -19,8 +19,8 @@ from . import axes, compat, units
 # what people call a number, and what it is
 WORDS = {
     "layer_depth": ("Depth [m]", "How thick the soft soil lies over rigid ground, in metres"),
-    "young_modulus": ("Stiffness [Pa]", "How hard it resists, in pascal: half of it, prints twice as deep"),
-    "poisson_ratio": ("Rim", "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it"),
+    "young_modulus": ("Stiff [Pa]", "How hard it resists, in pascal: half of it, prints twice as deep"),
+    "poisson_ratio": ("Rim Share", "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it"),
     "settle_time": ("Yields In [s]", "How long it takes to give way, in seconds"),
     "rest_angle": ("Slope", "Loose soil that is steeper slides"),
     "push_threshold": (
@@ -78,6 +78,15 @@ EASY = {
         _crumble,
         "Crumble",
         "How soon walls of prints come loose and slide: 0 = all stand",
+    ),
+    "rebound": None,
+    "bulge": units.length(
+        "heave",
+        "Bulge",
+        "How wide it bulges around a print; 0 = loose soil in a heap",
+        min=0.0,
+        soft_max=0.5,
+        precision=3,
     ),
     "roughness": None,
     "lump_size": units.length(
@@ -239,7 +248,9 @@ def draw(layout, settings, save=True):
     for name in EASY:
         column.prop(settings.soil_numbers, name)
     if settings.soil_numbers.changed:
-        column.label(text=f"Changed from {settings.soil.replace('-', ' ').capitalize()}", icon="GREASEPENCIL")
+        word = settings.soil.replace("-", " ").capitalize()
+        told = bpy.app.translations.pgettext_iface
+        column.label(text=told("Changed from {}").format(told(word)), icon="GREASEPENCIL")
     if save:
         column.operator("object.desire_path_soil_save", icon="EXPORT")
 
@@ -249,7 +260,8 @@ def draw_numbers(layout, settings):
     column = layout.column()
     column.active = not settings.soil_file
     for name in WORDS:
-        column.prop(settings.soil_numbers, name)
+        if name not in EASY:  # those are said above
+            column.prop(settings.soil_numbers, name)
 
 
 CLASSES = (OBJECT_OT_desire_path_soil_save,)
