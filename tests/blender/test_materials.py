@@ -245,7 +245,7 @@ def test_linked_data_is_told_or_kept(folder):
         meshes.activate(each)
         bpy.ops.object.desire_path_ground_add()
     meshes.activate(bare)
-    refused(bpy.ops.object.desire_path_material_add, "linked from another file", "no material slot")
+    refused(bpy.ops.object.desire_path_material_add, "linked from another file", "no material slot", "local")
     assert counts() == {"materials": 0, "node_groups": 0}
     material = make(slotted)
     assert materials.is_ours(material) and slotted.material_slots[0].link == "OBJECT"
@@ -269,6 +269,83 @@ def test_pressed_twice_there_is_one_and_another_soil_takes_its_place():
     snow = make(obj)
     assert "Snow" in snow.name and len(obj.material_slots) == 1 and counts() == before
     assert "Mud" in make(obj, kind="MUD").name and counts() == before
+
+
+def test_a_material_that_was_tuned_stays_when_another_takes_its_place():
+    obj = ground()
+    tuned = make(obj)
+    tuned.name = "Mine now"
+    tuned.node_tree.nodes.new("ShaderNodeRGB")
+    obj.desire_path.soil = "snow"
+    assert "Snow" in make(obj).name
+    assert tuned.use_fake_user and tuned.users == 1 and bpy.data.materials.get("Mine now") == tuned
+    other = make(ground("mud", "Other"))
+    group = next(each for each in other.node_tree.nodes if each.bl_idname == "ShaderNodeGroup")
+    group.inputs["Tint"].default_value = (1.0, 0.0, 0.0, 1.0)  # by a number alone
+    bpy.data.objects["Other"].desire_path.soil = "dry-sand"
+    third = make(bpy.data.objects["Other"])
+    assert other.use_fake_user and other.name in bpy.data.materials
+    assert third != tuned  # which is of the same sand, and somebody's own
+
+
+def test_a_material_that_is_replaced_stays_in_the_file():
+    obj = ground()
+    mine = bpy.data.materials.new("Mine")
+    obj.data.materials.append(mine)
+    assert make(obj, replace=True) != mine and mine.use_fake_user
+
+
+def test_grounds_of_one_mesh_have_a_material_each():
+    one = ground("snow", "One")
+    other = meshes.link(bpy.data.objects.new("Other", one.data))
+    meshes.activate(other)
+    bpy.ops.object.desire_path_ground_add()
+    other.desire_path.soil = "mud"
+    assert "Snow" in make(one).name and "Mud" in make(other).name
+    assert "Snow" in one.material_slots[0].material.name and one.data.materials[0] is None
+
+
+def test_shares_of_what_is_painted_no_more_go():
+    obj = two_halves(ground("soil"))
+    obj.vertex_groups.new(name="drift").add([0, 1], 1.0, "REPLACE")
+    each = obj.desire_path.painted.add()
+    each.vertex_group, each.soil = "drift", "snow"
+    make(obj)
+    assert looks.SHARE.format("snow") in obj.data.attributes
+    each.soil = "mud"
+    make(obj)
+    assert [a.name for a in obj.data.attributes if "share" in a.name] == [looks.SHARE.format("mud")]
+    obj.desire_path.painted.clear()
+    make(obj)
+    assert not [a.name for a in obj.data.attributes if "share" in a.name]
+
+
+def test_a_soil_file_that_no_bake_would_take_makes_no_material(folder):
+    obj = ground()
+    obj.desire_path.soil_file = str(folder / "snow.json")
+    refused(bpy.ops.object.desire_path_material_add, "snow.json")
+    SOILS["snow"].save(folder / "snow.json")
+    assert "Snow" in make(obj).name
+
+
+def test_painted_soils_of_a_linked_mesh_are_told(folder):
+    bpy.context.preferences.filepaths.save_version = 0
+    painted = ground("soil", "Painted")
+    painted.data.materials.append(None)
+    painted.vertex_groups.new(name="drift").add([0, 1], 1.0, "REPLACE")
+    path = str(folder / "library.blend")
+    bpy.data.libraries.write(path, {painted.data})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (there, here):
+        here.meshes = there.meshes
+    obj = meshes.link(bpy.data.objects.new("Painted", here.meshes[0]))
+    meshes.activate(obj)
+    bpy.ops.object.desire_path_ground_add()
+    each = obj.desire_path.painted.add()
+    each.vertex_group, each.soil = "drift", "snow"
+    refused(bpy.ops.object.desire_path_material_add, "linked from another file", "painted")
+    assert counts() == {"materials": 0, "node_groups": 0}
+    assert "Sand" in make(obj, kind="SAND").name
 
 
 def test_a_bake_that_is_shown_by_a_copy_has_it(folder):

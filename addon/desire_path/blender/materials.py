@@ -7,12 +7,14 @@ What is painted is a vertex group, which no shader reads: its shares are kept as
 written anew by every bake.
 """
 
+import zlib
+
 import bpy
 import numpy as np
 
 from ..errors import DesirePathError
 from ..ground.detail import DETAILS
-from . import axes, compat, cover, looks, plants, playback
+from . import axes, compat, cover, looks, plants, playback, soils
 
 SOILS = {  # soil -> (look, how wet)
     "dry-sand": ("SAND", 0.0),
@@ -23,6 +25,7 @@ SOILS = {  # soil -> (look, how wet)
 }
 WORDS = (("snow", "SNOW"), ("sand", "SAND"), ("mud", "MUD"), ("clay", "MUD"))  # in other names; else it is earth
 WET = 0.7  # what has that word in its name
+AS_MADE = "desire_path_as_made"  # custom property of a material of ours: its name and nodes as we left them
 KINDS = (
     ("AUTO", "Of Its Soils", "What the ground's soils look like, the painted ones where they lie"),
     ("SAND", "Sand", "Grains, a little damp below the surface"),
@@ -105,8 +108,9 @@ def add(scene, obj, kind="AUTO", replace=False):
     Raises DesirePathError where nothing can be done; then nothing has changed.
     """
     made = recipe(scene, obj, kind)
-    own = [] if replace else _of_the_user(obj)
-    _check(obj, own)
+    theirs = _of_the_user(obj)
+    own = [] if replace else theirs
+    _check(obj, own, made)
     _shares(obj)
     _grown(obj)
     group = looks.ground(made, _called(made))
@@ -115,11 +119,28 @@ def add(scene, obj, kind="AUTO", replace=False):
         told += [_offer(each, group) for each in own]
     free = [k for k, slot in enumerate(obj.material_slots) if replace or not _is_users(slot.material)]
     if free or not len(obj.material_slots):
-        material = _material(made, group)
+        material = _material(made, group, [slot.material for slot in obj.material_slots])
         _fill(obj, free, material)
-        told.append(f"'{obj.name}' is made of '{material.name}'.")
-    _tidy()
-    return " ".join(told)
+        told.append(f"'{obj.name}' is made of '{material.name}'.{_guessed(obj, kind)}")
+    if replace:
+        told += [_keep(each) for each in theirs if each.users == 0]
+    return " ".join((*told, *_tidy()))
+
+
+def _guessed(obj, kind):
+    """What to say of a look that goes by the name of a file which says nothing of it."""
+    name = _soil_name(obj.desire_path)
+    if kind != "AUTO" or not obj.desire_path.soil_file or any(word in name for word, _ in (*WORDS, ("earth", ""))):
+        return ""
+    return f" The name of its soil file, '{name}', says no look: it is taken for earth; Kind chooses another."
+
+
+def _keep(material):
+    """A material of the user's that nothing shows any more stays in the file."""
+    if material.library is not None:
+        return f"'{material.name}' is shown by nothing now."
+    material.use_fake_user = True
+    return f"'{material.name}' is yours and stays in the file, by a fake user."
 
 
 def _is_users(material):
@@ -131,12 +152,21 @@ def _of_the_user(obj):
     return list(dict.fromkeys(slot.material for slot in obj.material_slots if _is_users(slot.material)))
 
 
-def _check(obj, own):
+def _check(obj, own, made):
     """Say beforehand what cannot be done."""
-    if obj.data.library is not None and not len(obj.material_slots):
+    for each in (obj.desire_path, *obj.desire_path.painted):
+        if each.soil_file:
+            soils.soil_of(each)  # a file that no bake would take
+    mesh = obj.data
+    if mesh.library is not None and not len(obj.material_slots):
         raise DesirePathError(
-            f"The mesh of '{obj.name}' is linked from another file and has no material slot: make a library override "
-            "of it, or give it a material in that file."
+            f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file and has no material slot: make the "
+            "mesh local, or give it a material in that file."
+        )
+    if mesh.library is not None and any(name not in mesh.attributes for name, *_ in made.painted):
+        raise DesirePathError(
+            f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file, so where its soils are painted "
+            "cannot be written into it: make the mesh local, or choose one look for all of it as Kind."
         )
     for each in own:
         if each.library is not None:
@@ -151,11 +181,15 @@ def _check(obj, own):
             )
 
 
-def _material(made, group):
-    """The material of this file that shows a group, made where there is none."""
+def _material(made, group, shown):
+    """The material of this file that shows a group, created where there is none.
+
+    One that was tuned by hand serves the ground that shows it, and no other.
+    """
     mark = group[looks.TAG]
     for each in bpy.data.materials:
-        if each.library is None and each.get(looks.TAG) == mark and _shows(each, group):
+        serves = each.library is None and each.get(looks.TAG) == mark and _shows(each, group)
+        if serves and (each in shown or each.get(AS_MADE) == _print_of(each)):
             return each
     material = bpy.data.materials.new(_called(made))
     if not material.use_nodes:
@@ -167,9 +201,23 @@ def _material(made, group):
     node = n.add("ShaderNodeGroup", {"node_tree": group, "width": 240.0})
     leave = n.add("ShaderNodeOutputMaterial", Surface=node.outputs["Shader"])
     leave.location = (300.0, 0.0)
+    material[AS_MADE] = _print_of(material)
     base = {"SAND": (0.45, 0.32, 0.19), "SNOW": (0.85, 0.88, 0.92), "MUD": (0.09, 0.057, 0.035)}
     material.diffuse_color = (*base.get(made.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
     return material
+
+
+def _print_of(material):
+    """Its name and nodes in words: what a hand that tunes it changes."""
+    tree = material.node_tree
+    said = [material.name]
+    for node in sorted(tree.nodes, key=lambda each: each.name):
+        said += [node.name, node.bl_idname, f"{node.mute}"]
+        for socket in node.inputs:
+            value = getattr(socket, "default_value", None)
+            said.append(f"{tuple(value) if hasattr(value, '__len__') and not isinstance(value, str) else value}")
+    said += sorted(f"{each.from_node.name} {each.from_socket.name} {each.to_node.name}" for each in tree.links)
+    return zlib.crc32("\n".join(said).encode()) & 0x7FFFFFFF
 
 
 def _shows(material, group):
@@ -207,26 +255,32 @@ def _outputs(tree):
 
 
 def _fill(obj, free, material):
-    """Put a material into slots; those of a linked mesh are the object's own from then on."""
+    """Put a material into slots; those of a mesh that is linked or others' too are the object's own from then on."""
+    theirs = obj.data.library is not None or obj.data.users > 1
     if not len(obj.material_slots):
-        obj.data.materials.append(material)
-        return
+        obj.data.materials.append(None if theirs else material)
+        free = [0]
     for k in free:
         slot = obj.material_slots[k]
-        if slot.link == "DATA" and obj.data.library is not None:
+        if slot.link == "DATA" and theirs:
             slot.link = "OBJECT"
         slot.material = material
 
 
 def _tidy():
-    """Remove what was ours and is used no more."""
+    """Remove what was ours and is used no more, but what was tuned by hand; sentences that tell what was kept."""
+    told = []
     for each in list(bpy.data.materials):
         if each.library is None and is_ours(each) and each.users == 0:
-            bpy.data.materials.remove(each)
+            if each.get(AS_MADE) == _print_of(each):
+                bpy.data.materials.remove(each)
+            else:
+                told.append(_keep(each))
     for _ in range(2):  # grounds, then looks
         for each in list(bpy.data.node_groups):
             if each.library is None and looks.TAG in each and each.users == 0:
                 bpy.data.node_groups.remove(each)
+    return told
 
 
 # ---- attributes that the materials read ------------------------------------------------------------------
@@ -264,7 +318,11 @@ def _shares(obj):
     mesh = obj.data
     if mesh.library is not None:
         return
-    for name, values in shares(obj).items():
+    written = shares(obj)
+    for name in [each.name for each in mesh.attributes if each.name.startswith(looks.SHARE.format(""))]:
+        if name not in written:
+            mesh.attributes.remove(mesh.attributes[name])
+    for name, values in written.items():
         there = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT", "POINT")
         if compat.float_attribute(mesh, there.name) is not None:
             there.data.foreach_set("value", values)
