@@ -101,4 +101,4 @@ def off_ground(gait: Gait, below: np.ndarray) -> np.ndarray:
     """Where the whole limb of a part is beside the ground (P, T)."""
     over: np.ndarray = np.zeros((len(gait.limb_walker), len(gait.time)), bool)
     np.logical_or.at(over, gait.part_limb[gait.point_part], np.isfinite(below))
-    return ~over[gait.part_limb]
+    return np.asarray(~over[gait.part_limb])

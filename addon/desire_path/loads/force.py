@@ -56,7 +56,10 @@ def native_gait(gait: Gait) -> tuple[Array, ...]:
 
 def write_loads(path: str | os.PathLike[str], gait: Gait, loads: FootForce) -> None:
     """The table `time,walker,limb,part,touching,fx,fy,fz,px,py,pz`, a row a part and sample."""
-    number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
+
+    def number(x: float) -> str:
+        return f"{x + 0.0:.9g}" if np.isfinite(x) else ""
+
     with atomic_file.file(path, "The table of loads", "w", newline="", encoding="utf-8") as stream:
         table = csv.writer(stream, lineterminator="\n")
         table.writerow(["time", "walker", "limb", "part", "touching", "fx", "fy", "fz", "px", "py", "pz"])

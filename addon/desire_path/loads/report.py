@@ -126,7 +126,10 @@ def sentences(numbers: Mapping[str, Any]) -> list[str]:
 
 def write_contacts(path: str | os.PathLike[str], gait: Gait, loads: FootForce) -> None:
     """The table `walker,limb,start,end,duration,peak,mean,impulse,x,y,z`, a row a contact; s, N, N s, m."""
-    number = lambda x: f"{x + 0.0:.9g}" if np.isfinite(x) else ""
+
+    def number(x: float) -> str:
+        return f"{x + 0.0:.9g}" if np.isfinite(x) else ""
+
     with atomic_file.file(path, "The table of contacts", "w", newline="", encoding="utf-8") as stream:
         table = csv.writer(stream, lineterminator="\n")
         table.writerow(COLUMNS.split(","))

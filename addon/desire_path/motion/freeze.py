@@ -172,7 +172,7 @@ def closed(time: np.ndarray, held: Held) -> np.ndarray:
     step = np.diff(time, prepend=time[0])
     for first, last in held:
         step[first + 1 : last + 1] = 0.0
-    return time[0] + np.cumsum(step)
+    return np.asarray(time[0] + np.cumsum(step))
 
 
 def resampled(gait: R, rate: float, held: Sequence[Held]) -> R:

@@ -128,8 +128,13 @@ class Gait(Recording):
         limbs = np.cumsum([0] + [len(g.limb_walker) for g in gaits])
         parts = np.cumsum([0] + [len(g.part_limb) for g in gaits])
         walkers = np.cumsum([0] + [len(g.mass) for g in gaits])
-        chain = lambda name: tuple(x for g in gaits for x in getattr(g, name))
-        shifted = lambda name, by: np.concatenate([getattr(g, name) + b for g, b in zip(gaits, by)])
+
+        def chain(name: str) -> tuple[Any, ...]:
+            return tuple(x for g in gaits for x in getattr(g, name))
+
+        def shifted(name: str, by: np.ndarray) -> np.ndarray:
+            return np.concatenate([getattr(g, name) + b for g, b in zip(gaits, by)])
+
         return Gait(
             time=first.time,
             com=tracks.joined([g.com for g in gaits]),

@@ -138,7 +138,7 @@ def _steps(time: np.ndarray, com: np.ndarray, feet: np.ndarray, leg: float) -> l
 def _majority(limbs: ArrayLike) -> np.ndarray:
     """Where more than half of the limbs (L, n) do so."""
     limbs = np.asarray(limbs)
-    return np.sum(limbs, axis=0) > 0.5 * len(limbs)
+    return np.asarray(np.sum(limbs, axis=0) > 0.5 * len(limbs))
 
 
 def _moving(time: np.ndarray, places: np.ndarray, leg: float) -> tuple[np.ndarray, float]:
@@ -164,4 +164,4 @@ def _leaps(step: np.ndarray, at: np.ndarray, leg: float, lengths: float, falls: 
         around_steps = max(int(AROUND / step[k]), 2)
         around = np.concatenate([far[max(k - around_steps, 0) : k], far[k + 1 : k + 1 + around_steps]])
         out[k] = min(over[k], far[k]) > BEYOND * np.quantile(around, 0.9)
-    return out
+    return np.asarray(out)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -127,13 +127,19 @@ class Recording(Record):
         }[letter]
         return len(source) if source.ndim else 0
 
-    def frame(self, sample: int) -> float:
-        """Scene frame of a sample, a fraction between frames."""
+    @overload
+    def frame(self, sample: int | np.integer[Any]) -> float: ...
+
+    @overload
+    def frame(self, sample: np.ndarray) -> np.ndarray: ...
+
+    def frame(self, sample: Any) -> Any:
+        """Scene frame of a sample, or of each of several (n,), a fraction between frames."""
         return self.frame_start + (self.time[sample] - self.time[0]) * self.frame_rate
 
     def bone(self, part: int) -> str:
         """The foot bone of a part's limb."""
-        return self.limb_name[self.part_limb[part]]
+        return str(self.limb_name[self.part_limb[part]])
 
     # ---- pieces: between two cuts the motion is one ----------------------------------------------
 

@@ -49,7 +49,7 @@ def matrix(q: ArrayLike) -> np.ndarray:
 
 
 def unit(v: np.ndarray) -> np.ndarray:
-    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
+    return np.asarray(v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12))
 
 
 def square(turn: np.ndarray) -> np.ndarray:
@@ -57,7 +57,7 @@ def square(turn: np.ndarray) -> np.ndarray:
     u, _, vt = np.linalg.svd(turn)
     flip = np.ones(turn.shape[:-2] + (3,))
     flip[..., 2] = np.sign(np.linalg.det(u @ vt))
-    return (u * flip[..., None, :]) @ vt
+    return np.asarray((u * flip[..., None, :]) @ vt)
 
 
 def mean_turn(turns: np.ndarray, weight: np.ndarray) -> np.ndarray:

@@ -69,4 +69,4 @@ def median(values: ArrayLike, weight: ArrayLike) -> np.ndarray:
     low = flat[order[row, column], column]
     even = abs(share[row, column] - 0.5) < 1e-9  # half way between two, as ever
     high = flat[order[np.minimum(row + 1, len(flat) - 1), column], column]
-    return np.where(even, (low + high) / 2.0, low).reshape(values.shape[1:])
+    return np.asarray(np.where(even, (low + high) / 2.0, low).reshape(values.shape[1:]))

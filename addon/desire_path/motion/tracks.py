@@ -41,7 +41,7 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
     nbytes = property(lambda self: sum(values.nbytes for _, _, values in self.blocks))
 
     def __len__(self) -> int:
-        return self.shape[0]
+        return int(self.shape[0])
 
     # ---- who is there ----------------------------------------------------------------------------
 

@@ -154,7 +154,10 @@ def _one(cycle: Cycle, line: Path, rate: float, scatter: _Scattered, ground: Sim
 
     # strides get longer by moving the places where limbs stand; the path begins where the body is at first
     begin = com[0, 0]
-    grown = lambda s: scale * (s - begin)
+
+    def grown(s: np.ndarray) -> np.ndarray:
+        return np.asarray(scale * (s - begin))
+
     feet = np.stack([grown(stand[..., 0]), stand[..., 1]], axis=-1)
     place, heading = _laid(line, scatter, feet)
     limb = cycle.gait.part_limb
@@ -218,7 +221,7 @@ class _Below:
 
     def body(self, s: np.ndarray) -> np.ndarray:
         """Heights that a body follows [m] at lengths along the path."""
-        return np.interp(s, self.s, self.smooth)
+        return np.asarray(np.interp(s, self.s, self.smooth))
 
     def feet(self, place: np.ndarray, heading: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Height (L, T) under each limb, and the turn (L, T, 4) that lays it on the slope there."""
@@ -230,7 +233,10 @@ class _Below:
             middle, climb, side = at(s), (at(s + FOOT) - at(s - FOOT)) / (2 * FOOT), 0.0 * s
         else:
             line = np.interp(s, self.s, self.rise)
-            look = lambda direction, far: _known_heights(ground, place + far * direction, s, line)
+
+            def look(direction: np.ndarray, far: float) -> np.ndarray:
+                return _known_heights(ground, place + far * direction, s, line)
+
             middle = look(ahead, 0.0)
             climb = (look(ahead, FOOT) - look(ahead, -FOOT)) / (2 * FOOT)
             side = (look(left, FOOT) - look(left, -FOOT)) / (2 * FOOT)
@@ -250,7 +256,7 @@ def _known_heights(ground: Heights, place: np.ndarray, s: np.ndarray, line_heigh
         return np.where(known, found, line_height)
     if not known.any():
         return np.zeros_like(found)
-    return np.interp(s, s[known], found[known])
+    return np.asarray(np.interp(s, s[known], found[known]))
 
 
 # ---- many passes, many walkers -----------------------------------------------------------------------
@@ -282,9 +288,11 @@ def _chained(
     else:
         tracks = [TrackArray(walkers[-1], len(time), coms), TrackArray(parts[-1], len(time), poses)]
     none = np.empty(0)
-    one = lambda gait: replace(
-        gait, time=time[:1], com=gait.com[:, :1], pose=gait.pose[:, :1], cut=none, jump=none, leg=none
-    )
+
+    def one(gait: Gait) -> Gait:
+        com, pose = gait.com[:, :1], gait.pose[:, :1]
+        return replace(gait, time=time[:1], com=com, pose=pose, cut=none, jump=none, leg=none)
+
     chained = replace(
         Gait.join([one(gait) for gait in gaits]),
         time=time,

@@ -66,11 +66,11 @@ class Path:
 
     def height(self, s: np.ndarray) -> np.ndarray:
         """Height of the curve [m]; level beyond its ends."""
-        return np.interp(s, self.s, self.line[:, 2])
+        return np.asarray(np.interp(s, self.s, self.line[:, 2]))
 
     def bend_at(self, s: np.ndarray) -> np.ndarray:
         """Curvature [1/m], positive to the left; straight beyond the ends."""
-        return np.interp(s, self.s, self.bend, left=0.0, right=0.0)
+        return np.asarray(np.interp(s, self.s, self.bend, left=0.0, right=0.0))
 
 
 def _checked(points: ArrayLike) -> np.ndarray:

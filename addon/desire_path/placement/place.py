@@ -124,7 +124,10 @@ def tilt(gait: Gait, placed: Gait, row: int = 0) -> np.ndarray | None:
     size = np.trace(spread, axis1=1, axis2=2)[:, None, None]
     rate = np.linalg.solve(spread + (1e-4 * size + 1e-12) * np.eye(2), np.einsum("lti,lt->ti", at, rise)[..., None])
     ahead = rotation.matrix(gait.pose[lead, :, 3:])[..., :2, 0].mean(axis=0)
-    calm = lambda values: _calm(values, round(SWAY * gait.frame_rate))
+
+    def calm(values: np.ndarray) -> np.ndarray:
+        return _calm(values, round(SWAY * gait.frame_rate))
+
     ahead = gait.by_piece(calm, ahead)
     ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
     along = np.sum(rate[..., 0] * ahead, axis=1, keepdims=True) * ahead
@@ -137,7 +140,7 @@ def tilt(gait: Gait, placed: Gait, row: int = 0) -> np.ndarray | None:
 def _calm(values: np.ndarray, frames: int) -> np.ndarray:
     """The mean of values (T, n) over so many samples before and after, held at the ends."""
     padded = np.pad(values, ((frames, frames), (0, 0)), mode="edge")
-    return np.lib.stride_tricks.sliding_window_view(padded, 2 * frames + 1, axis=0).mean(axis=-1)
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * frames + 1, axis=0).mean(axis=-1))
 
 
 def carries(gait: Gait, land: Simulation, row: int) -> bool:

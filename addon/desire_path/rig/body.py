@@ -105,7 +105,7 @@ def mass_centre(bones: SampledBones, rig: Rig, leg: float) -> np.ndarray:
     if not rig.segments:
         if rig.hips:
             return bones.point(rig.hips).copy()
-        return np.mean([bones.point(f.foot) for f in rig.feet], axis=0) + (0.0, 0.0, leg)
+        return np.asarray(np.mean([bones.point(f.foot) for f in rig.feet], axis=0) + (0.0, 0.0, leg))
     total = sum(s.mass for s in rig.segments)
     com = np.zeros((len(bones.matrix), 3))
     ahead = _facing(bones, rig) if any(s.knee for s in rig.segments) else None
@@ -142,7 +142,7 @@ def _knee(bones: SampledBones, leg: Segment, hip: np.ndarray, ankle: np.ndarray,
     down = down / np.maximum(apart, 1e-9)
     ahead = ahead - (ahead * down).sum(axis=1, keepdims=True) * down
     ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
-    return (hip + ankle) / 2.0 + np.sqrt(np.maximum(half**2 - apart**2 / 4.0, 0.0)) * ahead
+    return np.asarray((hip + ankle) / 2.0 + np.sqrt(np.maximum(half**2 - apart**2 / 4.0, 0.0)) * ahead)
 
 
 def rest_up(bones: SampledBones, rig: Rig) -> np.ndarray:

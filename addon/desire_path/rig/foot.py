@@ -124,7 +124,7 @@ class Foot:
         run_length, toe_length = np.linalg.norm(run), np.linalg.norm(toe)
         if toe_length < LONG * run_length and run @ toe > np.cos(ASTRAY) * run_length * toe_length:
             return None
-        return rotation.square(self.bones.rest[self.bones.row[self.toe], :3, :3]).T @ (TOE_GUESS * run)
+        return np.asarray(rotation.square(self.bones.rest[self.bones.row[self.toe], :3, :3]).T @ (TOE_GUESS * run))
 
     def _far(self) -> bool:
         """Does a short toe bone begin so far from the ankle that it must be where the toes end?"""
@@ -168,7 +168,7 @@ class Foot:
 
     def _height(self, seen: np.ndarray) -> np.ndarray:
         """Of ankle and ball over their lowest places in the samples of a mask, the greater (T,)."""
-        return np.maximum(*(joint[:, 2] - np.quantile(joint[seen, 2], 0.02) for joint in self.joints()[:2]))
+        return np.asarray(np.maximum(*(joint[:, 2] - np.quantile(joint[seen, 2], 0.02) for joint in self.joints()[:2])))
 
     def flat(self, time: np.ndarray) -> np.ndarray:
         """Samples at which the foot stands flat: low or slow, neither rising nor turning.
@@ -208,7 +208,7 @@ class Foot:
                 usual = stays.median(over_ball, stays.votes(flat, time, self.size))
                 flat &= over_ball < usual + HEEL_DOWN * self.leg
             if flat.sum() >= 3:
-                return flat
+                return np.asarray(flat)
         return np.zeros(len(time), bool)
 
     def _heel(self, foot_turn: np.ndarray, frame: np.ndarray, weight: np.ndarray, heel_x: float, tip_x: float) -> float:
@@ -253,9 +253,15 @@ class Foot:
                 ahead = foot_turn @ (rest.T @ ahead_rest)
             across = np.broadcast_to(ahead, forward.shape)
         frame = rotation.frame(across, up)
-        inside = lambda p: stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
+
+        def inside(p: np.ndarray) -> np.ndarray:
+            return stays.median(np.einsum("tji,tj->ti", frame, p - ankle), weight)
+
         ball_in, tip_in = inside(ball), inside(tip)
-        mean = lambda turn: rotation.mean_turn(np.swapaxes(turn, 1, 2) @ frame, weight)
+
+        def mean(turn: np.ndarray) -> np.ndarray:
+            return rotation.mean_turn(np.swapaxes(turn, 1, 2) @ frame, weight)
+
         foot_in = mean(foot_turn)
         toe_in = None if toe_turn is None else mean(toe_turn)
         if self.multipod and self.toe and -ball_in[2] > PAW * np.linalg.norm(ball_in):

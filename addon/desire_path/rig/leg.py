@@ -16,7 +16,7 @@ ELBOW = 0.03  # legs whose middle is this far behind, in leg lengths, bend that 
 
 def length(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray) -> np.ndarray:
     """Of a leg (T,)."""
-    return np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1)
+    return np.asarray(np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1))
 
 
 def drop(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray, target: np.ndarray) -> np.ndarray:
@@ -25,14 +25,18 @@ def drop(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray, target: np.ndarra
     apart = target - hip
     aside = np.hypot(apart[:, 0], apart[:, 1])
     hang = np.sqrt(np.maximum(longest**2 - aside**2, 0.0))
-    return np.maximum(-apart[:, 2] - hang, 0.0)
+    return np.asarray(np.maximum(-apart[:, 2] - hang, 0.0))
 
 
 def eased(down: np.ndarray, frames: float) -> np.ndarray:
     """`down` (T,) never undercut, without jolts: its largest within `frames`, then the mean of those."""
     count = 2 * int(frames) + 1
-    near = lambda values: np.lib.stride_tricks.sliding_window_view(np.pad(values, int(frames), mode="edge"), count)
-    return near(near(down).max(axis=1)).mean(axis=1)
+
+    def near(values: np.ndarray) -> np.ndarray:
+        padded = np.pad(values, int(frames), mode="edge")
+        return np.lib.stride_tricks.sliding_window_view(padded, count)
+
+    return np.asarray(near(near(down).max(axis=1)).mean(axis=1))
 
 
 def turn_between(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -42,7 +46,7 @@ def turn_between(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     cross = np.zeros((len(one), 3, 3))
     for i, j, k, sign in ((0, 1, 2, -1), (0, 2, 1, 1), (1, 2, 0, -1)):
         cross[:, i, j], cross[:, j, i] = sign * axis[:, k], -sign * axis[:, k]
-    return np.eye(3) + cross + cross @ cross / np.maximum(1.0 + cosine, 1e-9)[:, None, None]
+    return np.asarray(np.eye(3) + cross + cross @ cross / np.maximum(1.0 + cosine, 1e-9)[:, None, None])
 
 
 def reach(
@@ -57,7 +61,9 @@ def reach(
     line, wanted = rotation.unit(ankle - hip), rotation.unit(target - hip)
     far = np.clip(np.linalg.norm(target - hip, axis=1), abs(upper - lower) + 1e-6 * full, (1 - 1e-7) * full)
 
-    across = lambda v: v - np.sum(v * line, axis=1, keepdims=True) * line
+    def across(v: np.ndarray) -> np.ndarray:
+        return np.asarray(v - np.sum(v * line, axis=1, keepdims=True) * line)
+
     pole, side = across(knee - hip), rotation.unit(across(ahead))
     to_side = np.sum(pole * side, axis=1)
     if np.median(to_side / full) < -ELBOW:  # an elbow, or a bird's knee
@@ -77,5 +83,8 @@ def reach(
 
 
 def _between_frames(along: np.ndarray, hinge: np.ndarray, new_along: np.ndarray, new_hinge: np.ndarray) -> np.ndarray:
-    frame = lambda a, h: rotation.frame(h, a)  # z along the bone, x near the hinge
-    return frame(new_along, new_hinge) @ np.swapaxes(frame(along, hinge), 1, 2)
+
+    def frame(a: np.ndarray, h: np.ndarray) -> np.ndarray:  # z along the bone, x near the hinge
+        return rotation.frame(h, a)
+
+    return np.asarray(frame(new_along, new_hinge) @ np.swapaxes(frame(along, hinge), 1, 2))

@@ -30,7 +30,10 @@ def _foot_of(bones: Bones, foot: int, place: str) -> tuple[int, int, int]:
         foot, ball = ankle, foot  # SMPL: its left_foot is the ball of the foot
     layer = bones.read[foot].layer
     near = max(bones.size * 0.2, 1e-6)
-    under = lambda b: bones.under(b, foot)
+
+    def under(b: int) -> bool:
+        return bones.under(b, foot)
+
     hoof = bones.find(HOOF, side, where=under)
     if hoof >= 0 and bones.read[hoof].layer <= layer:
         return hoof, -1, -1  # what is called the foot of a horse is up its leg
@@ -135,7 +138,10 @@ def _pairs(bones: Bones, table: Sequence[str], stand: _Stand, place: str | None 
     sides = []
     for side in ("L", "R"):
         known, taken = list(stand.feet), list[int]()
-        holds = lambda b: stand.holds(b, table is FORE)
+
+        def holds(b: int) -> bool:
+            return stand.holds(b, table is FORE)
+
         while (bone := bones.find(table, side, place, where=holds)) >= 0:
             taken.append(bone)
             stand.feet = stand.feet + [bone]

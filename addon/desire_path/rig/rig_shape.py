@@ -111,7 +111,10 @@ def _mirrored(
         return []
     height = max(bones.head[kept, up].max() - bones.tail[kept, up].min(), 1e-9)
     middle = np.median(bones.head[kept, across])
-    off = lambda a, b: np.linalg.norm((bones.head[a] - bones.head[b])[[k for k in range(3) if k != across]])
+
+    def off(a: int, b: int) -> float:
+        return float(np.linalg.norm((bones.head[a] - bones.head[b])[[k for k in range(3) if k != across]]))
+
     left, pairs = sorted(chains, key=lambda b: bones.names[b]), list[tuple[int, int]]()
     along = 3 - up - across
     while left:

@@ -113,7 +113,10 @@ def detect(skeleton: Skeleton) -> Rig:
             + ", ".join(bones.names[each.foot] for each in found)
             + " are the feet."
         )
-    name = lambda b: bones.names[b] if b >= 0 else None
+
+    def name(b: int) -> str | None:
+        return bones.names[b] if b >= 0 else None
+
     feet = [
         Foot(
             each.limb,
@@ -137,8 +140,10 @@ def _hips(bones: Bones, feet: Sequence[Foot]) -> int:
     if tops:
         top = bones.head[tops].mean(axis=0)
         leg = float(np.mean([bones.apart(row[f.thigh], row[f.foot]) for f in feet[:2] if f.thigh]))
-    near = lambda b: not tops or bool(np.linalg.norm(bones.head[b] - top) < HIPS_NEAR * leg)
     passes = len(feet) > 2 and bool(tops)  # a trunk passes its legs, wherever it begins
+
+    def near(b: int) -> bool:
+        return not tops or bool(np.linalg.norm(bones.head[b] - top) < HIPS_NEAR * leg)
 
     def high(b: int) -> bool:
         if passes:

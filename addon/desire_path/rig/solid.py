@@ -121,4 +121,4 @@ def outermost(vertices: np.ndarray) -> np.ndarray:
     # of several that are as far, as on a face or a rim, both ends count: a little aside to either side finds them
     tilt = 1e-3 * np.roll(directions, 1, axis=1) * (1.0, -1.0, 1.0)
     far = [((vertices - middle) @ toward.T).argmax(axis=0) for toward in (directions + tilt, directions - tilt)]
-    return vertices[np.unique(np.concatenate(far))]
+    return np.asarray(vertices[np.unique(np.concatenate(far))])

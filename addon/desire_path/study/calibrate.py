@@ -181,7 +181,7 @@ class _Lanes:
                 kind, lane=lane, passes=self.passes, threads=self.threads, progress=report
             )
         )
-        return np.mean([[share for _, share in row] for row in rows], axis=0)
+        return np.asarray(np.mean([[share for _, share in row] for row in rows], axis=0))
 
 
 def _largest_below(lost: np.ndarray, bends: int) -> np.ndarray:
@@ -223,10 +223,11 @@ def _regrowth(
 
     def error(rate: float, share: float) -> float:
         grown = _with(kind, regrow_rate=float(rate) / YEAR, seed_share=float(share)).numbers()
-        return sum(
-            abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover) ** WORST
+        off = [
+            abs(_native.plants_regrow(grown, min(alpha, 1.0), days * trampling.DAY) - cover)
             for alpha, cover, days in known
-        ) ** (1.0 / WORST)
+        ]
+        return float(sum(each**WORST for each in off) ** (1.0 / WORST))
 
     def best(share: float) -> Any:
         return optimize.minimize_scalar(lambda rate: error(rate, share), bounds=(0.0, 50.0), method="bounded")
