@@ -95,6 +95,12 @@ PyObject* dp_py_result(DpStatus status, const char* what)
     return NULL;
 }
 
+PyObject* dp_py_because(DpStatus status, const char* what, const char* why)
+{
+    if (status != DP_BAD_ARGUMENT) return dp_py_result(status, what);
+    return PyErr_Format(PyExc_ValueError, "%s: %s", what, why);
+}
+
 // ---- memory of the core, lent to Python ---------------------------------------------------------
 
 typedef struct Block

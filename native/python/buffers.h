@@ -41,6 +41,9 @@ int dp_buffers_finite(const double* value, Py_ssize_t count, const char* name);
 // NULL. DP_OK: return None.
 PyObject* dp_py_result(DpStatus status, const char* what);
 
+// The same; where it is a bad argument, `why` says which of them and what it must be, as a lower-case clause.
+PyObject* dp_py_because(DpStatus status, const char* what, const char* why);
+
 // Open a gait given as the tuple (time, com, mass, pose, limb_walker, part_limb, point, point_part,
 // point_role); 0, or -1 with an exception. It is valid until the buffers is closed.
 int dp_py_gait(DpBuffers* buffers, PyObject* tuple, DpGait* gait);

@@ -155,7 +155,9 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     simulation->busy = false;
     if (status == DP_OK) return (PyObject*)self;
     Py_DECREF((PyObject*)self);
-    return dp_py_result(status, "opening the frames");
+    return dp_py_because(status, "opening the frames",
+                         "tiles_x and tiles_y must be 1 or more, and the tiles not too many, nor "
+                         "too far out for exact places");
 }
 
 // Channel names and fields from a tuple of (name, number of the field); 0, or -1 with an exception.
@@ -207,7 +209,8 @@ static PyObject* film_open_maps(PyObject* object, PyObject* args)
     if (status == DP_OK) self->film[MAPS] = fresh;
     self->simulation->busy = false;
     dp_free(notes);
-    return dp_py_result(status, "opening the maps");
+    return dp_py_because(status, "opening the maps",
+                         "fields and notes need names of their own that OpenEXR does not use");
 }
 
 static PyMethodDef methods[] = {

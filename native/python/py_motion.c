@@ -101,7 +101,9 @@ PyObject* dp_py_load(PyObject* object, PyObject* args)
     status = dp_sim_load(self->sim, &cast.gait, poses.touching, poses.force, poses.pressure_point);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_py_result(status, "loading the recording");
+    result = dp_py_because(
+        status, "loading the recording",
+        "times must rise, poses be turns, forces finite, and parts, limbs and walkers be there");
 done:
     dp_free(cast.sole);
     dp_buffers_close(&buffers);
@@ -183,7 +185,9 @@ PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
     if (status != DP_OK) dp_motion_destroy(motion);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_py_result(status, "loading the recording");
+    result = dp_py_because(
+        status, "loading the recording",
+        "times must rise, poses be turns, forces finite, and parts, limbs and walkers be there");
 done:
     dp_free(track), dp_free(cast.sole);
     dp_buffers_close(&buffers);
@@ -240,7 +244,9 @@ PyObject* dp_py_push(PyObject* object, PyObject* args)
         dp_py_enter(self)) {
         const DpStatus status = dp_sim_push(self->sim, time, present, &poses);
         self->busy = false;
-        result = dp_py_result(status, "pushing poses");
+        result = dp_py_because(status, "pushing poses",
+                               "time must be later than the last sample, and poses, forces and "
+                               "points of who is there be numbers");
     }
     dp_buffers_close(&buffers);
     return result;

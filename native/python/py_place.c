@@ -43,7 +43,9 @@ PyObject* dp_py_place(PyObject* object, PyObject* args)
     status = dp_sim_place(self->terrain, &gait, walker, &options, clearance, pose, com);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_py_result(status, "placing feet");
+    result = dp_py_because(status, "placing feet",
+                           "walker must be one of the gait, whose poses are turns, and whose "
+                           "parts, limbs and walkers are there");
 done:
     dp_buffers_close(&buffers);
     return result;

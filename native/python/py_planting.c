@@ -69,8 +69,9 @@ PyObject* dp_py_vary_plants(PyObject* object, PyObject* args)
     float*    vigour = dp_buffers_open(&buffers, o_vigour, "vigour", 'f', &list, false);
     if (vigour && enter(self)) {
         const bool fits = stand >= 0 && dp_plants_count(self->plants, stand) == list.n[0];
-        result = dp_py_result(fits ? dp_plants_vary(self->plants, stand, vigour) : DP_BAD_ARGUMENT,
-                              "varying plants");
+        result = dp_py_because(
+            fits ? dp_plants_vary(self->plants, stand, vigour) : DP_BAD_ARGUMENT, "varying plants",
+            "vigour needs a number for each plant of a stand that is there and was not trodden");
         self->busy = false;
     }
     dp_buffers_close(&buffers);
@@ -87,7 +88,7 @@ PyObject* dp_py_rest_plants(PyObject* object, PyObject* args)
     status = dp_sim_rest(self->sim, seconds);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    return dp_py_result(status, "letting plants rest");
+    return dp_py_because(status, "letting plants rest", "seconds must be 0 or more and below 1e12");
 }
 
 PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
@@ -129,7 +130,9 @@ PyObject* dp_py_read_plants(PyObject* object, PyObject* args)
         Py_END_ALLOW_THREADS
     }
     self->busy = false;
-    result = dp_py_result(fits ? DP_OK : DP_BAD_ARGUMENT, "reading plants");
+    result = dp_py_because(
+        fits ? DP_OK : DP_BAD_ARGUMENT, "reading plants",
+        "first and the shapes of position, strength and alpha must fit a stand that is there");
 done:
     dp_buffers_close(&buffers);
     return result;
@@ -166,7 +169,9 @@ PyObject* dp_py_read_shown(PyObject* object, PyObject* args)
                                   position + 3 * (size_t)k * (size_t)particles);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_py_result(status, "reading plants");
+        result = dp_py_because(status, "reading plants",
+                               "first and the shape of position must fit a stand that is there, "
+                               "and lay_plants() come before");
     }
     dp_buffers_close(&buffers);
     return result;
@@ -185,7 +190,10 @@ PyObject* dp_py_read_lean(PyObject* object, PyObject* args)
     float*     out = dp_buffers_open(&buffers, o_out, "out", 'f', &shape, true);
     const bool fits = axis >= 0 && axis < 3 && shape.n[0] <= INT32_MAX && shape.n[1] <= INT32_MAX &&
                       dp_terrain_has(i0, j0, (long)shape.n[1], (long)shape.n[0]);
-    if (out && !fits) dp_py_result(DP_BAD_ARGUMENT, "reading how grass lies");
+    if (out && !fits)
+        dp_py_because(
+            DP_BAD_ARGUMENT, "reading how grass lies",
+            "axis must be 0 to 2, and out hold cells that are not too far out for exact places");
     if (out && fits && enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_grass_read(dp_sim_grass(self->sim), i0, j0, (int)shape.n[1], (int)shape.n[0],

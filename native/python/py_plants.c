@@ -35,7 +35,9 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
         goto done;
     if (!(root = dp_buffers_open(&buffers, roots, "root", 'f', &list, true))) goto done;
     if (list.n[0] > INT32_MAX || grid.n[0] > 1 << 20 || grid.n[1] > 1 << 20) {
-        answer = dp_py_result(DP_BAD_ARGUMENT, "placing plants");
+        answer = dp_py_because(DP_BAD_ARGUMENT, "placing plants",
+                               "x0 < x1 and y0 < y1 within 1e7 m, a density above 0 and below 1e9, "
+                               "weights of 0 or more and 0 to len(root) given roots are needed");
         goto done;
     }
     DpStatus status;
@@ -43,7 +45,12 @@ static PyObject* plants_place(PyObject* module, PyObject* arguments)
     status = dp_plants_place(x0, y0, x1, y1, density, weight, (int)grid.n[1], (int)grid.n[0], seed,
                              root, (int)list.n[0], &count);
     Py_END_ALLOW_THREADS
-    answer = status == DP_OK ? PyLong_FromLong(count) : dp_py_result(status, "placing plants");
+    answer =
+        status == DP_OK
+            ? PyLong_FromLong(count)
+            : dp_py_because(status, "placing plants",
+                            "x0 < x1 and y0 < y1 within 1e7 m, a density above 0 and below 1e9, "
+                            "weights of 0 or more and 0 to len(root) given roots are needed");
 done:
     dp_buffers_close(&buffers);
     return answer;
@@ -118,7 +125,8 @@ static int open_state(Stand* stand, PyObject* position, PyObject* velocity, PyOb
             dp_plants_write(stand->plants, 0, k, position ? stand->position + p : NULL,
                             velocity ? stand->velocity + p : NULL, stand->strength + b);
         if (status == DP_OK) continue;
-        dp_py_result(status, "position, velocity or strength");
+        dp_py_because(status, "position, velocity or strength",
+                      "a place or speed is no number, or a strength lies beyond 0 to the reserve");
         return -1;
     }
     return 0;
@@ -202,7 +210,8 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
         goto done;
     const DpPlantGround* below = ground != Py_None ? &stand.ground : NULL;
     if (below && dp_plants_follow(stand.plants, below) != DP_OK) {
-        answer = dp_py_result(DP_BAD_ARGUMENT, "ground");
+        answer = dp_py_because(DP_BAD_ARGUMENT, "ground",
+                               "its cells need a side above 0 and below 1e6 m, within 1e9 m");
         goto done;
     }
     if (open_state(&stand, position, velocity, strength) < 0) goto done;
@@ -221,8 +230,11 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
                        stand.velocity + 3 * (size_t)k * (size_t)stand.shape.particles,
                        stand.strength + (size_t)k * (size_t)stand.shape.bends);
     Py_END_ALLOW_THREADS
-    answer = status == DP_OK ? Py_BuildValue("{s:i,s:i}", "awake", told.awake, "broke", broke)
-                             : dp_py_result(status, "moving plants");
+    answer = status == DP_OK
+                 ? Py_BuildValue("{s:i,s:i}", "awake", told.awake, "broke", broke)
+                 : dp_py_because(status, "moving plants",
+                                 "dt must be above 0 and below 1e6 s, numbers of ground and "
+                                 "colliders finite and their cells above 0 m");
 done:
     close_stand(&stand);
     return answer;
@@ -270,8 +282,9 @@ static PyObject* plants_cover(PyObject* module, PyObject* arguments)
         !(modulus = dp_buffers_open(&stand.buffers, moduli, "modulus", 'f', &grid, true)))
         goto done;
     window.ny = (int)grid.n[0], window.nx = window.row = (int)grid.n[1];
-    answer = dp_py_result(dp_plants_cover(stand.plants, &window, (DpCoverLaw)law, alpha, modulus),
-                          "covering ground");
+    answer = dp_py_because(
+        dp_plants_cover(stand.plants, &window, (DpCoverLaw)law, alpha, modulus), "covering ground",
+        "the window needs cells of a side above 0 and below 1e6 m, within 1e9 m");
 done:
     close_stand(&stand);
     return answer;

@@ -79,7 +79,8 @@ static PyObject* simulation_rest(Simulation* self, PyObject* args)
     double*   out =
         xy ? dp_buffers_open(&buffers, out_object, "out", 'd', DP_SHAPE1(shape.n[0]), true) : NULL;
     if (out && shape.n[0] > INT32_MAX)
-        dp_py_result(DP_BAD_ARGUMENT, "asking for heights");
+        dp_py_because(DP_BAD_ARGUMENT, "asking for heights",
+                      "xy holds too many points for one call");
     else if (out && dp_buffers_finite(xy, 2 * shape.n[0], "xy") == 0 && dp_py_enter(self)) {
         Py_BEGIN_ALLOW_THREADS
         dp_terrain_base_height(self->terrain, (int)shape.n[0], xy, out);
@@ -178,7 +179,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     PyObject* result = NULL;
     float*    out = dp_buffers_open(&buffers, out_object, "out", 'f', &shape, true);
     if (out && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
-        dp_py_result(DP_BAD_ARGUMENT, "reading a map");
+        dp_py_because(DP_BAD_ARGUMENT, "reading a map",
+                      "out must hold a cell at least, and none so far out, from i0 and j0 on, that "
+                      "its place is not exact");
     } else if (out && dp_py_enter(self)) {
         DpStatus status = DP_OK;
         Py_BEGIN_ALLOW_THREADS
@@ -189,7 +192,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
                                      (int)shape.n[0], out);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_py_result(status, "reading a map");
+        result = dp_py_because(status, "reading a map",
+                               "out must hold a cell at least, and none so far out, from i0 and j0 "
+                               "on, that its place is not exact");
     }
     dp_buffers_close(&buffers);
     return result;
@@ -211,7 +216,10 @@ static PyObject* simulation_lay(Simulation* self, PyObject* args)
         trail.pressure_time =
             dp_buffers_open(&buffers, grid[2], "pressure_time", 'f', &shape, false);
     if (trail.pressure_time && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
-        dp_py_result(DP_BAD_ARGUMENT, "laying a trail");
+        dp_py_because(
+            DP_BAD_ARGUMENT, "laying a trail",
+            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
+            "and j0 on that are not too far out for exact places, before anybody walks");
     } else if (trail.pressure_time && dp_py_enter(self)) {
         DpStatus status;
         trail.ny = (int)shape.n[0], trail.nx = (int)shape.n[1];
@@ -219,7 +227,10 @@ static PyObject* simulation_lay(Simulation* self, PyObject* args)
         status = dp_terrain_lay(self->terrain, &trail);
         Py_END_ALLOW_THREADS
         self->busy = false;
-        result = dp_py_result(status, "laying a trail");
+        result = dp_py_because(
+            status, "laying a trail",
+            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
+            "and j0 on that are not too far out for exact places, before anybody walks");
     }
     dp_buffers_close(&buffers);
     return result;

@@ -187,11 +187,14 @@ static PyObject* soil_compress(PyObject* module, PyObject* arguments)
         status =
             dp_soil_compress(&call.patch, &call.imprint, &call.foot, (DpContactLaw)law, dt, &p);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK
-                     ? dp_py_result(status, "pressing soil")
-                     : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm, "elastic",
-                                     p.elastic, "loose", p.loose, "displaced", p.displaced, "area",
-                                     p.area, "sink", p.sink, "deepest", p.deepest);
+        result =
+            status != DP_OK
+                ? dp_py_because(
+                      status, "pressing soil",
+                      "dt must be above 0 s and finite, and force and normal make a finite load")
+                : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d,s:d}", "firm", p.firm, "elastic",
+                                p.elastic, "loose", p.loose, "displaced", p.displaced, "area",
+                                p.area, "sink", p.sink, "deepest", p.deepest);
     }
     close_call(&call);
     return result;
@@ -217,7 +220,11 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
         status = dp_soil_accumulate(&call.patch, &call.imprint, &call.foot, volume, &options,
                                     &height, call.scratch);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK ? dp_py_result(status, "laying soil") : PyFloat_FromDouble(height);
+        result = status != DP_OK
+                     ? dp_py_because(
+                           status, "laying soil",
+                           "volume and height must be 0 or more, rim_width and threshold above 0")
+                     : PyFloat_FromDouble(height);
     }
     close_call(&call);
     return result;
@@ -250,12 +257,14 @@ static PyObject* soil_stabilize(PyObject* module, PyObject* arguments)
             dp_soil_stabilize(&call.patch, stands ? &call.imprint : NULL,
                               within == Py_None ? NULL : &box, tolerance, most, call.scratch, &s);
         Py_END_ALLOW_THREADS
-        result = status != DP_OK
-                     ? dp_py_result(status, "letting soil come to rest")
-                     : Py_BuildValue("{s:i,s:N,s:N,s:d,s:(llll)}", "sweeps", s.sweeps, "at_rest",
-                                     PyBool_FromLong(s.at_rest), "at_edge",
-                                     PyBool_FromLong(s.at_edge), "loosened", s.loosened, "changed",
-                                     s.changed.i0, s.changed.i1, s.changed.j0, s.changed.j1);
+        result =
+            status != DP_OK
+                ? dp_py_because(status, "letting soil come to rest",
+                                "tolerance must be above 0 and below 1 rad, max_sweeps 0 or more")
+                : Py_BuildValue("{s:i,s:N,s:N,s:d,s:(llll)}", "sweeps", s.sweeps, "at_rest",
+                                PyBool_FromLong(s.at_rest), "at_edge", PyBool_FromLong(s.at_edge),
+                                "loosened", s.loosened, "changed", s.changed.i0, s.changed.i1,
+                                s.changed.j0, s.changed.j1);
     }
     close_call(&call);
     return result;

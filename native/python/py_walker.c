@@ -96,7 +96,9 @@ static PyObject* resample(PyObject* self, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     status = dp_gait_resample(&gait, rate, (int)n, out_time, out_com, out_pose);
     Py_END_ALLOW_THREADS
-    result = dp_py_result(status, "resampling");
+    result =
+        dp_py_because(status, "resampling",
+                      "times must rise, and new time have as many samples as resample_count tells");
 done:
     dp_buffers_close(&buffers);
     return result;
@@ -157,7 +159,9 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     status = dp_foot_contact(&gait, below, &limits, on, rest);
     Py_END_ALLOW_THREADS
-    result = dp_py_result(status, "finding contacts");
+    result = dp_py_because(status, "finding contacts",
+                           "the gait must be sampled evenly, with poses that are turns, and parts, "
+                           "limbs and walkers that are there");
 done:
     dp_buffers_close(&buffers);
     return result;
@@ -201,7 +205,9 @@ static PyObject* foot_force(PyObject* self, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     status = dp_foot_force(&gait, on, below, &options, out_force, out_point);
     Py_END_ALLOW_THREADS
-    result = dp_py_result(status, "finding loads");
+    result = dp_py_because(status, "finding loads",
+                           "the gait must be sampled evenly, with poses that are turns, and parts, "
+                           "limbs and walkers that are there");
 done:
     dp_buffers_close(&buffers);
     return result;

@@ -47,6 +47,24 @@ def test_windows_at_the_end_of_all_numbers_are_refused(at):
     core.read(0, 5, -5, out)
 
 
+def test_what_is_refused_is_named_with_what_it_must_be():
+    """A status of the core is a sentence about the arguments, never about all of them at once."""
+    core, out, root = bare(), np.zeros((8, 8), "f4"), np.zeros((5, 2), "f4")
+    core.open_plants(1)
+    for words, ask in (
+        ("out must hold a cell at least", lambda: core.read(0, 2**62, 0, out)),
+        ("axis must be 0 to 2", lambda: core.read_lean(3, 0, 0, out)),
+        ("compression, heap and pressure_time must be numbers of 0 or more", lambda: core.lay(0, 0, out, out - 1, out)),
+        ("tiles_x and tiles_y must be 1 or more", lambda: core.open_frames(0, 0, 0, 3, "")),
+        ("seconds must be 0 or more", lambda: core.rest_plants(-1.0)),
+        ("vigour needs a number for each plant", lambda: core.vary_plants(3, np.zeros(2, "f4"))),
+        ("a density above 0", lambda: _native.plants_place(0, 0, 1, 1, -3.0, None, 1, root)),
+        ("0 to len.root. given roots", lambda: _native.plants_place(0, 0, 1, 1, 3.0, None, 1, root, 6)),
+    ):
+        with pytest.raises(ValueError, match=words):
+            ask()
+
+
 def test_more_tiles_than_can_be_are_refused():
     core = bare()
     for nx, ny in ((2**31 - 1, 1), (1 << 16, 1 << 16), (0, 3), (-2, -2)):
