@@ -15,7 +15,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import bake_job, messages, ops, sample, state, timeline
+from . import bake_job, messages, ops, sample, state, timeline, undo_step
 from .chosen import grounds, walkers
 
 REST = 0.2  # without a change before anything is done [s]
@@ -107,7 +107,17 @@ def _wanted():
 
 
 def _tick():
-    """One turn: wait, look for a ground that may be outdated, or go on with one."""
+    """One turn; whatever goes wrong in it, nothing is left on its way."""
+    try:
+        return _turn()
+    except BaseException:
+        drop()
+        state.held = False
+        raise
+
+
+def _turn():
+    """Wait, look for a ground that may be outdated, or go on with one; returns when it is called again [s]."""
     global _calm, _work
     wanted = _wanted()
     if not wanted and _work is None:
@@ -182,14 +192,12 @@ def _show(work):
     """Play what was baked, and remember that it is as wanted."""
     bake_job.again(None)
     state.baking.pop(work.name, None)
-    before = _datablocks()
     if not work.job.fresh:
+        with undo_step.where_needed("Auto Update"):
+            told = work.job.finish()
         for each in work.job.warnings:
             messages.add("WARNING", each)
-        messages.add("INFO", work.job.finish())
-    if _datablocks() != before and not bpy.app.background:
-        # undo would go back to an object that is the same and look for what it had in the meantime
-        bpy.ops.ed.undo_push(message="Auto Update")
+        messages.add("INFO", told)
     obj = bpy.data.objects.get(work.job.name)
     if obj is not None:
         _done[obj.name_full] = work.changes
@@ -205,12 +213,6 @@ def _fail(name, problem):
         messages.add("ERROR", ops.sentence(problem))
         state.refused[name] = state.changes(), ops.sentence(problem)
         state.ask(obj)
-
-
-def _datablocks():
-    """All that a bake may exchange."""
-    lists = (bpy.data.node_groups, bpy.data.images, bpy.data.objects, bpy.data.meshes, bpy.data.materials)
-    return [{each.as_pointer() for each in found} for found in lists]
 
 
 def _redraw():

@@ -176,8 +176,10 @@ def unseen():
     try:
         yield
     finally:
-        _flush()
-        _deaf = False
+        try:
+            _flush()
+        finally:
+            _deaf = False
 
 
 def _flush():

@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import axes, compat, cover, ground, home, playback, refined, show, stack
+from . import axes, compat, cover, ground, home, playback, refined, show, stack, undo_step
 
 NEAR = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
 
@@ -162,7 +162,8 @@ def _look():
         scene, obj = _waiting.pop()
         scene, obj = bpy.data.scenes.get(scene), bpy.data.objects.get(obj)
         if scene is not None and obj is not None:
-            look(scene, obj)
+            with undo_step.where_needed("Prints Shown Anew"):
+                look(scene, obj)
 
 
 def _renders():
