@@ -17,7 +17,7 @@ desire_path.register()
 from scenes import meshes, people  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
-from desire_path.blender import bake_job, live, playback, state, timeline  # noqa: E402
+from desire_path.blender import bake_job, live, panels, playback, state, timeline  # noqa: E402
 from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
@@ -78,6 +78,17 @@ def bars(name):
     strong = (red > 0.85) & (green > 0.45) & (green < 0.62) & (blue < 0.2)
     bright = (red > 0.95) & (green > 0.8) & (blue < 0.4)
     return int(strong.sum()), int(bright.sum())
+
+
+def timed(call, took):
+    def timing(*given):
+        begun = time.thread_time()
+        try:
+            return call(*given)
+        finally:
+            took.append(time.thread_time() - begun)
+
+    return timing
 
 
 def made():
@@ -216,6 +227,16 @@ def story():
     yield 1.0
     yield from until(lambda: state.last(ground()) == state.Told("NONE"))
     assert playback.modifier(ground()) is None
+
+    # drawing takes less than a millisecond of ours
+    took = {}
+    for module, name in ((panels, "draw"), (timeline, "spans")):
+        took[name] = []
+        setattr(module, name, timed(getattr(module, name), took[name]))
+    for area in screen.areas:
+        area.tag_redraw()
+    yield 1.0
+    print({name: f"{1000 * min(each):.2f} ms" for name, each in took.items() if each}, flush=True)
 
     # another file listens no more
     bpy.ops.wm.read_homefile(use_factory_startup=True)

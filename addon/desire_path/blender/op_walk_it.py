@@ -132,6 +132,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             self.place(scene, each, land)
         how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
         self.use(context, land, bpy.ops.object.desire_path_bake, how, look=True)
+        if gaits and not bpy.app.background:
+            land.desire_path.auto_update = True  # whoever asks for one button wants no second one
 
     def place(self, scene, armature, land):
         """Place the feet of who is carried ahead over ground that is not as level as the clip."""
