@@ -1,5 +1,7 @@
 """A ground looks like what it is made of, and a material of the user's stays as it is."""
 
+import os
+
 import bpy
 import numpy as np
 from scenes import meshes
@@ -390,3 +392,27 @@ def test_undo_takes_it_back():
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Ground"]
     assert not len(obj.material_slots) and counts() == {"materials": 0, "node_groups": 0}
+
+
+def test_looks_are_assets_of_a_library(folder):
+    mine = make(ground("snow"))
+    before = counts()
+    known = bpy.context.preferences.filepaths.asset_libraries
+    others = [each.path for each in known]
+    place = str(folder / "assets")
+    for _ in range(2):  # the second time it is listed already
+        assert bpy.ops.wm.desire_path_assets_add(directory=place) == {"FINISHED"}
+    assert counts() == before and mine.name in bpy.data.materials and mine.asset_data is None
+    assert len(known) == len(others) + 1 and known[-1].name == materials.LIBRARY
+    assert os.path.realpath(known[-1].path) == os.path.realpath(place)
+    with bpy.data.libraries.load(os.path.join(place, materials.FILE), assets_only=True) as (there, here):
+        assert len(there.materials) == len(materials.ASSETS)
+        here.materials = there.materials
+    assert {"Desire Path Mud", "Desire Path Wet Sand"} <= {each.name for each in here.materials}
+    assert all(materials.is_ours(each) and each.asset_data is not None for each in here.materials)
+    bpy.ops.preferences.asset_library_remove(index=len(known) - 1)
+    (folder / "file").write_text("no folder")
+    refused(bpy.ops.wm.desire_path_assets_add, "file", directory=str(folder / "file"))
+    (folder / "taken" / materials.FILE).mkdir(parents=True)
+    refused(bpy.ops.wm.desire_path_assets_add, "taken", directory=str(folder / "taken"))
+    assert counts()["materials"] == before["materials"] + len(materials.ASSETS)  # those that were appended

@@ -7,6 +7,7 @@ What is painted is a vertex group, which no shader reads: its shares are kept as
 written anew by every bake.
 """
 
+import os
 import zlib
 
 import bpy
@@ -191,7 +192,12 @@ def _material(made, group, shown):
         serves = each.library is None and each.get(looks.TAG) == mark and _shows(each, group)
         if serves and (each in shown or each.get(AS_MADE) == _print_of(each)):
             return each
-    material = bpy.data.materials.new(_called(made))
+    return _new(made, group)
+
+
+def _new(made, group):
+    """A material of its own that shows a group."""
+    material, mark = bpy.data.materials.new(_called(made)), group[looks.TAG]
     if not material.use_nodes:
         material.use_nodes = True
     material[looks.TAG] = mark
@@ -281,6 +287,54 @@ def _tidy():
             if each.library is None and looks.TAG in each and each.users == 0:
                 bpy.data.node_groups.remove(each)
     return told
+
+
+# ---- assets ---------------------------------------------------------------------------------------------
+
+LIBRARY = "Desire Path"  # what the library is called in the Asset Browser
+FILE = "desire_path_looks.blend"
+ASSETS = (
+    *(looks.Recipe((look, 0.0)) for look in looks.LOOKS if look != "GRASS"),
+    looks.Recipe(SOILS["wet-sand"]),
+    looks.Recipe(("EARTH", 0.0), floor="trodden"),
+)
+
+
+def write_library(folder):
+    """Write a file of all looks as assets to a folder and let the Asset Browser know of it; returns its path."""
+    path = os.path.join(folder, FILE)
+    made = []
+    try:
+        for each in ASSETS:
+            material = _new(each, looks.ground(each, _called(each)))
+            made.append(material)
+            material.asset_mark()
+            material.asset_data.description = "Ground that shows what Desire Path baked into it"
+            material.asset_data.tags.new("ground")
+        _write(path, set(made))
+    finally:
+        for material in made:
+            bpy.data.materials.remove(material)
+        _tidy()
+    known = bpy.context.preferences.filepaths.asset_libraries
+    if not any(os.path.realpath(each.path) == os.path.realpath(folder) for each in known):
+        bpy.ops.preferences.asset_library_add(directory=folder)
+        known[-1].name = LIBRARY
+    return path
+
+
+def _write(path, blocks):
+    """Write datablocks to a .blend file, whole or not at all."""
+    new = path + ".new"
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        bpy.data.libraries.write(new, blocks, fake_user=True, compress=True)
+        os.replace(new, path)  # not there where it could not be written
+    except (OSError, RuntimeError) as problem:
+        raise DesirePathError(f"{path} cannot be written, choose another folder: {problem}.") from None
+    finally:
+        if os.path.isfile(new):
+            os.remove(new)
 
 
 # ---- attributes that the materials read ------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """op_material.py - a ground is shown as what it is made of."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..errors import DesirePathError
 from . import materials, watch
@@ -52,4 +52,25 @@ class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_desire_path_material_add,)
+class WM_OT_desire_path_assets_add(Refusal, bpy.types.Operator):
+    """Write the looks of grounds to a file of assets, and list it as a library of the Asset Browser"""
+
+    bl_idname = "wm.desire_path_assets_add"
+    bl_label = "Add Desire Path Asset Library"
+    bl_options = {"REGISTER"}
+
+    directory: StringProperty(
+        name="Folder",
+        subtype="DIR_PATH",
+        options={"HIDDEN", "SKIP_SAVE"},
+        description="Where the file is written; empty = beside Blender's own data of this user",
+    )
+
+    def work(self, _context):
+        folder = bpy.path.abspath(self.directory) or bpy.utils.user_resource("DATAFILES", path="desire_path")
+        path = materials.write_library(folder)
+        self.report({"INFO"}, f"The Asset Browser has the library '{materials.LIBRARY}', {path}.")
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_desire_path_material_add, WM_OT_desire_path_assets_add)
