@@ -9,7 +9,7 @@ import os
 
 import bpy
 
-from ..bake import output
+from ..bake import contents
 from ..bake.folder import frame_name
 from . import bake_job, compat, home, playback, state
 from .drawing import batch, gpu
@@ -64,7 +64,7 @@ def _job(obj):
 
 def _frames(folder):
     """First and last scene frame that play from a bake folder, without a look into every file; None: nothing does."""
-    for name in ("frames", os.path.join(output.NEW, "frames")) if folder else ():
+    for name in ("frames", os.path.join(contents.NEW, "frames")) if folder else ():
         frames = os.path.join(folder, name)
         try:
             mark = [os.stat(each).st_mtime_ns for each in (os.path.join(frames, "index.json"), frames)]
@@ -77,7 +77,7 @@ def _frames(folder):
 
 
 def _range(frames):
-    data = output.index_data(frames)
+    data = contents.index_data(frames)
     try:
         first, last = int(data["frame_start"]), int(data["frame_end"])
     except (KeyError, TypeError, ValueError):
