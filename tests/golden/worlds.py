@@ -1,9 +1,10 @@
-"""Four small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
+"""Five small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
 core is the same on every machine: no sine, no random generator, nothing that a library computes its own way.
 
     flat     level ground that walkers cross side by side; one slips, one is held in mid-step
     hill     painted heights with a hole, steeper in places than soil stays, far from the origin
     meadow   three kinds of plants on level ground, trodden, shown, broken and left to recover
+    ragged   two soils whose walls slide, that differ from place to place, come back and bulge; prints over prints
     passes   a painted mesh with a trail on it, walked one way and back, with grass and a rest between
 """
 
@@ -12,7 +13,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from desire_path import KINDS, SOILS, Gait, Ground, Planting, Simulation, Sole
+from desire_path import KINDS, SOILS, Gait, Ground, Planting, Simulation, Soil, Sole
 
 RATE = 60.0  # samples a second
 STRIDE = 1.0  # [m]
@@ -170,6 +171,21 @@ def _hill():
     return World(make, [up], (1940, -400, 152, 104), (30, -7, 3, 2))
 
 
+def _ragged():
+    weight = np.stack([np.ones((2, 2)), np.array([[0.0, 2.0], [0.0, 2.0]])])
+    ground = Ground.heights(np.zeros((2, 2)), 2.0, -0.5, -1.0, kind_weight=weight)
+    soils = [
+        Soil(young_modulus=4e5, rest_angle=0.55, wall_angle=0.7, roughness=0.5, grain_size=0.03, rebound=0.1),
+        Soil(young_modulus=6e5, rest_angle=0.4, wall_angle=1.1, roughness=0.3, grain_size=0.02, heave=0.03),
+    ]
+
+    def make(law, heap, threads):
+        return Simulation(ground, soils, 0.01, law=law, heap=heap, threads=threads)
+
+    there, back = walk(0.9), walk(0.9, start=(0.9, 0.05), way=(-1.0, 0.0), mass=95.0)
+    return World(make, [there, back], (-64, -64, 256, 128), (-1, -1, 4, 2))
+
+
 def _meadow():
     roots = np.array([[0.02 + 0.033 * i, -0.12 + 0.05 * j + 0.007 * (i % 3)] for i in range(16) for j in range(4)])
     vigour = np.array([(k * 7 % 17) / 8.0 - 1.0 for k in range(len(roots))])
@@ -227,4 +243,4 @@ def _passes():
 
 def worlds():
     """name -> World"""
-    return {"flat": _flat(), "hill": _hill(), "meadow": _meadow(), "passes": _passes()}
+    return {"flat": _flat(), "hill": _hill(), "ragged": _ragged(), "meadow": _meadow(), "passes": _passes()}
