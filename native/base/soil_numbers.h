@@ -4,21 +4,22 @@
 #pragma once
 
 // (name, unit, lowest, highest, default, meaning); both ends are possible
-#define DP_SOIL_NUMBERS(X)                                                                 \
-    X(layer_depth, "m", 1e-4, 100.0, 0.3, "L0, loose layer over rigid ground")             \
-    X(young_modulus, "Pa", 1.0, 1e12, 1.0e6, "E_g, without roots")                         \
-    X(poisson_ratio, "-", 0.0, 0.5, 0.35, "nu, share pushed sideways, SOFT22 (12)")        \
-    X(settle_time, "s", 1e-5, 1e4, 0.1, "tau, time to yield fully, SOFT22 (11)")           \
-    X(rest_angle, "rad", 1e-3, 1.5533430342749532, 0.5235987755982988,                     \
-      "gamma_r, steepest slope that stays; up to 89 degrees")                              \
-    X(push_threshold, "N", 0.0, 1e15, 0.0,                                                 \
-      "F_threshold, TRAIL (13); 0 = half the walker's weight")                             \
-    X(shear_modulus, "m", 0.0, 0.1, 0.0,                                                   \
-      "K, shear before it carries sideways; 0 = soles do not slip")                        \
-    X(wall_angle, "rad", 1e-3, 1.5707963705062866, 1.5707963705062866,                     \
-      "gamma_w, steepest firm wall that stands once it is cut; 90 degrees = all")          \
-    X(roughness, "-", 0.0, 1.0, 0.0,                                                       \
-      "rho, by how much walls, rest and rims differ from place to place")                  \
-    X(grain_size, "m", 1e-4, 10.0, 0.012, "how far apart such places are")                 \
-    X(rebound, "-", 0.0, 0.9, 0.0, "share of the depth that comes back when a sole lifts") \
-    X(heave, "m", 0.0, 10.0, 0.0, "w, how wide it bulges around a print; 0 = loose soil in cones")
+#define DP_SOIL_NUMBERS(X)                                                                         \
+    X(layer_depth, "m", 1e-4, 100.0, 0.3, "L0, loose layer over rigid ground")                     \
+    X(young_modulus, "Pa", 1.0, 1e12, 1.0e6, "E_g, without roots")                                 \
+    X(poisson_ratio, "-", 0.0, 0.5, 0.35, "nu, share pushed sideways, SOFT22 (12)")                \
+    X(settle_time, "s", 1e-5, 1e4, 0.1, "tau, time to yield fully, SOFT22 (11)")                   \
+    X(rest_angle, "rad", 1e-3, 1.5533430342749532, 0.5235987755982988,                             \
+      "gamma_r, steepest slope that stays; up to 89 degrees")                                      \
+    X(push_threshold, "N", 0.0, 1e15, 0.0,                                                         \
+      "F_threshold, TRAIL (13); 0 = half the walker's weight")                                     \
+    X(shear_modulus, "m", 0.0, 0.1, 0.0,                                                           \
+      "K, shear before it carries sideways; 0 = soles do not slip")                                \
+    X(wall_angle, "rad", 1e-3, 1.5707963705062866, 1.5707963705062866,                             \
+      "gamma_w, steepest firm wall that stands once it is cut; 90 degrees = all")                  \
+    X(roughness, "-", 0.0, 1.0, 0.0,                                                               \
+      "rho, by how much walls, rest and rims differ from place to place")                          \
+    X(grain_size, "m", 1e-4, 10.0, 0.012, "how far apart such places are")                         \
+    X(rebound, "-", 0.0, 0.9, 0.0, "share of the depth that comes back when a sole lifts")         \
+    X(heave, "m", 0.0, 10.0, 0.0, "w, how wide it bulges around a print; 0 = loose soil in cones") \
+    X(flow_time, "s", 0.0, 1e4, 0.0, "T, in which what slides goes 0.1 m; 0 = at once")

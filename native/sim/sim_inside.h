@@ -11,6 +11,7 @@ typedef struct Limb
     int        part_count;
     int*       part;         // its parts, in the order of the recording (part_count)
     bool       stands;       // in a stance
+    bool       flows;        // has let go, and soil around still slides
     double     heap_height;  // T of the rest heap, from step to step of a stance          [m]
     double     margin;       // of ground around its soles that a step may change        [m]
     double     unlaid;       // displaced volume that found no border cell yet             [m^3]
@@ -217,4 +218,4 @@ DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample);
 DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch);
-DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch);
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch);

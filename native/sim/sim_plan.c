@@ -39,7 +39,7 @@ static bool presses_from(const DpSim* sim, const Limb* limb, int sample)
 static void plan_limb(DpSim* sim, Limb* limb, int sample)
 {
     const bool presses = presses_from(sim, limb, sample);
-    limb->lifts = limb->stands && !presses;
+    limb->lifts = (limb->stands || limb->flows) && !presses;
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;
@@ -49,7 +49,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
         limb->margin = HEAP_MARGIN;
-        limb->trodden = limb->met_at = (DpCellRect){0, 0, 0, 0};
+        if (!limb->flows) limb->trodden = (DpCellRect){0, 0, 0, 0};  // else it slides on afterwards
+        limb->met_at = (DpCellRect){0, 0, 0, 0};
         ++sim->report.contacts;
     }
     limb->stands = presses;

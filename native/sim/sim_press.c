@@ -9,6 +9,7 @@
 #define BORDER_RINGS 1
 #define SLIDING_SWEEPS \
     16                    // of one step: slides take time; all comes to rest when the foot has left
+#define FLOW_REACH 0.1    // what slides goes so far in a soil's flow_time [m]
 #define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
 
@@ -113,6 +114,22 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     return status == DP_NO_GROUND ? DP_OK : status;
 }
 
+static const DpSoil* middle_soil(const DpSoilPatch* patch)
+{
+    return &patch->soils[patch->kind[patch->ny / 2 * patch->row + patch->nx / 2]];
+}
+
+// How many sweeps soil slides in the interval from `sample`, for what slides goes one cell in each; all at the end
+// (sample < 0), or if it does not take time. MODEL 6.4
+static int sweeps_of(const DpSim* sim, const DpSoil* soil, int sample)
+{
+    if (!(soil->flow_time > 0.0f) || sample < 0) return sim->options.max_sweeps;
+    const double a_second = FLOW_REACH / ((double)soil->flow_time * sim->grid.cell);
+    const double from = floor(dp_motion_time(sim->motion, sample) * a_second);
+    const double to = floor(dp_motion_time(sim->motion, sample + 1) * a_second);
+    return (int)fmin(to - from, (double)sim->options.max_sweeps);
+}
+
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch)
 {
@@ -141,8 +158,10 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     const bool rests = sim->options.heap_law == DP_HEAP_PAPER;
     const int  sweeps = rests || sim->options.max_sweeps < SLIDING_SWEEPS ? sim->options.max_sweeps
                                                                           : SLIDING_SWEEPS;
+    const int  flow = sweeps_of(sim, middle_soil(patch), sample);
     status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
-                               sim->options.tolerance, sweeps, scratch->soil_scratch, &settled);
+                               sim->options.tolerance, flow < sweeps ? flow : sweeps,
+                               scratch->soil_scratch, &settled);
     if (status != DP_OK) return status;
     limb->spills = settled.at_edge;
     limb->loosened += settled.loosened;
@@ -150,8 +169,9 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     return DP_OK;
 }
 
-// Let the rim slide that the sole held, in ever larger patches until nothing wants to leave.
-DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch)
+// Let the rim slide that the sole held, in ever larger patches until nothing wants to leave; what takes its time
+// slides on in the next step.
+DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch)
 {
     DpCellRect at = limb->trodden;
     if (dp_cells_empty(at)) return DP_OK;
@@ -161,12 +181,17 @@ DpStatus dp_limb_settle(DpSim* sim, Limb* limb, WorkerScratch* scratch)
         DpStatus     status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
         if (status != DP_OK) return status;
         DpSettled settled;
-        status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance,
-                                   sim->options.max_sweeps, scratch->soil_scratch, &settled);
+        const int sweeps = sweeps_of(sim, middle_soil(patch), sample);
+        status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance, sweeps,
+                                   scratch->soil_scratch, &settled);
         if (status != DP_OK) return status;
         dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
         limb->loosened += settled.loosened;
+        limb->flows = sweeps < sim->options.max_sweeps && !settled.at_rest;
         if (!settled.at_edge) return DP_OK;
         at = dp_cells_grown(at, SETTLE_GROWTH);
+        if (!limb->flows) continue;
+        limb->trodden = at;
+        return DP_OK;
     }
 }

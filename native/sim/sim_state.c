@@ -36,7 +36,7 @@ static void write_vec(DpStateWriter* writer, DpVec3 v)
 
 static void write_limb(DpStateWriter* writer, const Limb* limb, const Pressing* pressing)
 {
-    dp_write_u8(writer, (uint8_t)(limb->stands | limb->spills << 1));
+    dp_write_u8(writer, (uint8_t)(limb->stands | limb->spills << 1 | limb->flows << 2));
     dp_write_f64(writer, limb->heap_height), dp_write_f64(writer, limb->margin);
     dp_write_f64(writer, limb->unlaid), dp_write_f64(writer, limb->sink);
     dp_write_f64(writer, limb->lowered);
@@ -174,8 +174,9 @@ static float* read_grid(DpStateReader* reader, DpCellRect at, float low, bool* r
 static void read_limb(DpStateReader* reader, Limb* limb, Pressing* pressing, bool* room)
 {
     const uint8_t flags = dp_read_u8(reader);
-    dp_read_check(reader, flags < 4);
+    dp_read_check(reader, flags < 8);
     limb->stands = flags & 1, limb->spills = flags >> 1 & 1;
+    limb->flows = flags >> 2 & 1;
     limb->heap_height = dp_read_number(reader, 0.0, 1e9);
     limb->margin = dp_read_number(reader, 0.0, 1e9);
     limb->unlaid = dp_read_number(reader, 0.0, 1e9);

@@ -37,13 +37,13 @@ static void work_group(void* context, int group, int worker)
 
 // Limbs that let go, or whose soil wants to leave its patch, come to rest one after the other:
 // their patches grow as far as they need.
-static DpStatus settle_limbs(DpSim* sim)
+static DpStatus settle_limbs(DpSim* sim, int sample)
 {
     for (int l = 0; l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->active || !(limb->lifts || limb->spills)) continue;
         if (limb->spills && !limb->lifts) continue;  // its sole holds part of it: at lift-off
-        const DpStatus status = dp_limb_settle(sim, limb, &sim->scratch[0]);
+        const DpStatus status = dp_limb_settle(sim, limb, sample, &sim->scratch[0]);
         if (status != DP_OK) return status;
     }
     return DP_OK;
@@ -92,7 +92,7 @@ static DpStatus step_soil(DpSim* sim, int sample)
     if (!done) status = press_limbs(sim, sample);
     if (status != DP_OK) return status;
     status = dp_release_step(sim, sample);
-    if (status == DP_OK) status = settle_limbs(sim);
+    if (status == DP_OK) status = settle_limbs(sim, sample);
     count(sim);
     return status;
 }
@@ -116,11 +116,11 @@ DpStatus dp_sim_settle(DpSim* sim)
     dp_pressing_clear(sim);
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
-        if (!limb->stands) continue;
-        limb->stands = false;
+        if (!limb->stands && !limb->flows) continue;
+        limb->stands = limb->flows = false;
         limb->loosened = limb->rebounded = 0.0;
         DpStatus status = dp_release_limb(sim, limb, limb->trodden, -1);
-        if (status == DP_OK) status = dp_limb_settle(sim, limb, &sim->scratch[0]);
+        if (status == DP_OK) status = dp_limb_settle(sim, limb, -1, &sim->scratch[0]);
         sim->report.loosened += limb->loosened;
         sim->report.rebounded += limb->rebounded;
         if (status == DP_OK) status = dp_stage_settled(sim, limb);

@@ -39,9 +39,10 @@ typedef struct Walls
 } Walls;
 
 // First stencil: what each firm cell of a row lets fall, MODEL 6.8; returns ROW_ bits.
+// @param most  a cell lets fall at most so much [m]
 int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict give,
                     const float* restrict firm, const float* restrict height, ptrdiff_t row,
-                    int count, float film);
+                    int count, float film, float most);
 
 // Second stencil: it falls from the firm ground, `floor`, on the heaps of the neighbours, `sum`.
 void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict floor,

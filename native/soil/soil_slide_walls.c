@@ -28,7 +28,7 @@ static inline float over(float firm, float base, float steep, float surface, flo
 DP_CLONES
 static int decide(const Walls* walls, float* restrict share, float* restrict give,
                   const float* restrict firm, const float* restrict height, ptrdiff_t row,
-                  int count, float film)
+                  int count, float film, float most)
 {
     const float* restrict base = walls->base, * restrict steep = walls->steep;
     const float* restrict slack = walls->slack;
@@ -55,7 +55,8 @@ static int decide(const Walls* walls, float* restrict share, float* restrict giv
         const float side = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
         const float worst = side > across ? side : across, hold = HOLD * slack[i];
         const float eager = at_most_one(above_zero(worst - hold) / (hold + 1e-35f));
-        const float a = eager * 0.5f / ((sides + corners) + 1.0f);
+        const float even = eager * 0.5f / ((sides + corners) + 1.0f);
+        const float limit = most / (sum + 1e-35f), a = even < limit ? even : limit;
         share[i] = a;
         give[i] = a * sum;
         restless |= worst > slack[i] ? 1 : 0;
@@ -104,9 +105,9 @@ static void fill(const Walls* to, const float* restrict base_height,
 
 int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict give,
                     const float* restrict firm, const float* restrict height, ptrdiff_t row,
-                    int count, float film)
+                    int count, float film, float most)
 {
-    return decide(walls, share, give, firm, height, row, count, film);
+    return decide(walls, share, give, firm, height, row, count, film, most);
 }
 
 void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict floor,

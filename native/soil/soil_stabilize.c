@@ -27,14 +27,16 @@
 #include "base/alloc.h"
 #include "soil/soil_slide.h"
 
-#define FRAME 3         // cells around the window that only stand as walls
-#define FIRST_MARGIN 8  // cells the window is larger than what is looked at
+#define MOST_FALLS 0.5f  // of a cell, in a sweep from a wall: high ones do not jump
+#define FRAME 3          // cells around the window that only stand as walls
+#define FIRST_MARGIN 8   // cells the window is larger than what is looked at
 
 // A copy of the part of the patch in which soil moves. All grids (ny + 2 FRAME, row).
 typedef struct Window
 {
     DpCellRect box;  // patch cells it holds
     size_t     row;
+    float      cell;    // side of a cell                                   [m]
     float*     firm;    // firm ground, BARRIER where no soil can be          [m]
     float*     height;  // firm + heap                                        [m]
     double*    sum;     // b, kept finer than a float: small flows add up      [m]
@@ -101,6 +103,7 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     window->row = (nx + 2 * FRAME + 15) / 16 * 16;
     const size_t cells = window->row * (ny + 2 * FRAME);
     window->slides = patch->wall_slope != NULL;
+    window->cell = (float)patch->cell;
     const size_t floats = window->slides ? GRIDS + WALL_GRIDS : GRIDS;
     const size_t fine = window->slides ? 2 : 1;
     double*      doubles =
@@ -257,8 +260,9 @@ static int decide_walls(const Window* window, size_t at, int count, float film)
 {
     const Walls  walls = walls_at(window, at);
     float *const share = window->wall_share + at, *const give = window->wall_give + at;
-    const int wish = dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
-                                     (ptrdiff_t)window->row, count, film);
+    const int wish =
+        dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
+                        (ptrdiff_t)window->row, count, film, MOST_FALLS * window->cell);
     clear_sides(share, count);
     clear_sides(give, count);
     return wish;

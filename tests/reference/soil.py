@@ -369,6 +369,7 @@ def walls(patch, touched=None, tolerance=1e-5):
             hold = 0.25 * slack * (1 + patch["wall_slope"][j, i] ** 2)
             n = sum(min(1.0, over / (0.1 * slack)) for over in excess.values())
             a = 0.5 / (n + 1) * min(max(steepest - hold, 0.0) / hold, 1.0)
+            a = min(a, 0.5 * patch["cell"] / sum(excess.values()))  # high walls do not jump
             for q, over in excess.items():
                 off[j, i] += a * over
                 onto[q] += a * over

@@ -33,6 +33,7 @@ WORDS = {
     "grain_size": ("Lumps [m]", "How far apart places are that differ, in metres"),
     "rebound": ("Spring Back", "Share of a print's depth that comes back when the foot lifts"),
     "heave": ("Bulge [m]", "How wide it bulges around a print, in metres; 0 = loose soil in a heap"),
+    "flow_time": ("Slides In [s]", "How long what slides takes for 10 cm, in seconds; 0 = it comes to rest at once"),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 LOOSE = math.pi / 2  # walls that stand at this angle do not crumble [rad]
