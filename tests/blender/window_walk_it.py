@@ -72,5 +72,37 @@ def story(hands):
     for name in ("Mannequin", "Rig"):
         object_of(name).hide_set(False)
 
+    # another soil; ESC in its bake leaves one that plays, undo and another bake go on from there
+    plane.desire_path.soil = "mud"
+    with hands.within("VIEW_3D"):
+        assert bpy.ops.object.desire_path_bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield from hands.key("ESC", hands.place((0.0, 0.0, 0.0)))
+    yield from until(lambda: bake_job.running() is None)
+    assert object_of("Plane").desire_path.bake_state in {"OUTDATED", "PARTIAL", "FRESH"}
+    with hands.within("VIEW_3D"):
+        bpy.ops.ed.undo_push(message="before")
+        object_of("Plane").desire_path.soil_numbers.softness = 0.9
+        bpy.ops.ed.undo_push(message="softer")
+        bpy.ops.ed.undo()
+    assert not object_of("Plane").desire_path.soil_numbers.changed
+    yield 0.5
+    with hands.within("VIEW_3D"):
+        bpy.context.view_layer.objects.active = object_of("Plane")
+        assert bpy.ops.object.desire_path_bake("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield from until(lambda: bake_job.running() is None)
+    assert object_of("Plane").desire_path.bake_state == "FRESH", object_of("Plane").desire_path.missing
+    hands.shot("mud")
+
+    # saved, opened again, saved elsewhere: the walk and its prints are there
+    (FOLDER / "else").mkdir()
+    for path in (FOLDER / "a.blend", FOLDER / "else" / "b.blend"):
+        bpy.ops.wm.save_as_mainfile(filepath=str(path))
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        yield 1.0
+        settings = object_of("Plane").desire_path
+        assert settings.bake_state == "FRESH", f"{path.name}: {settings.missing}"
+        assert settings.soil == "mud" and object_of("Rig").desire_path.carried
+    hands.shot("reopened")
+
 
 tell(story(Hands(FOLDER)))

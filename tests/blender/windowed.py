@@ -34,7 +34,7 @@ def story(script, folder, width=900, height=900, seconds=240):
                 child.kill()
                 child.wait()
         text = log.read_text(encoding="utf-8")
-        assert "all seen" in text, text
+        assert "all seen" in text and "Traceback" not in text, text
         return text
     finally:
         screen.terminate()
