@@ -8,6 +8,7 @@ import bpy
 
 GERMAN = {
     "Operator": {
+        "Add Desire Path Asset Library": "Asset-Bibliothek von Desire Path hinzufügen",
         "Add Foot": "Fuß hinzufügen",
         "Add Ground": "Boden hinzufügen",
         "Add Painted Soil": "Gemalte Bodenart hinzufügen",
@@ -64,6 +65,7 @@ GERMAN = {
         "Changed from {}": "Geändert, war {}",
         "Contact": "Kontakt",
         "Crumble": "Bröckeln",
+        "Deep snow": "Tiefschnee",
         "Density Group": "Dichtegruppe",
         "Density Image": "Dichtebild",
         "Density [1/m2]": "Dichte [1/m2]",
@@ -83,6 +85,7 @@ GERMAN = {
         "Folder": "Ordner",
         "Foot": "Fuß",
         "Forces": "Kräfte",
+        "Fresh snow": "Neuschnee",
         "Frame Start": "Erstes Bild",
         "From the body": "Aus dem Körper",
         "Grass": "Gras",
@@ -109,6 +112,8 @@ GERMAN = {
         "Outdated": "Veraltet",
         "Output and Method": "Ausgabe und Verfahren",
         "Own Soils": "Eigene Bodenarten",
+        "Packed earth": "Festgetretene Erde",
+        "Packed snow": "Festgetretener Schnee",
         "Painted Soils": "Gemalte Bodenarten",
         "Partly Baked": "Teils gebacken",
         "Passes": "Durchgänge",
@@ -137,6 +142,7 @@ GERMAN = {
         "Shear [m]": "Scherweg [m]",
         "Shortest Edge": "Kürzeste Kante",
         "Shown By": "Gezeigt von",
+        "Slides In [s]": "Rutscht nach in [s]",
         "Slip": "Rutschen",
         "Slope": "Böschung",
         "Snow": "Schnee",
@@ -157,6 +163,7 @@ GERMAN = {
         "Vertex Groups": "Vertex-Gruppen",
         "Walker": "Läufer",
         "Walkers": "Läufer",
+        "Wet sand": "Nasser Sand",
         "Wet soil": "Nasse Erde",
         "Yields In [s]": "Gibt nach in [s]",
     },
