@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 from scenes import exr, meshes  # noqa: E402
 
-from desire_path.blender import compat, playback  # noqa: E402
+from desire_path.blender import compat, playback, playback_tree  # noqa: E402
 
 CELL, COUNT = 0.01, 24
 
@@ -64,8 +64,8 @@ def main():
                 obj = meshes.grid(side, side, CELL * stretch, CELL * shift, CELL * shift)
                 at = types.SimpleNamespace(cell=CELL, x0=0.0, y0=0.0, nx=side, ny=side, frame_start=1, frame_end=COUNT)
                 if groups:
-                    for each in playback.GROUPS:
-                        obj.vertex_groups.new(name=playback.group_name(each))
+                    for each in playback_tree.GROUPS:
+                        obj.vertex_groups.new(name=playback_tree.group_name(each))
                 co = compat.positions(obj.data)
                 box = np.array([(x, y, 0.0) for x in (co[0, 0], co[-1, 0]) for y in (co[0, 1], co[-1, 1])])
                 playback.attach(

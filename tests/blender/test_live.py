@@ -5,7 +5,7 @@ import numpy as np
 from scenes import meshes, people
 
 from desire_path.bake.bake import read_index
-from desire_path.blender import bake_job, compat, live, playback, state, timeline
+from desire_path.blender import bake_job, compat, live, playback, playback_tree, state, timeline
 
 FRAMES = 24
 
@@ -71,13 +71,13 @@ def follows(folder, ground):
 
 def test_a_refined_ground_follows_with_the_datablocks_it_has(folder):
     ground = follows(folder, None)
-    copy = playback.copy_of(playback.modifier(ground).node_group)
+    copy = playback_tree.copy_of(playback.modifier(ground).node_group)
     assert copy is not None and len(copy.data.vertices) > 1000
 
 
 def test_a_fine_ground_follows_with_the_datablocks_it_has(folder):
     ground = follows(folder, meshes.grid(200, 300, 0.02, -2.0, -4.0))
-    assert playback.copy_of(playback.modifier(ground).node_group) is None
+    assert playback_tree.copy_of(playback.modifier(ground).node_group) is None
 
 
 def test_what_plays_is_what_a_bake_of_its_own_would_show(folder):

@@ -9,7 +9,7 @@ from test_bake import refused
 from test_plants import add as plant
 from test_refined import baked, copy_of, plane
 
-from desire_path.blender import compat, looks, materials, playback
+from desire_path.blender import compat, looks, materials, playback_tree
 from desire_path.ground.soil import SOILS
 
 SIZE = 24  # pixels of a picture along each side
@@ -45,7 +45,7 @@ def bake_by_hand(obj, compression, heap=0.0):
     value = np.zeros((len(low), 4), np.float32)
     value[:, 2] = np.where(low, 0.0, compression)
     value[:, 0] = np.where(low, 0.0, heap) - value[:, 2]
-    mesh.attributes.new(playback.ATTRIBUTE, "FLOAT_COLOR", "POINT").data.foreach_set("color", value.ravel())
+    mesh.attributes.new(playback_tree.ATTRIBUTE, "FLOAT_COLOR", "POINT").data.foreach_set("color", value.ravel())
 
 
 def two_halves(obj):
@@ -378,8 +378,8 @@ def test_plants_stand_before_and_after_a_bake(folder):
     plant(obj, "carex", density=200.0)
     make(obj)
     assert "Grass" in obj.material_slots[0].material.name
-    grown = compat.float_attribute(obj.data, playback.STRENGTH)
-    assert grown.min() > 0.3 and obj.desire_path.made_attributes == playback.STRENGTH
+    grown = compat.float_attribute(obj.data, playback_tree.STRENGTH)
+    assert grown.min() > 0.3 and obj.desire_path.made_attributes == playback_tree.STRENGTH
     seen = rendered(folder).mean(axis=(0, 1))
     assert seen[1] > seen[0]
 

@@ -12,7 +12,7 @@ from test_bake import refused, state
 from test_playback import corners, fresh
 from test_sample import ids
 
-from desire_path.blender import axes, compat, grass, plants, playback
+from desire_path.blender import axes, compat, grass, plants, playback, playback_tree, wiring
 from desire_path.ground.plants import KINDS
 
 NX, NY, CELL = 96, 64, 0.02
@@ -288,7 +288,7 @@ def used(image):
     """Let geometry nodes read an image."""
     ground = meshes.grid(3, 3, 0.1, 0.0, 0.0)
     tree = compat.geometry_tree("reads", bpy.data.node_groups.new)
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     here = wire.add("GeometryNodeInputPosition").outputs[0]
     colour = wire.image(image, here, 0, False).outputs["Color"]
     moved = wire.add("GeometryNodeSetPosition", Geometry=wire.add("NodeGroupInput").outputs[0], Offset=colour)
@@ -629,13 +629,13 @@ def test_the_ground_says_how_plants_lie(folder):
     assert each.grass is None and plants.shown(each) is None
     each.density_group, each.density = "grown", 32.0
     rest = compat.positions(ground.data)
-    group = ground.vertex_groups.new(name=playback.group_name("plant_strength"))
+    group = ground.vertex_groups.new(name=playback_tree.group_name("plant_strength"))
     play(ground, images(folder, trail, lean), layer_depth=0.3)
     bpy.context.scene.frame_set(1)
     mesh = ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     at = np.empty((len(rest), 3), np.float32)
-    mesh.attributes[playback.LEAN].data.foreach_get("vector", at.ravel())
-    strength = compat.float_attribute(mesh, playback.STRENGTH)
+    mesh.attributes[playback_tree.LEAN].data.foreach_get("vector", at.ravel())
+    strength = compat.float_attribute(mesh, playback_tree.STRENGTH)
     i, j = np.round(rest[:, :2] / CELL - 0.5).astype(int).T
     inside = (i >= 0) & (i < NX) & (j >= 0) & (j < NY)
     assert at[inside].tobytes() == lean[..., :3].reshape(-1, 3).tobytes()

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from scenes import exr, meshes
 
-from desire_path.blender import axes, compat, playback
+from desire_path.blender import axes, compat, playback, playback_tree
 
 NX, NY, CELL = 48, 40, 0.02
 
@@ -57,7 +57,7 @@ def shown(obj, frame, subframe=0.0):
     """Positions and colour attribute of the evaluated mesh."""
     bpy.context.scene.frame_set(frame, subframe=subframe)
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    return compat.positions(mesh), compat.colour_attribute(mesh, playback.ATTRIBUTE)
+    return compat.positions(mesh), compat.colour_attribute(mesh, playback_tree.ATTRIBUTE)
 
 
 def pixel_ground(**more):
@@ -152,7 +152,7 @@ def test_vertex_groups(folder):
     for n, each in enumerate(value):
         exr.write(folder / "frames" / f"trail_{n:04d}.exr", each)
     obj = pixel_ground()
-    groups = [obj.vertex_groups.new(name=playback.group_name(name)) for name in playback.GROUPS]
+    groups = [obj.vertex_groups.new(name=playback_tree.group_name(name)) for name in playback_tree.GROUPS]
     play(obj, folder, index(), layer_depth=0.3)
     bpy.context.scene.frame_set(12)
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -172,10 +172,10 @@ def test_detach_leaves_nothing(folder):
     play(obj, folder, index())
     assert ids() != before
     play(obj, folder, index())
-    assert [m.name for m in obj.modifiers] == ["Keep", playback.MODIFIER]
+    assert [m.name for m in obj.modifiers] == ["Keep", playback_tree.MODIFIER]
     obj.modifiers.new("After", "SMOOTH")
     play(obj, folder, index())
-    assert [m.name for m in obj.modifiers] == ["Keep", playback.MODIFIER, "After"]
+    assert [m.name for m in obj.modifiers] == ["Keep", playback_tree.MODIFIER, "After"]
     obj.modifiers.remove(obj.modifiers["After"])
     playback.detach(obj)
     assert ids() == before and [m.name for m in obj.modifiers] == ["Keep"]

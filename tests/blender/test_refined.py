@@ -7,7 +7,7 @@ import numpy as np
 from scenes import meshes, people
 from test_bake import state
 
-from desire_path.blender import compat, playback, refined
+from desire_path.blender import compat, playback, playback_tree, refined
 
 LOW = 0.8  # of the deepest print at least is shown
 
@@ -34,7 +34,7 @@ def baked(folder, ground, cell=0.02, frames=30, **settings):
 
 
 def copy_of(ground):
-    return playback.copy_of(playback.modifier(ground).node_group)
+    return playback_tree.copy_of(playback.modifier(ground).node_group)
 
 
 def seen(ground):
@@ -268,9 +268,9 @@ def test_details_are_shown_where_feet_went_and_nowhere_else(folder):
     assert len(ground.data.polygons) == 1 and len(copy.vertices) == len(fine.vertices)
     bare, shown = compat.positions(copy).astype(float), compat.positions(fine).astype(float)
     assert np.array_equal(bare[:, :2], shown[:, :2])
-    baked_there = compat.colour_attribute(fine, playback.ATTRIBUTE)
+    baked_there = compat.colour_attribute(fine, playback_tree.ATTRIBUTE)
     detail = shown[:, 2] - bare[:, 2] - baked_there[:, 0]
-    disturbed = np.maximum(baked_there[:, 2], baked_there[:, 0] + baked_there[:, 2]) > playback.DISTURBED[1]
+    disturbed = np.maximum(baked_there[:, 2], baked_there[:, 0] + baked_there[:, 2]) > playback_tree.DISTURBED[1]
     untouched = ~baked_there.any(axis=1)
     assert not detail[untouched].any() and not shown[untouched, 2].any() and disturbed.sum() > 1000
     assert abs(detail[disturbed].mean()) < 1e-4 < 2e-4 < detail[disturbed].std()
@@ -278,13 +278,13 @@ def test_details_are_shown_where_feet_went_and_nowhere_else(folder):
     # what lies as it lay is shown as it was
     bpy.context.scene.frame_set(20)
     before = seen(ground)
-    same = (compat.colour_attribute(before, playback.ATTRIBUTE) == baked_there).all(axis=1)
+    same = (compat.colour_attribute(before, playback_tree.ATTRIBUTE) == baked_there).all(axis=1)
     assert np.array_equal(compat.positions(before)[same, 2], heights[same]) and (same & disturbed).sum() > 0
     bpy.context.scene.frame_set(0)
     assert np.array_equal(compat.positions(seen(ground)), compat.positions(copy))
     # and without them all is as if they had never been
     ground.desire_path.detail_size = 0.0
-    assert playback.DETAIL not in copy_of(ground).data.attributes
+    assert playback_tree.DETAIL not in copy_of(ground).data.attributes
 
 
 def test_details_are_those_of_the_soils(folder):
@@ -294,12 +294,12 @@ def test_details_are_those_of_the_soils(folder):
     each = ground.desire_path.painted.add()
     each.vertex_group, each.soil = "drift", "mud"
     baked(folder, ground, detail_size=0.01)
-    mud = compat.vectors(copy_of(ground).data, playback.DETAIL)
+    mud = compat.vectors(copy_of(ground).data, playback_tree.DETAIL)
     assert np.ptp(mud[:, 0]) > 0.004 and not mud[:, 1].any()  # veins, no crumbs
     each.soil = "soil"
     meshes.activate(ground)
     bpy.ops.object.desire_path_bake()
-    earth = compat.vectors(copy_of(ground).data, playback.DETAIL)
+    earth = compat.vectors(copy_of(ground).data, playback_tree.DETAIL)
     assert not earth[:, 0].any() and np.ptp(earth[:, 1]) > 0.003
 
 

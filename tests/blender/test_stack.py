@@ -6,7 +6,7 @@ from scenes import meshes, people
 from test_ground import mesh_of, read
 from test_sample import ids
 
-from desire_path.blender import compat, playback, stack
+from desire_path.blender import compat, playback_tree, stack, wiring
 
 operator = bpy.ops.object
 
@@ -17,7 +17,7 @@ operator = bpy.ops.object
 def tree_of(obj, name, build):
     """A nodes modifier; build: wire and geometry -> geometry."""
     tree = compat.geometry_tree(name, bpy.data.node_groups.new)
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     out = build(wire, wire.add("NodeGroupInput").outputs[0])
     tree.links.new(out, tree.nodes.new("NodeGroupOutput").inputs[0])
     return compat.nodes_modifier(obj, name, tree)
@@ -177,7 +177,7 @@ def test_hair_goes_down_with_the_ground(folder):
     hair = ground.particle_systems[0].settings
     hair.type, hair.count, hair.use_modifier_stack = "HAIR", 8000, True
     trodden(ground, folder)
-    assert [each.name for each in ground.modifiers] == [playback.MODIFIER, "Hair"]
+    assert [each.name for each in ground.modifiers] == [playback_tree.MODIFIER, "Hair"]
     found = shown(ground)
     grown = found.particle_systems[0]  # asked this way, since 3.4 stops where hair keys are read
     roots = [grown.co_hair(object=found, particle_no=k, step=0).z for k in range(len(grown.particles))]

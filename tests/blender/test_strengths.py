@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from test_live import FRAMES, scene
 
-from desire_path.blender import compat, live, moves, playback, strengths
+from desire_path.blender import compat, live, moves, playback, playback_tree, strengths
 
 
 def modifier():
@@ -28,7 +28,7 @@ def heights(frame=FRAMES):
 def parts():
     """(depth of prints, height of rims) as they are shown, at each point."""
     found = bpy.data.objects["Ground"].evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    colour = compat.colour_attribute(found, playback.ATTRIBUTE).astype(np.float64)
+    colour = compat.colour_attribute(found, playback_tree.ATTRIBUTE).astype(np.float64)
     return colour[:, 2], np.maximum(colour[:, 0] + colour[:, 2], 0.0)
 
 
@@ -70,7 +70,7 @@ def test_keys_and_drivers_lead_them(folder):
     for change in (0.025, 0.018):
         ground.desire_path.cell_size = change
         assert live.update(bpy.context.scene) == []
-        assert playback.copy_of(modifier().node_group) is not None
+        assert playback_tree.copy_of(modifier().node_group) is not None
         assert abs(strengths.values(modifier())["Rims"] - 0.1 * bpy.context.scene.frame_current) < 1e-6
     playback.modifier(ground).node_group.nodes.new("GeometryNodeInputIndex")  # no longer of the same form
     ground.desire_path.soil = "mud"

@@ -11,7 +11,7 @@ from test_plants import everything, grown, picture, roots
 from test_playback import fresh
 
 from desire_path.bake import bake
-from desire_path.blender import compat, home, paths, plants, playback, stems
+from desire_path.blender import compat, home, paths, plants, playback, playback_tree, stems
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
 from desire_path.ground.plants import KINDS
@@ -40,10 +40,10 @@ def test_a_bake_shows_how_its_plants_lie(folder):
         mesh = ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
         planes = maps.read(index.lean_path(frame)).planes
         shown = np.empty((len(rest), 3), np.float32)
-        mesh.attributes[playback.LEAN].data.foreach_get("vector", shown.ravel())
+        mesh.attributes[playback_tree.LEAN].data.foreach_get("vector", shown.ravel())
         wanted = np.stack([planes[name][j[inside], i[inside]] for name in "RGB"], axis=1)
         assert shown[inside].tobytes() == wanted.tobytes()
-        strength = compat.float_attribute(mesh, playback.STRENGTH)
+        strength = compat.float_attribute(mesh, playback_tree.STRENGTH)
         np.testing.assert_allclose(strength[inside], planes["A"][j[inside], i[inside]], atol=1e-6)
         assert strength[~inside].min() > 0.99  # a lawn is dense: whole where nobody came
     assert planes["B"].max() > 0.9  # under a foot
@@ -80,7 +80,7 @@ def test_free_and_bake_again_leave_nothing(folder):
     before, have = state(ground), everything()
     for _ in range(2):
         assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-        played = [image.name for image in bpy.data.images if playback.TAG in image]
+        played = [image.name for image in bpy.data.images if playback_tree.TAG in image]
         assert sorted(name.split(" ")[1][:4] for name in played) == ["lean", "trai"], played
         assert len(bpy.data.node_groups) == 3 and state(ground) != before  # ground, grass, stems
     assert bpy.ops.object.desire_path_free() == {"FINISHED"}

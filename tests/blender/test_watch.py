@@ -5,7 +5,7 @@ import numpy as np
 from scenes import meshes
 from test_stack import raised, scatter, strip, tree_of, trodden
 
-from desire_path.blender import compat, playback
+from desire_path.blender import compat, playback, playback_tree
 
 LAST = 30
 
@@ -51,16 +51,16 @@ def test_a_subdivision_that_is_added_later_shows_the_prints(folder):
     sub = ground.modifiers.new("Fine", "SUBSURF")
     sub.subdivision_type, sub.levels, sub.render_levels = "SIMPLE", 7, 7
     bpy.context.view_layer.update()
-    assert order(ground) == ["Fine", playback.MODIFIER]
+    assert order(ground) == ["Fine", playback_tree.MODIFIER]
     assert np.abs(drop(ground, places) - wanted).mean() < 0.002
     assert "subdivide" not in ground.desire_path.summary  # as it was told before
     sub.levels = sub.render_levels = 8
     compat.move_modifier(ground, playback.modifier(ground), 0)  # moved by hand
     bpy.context.view_layer.update()
-    assert order(ground) == ["Fine", playback.MODIFIER]
+    assert order(ground) == ["Fine", playback_tree.MODIFIER]
     meshes.activate(ground)
     bpy.ops.object.modifier_apply(modifier="Fine")
-    assert order(ground) == [playback.MODIFIER]
+    assert order(ground) == [playback_tree.MODIFIER]
     assert np.abs(drop(ground, places) - wanted).mean() < 0.002
 
 
@@ -71,10 +71,10 @@ def test_what_is_added_on_the_ground_stays_behind_us(folder):
     ground.modifiers.new("Hair", "PARTICLE_SYSTEM")
     tree_of(ground, "stones", scatter)
     bpy.context.scene.frame_set(LAST)
-    assert order(ground) == [playback.MODIFIER, "Hair", "stones"]
+    assert order(ground) == [playback_tree.MODIFIER, "Hair", "stones"]
     tree_of(ground, "raised", raised)
     bpy.context.scene.frame_set(LAST - 1)  # a change of frame is enough to see it
-    assert order(ground) == ["Hair", "stones", "raised", playback.MODIFIER]
+    assert order(ground) == ["Hair", "stones", "raised", playback_tree.MODIFIER]
     assert (len(bpy.data.node_groups) - 2, len(bpy.data.images)) == before
 
 
@@ -181,7 +181,7 @@ def test_prints_ride_along_and_stay_when_it_is_applied_elsewhere(folder):
     # another modifier leaves them there, too
     ground.modifiers.new("Fine", "SUBSURF").subdivision_type = "SIMPLE"
     bpy.context.view_layer.update()
-    assert order(ground) == ["Fine", playback.MODIFIER]
+    assert order(ground) == ["Fine", playback_tree.MODIFIER]
     np.testing.assert_allclose(drop(ground, places + (7.0, 0.0)), wanted, atol=0.004)
 
 

@@ -6,7 +6,7 @@ from scenes import meshes, people
 from test_sample import ids, shoe
 from test_stack import tree_of
 
-from desire_path.blender import axes, compat, playback, sample, worn
+from desire_path.blender import axes, compat, sample, wiring, worn
 from desire_path.rig import rigs
 
 LAST = 30
@@ -286,7 +286,7 @@ def test_an_object_that_is_given_to_nodes_is_followed():
         identifier = tree.interface.new_socket("Shown", in_out="INPUT", socket_type="NodeSocketObject").identifier
     else:
         identifier = tree.inputs.new("NodeSocketObject", "Shown").identifier
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     enter = next(node for node in tree.nodes if node.bl_idname == "NodeGroupInput")
     info = wire.add("GeometryNodeObjectInfo", {"transform_space": "RELATIVE"}, Object=enter.outputs["Shown"])
     leave = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")

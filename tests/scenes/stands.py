@@ -14,7 +14,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from desire_path.blender import compat, playback
+from desire_path.blender import compat, playback_tree
 from desire_path.ground import maps
 from desire_path.ground import soil as soils
 
@@ -140,7 +140,7 @@ def bake(obj, seconds=None, **settings):
     nx = int((np.abs(rest[:, 1] - rest[0, 1]) < 1e-6).sum())
     grid = lambda values: np.asarray(values, np.float64).reshape(-1, nx, *np.shape(values)[1:])
     final = {name: grid(compat.float_attribute(obj.data, name)) for name in ("compression", "heap", "pressure_time")}
-    colour = grid(compat.colour_attribute(shown, playback.ATTRIBUTE))
+    colour = grid(compat.colour_attribute(shown, playback_tree.ATTRIBUTE))
     assert (colour[..., 2] == final["compression"]).all()  # playback and final map are one ground
     return Trail(report, own.cell_size, grid(rest), grid(compat.positions(shown)), **final)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..ground import maps
 from ..ground import mesh as meshes
-from . import axes, compat, playback, soils
+from . import axes, compat, playback, playback_tree, soils
 
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
@@ -22,7 +22,7 @@ def make_groups(obj):
     """Make the vertex groups that playback fills; returns the depth that counts as 1 [m]."""
     settings = obj.desire_path
     made = []
-    for name in map(playback.group_name, playback.GROUPS):
+    for name in map(playback_tree.group_name, playback_tree.GROUPS):
         if name not in obj.vertex_groups:
             obj.vertex_groups.new(name=name)
             made.append(name)
@@ -54,7 +54,7 @@ def fill(obj, surface, index, depth, planes, standing=()):
     if depth > 0.0:
         for name, full in (("plant_strength", 1.0), ("compression", depth)):
             if name in value:
-                weigh(obj.vertex_groups[playback.group_name(name)], value[name] / full)
+                weigh(obj.vertex_groups[playback_tree.group_name(name)], value[name] / full)
     mesh.update_tag()
     return warnings
 

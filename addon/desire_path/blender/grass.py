@@ -11,10 +11,10 @@ import bpy
 import numpy as np
 
 from ..ground import tuft
-from . import clock, compat, playback, tufts
+from . import clock, compat, playback, playback_tree, tufts, wiring
 from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 
-TAG = playback.TAG
+TAG = playback_tree.TAG
 MODIFIER = "Desire Path Grass"
 # of a root: turn about +Z [rad], size, rise of the ground along x and y, which tuft
 TURN, SIZE, SLOPE, PICK = "tuft_turn", "tuft_size", "tuft_slope", "tuft_pick"
@@ -165,7 +165,7 @@ def use_tree(modifier, tree):
 
 def _tree(obj, collection, height, index, images, count):
     tree = compat.geometry_tree(f"{MODIFIER} {obj.name}", bpy.data.node_groups.new)
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     points = wire.add("NodeGroupInput").outputs[0]
     points = wire.store(points, STRENGTH, 1.0)
     leave = tree.nodes.new("NodeGroupOutput")
@@ -184,7 +184,7 @@ def _tree(obj, collection, height, index, images, count):
             "GeometryNodeSeparateGeometry",
             {"domain": "POINT"},
             Geometry=points,
-            Selection=playback.within(wire, field.where(here)),
+            Selection=playback_tree.within(wire, field.where(here)),
         )
         parted = wire.add(
             "GeometryNodeSeparateGeometry",
@@ -225,7 +225,7 @@ class _Field:
 
     def __init__(self, wire, index, images, count, stretch):
         self.wire, self.images = wire, images
-        self.number = playback.file_number(wire, index, count, stretch)
+        self.number = playback_tree.file_number(wire, index, count, stretch)
         self.size = (index.nx * index.cell, index.ny * index.cell)
         self.corner = (index.x0, index.y0)
 

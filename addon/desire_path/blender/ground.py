@@ -15,7 +15,7 @@ from ..ground import mesh as meshes
 from ..ground.sim import Ground, Simulation
 from ..placement import place
 from ..rig import slope
-from . import axes, compat, playback, sample, stack
+from . import axes, compat, playback, sample, stack, wiring
 from . import soils as soils_of
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
@@ -226,7 +226,7 @@ def walked(scene, walkers, gait, below, frame_start, frame_end):
 def weights_tree(groups):
     """A tree that writes vertex groups as attributes."""
     tree = compat.geometry_tree("desire_path weights", bpy.data.node_groups.new)
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     geometry = wire.add("NodeGroupInput").outputs[0]
     for k, name in enumerate(groups):
         weight = wire.add("GeometryNodeInputNamedAttribute", {"data_type": "FLOAT"}, Name=name)

@@ -12,7 +12,22 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import ground, home, live, op_forces, overrides, playback, replant, show, soils, state, timeline, trash, watch
+from . import (
+    ground,
+    home,
+    live,
+    op_forces,
+    overrides,
+    playback,
+    playback_tree,
+    replant,
+    show,
+    soils,
+    state,
+    timeline,
+    trash,
+    watch,
+)
 
 _unsaved = False  # whether the file that is being saved never was before
 
@@ -36,7 +51,7 @@ def refresh(scene, obj):
     if index.owner and settings.bake_id and index.owner != settings.bake_id:
         return  # of another ground, whose folder it is now
     mark = playback.mark(index.folder, index, index.frames)
-    if ours is not None and ours.node_group[playback.TAG] == mark or show.plays_on(obj, index):
+    if ours is not None and ours.node_group[playback_tree.TAG] == mark or show.plays_on(obj, index):
         return
     box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
     with suppress(DesirePathError):  # its state says what is wrong

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from . import compat, playback
+from . import compat, playback_tree, wiring
 
 TAG = "desire_path_look"  # custom property on node groups and materials that are ours: what they are made for
 SHARE = "desire_path_share_{}"  # float attribute of a painted soil, sum of all at most 1
@@ -27,7 +27,7 @@ OUTPUTS = {
 }
 
 
-class Shade(playback.Wiring):
+class Shade(wiring.Wiring):
     """Nodes of a shader in a row."""
 
     def noise(self, at, scale, detail=2.0, rough=0.5):
@@ -259,7 +259,7 @@ def ground(recipe, name):
     tree, n, given, leave = _group(name, mark, inputs, {**shown, **marks})
     place = n.add("ShaderNodeTexCoord").outputs["Object"]
     place = n.vector("MULTIPLY", place, recipe.scale)
-    baked = n.add("ShaderNodeSeparateColor", Color=_attribute(n, playback.ATTRIBUTE, 0)).outputs
+    baked = n.add("ShaderNodeSeparateColor", Color=_attribute(n, playback_tree.ATTRIBUTE, 0)).outputs
     compression = baked[2]
     heap = n.math("MAXIMUM", n.math("ADD", baked[0], compression), 0.0)
     spot = Spot(place, compression, heap, given["Wetness"])
@@ -292,7 +292,7 @@ def _mixed(n, recipe, spot):
         values = _over(n, _frayed(n, part, fray), values, _look(n, *its, spot))
     if recipe.floor:
         if recipe.floor == "plants":
-            stands = n.between(_attribute(n, playback.STRENGTH, 2), 0.02, 0.55)
+            stands = n.between(_attribute(n, playback_tree.STRENGTH, 2), 0.02, 0.55)
         else:
             stands = n.math("SUBTRACT", 1.0, _pressed(n, spot, 0.006))
         values = _over(n, _frayed(n, stands, fray), values, _look(n, "GRASS", 0.0, spot))

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..ground.detail import DETAILS
-from . import axes, compat, cover, looks, plants, playback, soils
+from . import axes, compat, cover, looks, plants, playback, playback_tree, soils
 
 SOILS = {  # soil -> (look, how wet)
     "dry-sand": ("SAND", 0.0),
@@ -385,7 +385,7 @@ def _shares(obj):
 def _grown(obj):
     """Plants as they grew, where no bake says how they are."""
     mesh, settings = obj.data, obj.desire_path
-    name = playback.STRENGTH
+    name = playback_tree.STRENGTH
     if not settings.plants or playback.modifier(obj) is not None or mesh.library is not None or name in mesh.attributes:
         return
     scene = obj.users_scene[0] if obj.users_scene else bpy.context.scene

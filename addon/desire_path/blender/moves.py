@@ -12,7 +12,7 @@ import re
 
 import bpy
 
-from . import auto, clock, compat, playback
+from . import auto, clock, compat, playback, playback_tree
 
 # modifiers that change a mesh with time, and nodes that do
 BY_TIME = {
@@ -147,7 +147,7 @@ class _Movers:
 
     def _modifier(self, modifier):
         tree = getattr(modifier, "node_group", None)
-        if tree is not None and playback.TAG in tree:
+        if tree is not None and playback_tree.TAG in tree:
             return  # a bake of ours
         self.tied += _tied(modifier)
         self.goes_on |= by_time(modifier)

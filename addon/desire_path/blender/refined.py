@@ -15,7 +15,7 @@ import numpy as np
 from ..ground import mesh as meshes
 from ..ground import refine
 from ..ground.detail import details
-from . import axes, compat, cover, ground, looks, materials, moves, playback, private, stack
+from . import axes, compat, cover, ground, looks, materials, moves, playback, playback_tree, private, stack
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
@@ -66,7 +66,10 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         index.cell,
         (index.x0, index.y0),
         axes.typed(settings.refine_size),
-        (np.maximum(planes["compression"], planes["heap"]) > playback.DISTURBED[0], axes.typed(settings.detail_size))
+        (
+            np.maximum(planes["compression"], planes["heap"]) > playback_tree.DISTURBED[0],
+            axes.typed(settings.detail_size),
+        )
         if settings.detail_size
         else None,
     )
@@ -128,7 +131,7 @@ def _detail(carrier, surface, obj, weights, made):
         for share, each in zip(shares, (settings, *settings.painted))
         if share.any()
     )
-    for name, values in ((playback.DETAIL, shown[:, :3]), (playback.STRAY, shown[:, 3:])):
+    for name, values in ((playback_tree.DETAIL, shown[:, :3]), (playback_tree.STRAY, shown[:, 3:])):
         values = np.ascontiguousarray(values, np.float32)
         mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
 

@@ -5,7 +5,7 @@ import os
 from ..bake.bake import read_index
 from ..bake.contents import MAPS_ALWAYS, is_complete
 from ..errors import DesirePathError
-from . import cover, ground, home, materials, plants, playback, refined, stems, trash
+from . import cover, ground, home, materials, plants, playback, playback_tree, refined, stems, trash
 from .home import folder
 
 
@@ -68,7 +68,7 @@ def play(scene, obj, surface, baked=None):
 def _copy(obj):
     """The refined copy a ground shows that nothing else does, or None."""
     ours = playback.modifier(obj)
-    copy = playback.copy_of(ours.node_group) if ours is not None and ours.node_group.users == 1 else None
+    copy = playback_tree.copy_of(ours.node_group) if ours is not None and ours.node_group.users == 1 else None
     return copy if copy is not None and copy.users == 1 and copy.data.users == 1 else None
 
 
@@ -79,7 +79,7 @@ def plays_on(obj, index):
     if ours is None or not place:
         return False
     if place == folder(obj):
-        return index.complete and ours.node_group[playback.TAG] == playback.mark(index.folder, index, index.frames)
+        return index.complete and ours.node_group[playback_tree.TAG] == playback.mark(index.folder, index, index.frames)
     try:
         return not index.complete and read_index(place).complete
     except DesirePathError:

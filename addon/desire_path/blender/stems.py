@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..files import npz
 from ..ground import tuft
-from . import clock, compat, grass, playback, tufts
+from . import clock, compat, grass, playback, playback_tree, tufts, wiring
 
 MODIFIER, BLADES = "Desire Path Plants", "Desire Path Blades"
 KIND = "kind"  # attribute: which of the kinds a point belongs to
@@ -50,7 +50,7 @@ def show(ground, folder, path, frame_start, scale):
     obj = bpy.data.objects.new(mesh.name, mesh)
     for collection in ground.users_collection:
         collection.objects.link(obj)
-    obj[playback.TAG] = 1
+    obj[playback_tree.TAG] = 1
     grass.stand_on(obj, ground, scale)
     cache = obj.modifiers.new(MODIFIER, "MESH_CACHE")
     cache.cache_format, cache.filepath = "PC2", playback.join(folder, "plants.pc2")
@@ -63,8 +63,8 @@ def show(ground, folder, path, frame_start, scale):
 def _blades(name, kinds):
     """A tree that makes edges along stems blades that taper to their tips."""
     tree = compat.geometry_tree(f"{BLADES} {name}", bpy.data.node_groups.new)
-    tree[playback.TAG] = 1
-    wire = playback.Wiring(tree)
+    tree[playback_tree.TAG] = 1
+    wire = wiring.Wiring(tree)
     line = wire.add("GeometryNodeMeshToCurve", Mesh=wire.add("NodeGroupInput").outputs[0]).outputs[0]
     along, own, _ = wire.split(wire.named(tufts.LOOK, "FLOAT_VECTOR"))
     thin = wire.math("SUBTRACT", 1.02, wire.math("POWER", along, 2.0))
@@ -95,7 +95,7 @@ def remove(obj):
     trees = [
         each.node_group
         for each in obj.modifiers
-        if each.type == "NODES" and each.node_group is not None and playback.TAG in each.node_group
+        if each.type == "NODES" and each.node_group is not None and playback_tree.TAG in each.node_group
     ]
     mesh = obj.data
     bpy.data.objects.remove(obj)

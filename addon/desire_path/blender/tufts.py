@@ -8,12 +8,12 @@ import bpy
 import numpy as np
 
 from ..ground import tuft
-from . import playback
+from . import playback_tree, wiring
 
-TAG = playback.TAG
+TAG = playback_tree.TAG
 ROOT, AT, TILT, ARCH, LOOK = "tuft_root", "tuft_at", "tuft_tilt", "tuft_arch", "tuft_look"  # see Tuft
 TONE = "tuft_tone"  # of a plant, 0..1
-STRENGTH = playback.STRENGTH
+STRENGTH = playback_tree.STRENGTH
 
 
 def collection(name, kind):
@@ -109,7 +109,7 @@ def material(name, look):
     made.use_nodes = True
     tree = made.node_tree
     tree.nodes.clear()
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
 
     def attribute(key, kind):
         return wire.add("ShaderNodeAttribute", {"attribute_name": key, "attribute_type": kind}).outputs

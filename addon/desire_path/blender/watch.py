@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import axes, compat, cover, ground, home, playback, refined, show, stack, undo_step
+from . import axes, compat, cover, ground, home, playback, playback_tree, refined, show, stack, undo_step
 
 NEAR = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
 
@@ -63,7 +63,7 @@ def renew(scene, obj):
 
 def _edited_since(obj, tree):
     """Whether the mesh of a ground that a copy stands for was edited since that was made."""
-    if obj.name_full not in _edited or obj.mode != "OBJECT" or playback.copy_of(tree) is None:
+    if obj.name_full not in _edited or obj.mode != "OBJECT" or playback_tree.copy_of(tree) is None:
         return False  # while it is sculpted or painted, it is not asked after every stroke
     _edited.discard(obj.name_full)
     return tree.get(playback.COPIED) != refined.mark(obj)

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..rig import body
 from ..rig.sole_mesh import Tread
-from . import axes, clock, compat, playback, stack
+from . import axes, clock, compat, stack, wiring
 from .private import evaluated, private_scene
 
 LOOKS = 5  # frames of the walk at which points are watched
@@ -301,7 +301,7 @@ def _copies(scene, objects, groups, armature=None):
 def _weights(groups):
     """A tree that writes the summed weights of groups as attributes, one for every bone."""
     tree = compat.geometry_tree("desire_path weights", bpy.data.node_groups.new)
-    wire = playback.Wiring(tree)
+    wire = wiring.Wiring(tree)
     geometry = wire.add("NodeGroupInput").outputs[0]
     for bone, names in groups.items():
         total = wire.named(names[0])
