@@ -214,6 +214,47 @@ def test_who_goes_round_a_bend_leans_into_it(walk):
     assert abs(heights - 3.0).max() < 0.2
 
 
+def test_a_body_follows_the_feet_round_any_corner():
+    """c - reach^2 c'' = p: a line, a circle, and the sum over the curve before and after. MODEL 3.6"""
+    reach = 0.4
+    straight = Path([(0, 0), (7, 0)])
+    s = np.linspace(-1, 8, 500)
+    place, heading = straight.led(s, reach)
+    assert (place == straight.at(s)[0]).all() and (heading == 0).all()
+    angle = np.linspace(0, 2 * np.pi, 4000)
+    ring = Path(3.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    place, _ = ring.led(np.array([0.5 * ring.length]), reach)
+    assert np.hypot(*place[0]) == pytest.approx(
+        np.hypot(*ring.at(0.5 * ring.length)[0]) / (1 + (reach / 3) ** 2), abs=2e-3
+    )
+    for turn in (np.pi / 2, np.pi):
+        corner = Path([(0, 0), (4, 0), (4 + 4 * np.cos(turn), 4 * np.sin(turn))])
+        s = np.linspace(2, corner.length - 2, 41)
+        place, _ = corner.led(s, reach)
+        u = np.linspace(-8, 8, 16001)
+        weight = np.exp(-abs(u) / reach) / (2 * reach) * (u[1] - u[0])
+        assert place == pytest.approx(np.array([weight @ corner.at(each + u)[0] for each in s]), abs=0.01)
+        assert np.hypot(*(place - corner.at(s)[0]).T).max() < reach
+    assert (corner.led(s, 0.0)[0] == corner.at(s)[0]).all()
+
+
+def test_a_corner_is_pressed_as_deep_as_a_straight_path(walk, tmp_path):
+    def pressed(name, points, **more):
+        gait = walk.along(points, **more)
+        bake = Bake(gait, Ground.flat(), "dry-sand", tmp_path / name, cell_size=0.02)
+        for _ in bake.run():
+            pass
+        sideways = np.hypot(*walker.loads(gait).force.sum(axis=0)[..., :2].T)
+        return bake.report["deepest_m"], sideways.max() / (9.81 * gait.mass[0])
+
+    straight, push = pressed("straight", [(0, 0), (7, 0)])
+    for name, points in (("corner", [(0, 0), (4, 0), (4, 3.6)]), ("back", [(0, 0), (4, 0), (1, 0)])):
+        deep, sideways = pressed(name, points)
+        assert deep == pytest.approx(straight, abs=0.003) and sideways < push + 0.6
+    beside, sideways = pressed("beside", [(0, 0), (2, 0), (2, 2)], passes=2, scatter=Scatter(lateral=0.3))
+    assert beside == pytest.approx(straight, abs=0.004) and sideways < push + 0.6
+
+
 # ---- ground ----------------------------------------------------------------------------------------------
 
 

@@ -178,9 +178,9 @@ def _one(cycle: Cycle, line: Path, rate: float, scatter: _Scattered, ground: Sim
 
     # who goes round a bend leans into it
     s = grown(com[:, 0])
-    speed = cycle.speed * scale * pace
-    lean = speed**2 * line.bend_at(s) * (com[:, 2] - cycle.floor) / GRAVITY
-    body, _ = _laid(line, scatter, np.stack([s, com[:, 1] + lean], axis=-1))
+    high = max(float(np.mean(com[:, 2])) - cycle.floor, 0.0)
+    body, heading = line.led(s, cycle.speed * scale * pace * math.sqrt(high / GRAVITY))
+    body = _beside(body, heading, com[:, 1] + scatter.beside(s))
     if below is not None:
         com[:, 2] += below.body(s) - cycle.floor
     com[:, :2] = body
@@ -195,9 +195,13 @@ def _laid(line: Path, scatter: _Scattered, at: np.ndarray) -> tuple[np.ndarray, 
     """World places (.., 2) and headings of places (s, l) along the path."""
     s = at[..., 0]
     place, heading = line.at(s)
-    side = (at[..., 1] + scatter.beside(s))[..., None]
-    place = place + side * np.stack([-np.sin(heading), np.cos(heading)], axis=-1)
-    return place, heading + np.arctan(scatter.slope(s))
+    return _beside(place, heading, at[..., 1] + scatter.beside(s)), heading + np.arctan(scatter.slope(s))
+
+
+def _beside(place: np.ndarray, heading: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Places (.., 2) so far to the left of others, seen along a heading."""
+    moved: np.ndarray = place + left[..., None] * np.stack([-np.sin(heading), np.cos(heading)], axis=-1)
+    return moved
 
 
 class _Below:
