@@ -10,7 +10,7 @@ from test_playback import shown
 from test_trails import meadow
 
 from desire_path.bake import bake
-from desire_path.blender import compat, moves, posing, sample, stems
+from desire_path.blender import bake_job, compat, moves, posing, sample, stems
 from desire_path.ground import maps
 
 SHOT = (200, 230)  # the scene's range
@@ -221,6 +221,32 @@ def test_a_clip_changed_after_add_walker_is_baked_as_it_is(folder):
     walker.keyframe_insert("location", index=1, frame=150)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert told(ground)[0] == [75, 100]
+
+
+def test_a_walker_that_nothing_moves_is_told(folder):
+    ground, walker = strip(folder)
+    assert moves.still([walker]) == []
+    for curve in compat.curves(walker.animation_data, walker):
+        curve.mute = True
+    (text,) = moves.still([walker])
+    assert walker.animation_data.action.name in text and "unmute them in the Graph Editor" in text
+    job = bake_job.Job(bpy.context.scene, ground)
+    before = []
+    for _ in job.run():
+        before.append(text in job.early)
+        if any(before):
+            break
+    assert job.warnings[0] == text and job.fraction == 0.0
+    for curve in compat.curves(walker.animation_data, walker):
+        curve.mute = False
+    strip_of(walker, 1)
+    assert moves.still([walker]) == []
+    walker.animation_data.nla_tracks[0].mute = True
+    assert "NLA Editor" in moves.still([walker])[0]
+    walker.animation_data.use_nla = False
+    assert "NLA" in moves.still([walker])[0]
+    walker.animation_data_clear()
+    assert "give it an action" in moves.still([walker])[0]
 
 
 def test_all_walkers_of_a_ground_are_baked(folder):

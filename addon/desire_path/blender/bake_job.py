@@ -111,8 +111,12 @@ class Job:
         self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, made.parcels))
         if self.fresh:
             return
-        self.early += made.warnings
-        self.warnings += made.warnings  # what is told of the walkers themselves comes before what follows from it
+        still = moves.still(company.walkers)
+        self.early += [*still, *made.warnings]
+        self.warnings += [
+            *still,
+            *made.warnings,
+        ]  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
             self.warnings += each.warnings
         self.warnings += [*company.warnings, *inputs.told(company), *paths.warnings(company.walkers)]

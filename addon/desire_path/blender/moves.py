@@ -68,6 +68,34 @@ def moves(obj):
     return bool(found.spans or found.goes_on)
 
 
+def still(walkers):
+    """Sentences about walkers that nothing moves: what is off, and how it comes on."""
+    return [
+        f"Nothing moves '{each.name}': {_why_still(each)}. It is baked as it stands."
+        for each in walkers
+        if not moves(each)
+    ]
+
+
+def _why_still(obj):
+    """What silences an object's keys, and the cure."""
+    for each in _chain(obj):
+        animation = getattr(each, "animation_data", None)
+        if animation is None:
+            continue
+        if animation.action is not None:
+            played = compat.curves_played(animation)
+            if any(curve.mute for curve in played):
+                return f"the curves of its action '{animation.action.name}' are muted; unmute them in the Graph Editor"
+            if not played:
+                return f"its action '{animation.action.name}' has no keys for it; choose another action or slot"
+        if animation.use_nla and any(len(track.strips) for track in animation.nla_tracks):
+            return "its tracks or strips are muted; unmute them in the NLA Editor"
+        if len(animation.nla_tracks):
+            return "its NLA tracks are off or hold no strip; switch them on in the NLA Editor or give it an action"
+    return "it has no keys; give it an action"
+
+
 def by_time(modifier):
     """Whether a modifier makes another mesh as time goes on, by itself."""
     tree = modifier.node_group if modifier.type == "NODES" else None
