@@ -123,8 +123,6 @@ def content(folder):
         files[name] = path.read_bytes()
         if path.name == "report.json":
             files[name] = {**json.loads(files[name]), "seconds": 0, "stages": 0}
-        elif path.name == "trail_sums.txt":
-            files[name] = set(files[name].split(b"\n"))
     return files
 
 

@@ -125,6 +125,13 @@ def list_sums(frames: str, known: Mapping[str, str]) -> None:
         file.writelines(f"{name} {found}\n" for name, found in known.items())
 
 
+def order_sums(frames: str) -> None:
+    """Put the list of a whole bake in the order of its names: files are listed as they come to be written."""
+    with atomic_file.reader(os.path.join(frames, SUMS)) as file:
+        known = dict(line.decode("ascii").split() for line in sorted(file))
+    list_sums(frames, known)
+
+
 def _sum(path: str) -> str:
     """How many bytes a file has, and their digest, as the core lists it."""
     with atomic_file.reader(path) as file:

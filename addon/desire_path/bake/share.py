@@ -23,7 +23,7 @@ from ..ground.sim import TILE, Simulation
 from ..loads.force import FootForce
 from ..version import VERSION
 from .contents import OWNER, index_data
-from .folder import FORMAT, INPUTS, SUMS, frame_path, frames_sound, is_sound, list_sums
+from .folder import FORMAT, INPUTS, SUMS, frame_path, frames_sound, is_sound, list_sums, order_sums
 from .output import Output
 from .plan import Plan
 
@@ -165,6 +165,7 @@ class Share:
     def conclude(self, report: dict[str, Any]) -> None:
         """The bake is whole: write its report and say so in its index."""
         self.report = report
+        order_sums(self.out.path("frames"))
         self._write_json(("report.json",), report, "The report")
         self._write_json(("frames", "index.json"), {**self.index, "complete": True}, "The index of the frames")
 
