@@ -219,3 +219,19 @@ def test_a_soil_tells_its_numbers_where_they_matter():
         assert soil.told().keys() >= {"layer_depth", "shear_modulus"}
         assert Soil(**soil.told()) == soil
     assert "roughness" in ROUGH.told() and "grain_size" not in ROUGH.told()
+
+
+def test_loose_soil_rests_at_slopes_that_differ():
+    """Steeper and flatter than their mean, where the place says so."""
+    soil = replace(SAND, roughness=0.6, grain_size=0.03, poisson_ratio=0.5)
+    mean = math.tan(SAND.rest_angle)
+
+    def slopes(soil):
+        maps, _ = walk_over(soil)
+        heap = maps["heap"].astype(float)
+        drop = np.max([heap - np.roll(heap, side, axis) for side in (1, -1) for axis in (0, 1)], axis=0) / 0.01
+        return drop[(maps["compression"] == 0) & (heap > 0.004)]
+
+    rough, smooth = slopes(soil), slopes(replace(soil, roughness=0.0))
+    assert np.percentile(rough, 90) > 1.1 * mean > 1.09 * np.percentile(smooth, 99)
+    assert np.mean(rough < 0.8 * mean) > 1.4 * np.mean(smooth < 0.8 * mean)
