@@ -11,8 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from desire_path.bake.bake import Bake
+from desire_path.bake.options import BakeOptions
+from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.sim import Ground
 from desire_path.ground.soil import SOILS
+from desire_path.loads import walker
 from tests.core.test_bake import standing
 
 REPO = Path(__file__).resolve().parents[2]
@@ -166,3 +171,52 @@ def test_law_heap_and_rim_reach_the_bake(tmp_path, walk):
     usual, narrow = baked("narrow", "--heap", "paper")
     assert (usual["rim_width"], usual["law"]) == (0.04, "sole")
     assert (wide > 1e-4).sum() > 1.5 * (narrow > 1e-4).sum()
+
+
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (("--cell", "0"), "cell"),
+        (("--lateral", "0.2"), "--lateral tells how passes differ"),
+        (("--one-way",), "--one-way tells how passes differ"),
+        (("--one-way", "--along", "path.csv"), "--passes 2"),
+        (("--timing", "0.1", "--stride", "0.1"), "--timing tells"),
+        (("--pause", "5"), "--pause needs a path"),
+        (("--rim-width", "0.1"), "--heap paper"),
+        (("--spacing", "0"), "--spacing is that of an EXR"),
+        (("--spacing", "0.1", "--ground", "flat:1"), "--spacing is that of an EXR"),
+        (("--seed", "5"), "--seed is of"),
+        (("--seed", "99999999999999999999", "--plants", "carex"), "seed of 99999999999999999999"),
+        (("--seed", "99999999999999999999", "--along", "path.csv"), "seed of 99999999999999999999"),
+        (("--ground", "flat:"), "flat:HEIGHT"),
+        (("--plants", "carex:"), "KIND:PLANTS"),
+        (("--origin", "1e300", "0"), "origin"),
+    ],
+)
+def test_what_nobody_would_use_is_refused(tmp_path, walk, words, told):
+    (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n")
+    done = run("bake", walk, *words, "--out", tmp_path / "out", cwd=tmp_path)
+    assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_words_that_cannot_be_read_are_one_sentence(tmp_path, walk):
+    for words in (("--cell", "x"), ("--law", "nobody"), ("--nothing", "1"), ()):
+        done = run("bake", walk, *words, *(("--out", "out") if words else ()), cwd=tmp_path)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1 and "--help" in done.stderr, done.stderr
+    assert run("loads", walk, "--out", "a.csv", "--spacing", "0.1", cwd=tmp_path).returncode == 1
+
+
+def test_without_numpy_it_says_so(tmp_path):
+    (tmp_path / "numpy.py").write_text("raise ModuleNotFoundError('No module named numpy', name='numpy')")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(tmp_path), str(REPO / "addon")))}
+    words = [sys.executable, "-m", "desire_path", "--help"]
+    done = subprocess.run(words, capture_output=True, text=True, env=environment)
+    assert done.returncode == 1 and "install it" in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_what_is_no_ground_and_no_limits_is_a_sentence(tmp_path):
+    with pytest.raises(DesirePathError, match="Simulation"):
+        walker.contacts(standing(), Ground.flat())
+    with pytest.raises(DesirePathError, match="Limits"):
+        Bake(standing(), Ground.flat(), "mud", tmp_path / "out", options=BakeOptions(limits=None))

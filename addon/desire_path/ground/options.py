@@ -11,6 +11,7 @@ from ..errors import DesirePathError
 LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 MAX_THREADS = 64
+FARTHEST = 1e7  # cells may begin from the origin of the scene [m]
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,14 @@ class SimulationOptions:
             x = y = math.nan
         if not (math.isfinite(x) and math.isfinite(y)):
             raise DesirePathError("The origin of the cells is not a finite point: give two numbers in metres.")
+        if max(abs(x), abs(y)) > FARTHEST:
+            raise DesirePathError(
+                f"The origin of the cells, {x:g} {y:g}, lies too far away: give one within {FARTHEST:g} m."
+            )
+        if not isinstance(self.limits, Limits):
+            raise DesirePathError(
+                f"Limits of {self.limits!r} are none: give Limits(), or leave them out for the usual ones."
+            )
         object.__setattr__(self, "rim_width", width)
         object.__setattr__(self, "origin", (x, y))
         object.__setattr__(self, "threads", int(self.threads))

@@ -52,7 +52,7 @@ class Planting:
             )
         put("density", float(self.kind.density if self.density is None else self.density))
         if isinstance(self.seed, bool) or not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 1 << 64:
-            raise DesirePathError(f"A seed of {self.seed} cannot be used: choose a whole number, 0 or more.")
+            raise DesirePathError(f"A seed of {self.seed} cannot be used: choose a whole number from 0 to 2^64 - 1.")
         if self.rectangle is not None:
             box = tuple(float(value) for value in self.rectangle)
             if len(box) != 4 or not all(map(math.isfinite, box)) or box[0] >= box[2] or box[1] >= box[3]:

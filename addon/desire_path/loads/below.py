@@ -43,13 +43,7 @@ def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
             )
         found = found.reshape(shape)
     else:
-        try:
-            found = np.asarray(0.0 if heights is None else heights, float)
-        except (TypeError, ValueError):
-            raise DesirePathError(
-                f"A {type(ground).__name__} is no ground to stand on: give a height, heights (K, T), a function of "
-                "points (n, 2), or a Simulation."
-            ) from None
+        found = np.asarray(0.0 if heights is None else heights, float)
         if found.shape not in ((), shape):
             raise DesirePathError(
                 f"The ground's heights have shape {found.shape} where {shape} is "
@@ -60,7 +54,17 @@ def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
 
 def heights_of(ground: GroundHeights) -> GivenHeights:
     """A ground as ground_below() takes it, with a Simulation's function of places in its stead."""
-    return ground.rest_height if isinstance(ground, Land) else ground
+    if isinstance(ground, Land):
+        return ground.rest_height
+    if not callable(ground):
+        try:
+            np.asarray(0.0 if ground is None else ground, float)
+        except (TypeError, ValueError):
+            raise DesirePathError(
+                f"A {type(ground).__name__} is no ground to stand on: give a height, heights (K, T), a function of "
+                "points (n, 2), or a Simulation, as Simulation(Ground.flat())."
+            ) from None
+    return ground
 
 
 def is_alike(ground: GivenHeights) -> TypeGuard[float | Heights | None]:

@@ -76,8 +76,8 @@ def along(
     line = path if isinstance(path, Path) else Path(path)
     if not _is_whole(passes, 1):
         raise DesirePathError(f"A walk of {passes} passes cannot be walked: give a whole number from 1 on.")
-    if not _is_whole(seed, 0):
-        raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number, 0 or more.")
+    if not _is_whole(seed, 0) or seed >= 1 << 64:
+        raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number from 0 to 2^64 - 1.")
     scatter.check()
     if not (math.isfinite(pause) and 0.0 <= pause <= MAX_PAUSE):
         raise DesirePathError(f"A pause of {pause:g} s cannot be used: choose one from 0 to {MAX_PAUSE:g}.")
