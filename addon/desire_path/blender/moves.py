@@ -71,13 +71,13 @@ def moves(obj):
 def still(walkers):
     """Sentences about walkers that nothing moves: what is off, and how it comes on."""
     return [
-        f"Nothing moves '{each.name}': {_why_still(each)}. It is baked as it stands."
+        f"Nothing moves '{each.name}': {why_still(each)}. It is baked as it stands."
         for each in walkers
         if not moves(each)
     ]
 
 
-def _why_still(obj):
+def why_still(obj):
     """What silences an object's keys, and the cure."""
     for each in _chain(obj):
         animation = getattr(each, "animation_data", None)
@@ -94,6 +94,12 @@ def _why_still(obj):
         if len(animation.nla_tracks):
             return "its NLA tracks are off or hold no strip; switch them on in the NLA Editor or give it an action"
     return "it has no keys; give it an action"
+
+
+def has_motion(obj):
+    """Whether anything moves an object from a frame to another one: a pose that is keyed once does not."""
+    found = _Movers(obj)
+    return found.goes_on or any(first < last for first, last in found.spans)
 
 
 def by_time(modifier):

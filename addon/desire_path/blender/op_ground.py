@@ -7,6 +7,21 @@ from . import auto, home
 from .ops import Refusal, active
 
 
+def add(scene, obj):
+    """Make a mesh a ground; returns a sentence."""
+    if not len(obj.data.polygons) and not obj.modifiers:
+        raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
+    settings = obj.desire_path
+    settings.is_ground = True
+    home.settle(obj)
+    if settings.frames_auto:
+        auto.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
+    text = f"'{obj.name}' is a ground"
+    if not bpy.data.filepath and settings.folder_auto:
+        text += f"; until the file is saved its bake goes to the temporary folder {settings.folder}"
+    return text + "."
+
+
 class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
     """Make the active mesh a ground in which walkers leave prints"""
 
@@ -26,18 +41,7 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
         return active(cls, context, {"MESH"}, "the mesh that is walked on")
 
     def work(self, context):
-        obj, scene = context.object, context.scene
-        if not len(obj.data.polygons) and not obj.modifiers:
-            raise DesirePathError(f"'{obj.name}' has no faces: give it some to walk on.")
-        settings = obj.desire_path
-        settings.is_ground = True
-        home.settle(obj)
-        if settings.frames_auto:
-            auto.set_auto(settings, frame_start=scene.frame_start, frame_end=scene.frame_end)
-        text = f"'{obj.name}' is a ground"
-        if not bpy.data.filepath and settings.folder_auto:
-            text += f"; until the file is saved its bake goes to the temporary folder {settings.folder}"
-        self.report({"INFO"}, text + ".")
+        self.report({"INFO"}, add(context.scene, context.object))
         return {"FINISHED"}
 
 

@@ -1,7 +1,7 @@
 """op_walk_it.py - one button from a character to its prints.
 
-what is selected --> characters, and a ground or one made for them --forward.py--> they go ahead, along a curve that
-is selected, too --op_place.py--> on a hill their feet are placed --> bake
+what is selected --> characters --forward.py--> they go ahead, along a curve that is selected, too --underfoot.py-->
+the meshes they tread are grounds, or one is made --op_place.py--> on a hill their feet are placed --> bake
 """
 
 import bpy
@@ -10,8 +10,8 @@ import numpy as np
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..motion import size
-from ..placement import cycle, place
-from . import axes, forward, ground, moves, op_place, paths, reach, sample
+from ..placement import place
+from . import axes, forward, ground, moves, op_ground, op_place, op_walkers, paths, reach, sample, underfoot
 from .chosen import grounds
 from .ops import Refusal
 
@@ -48,15 +48,14 @@ def rig_of(obj):
     return None
 
 
-def chosen_ground(context, objects):
-    """The mesh to walk on: one that is a ground, else the active one, else the widest of those selected; None."""
-    meshes = [obj for obj in objects if obj.type == "MESH" and rig_of(obj) is None and not obj.desire_path.is_walker]
-    already = [obj for obj in meshes if obj.desire_path.is_ground]
-    if len(already) == 1 or not meshes:
-        return already[0] if already else None
-    if context.object in meshes:
-        return context.object
-    return max(meshes, key=lambda obj: obj.dimensions.x * obj.dimensions.y)
+def chosen_meshes(objects, who):
+    """The meshes among objects that could be walked on: what belongs to a character or walks by itself is left out."""
+    shapes = {bone.custom_shape for each in who if each.pose is not None for bone in each.pose.bones}
+    return [
+        obj
+        for obj in objects
+        if obj.type == "MESH" and rig_of(obj) is None and not obj.desire_path.is_walker and obj not in shapes
+    ]
 
 
 def chosen_way(objects):
@@ -86,74 +85,117 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         return True
 
     def work(self, context):
-        if context.mode == "POSE":
+        posed = context.mode == "POSE"
+        if posed:
             bpy.ops.object.mode_set(mode="OBJECT")
+        try:
+            told = self.begin(context)
+        except BaseException:
+            if posed:
+                bpy.ops.object.mode_set(mode="POSE")
+            raise
+        for level, text in told:  # nothing is told of what was taken back
+            self.report({level}, text)
+        return {"FINISHED"}
+
+    def begin(self, context):
+        """Refuse what can be refused before anything is changed, and walk; returns what is to be told."""
         scene = context.scene
         there = list(context.selected_objects) or [context.object]
         who = characters(there)
-        land = chosen_ground(context, there) or self.known(scene, who)
+        meshes = chosen_meshes(there, who) or list(filter(None, [self.known(scene, who)]))
         way = chosen_way(there)
         line = paths.waypoints(scene, way) if way is not None else None
-        for each in (*who, *filter(None, [land])):
+        for each in (*who, *meshes):
             if each.library is not None:
                 raise DesirePathError(
                     f"'{each.name}' is linked from another file: make a library override of it (Object > Library "
                     "Override > Make) first."
                 )
-        for each in who:  # who has no feet is refused before anything is changed
-            sample.record(scene, each, *moves.frame_range(scene, each), samples=1)
-        before = _Before(context, who, land)
+        for each in who:  # who has no feet is refused, too
+            underfoot.upright(sample.record(scene, each, *moves.frame_range(scene, each), samples=1))
+            if not moves.has_motion(each):
+                why = "it is keyed at one frame; give it an action" if moves.moves(each) else moves.why_still(each)
+                raise DesirePathError(f"Nothing moves '{each.name}': {why}.")
+        before = _Before(context, who, meshes)
         try:
-            self.walk(context, who, land, line)
+            return self.walk(context, who, meshes, line)
         except BaseException:
             before.come_back()
             raise
-        return {"FINISHED"}
 
-    def walk(self, context, who, land, line):
-        scene = context.scene
+    def walk(self, context, who, meshes, line):
+        """Let characters walk over what they tread of some meshes; returns what is to be told."""
+        scene, told = context.scene, []
         for each in who:
-            told = forward.carry(scene, each, line)
+            text = forward.carry(scene, each, line)
             first, last = moves.frame_range(scene, each)
             Limits().check("frames", last - first + 1)
-            if told:
-                self.report({"INFO"}, told)
-        gaits = []
-        if land is None or not land.desire_path.is_ground:
+            told += [("INFO", text)] if text else []
+        gaits, homes, made = [], meshes * len(who), []
+        if len(meshes) != 1 or not meshes[0].desire_path.is_ground:
             gaits = [sample.record(scene, each, *moves.frame_range(scene, each)) for each in who]
-        if land is None:
-            land = make_ground(context, gaits)
-        self.use(context, land, bpy.ops.object.desire_path_ground_add)
-        if gaits:
-            land.desire_path.cell_size = cell_for(gaits)
-        for each in who:
+            homes, made, more = self.lands(context, who, meshes, gaits)
+            told += more
+        for each in made:
+            told.append(("INFO", op_ground.add(scene, each)))
+            each.desire_path.cell_size = cell_for(gaits)
+        for each, land in zip(who, homes):
             each.desire_path.ground = land
-            self.use(context, each, bpy.ops.object.desire_path_walker_add)
-            self.place(scene, each, land)
-        how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
-        self.use(context, land, bpy.ops.object.desire_path_bake, how, look=True)
-        if gaits and not bpy.app.background:
-            land.desire_path.auto_update = True  # whoever asks for one button wants no second one
+            told += op_walkers.add(context, each)
+        for each, land in zip(who, homes):
+            told += self.place(scene, each, land)
+        self.bake(context, homes)
+        if not bpy.app.background:
+            for each in set(homes) & set(made):
+                each.desire_path.auto_update = True  # whoever asks for one button wants no second one
+        return told
 
-    def place(self, scene, armature, land):
-        """Place the feet of who is carried ahead over ground that is not as level as the clip."""
+    def lands(self, context, who, meshes, gaits):
+        """(the ground of each character, meshes that are to be grounds, what is to be told)"""
+        scene = context.scene
+        frame = min(moves.frame_range(scene, each)[0] for each in who)
+        found = underfoot.choose(scene, meshes, gaits, frame, cell_for(gaits))
+        told = [("INFO", each) for each in found.told]
+        if found.grounds:
+            return found.homes, [each for each in found.grounds if not each.desire_path.is_ground], told
+        known = self.known(scene, who)
+        if known is not None:
+            return [known] * len(who), [], told
+        made = make_ground(context, gaits)
+        told += [("INFO", f"'{made.name}' is made to be walked on.")] if told else []
+        return [made] * len(who), [made], told
+
+    def bake(self, context, homes):
+        """Bake what characters walk on: those of one walk together, those of several one after the other."""
+        how = "INVOKE_DEFAULT" if not bpy.app.background else "EXEC_DEFAULT"
+        context.view_layer.objects.active = homes[0]
+        try:
+            if len(set(homes)) > 1:
+                bpy.ops.wm.desire_path_bake_all(how)
+            else:
+                bpy.ops.object.desire_path_bake(how, look=True)
+        except RuntimeError as problem:
+            raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
+
+    @staticmethod
+    def place(scene, armature, land):
+        """Place the feet of who is carried ahead over ground that is not as level as the clip; returns what is told."""
         if not forward.is_carried(armature):
-            return
+            return []
         frames = op_place.frames_of(scene, armature, land)
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
         below, _, _ = reach.under(scene, armature, land, gait, frames[0])
         if not place.carries(gait, below, 0):
-            return
+            return []
         try:
             made, told = op_place.bake(scene, armature, land)
         except DesirePathError as problem:
             armature.desire_path.place_feet = True
-            self.report({"WARNING"}, f"{problem} Its prints are pressed as if its feet were placed.")
-            return
+            return [("WARNING", f"{problem} Its prints are pressed as if its feet were placed.")]
         forward.placed_anew(armature)
-        for each in told:
-            self.report({"WARNING"}, each)
-        self.report({"INFO"}, f"The feet of '{armature.name}' are placed on '{land.name}': action '{made.name}'.")
+        text = f"The feet of '{armature.name}' are placed on '{land.name}': action '{made.name}'."
+        return [*(("WARNING", each) for each in told), ("INFO", text)]
 
     @staticmethod
     def known(scene, who):
@@ -161,26 +203,18 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         found = {each.desire_path.ground for each in who} & set(grounds(scene))
         return found.pop() if len(found) == 1 else None
 
-    def use(self, context, obj, operator, how="EXEC_DEFAULT", **given):
-        """Call an operator with an object as the active one; what it refuses is refused here."""
-        context.view_layer.objects.active = obj
-        try:
-            operator(how, **given)
-        except RuntimeError as problem:
-            raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
-
 
 class _Before:
     """What Walk It changes, as it was before."""
 
-    def __init__(self, context, who, land):
-        self.context, self.who, self.land = context, who, land
+    def __init__(self, context, who, meshes):
+        self.context, self.who = context, who
         self.active, self.objects = context.object, set(bpy.data.objects)
         self.carried = [forward.is_carried(each) for each in who]
         self.walkers = [
             (each.desire_path.is_walker, each.desire_path.ground, each.desire_path.place_feet) for each in who
         ]
-        self.ground = land is not None and (land.desire_path.is_ground, land.desire_path.cell_size)
+        self.grounds = [(each, each.desire_path.is_ground, each.desire_path.cell_size) for each in meshes]
 
     def come_back(self):
         for each, carried, (walks, trodden, placed) in zip(self.who, self.carried, self.walkers):
@@ -188,8 +222,8 @@ class _Before:
                 forward.switch(each, False)
             each.desire_path.is_walker, each.desire_path.ground = walks, trodden
             each.desire_path.place_feet = placed
-        if self.ground:
-            self.land.desire_path.is_ground, self.land.desire_path.cell_size = self.ground
+        for each, is_ground, cell in self.grounds:
+            each.desire_path.is_ground, each.desire_path.cell_size = is_ground, cell
         for each in set(bpy.data.objects) - self.objects:
             if each.type == "MESH" and each.desire_path.is_ground:
                 mesh = each.data
@@ -201,8 +235,8 @@ class _Before:
 def make_ground(context, gaits):
     """A plane under recordings, as low as their feet come."""
     scale = axes.unit_scale(context.scene)
+    floor = underfoot.level(gaits)
     boxes = np.array([ground.under(each) for each in gaits])
-    floor = min(cycle.floor(each) for each in gaits)
     margin = MARGIN * max(float(size.legs(each).max()) for each in gaits)
     low, high = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
     middle, half = 0.5 * (low + high) / scale, 0.5 * (high - low) / scale

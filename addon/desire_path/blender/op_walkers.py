@@ -104,6 +104,51 @@ class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
         return {"FINISHED"}
 
 
+def add(context, obj):
+    """Let an armature or a mesh walk on a ground; returns what is to be told: levels of reports and sentences."""
+    scene, settings = context.scene, obj.desire_path
+    ground = _ground(context, settings.ground)
+    means, told = _means(scene, obj)
+    settings.is_walker = True
+    settings.ground = ground
+    moves.follow(scene, ground, walkers(scene, ground))
+    text = f"'{obj.name}' walks on '{ground.name}' {means}."
+    return [*(("WARNING", each) for each in told), ("INFO", text)]
+
+
+def _means(scene, obj):
+    """(by what a walker leaves prints, in words; sentences about it)"""
+    if obj.type == "ARMATURE":
+        found = detect(scene, obj, keep=not obj.desire_path.is_walker)
+        shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
+        odd = sample.odd_size(obj, shape, found)
+        return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (odd[:1] if odd else ())
+    bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]
+    if bound or obj.parent is not None and obj.parent.type == "ARMATURE":
+        rig = bound[0] if bound else obj.parent
+        raise DesirePathError(f"'{obj.name}' is moved by the armature '{rig.name}': select that, and press Add Walker.")
+    if not len(obj.data.polygons) and not obj.modifiers:
+        raise DesirePathError(f"'{obj.name}' has no faces to press the ground with: give it some.")
+    return "as a rigid body", ()
+
+
+def _ground(context, chosen):
+    """The ground chosen before, a selected one, or the only one."""
+    there = grounds(context.scene)
+    if chosen is not None and chosen in there:
+        return chosen
+    selected = [obj for obj in context.selected_objects if obj in there]
+    if len(selected) == 1:
+        return selected[0]
+    if not there:
+        raise DesirePathError("There is no ground yet: select the mesh that is walked on and press Add Ground.")
+    if len(there) > 1:
+        raise DesirePathError(
+            "There are several grounds: select the one to walk on together with the armature, the armature last."
+        )
+    return there[0]
+
+
 class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
     """Let the active armature or mesh leave prints"""
 
@@ -125,54 +170,9 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
         return True
 
     def work(self, context):
-        obj, scene = context.object, context.scene
-        settings = obj.desire_path
-        ground = self.ground(context, settings.ground)
-        means, told = self.means(scene, obj)
-        settings.is_walker = True
-        settings.ground = ground
-        for each in told:
-            self.report({"WARNING"}, each)
-        moves.follow(scene, ground, walkers(scene, ground))
-        self.report({"INFO"}, f"'{obj.name}' walks on '{ground.name}' {means}.")
+        for level, text in add(context, context.object):
+            self.report({level}, text)
         return {"FINISHED"}
-
-    @staticmethod
-    def means(scene, obj):
-        """(by what a walker leaves prints, in words; sentences about it)"""
-        if obj.type == "ARMATURE":
-            found = detect(scene, obj, keep=not obj.desire_path.is_walker)
-            shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
-            odd = sample.odd_size(obj, shape, found)
-            return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (
-                odd[:1] if odd else ()
-            )
-        bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]
-        if bound or obj.parent is not None and obj.parent.type == "ARMATURE":
-            rig = bound[0] if bound else obj.parent
-            raise DesirePathError(
-                f"'{obj.name}' is moved by the armature '{rig.name}': select that, and press Add Walker."
-            )
-        if not len(obj.data.polygons) and not obj.modifiers:
-            raise DesirePathError(f"'{obj.name}' has no faces to press the ground with: give it some.")
-        return "as a rigid body", ()
-
-    @staticmethod
-    def ground(context, chosen):
-        """The ground chosen before, a selected one, or the only one."""
-        there = grounds(context.scene)
-        if chosen is not None and chosen in there:
-            return chosen
-        selected = [obj for obj in context.selected_objects if obj in there]
-        if len(selected) == 1:
-            return selected[0]
-        if not there:
-            raise DesirePathError("There is no ground yet: select the mesh that is walked on and press Add Ground.")
-        if len(there) > 1:
-            raise DesirePathError(
-                "There are several grounds: select the one to walk on together with the armature, the armature last."
-            )
-        return there[0]
 
 
 class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
