@@ -139,11 +139,46 @@ def test_strips_alone_are_carried_as_far_as_they_go():
     rig.animation_data.action = None
     for track in rig.animation_data.nla_tracks:
         track.mute = track.name != "Walk_Loop"
+    strips = [each for track in rig.animation_data.nla_tracks for each in track.strips if not track.mute]
+    strips[0].repeat = 1.5  # no whole number of cycles
     rig.desire_path.carried = True
-    assert np.abs(at(rig, 33) - at(rig, 1)).max() > 1.0
-    assert np.abs(at(rig, 200) - at(rig, 34)).max() < 1e-6
+    end = round(strips[0].frame_end)
+    assert np.abs(at(rig, end) - at(rig, 1)).max() > 1.0
+    assert np.abs(at(rig, 200) - at(rig, end + 1)).max() < 1e-6
     rig.desire_path.carried = False
     assert rig.animation_data.action is None and np.abs(at(rig, 33)).max() < 1e-6
+
+
+def test_a_strip_that_loops_is_repeated_as_its_action_is():
+    rig = character()
+    rig.animation_data.action = None
+    for track in rig.animation_data.nla_tracks:
+        track.mute = track.name != "Walk_Loop"
+    strip = next(track.strips[0] for track in rig.animation_data.nla_tracks if not track.mute)
+    strip.frame_start, strip.frame_end = strip.frame_start + 10.0, strip.frame_end + 10.0
+    foot = lambda frame: at(rig, frame) * 0.0 + np.array(rig.pose.bones["mixamorig:LeftFoot"].matrix.translation)
+    first, later = foot(15), foot(25)
+    rig.desire_path.carried = True
+    assert "Walk_Loop" in rig.animation_data.action.name
+    assert np.allclose(foot(15), first, atol=1e-4) and np.allclose(foot(25), later, atol=1e-4)
+    period = round(strip.frame_end - strip.frame_start)
+    assert np.allclose(foot(15 + 4 * period), first, atol=1e-3) and np.abs(later - first).max() > 0.05
+    assert np.hypot(*(at(rig, 235) - at(rig, 115))[:2]) / 5.0 > 1.0
+    rig.desire_path.carried = False
+    assert rig.animation_data.action is None and not [each for each in bpy.data.actions if "_carried" in each.name]
+
+
+def test_what_goes_by_itself_and_what_stands_are_told_apart():
+    rig = character()
+    for frame, y in ((1, 0.0), (60, -3.0)):
+        rig.location.y = y
+        rig.keyframe_insert("location", frame=frame)
+    assert "moves by itself: it is not carried" in forward.switch(rig, True)
+    select(rig)
+    bpy.ops.object.desire_path_walk_it()
+    told = summary(rig.desire_path.ground)["warnings"]
+    assert any("though it goes at 1.2 m/s" in each for each in told), told
+    assert not any("in place" in each for each in told), told
 
 
 def test_curves_of_other_lengths_repeat_as_one():
@@ -301,13 +336,25 @@ def test_it_goes_along_a_selected_curve_and_turns_with_it():
         assert rig.delta_rotation_quaternion[:] == (1.0, 0.0, 0.0, 0.0) and not any(rig.delta_rotation_euler)
 
 
-def test_beyond_the_end_of_a_curve_it_goes_straight_on():
+def test_at_the_end_of_a_curve_it_stops():
     rig = character()
     select(rig, curve((1, 1), (4, 1), (4, 3)))
     assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
-    assert summary(rig.desire_path.ground)["contacts"] >= 15
-    end, later = at(rig, 200), at(rig, 248)
-    assert np.allclose(later - end, (0.0, 2.2, 0.0), atol=0.1), later - end
+    assert 6 <= summary(rig.desire_path.ground)["contacts"] <= 9
+    end, later = at(rig, 150), at(rig, 248)
+    assert np.allclose(later, end, atol=1e-6) and 1.5 < end[1] < 3.05 and abs(end[0] - 4.0) < 0.1, (end, later)
+    foot = lambda frame: at(rig, frame) + np.array(rig.pose.bones["mixamorig:LeftFoot"].matrix.translation)
+    assert np.allclose(foot(150), foot(248), atol=1e-6)
+    rig.desire_path.carried = False
+    told = forward.carry(bpy.context.scene, rig, np.array([(1.0, 1.0), (4.0, 1.0), (4.0, 3.0)]))
+    assert "to its end, its clip repeated up to frame 96" in told, told
+
+
+def test_a_curve_that_is_shorter_than_the_clip_is_left_at_its_end():
+    rig = character()
+    told = forward.carry(bpy.context.scene, rig, np.array([(1.0, 1.0), (1.5, 1.0)]))
+    assert "past the end of which its clip goes" in told and np.allclose(at(rig, 200), at(rig, 40), atol=1e-6)
+    assert at(rig, 33)[0] > 2.0
 
 
 def test_carried_says_why_it_cannot_be():

@@ -7,13 +7,13 @@ from typing import Any
 
 from ..ground import parcels as fields
 from ..ground.sim import Simulation
-from ..loads import walker
 from ..version import VERSION
 from .plan import Plan
 from .share import Share
 
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 RIGID_GROUND = "A print reaches the rigid ground under the soil: check the walker's mass, or choose a firmer soil."
+BESIDE = "reach over its edge, and leave no print there"  # also of those that are counted step by step
 OF_ONE = ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "displaced_m3")
 
 
@@ -27,8 +27,8 @@ def summary(
     warnings = list(dict.fromkeys([*before, *left, *after]))
     if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)):
         warnings.append(RIGID_GROUND)
-    if total["off_ground"] and walker.BESIDE not in warnings:
-        warnings.append(walker.BESIDE)
+    if total["off_ground"] and not any(BESIDE in each for each in warnings):
+        warnings.append(f"Feet on the ground {BESIDE}: make the ground larger, or move it under the walk.")
     planted = any(parcel.plants for parcel in plan.parcels)
     return {
         "passes": len(plan.passes),

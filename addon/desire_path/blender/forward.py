@@ -7,6 +7,7 @@ The user's action stays as it is; delta location moves the object wherever its o
 character whose bones follow another armature that one is carried.
 """
 
+import math
 from collections import Counter
 
 import bpy
@@ -58,7 +59,8 @@ def carry(scene, armature, line=None):
     gait = sample.record(scene, armature, first, last, samples=1)
     velocity = cycle.ahead(gait)
     if velocity is None:
-        return f"'{armature.name}' moves by itself or does not walk: it is not carried ahead."
+        why = "does not walk" if _stays(gait) else "moves by itself"
+        return f"'{armature.name}' {why}: it is not carried ahead."
     course = forward_curve.course(line, gait, velocity) if line is not None else None
     rig = leader(armature)
     animation = rig.animation_data or rig.animation_data_create()
@@ -70,6 +72,10 @@ def carry(scene, armature, line=None):
         curves = compat.curves(animation, rig)
         goes_on = _repeats(curves) or (again is not None and _repeat(curves, again))
         stretch, seconds = clock.stretch(scene), gait.time[-1] - gait.time[0]
+        ends = course is not None and not course.closed and goes_on
+        if ends:
+            until = first + course.seconds * clock.frame_rate(scene)
+            last, goes_on = max(last, math.ceil(_stop(curves, until / stretch) * stretch - 1e-3)), False
         if course is None:
             wanted = gait.com[0, -1] + (*(velocity * seconds), 0.0)
             _go(scene, rig, curves, velocity, first / stretch, last / stretch, goes_on)
@@ -78,7 +84,8 @@ def carry(scene, armature, line=None):
             _follow(scene, rig, curves, course, first, max(last, scene.frame_end) if goes_on else last, goes_on)
         made[OURS] = _keys(curves)
         bpy.context.view_layer.update()
-        came = sample.record(scene, armature, last - 1, last, samples=1).com[0, -1]
+        end = first + round(seconds * clock.frame_rate(scene))
+        came = sample.record(scene, armature, end - 1, end, samples=1).com[0, -1]
         if np.hypot(*(came - wanted)[:2]) > SHARE * np.hypot(*velocity) * seconds:
             raise DesirePathError(
                 f"'{armature.name}' walks in place and cannot be carried ahead, since something else holds it there: "
@@ -91,7 +98,9 @@ def carry(scene, armature, line=None):
     text = f"'{armature.name}' walks in place and is carried {'ahead' if course is None else 'along the curve'}"
     return (
         f"{text} at {np.hypot(*velocity):.2f} m/s"
-        + (", its clip repeated" if goes_on else ", as far as its clip goes, which does not loop")
+        + (f" to its end, its clip repeated up to frame {last}" if ends and last <= until else "")
+        + (", past the end of which its clip goes" if ends and last > until else "")
+        + (", its clip repeated" if goes_on else "" if ends else ", as far as its clip goes, which does not loop")
         + f": action '{made.name}'; Carried switches it off."
     )
 
@@ -158,18 +167,48 @@ def _leave(animation, rig, ours):
 
 def _action(rig, animation):
     """A copy of the action in use, or a new one, in its place."""
-    action, slot = animation.action, getattr(animation, "action_slot", None)
+    action, slot, shift = animation.action, getattr(animation, "action_slot", None), 0.0
+    strip = _only_strip(animation)
+    if strip is not None:
+        action, slot = strip.action, getattr(strip, "action_slot", None)
+        shift = strip.frame_start - strip.action_frame_start
     made = action.copy() if action is not None else bpy.data.actions.new(rig.name)
     made.name = f"{action.name if action is not None else rig.name}_carried"
     made[OURS] = 0
     made[BEFORE] = list(rig.delta_location)
     made[TURNED] = [*rig.delta_rotation_euler, *rig.delta_rotation_quaternion]
-    if action is not None:
+    if animation.action is not None:
         made[SOURCE] = action
         action.use_fake_user = True  # to go back to, even after saving
     made.use_fake_user = False
     compat.use_action(animation, made, _same_slot(made, slot))
+    if shift:
+        for curve in compat.curves(animation, rig):
+            for point in curve.keyframe_points:
+                point.co_ui[0] += shift  # with its handles
+            curve.update()
     return made
+
+
+def _only_strip(animation):
+    """The strip that alone moves an object, as its action does: whole, as fast and once; else None."""
+    if animation.action is not None or not animation.use_nla or animation.action_blend_type != "REPLACE":
+        return None
+    tracks = list(animation.nla_tracks)
+    tracks = [each for each in tracks if each.is_solo] or [each for each in tracks if not each.mute]
+    strips = [each for track in tracks for each in track.strips if not each.mute]
+    if len(strips) != 1 or strips[0].type != "CLIP" or strips[0].action is None or animation.action_influence < 1.0:
+        return None
+    strip = strips[0]
+    span = (strip.action_frame_start, strip.action_frame_end)
+    whole = np.allclose(span, strip.action.frame_range[:], atol=1e-3)
+    plain = strip.scale == strip.repeat == 1.0 and not (strip.use_reverse or strip.use_animated_influence)
+    return strip if whole and plain and strip.blend_type == "REPLACE" else None
+
+
+def _stays(gait):
+    """Whether the body of a recording of one walker comes nowhere."""
+    return np.hypot(*(gait.com[0, -1] - gait.com[0, 0])[:2]) < cycle.MIN_SPEED * (gait.time[-1] - gait.time[0])
 
 
 def _same_slot(action, slot):
@@ -210,6 +249,21 @@ def _repeat(curves, more):
     return True
 
 
+def _stop(curves, until):
+    """Let curves that repeat for ever do so only as often as they are whole before a frame; the frame they end at."""
+    ends = []
+    for curve in curves:
+        for each in [one for one in curve.modifiers if one.type == "CYCLES" and not one.mute and not one.cycles_after]:
+            begin, end = curve.keyframe_points[0].co[0], curve.keyframe_points[-1].co[0]
+            more = int(max(0.0, until - end) / max(end - begin, 1e-6) + 1e-6)
+            if more:
+                each.cycles_after = more
+            else:
+                curve.modifiers.remove(each)
+            ends.append(end + more * (end - begin))
+    return max(ends)
+
+
 def _go(scene, rig, curves, velocity, start, end, goes_on):
     """Key the delta location so that the object goes at a velocity (2,) [m/s] of the world, for ever or to a frame."""
     world = axes.matrix(rig.matrix_world, rig.name)
@@ -227,9 +281,8 @@ def _go(scene, rig, curves, velocity, start, end, goes_on):
 
 
 def _follow(scene, rig, curves, course, first, last, goes_on):
-    """Key the object along a course, from a scene frame to another one or to the end of an open curve."""
+    """Key the object along a course, from a scene frame to another one; straight on where an open curve ends."""
     stretch, rate = clock.stretch(scene), clock.frame_rate(scene)
-    count = int(np.ceil(min(course.seconds * rate, last - first))) + 1
-    frames = first + np.arange(max(count, 2))
+    frames = first + np.arange(max(last - first + 1, 2))
     scale = axes.unit_scale(scene)
     forward_curve.key(rig, curves, course, frames / stretch, (frames - first) / rate, scale, goes_on)

@@ -59,9 +59,36 @@ def slides(gait: Gait, places: np.ndarray, touching: np.ndarray, size: float) ->
         mine = mine & ~still if (mine & ~still).any() else mine
         speed = float(np.median(rush[mine])) if mine.any() else 0.0
         if speed > SLIDE * pace:
+            way = np.hypot(*(gait.com[w, -1] - gait.com[w, 0])[:2]) / (gait.time[-1] - gait.time[0])
             warnings.append(
-                f"The feet of {name} slide at {speed:.1f} m/s while they stand, as in a clip "
-                "that walks in place: move the character forward at that speed."
+                f"The feet of {name} slide at {speed:.1f} m/s while they stand"
+                + (
+                    f", though it goes at {way:.1f} m/s: make it faster or slower, until they stand still."
+                    if way > STILL * pace
+                    else ": if its clip walks in place, move the character forward at that speed."
+                )
+            )
+    return warnings
+
+
+def off(gait: Gait, touching: np.ndarray, beside: np.ndarray) -> list[str]:
+    """A sentence for each walker that steps beside the ground: how often.
+
+    beside: where the whole limb of a part is beside the ground (P, T)
+    """
+    warnings = []
+    for w, name in enumerate(gait.walker_name):
+        steps = away = 0
+        for limb in np.flatnonzero(gait.limb_walker == w):
+            mine = gait.part_limb == limb
+            on, out = (touching[mine] != 0).any(axis=0), ((touching != 0) & beside)[mine].any(axis=0)
+            edges = np.flatnonzero(np.diff(np.r_[False, on, False]))
+            steps += len(edges) // 2
+            away += sum(bool(out[a:b].any()) for a, b in zip(edges[::2], edges[1::2]))
+        if away:
+            warnings.append(
+                f"{away} of {steps} steps of {name} land beside the ground or reach over its edge, and leave no print "
+                "there: make the ground larger, or move it under the walk."
             )
     return warnings
 

@@ -17,7 +17,7 @@ from ..motion.gait import Gait
 from ..motion.points import point_places
 from ..tables import Number, check_some, table
 from .below import GivenHeights, GroundHeights, Heights, carried_on, ground_below, heights_of, off_ground, on_even
-from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, sinks, slides, weigh
+from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, off, sinks, slides, weigh
 from .force import ELSEWHERE, GRAVITY, PRESSES, FootForce, native_gait, write_loads
 from .times import RATE, at_times, even_rate, frame_rate_of, nearest
 from .turns import Turn, each_found, let_go, middle, standing, together, turns_of
@@ -45,7 +45,6 @@ __all__ = [
 
 OFF_GROUND = 0.06  # what is farther over the ground stands on something else [leg lengths]
 MODELS = {"inertia": 0, "impulse": 1}
-BESIDE = "Some steps land beside the ground and leave no print there."
 
 # Those of a grown person: lengths go with a walker's leg, times and speeds with its root (see size).
 _LIMITS, _OPTIONS = table(_native.contact_numbers()), table(_native.load_numbers())
@@ -201,8 +200,7 @@ def _loads_of(
     places = point_places(even)
     sinks(even, below)
     warnings = hovers(even, touching, clearance, size) + slides(even, places, touching, size) + warnings
-    if (touching[beside] != 0).any():
-        warnings.append(BESIDE)
+    warnings += off(even, touching, beside)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
     over = places[..., 2] - below - clearance[:, None]
     warnings += elsewhere(even, over, touching, max(OFF_GROUND * gait.leg[0], 2.0 * cell), size)
