@@ -1,6 +1,7 @@
 """A bake folder: what is in it, that it is the same every time, and that nothing is lost on the way."""
 
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ from desire_path.bake.bake import Bake, read_index
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
 from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import SOILS
 from desire_path.motion.gait import Gait, Sole
 from tests.scenes import gaits
 
@@ -99,6 +101,8 @@ def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
         "deepest_m",
         "pressed_m3",
         "pressed_heap_m3",
+        "loosened_m3",
+        "rebounded_m3",
         "heaped_m3",
         "seconds",
         "warnings",
@@ -116,6 +120,20 @@ def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
     assert np.all(start.planes["young_modulus_in"] > 1e5)
     assert set(start.planes) == {"young_modulus_in", "plant_strength_in", "plant_strength", "rest", "Y"}
     assert start.notes["unit_young_modulus_in"] == "Pa" and start.notes["unit_plant_strength_in"] == "-"
+
+
+def test_the_report_of_ragged_ground_that_springs_back_closes_its_ledger(tmp_path):
+    ragged = replace(SOILS["soil"], young_modulus=1e5, wall_angle=math.radians(40), roughness=0.4, rebound=0.3)
+    bake = Bake(standing(), Ground.flat(), ragged, tmp_path, threads=1)
+    for _ in bake.run():
+        pass
+    report = bake.report
+    assert report["loosened_m3"] > 0.0 and report["rebounded_m3"] > 0.0
+    heaped = report["displaced_m3"] - report["pressed_heap_m3"] + report["loosened_m3"]
+    assert report["heaped_m3"] == pytest.approx(heaped, rel=1e-6)
+    pressed = report["pressed_m3"] + report["loosened_m3"] - report["rebounded_m3"]
+    final = maps.read(tmp_path / "maps_final.exr").planes["compression"].astype(float)
+    assert final.sum() * report["parameters"]["cell_size"] ** 2 == pytest.approx(pressed, rel=1e-5)
 
 
 def test_the_first_file_is_ground_at_rest_and_the_last_the_final_map(tmp_path):

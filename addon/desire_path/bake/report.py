@@ -14,7 +14,15 @@ from .share import Share
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 RIGID_GROUND = "A print reaches the rigid ground under the soil: check the walker's mass, or choose a firmer soil."
 BESIDE = "reach over its edge, and leave no print there"  # also of those that are counted step by step
-OF_ONE = ("contacts", "deepest_m", "pressed_m3", "pressed_heap_m3", "heaped_m3", "displaced_m3")
+VOLUMES = (  # of a run's ledger: heaped = displaced + loosened - pressed heaps [m^3], MODEL 11.3
+    "pressed_m3",
+    "pressed_heap_m3",
+    "heaped_m3",
+    "displaced_m3",
+    "loosened_m3",
+    "rebounded_m3",
+)
+OF_ONE = ("contacts", "deepest_m", *VOLUMES)
 
 
 def summary(
@@ -34,10 +42,7 @@ def summary(
         "passes": len(plan.passes),
         "contacts": total["contacts"],
         "deepest_m": max(each["deepest_m"] for each in found),
-        "pressed_m3": total["pressed_m3"],
-        "pressed_heap_m3": total["pressed_heap_m3"],
-        "heaped_m3": total["heaped_m3"],
-        "displaced_m3": total["displaced_m3"],
+        **{name: total[name] for name in VOLUMES},
         **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
         "seconds": round(seconds["total"], 3),
         "stages": {name: round(spent, 3) for name, spent in seconds.items()},

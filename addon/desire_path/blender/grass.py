@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..ground import tuft
-from . import clock, compat, playback, playback_tree, tufts, wiring
+from . import clock, compat, grass_nodes, playback, playback_tree, tufts, wiring
 from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 
 TAG = playback_tree.TAG
@@ -178,7 +178,7 @@ def _tree(obj, collection, height, index, images, count):
     if images is None or "lean" not in images:
         grown = _instances(wire, points, info)
     else:
-        field = _Field(wire, index, images, count, clock.stretch_of(obj))
+        field = grass_nodes.Field(wire, index, images, count, clock.stretch_of(obj))
         here = wire.add("GeometryNodeInputPosition").outputs[0]
         beside = wire.add(
             "GeometryNodeSeparateGeometry",
@@ -218,42 +218,6 @@ def _instances(wire, points, info):
         Scale=wire.xyz(size, size, size),
         **{"Pick Instance": True, "Instance Index": wire.named(PICK, "INT")},
     ).outputs[0]
-
-
-class _Field:
-    """What a bake's images say at places of the world."""
-
-    def __init__(self, wire, index, images, count, stretch):
-        self.wire, self.images = wire, images
-        self.number = playback_tree.file_number(wire, index, count, stretch)
-        self.size = (index.nx * index.cell, index.ny * index.cell)
-        self.corner = (index.x0, index.y0)
-
-    def where(self, place):
-        """Image coordinates of a place."""
-        return self.wire.vector(
-            "MULTIPLY_ADD",
-            place,
-            (1 / self.size[0], 1 / self.size[1], 0.0),
-            (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0),
-        )
-
-    def ground(self, place):
-        """How much higher the ground is than at rest [m], and the pressure over time it bore [Pa s]."""
-        found = self.wire.image(self.images["trail"], self.where(place), self.number, True)
-        return self.wire.split(found.outputs["Color"])[0], found.outputs["Alpha"]
-
-    def lean(self, place, *, at_rest=False):
-        """(lean x, lean y, crushed), strength."""
-        found = self.wire.image(self.images["lean"], self.where(place), 0 if at_rest else self.number, True)
-        return found.outputs["Color"], found.outputs["Alpha"]
-
-    def broken(self, place):
-        """Share of the stems that stood at first and are broken, 0..1."""
-        wire = self.wire
-        now, first = self.lean(place)[1], self.lean(place, at_rest=True)[1]
-        whole = wire.math("DIVIDE", wire.math("ADD", now, 0.01), wire.math("ADD", first, 0.01))
-        return wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, whole), 0.0)
 
 
 def _touched(wire, field, here, far):
@@ -308,7 +272,7 @@ def _trodden(wire, points, info, field, high):
     of_others = wire.math(
         "DIVIDE", wire.math("SUBTRACT", crushed, broken), wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, broken), 0.05)
     )
-    own = _mix(wire, is_broken, of_others, of_broken)
+    own = grass_nodes.mix(wire, is_broken, of_others, of_broken)
     own = wire.math("MINIMUM", wire.math("MAXIMUM", own, 0.0), 1.0)
     share = wire.math("DIVIDE", wire.math("ADD", own, 0.05), wire.math("ADD", crushed, 0.05))
     aside = wire.math("MINIMUM", wire.math("MULTIPLY", wire.vector("LENGTH", lean), share), 1.0)
@@ -357,7 +321,7 @@ def _trodden(wire, points, info, field, high):
     along, across = wire.math("MULTIPLY", along, left), wire.vector("SCALE", across, scale=left)
     length = wire.math("MULTIPLY", length, left)
 
-    where = _bent(wire, length, along, across, tilt, arch)
+    where = grass_nodes.bent(wire, length, along, across, tilt, arch)
     where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))), wire.xyz(z=level))
     # nothing lies under the ground, but the buried end
     low, high = STEM_LIFT
@@ -367,20 +331,13 @@ def _trodden(wire, points, info, field, high):
         wire.math("MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0),
     )
     least = wire.math("ADD", _surface(wire, field, place, where)[0], lift)
-    least = _mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
+    least = grass_nodes.mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
     x, y, z = wire.split(where)
     real = wire.add(
         "GeometryNodeSetPosition", Geometry=real, Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))
     ).outputs[0]
     pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", ground, 0.70, 0.25))
     return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
-
-
-def _mix(wire, share, a, b):
-    """a where share is 0, b where it is 1."""
-    return wire.math(
-        "ADD", wire.math("MULTIPLY", wire.math("SUBTRACT", 1.0, share), a), wire.math("MULTIPLY", share, b)
-    )
 
 
 def _surface(wire, field, place, at):
@@ -390,32 +347,3 @@ def _surface(wire, field, place, at):
     slope = wire.vector("DOT_PRODUCT", away, wire.named(SLOPE, "FLOAT_VECTOR"))
     rise, pressure = field.ground(at)
     return wire.math("ADD", wire.math("ADD", wire.split(place)[2], slope), rise), pressure
-
-
-def _bent(wire, length, along, across, tilt, arch):
-    """tuft.bent() in nodes: where a point of a straight stem comes to lie, from the stem's root."""
-    share = wire.math("DIVIDE", along, wire.math("MAXIMUM", length, 1e-6))
-
-    def towards(part):
-        """Sine and cosine of the tilt there, the sine along its direction."""
-        vector = wire.vector("MULTIPLY_ADD", arch, wire.xyz(part, part, part), tilt)
-        angle = wire.math("MAXIMUM", wire.vector("LENGTH", vector), 1e-6)
-        sine = wire.math("SINE", angle)
-        return vector, angle, sine, wire.math("COSINE", angle)
-
-    out = None
-    for part, weight in tuft.GAUSS:
-        vector, angle, sine, cosine = towards(wire.math("MULTIPLY", share, part))
-        piece = wire.vector(
-            "ADD", wire.vector("SCALE", vector, scale=wire.math("DIVIDE", sine, angle)), wire.xyz(z=cosine)
-        )
-        piece = wire.vector("SCALE", piece, scale=wire.math("MULTIPLY", along, weight))
-        out = piece if out is None else wire.vector("ADD", out, piece)
-    # what lies across the stem is turned with it
-    vector, angle, sine, cosine = towards(share)
-    way = wire.vector("SCALE", vector, scale=wire.math("DIVIDE", 1.0, angle))
-    ahead = wire.vector("DOT_PRODUCT", across, way)
-    back = wire.math("MULTIPLY", ahead, wire.math("SUBTRACT", cosine, 1.0))
-    turned = wire.vector("ADD", across, wire.vector("SCALE", way, scale=back))
-    turned = wire.vector("SUBTRACT", turned, wire.xyz(z=wire.math("MULTIPLY", ahead, sine)))
-    return wire.vector("ADD", out, turned)

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
-from . import picture, plants, props, show
+from . import picture, plants, props_parts, show
 from .bake_job import idle_ground
 from .ops import Refusal
 from .replant import quietly
@@ -35,7 +35,7 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     kind: StringProperty(
         name="Kind",
         default="carex",
-        search=props.kinds,
+        search=props_parts.kinds,
         search_options={"SUGGESTION"},
         description="A kind of plant, or a .json file in which a kind was saved",
     )

@@ -5,7 +5,7 @@ import json
 import bpy
 
 from ..errors import DesirePathError
-from . import bake_job, forward, plants, soil_presets, soils, state, tufts
+from . import bake_job, forward, panel_lists, plants, soil_presets, soils, state
 from .chosen import grounds, walkers
 
 
@@ -250,27 +250,6 @@ def draw_walker(layout, context, obj):
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
-class OBJECT_UL_desire_path_paint(bpy.types.UIList):
-    """Soils and the vertex groups they are painted with"""
-
-    def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
-        row = layout.row(align=True)
-        row.prop_search(item, "vertex_group", context.object, "vertex_groups", text="")
-        row.prop(item, "soil", text="")
-
-
-class OBJECT_UL_desire_path_plants(bpy.types.UIList):
-    """Kinds of plants that grow on a ground"""
-
-    def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
-        row = layout.row(align=True)
-        row.label(text=tufts.label(item.kind))
-        row.label(text=f"{item.count:,}")
-        if plants.shown(item) is not None:
-            row.prop(item.grass, "hide_viewport", text="", emboss=False)
-            row.prop(item.grass, "hide_render", text="", emboss=False)
-
-
 class _Physics:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -388,8 +367,7 @@ class VIEW3D_PT_desire_path_output(_Sidebar, _Output, bpy.types.Panel):
 
 
 CLASSES = (
-    OBJECT_UL_desire_path_paint,
-    OBJECT_UL_desire_path_plants,
+    *panel_lists.CLASSES,
     PHYSICS_PT_desire_path,
     PHYSICS_PT_desire_path_soil,
     PHYSICS_PT_desire_path_numbers,

@@ -11,8 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..ground.plants import KINDS
-from . import compat, forward, live, picture, replant, soils, state, units, watch
+from . import compat, forward, live, props_parts, soils, state, units, watch
 
 
 def is_ground(_self, obj):
@@ -47,128 +46,12 @@ def _show_anew(self, _context):
     watch.mark(self.id_data)
 
 
-def _foot_by_hand(self, _context):
-    self.thigh = self.shank = ""  # the leg above another foot is another leg
-
-
-def overridable(group):
-    """Let a library override of an object change what it remembers, and keep it."""
-    for each in group.__annotations__.values():
-        inserts = {"USE_INSERTION"} if each.function is CollectionProperty else set()
-        each.keywords["override"] = {"LIBRARY_OVERRIDABLE"} | inserts
-    return group
-
-
-def _changed(_self, _context):
-    state.doubt()
-
-
 def _switched(self, _context):
     live.switched(self.id_data)
 
 
-def followed(group):
-    """Let what is set of a group count as a change, as what is moved in the scene does."""
-    for each in group.__annotations__.values():
-        hidden = "HIDDEN" in each.keywords.get("options", ()) or "get" in each.keywords
-        if not hidden and each.function is not CollectionProperty and not compat.is_group(each):
-            each.keywords.setdefault("update", _changed)
-    return group
-
-
-@followed
-@overridable
-class DesirePathPaint(bpy.types.PropertyGroup):
-    """A soil painted by a vertex group."""
-
-    vertex_group: StringProperty(name="Vertex Group", description="Where this soil lies: weights above one half")
-    soil: soils.preset("The soil that lies where the group is painted")
-    soil_numbers: PointerProperty(
-        type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
-    )
-    soil_file: soils.file()
-    soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
-
-
-def kinds(_self, _context, _text):
-    return list(KINDS)
-
-
-def _replant(self, context):
-    replant.changed(self.id_data)
-
-
-@followed
-@overridable
-class DesirePathPlants(bpy.types.PropertyGroup):
-    """Plants of one kind that grow on a ground."""
-
-    kind: StringProperty(
-        name="Kind",
-        default="carex",
-        search=kinds,
-        search_options={"SUGGESTION"},
-        update=_replant,
-        description="A kind of plant, or a .json file in which a kind was saved",
-    )
-    density: FloatProperty(
-        name="Density [1/m2]",
-        default=80.0,
-        min=0.001,
-        soft_max=1000.0,
-        max=5e4,
-        precision=1,
-        step=100,
-        update=_replant,
-        description="How many plants grow on a square metre where the group is 1",
-    )
-    density_group: StringProperty(
-        name="Density Group",
-        update=_replant,
-        description="A vertex group or float attribute that thins "
-        "the plants out: 1 = all of them, 0 = none. Empty = they grow everywhere",
-    )
-    density_image: PointerProperty(
-        name="Density Image",
-        type=bpy.types.Image,
-        poll=picture.is_still,
-        update=_replant,
-        description="An image that thins the plants out, times the group if both are set: white = all of them, black = "
-        "none, by the brightness of its pixels as they are stored. It lies on the ground by the active UV map; where "
-        "there is none, it is stretched over the ground's bounding rectangle seen from above. Update Plants takes over "
-        "what was painted since",
-    )
-    seed: IntProperty(name="Seed", min=0, update=_replant, description="Another number puts every plant somewhere else")
-    count: IntProperty(options={"HIDDEN"}, description="How many plants there are")
-    mark: StringProperty(options={"HIDDEN"}, description="What the roots were placed for")
-    grass: PointerProperty(
-        name="Grass",
-        type=bpy.types.Object,
-        description="The object that shows these plants; empty = they are not shown",
-    )
-
-
-@followed
-@overridable
-class DesirePathFoot(bpy.types.PropertyGroup):
-    """The bones of one foot."""
-
-    limb: StringProperty(name="Limb", description="Which foot this is")
-    foot: StringProperty(name="Foot", update=_foot_by_hand, description="The bone that begins at the ankle")
-    toe: StringProperty(
-        name="Toe", description="The bone that begins at the ball of the foot; empty where the rig has none"
-    )
-    heel: StringProperty(name="Heel", description="A bone that lies at the heel, if there is one")
-    thigh: StringProperty(
-        name="Thigh",
-        description="The bone that begins at the hip of this leg; with neither "
-        "thigh nor shank both are found above the foot",
-    )
-    shank: StringProperty(name="Shank", description="The bone that begins at the knee of this leg")
-
-
-@followed
-@overridable
+@props_parts.followed
+@props_parts.overridable
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
     is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
@@ -212,11 +95,15 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         default=True, options={"HIDDEN"}, description="The folder follows the file until set by hand"
     )
     painted: CollectionProperty(
-        type=DesirePathPaint, name="Painted Soils", description="Soils that lie where a vertex group is painted"
+        type=props_parts.DesirePathPaint,
+        name="Painted Soils",
+        description="Soils that lie where a vertex group is painted",
     )
     painted_index: IntProperty(options={"HIDDEN"})
     plants: CollectionProperty(
-        type=DesirePathPlants, name="Plants", description="What grows on this ground, bends under feet and wears"
+        type=props_parts.DesirePathPlants,
+        name="Plants",
+        description="What grows on this ground, bends under feet and wears",
     )
     plants_index: IntProperty(options={"HIDDEN"})
     plant_mesh: BoolProperty(
@@ -419,14 +306,15 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="How often the armature is looked at in a frame; between, it is interpolated",
     )
     feet: CollectionProperty(
-        type=DesirePathFoot, name="Feet", description="The bones of the walker's feet, found by Add Walker or Find Feet"
+        type=props_parts.DesirePathFoot,
+        name="Feet",
+        description="The bones of the walker's feet, found by Add Walker or Find Feet",
     )
     forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
 
 
-overridable(soils.DesirePathSoil)
-CLASSES = (soils.DesirePathSoil, DesirePathPaint, DesirePathPlants, DesirePathFoot, DesirePathSettings)
+CLASSES = (*props_parts.CLASSES, DesirePathSettings)
 
 
 def register():

@@ -17,11 +17,10 @@ from numpy.typing import ArrayLike
 
 from ..core import _native
 from ..errors import DesirePathError
-from ..files import atomic_file
 from ..keywords import fields_of
 from ..motion.tracks import TrackArray
 from ..version import VERSION
-from . import trail
+from . import rectangle_cells, state_file, trail
 from .cast import cast_of, pressing_of, tracks_of
 from .fields import FIELDS, LEAN
 from .film import Closed, Film
@@ -55,7 +54,6 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 LOAD_MODELS = ("inertia", "impulse")
 Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
 Stand = tuple[int, int, int]  # its number, that of its planting, plants
-ON_EDGE = 1e-6  # a rectangle that ends so near to the edge of a cell ends there [cells]
 
 
 class Simulation:
@@ -193,25 +191,11 @@ class Simulation:
 
     def cells(self, rectangle: Sequence[float]) -> tuple[int, int, int, int]:
         """Cells (i0, i1, j0, j1), as reach() tells them, that a rectangle (x0, y0, x1, y1) [m] has a part of."""
-        try:
-            x0, y0, x1, y1 = (float(value) for value in rectangle)
-        except (TypeError, ValueError):
-            raise DesirePathError(f"rectangle is {rectangle!r}: give x0, y0, x1, y1 in metres.") from None
-        if not (all(map(math.isfinite, (x0, y0, x1, y1))) and x0 < x1 and y0 < y1):
-            raise DesirePathError(
-                f"The rectangle {x0:g}, {y0:g} to {x1:g}, {y1:g} holds no cells, or has no end: give finite "
-                "x0 < x1 and y0 < y1 in metres, as box(reach()) does."
-            )
-        cell, (ox, oy) = self.cell_size, self.origin
-        low = [math.floor((at - start) / cell + ON_EDGE) for at, start in ((x0, ox), (y0, oy))]
-        high = [math.ceil((at - start) / cell - ON_EDGE) for at, start in ((x1, ox), (y1, oy))]
-        return low[0], max(high[0], low[0] + 1), low[1], max(high[1], low[1] + 1)
+        return rectangle_cells.cells(rectangle, self.cell_size, self.origin)
 
     def box(self, cells: Sequence[int]) -> tuple[float, float, float, float]:
         """Rectangle (x0, y0, x1, y1) [m] of cells (i0, i1, j0, j1), as bounds() tells it and read() takes it."""
-        i0, i1, j0, j1 = cells
-        cell, (ox, oy) = self.cell_size, self.origin
-        return ox + i0 * cell, oy + j0 * cell, ox + i1 * cell, oy + j1 * cell
+        return rectangle_cells.box(cells, self.cell_size, self.origin)
 
     def place(
         self,
@@ -308,37 +292,15 @@ class Simulation:
         What follows is the same, to the bit, as if it had never stopped. DesirePathError, and nothing has changed, if
         the state is damaged or of another simulation.
         """
-        self._restore(state, "This")
-
-    def _restore(self, state: Buffer, name: str) -> None:
-        try:
-            self._core.load_state(state)
-        except ValueError as problem:
-            if "damaged" in str(problem):
-                raise DesirePathError(
-                    f"{name} is damaged, or the state of another ground, walk or plants: run this one from its start."
-                ) from None
-            raise DesirePathError(
-                "A state can only be loaded before the first step: make the simulation anew and load the walk first."
-            ) from None
+        state_file.restore(self._core, state, "This")
 
     def save_state(self, path: str | os.PathLike[str]) -> None:
         """Write state() to one file, whole or not at all, for load_state()."""
-        state = self.state()
-        with atomic_file.file(os.fspath(path), "The state") as stream:
-            stream.write(state)
+        state_file.write(path, self.state())
 
     def load_state(self, path: str | os.PathLike[str]) -> None:
         """restore() from a file that save_state() wrote."""
-        path = os.fspath(path)
-        try:
-            with open(path, "rb") as stream:
-                state = stream.read()
-        except OSError as problem:
-            raise DesirePathError(
-                f"The state {path} cannot be read ({problem.strerror}): check its name and whose file it is."
-            ) from None
-        self._restore(state, path)
+        state_file.restore(self._core, state_file.read(path), os.fspath(path))
 
     def rest_plants(self, seconds: float) -> None:
         """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
