@@ -3,8 +3,9 @@
 // Hot loops are written plainly, row by row, so that a compiler can widen them. DP_CLONES before a
 // function asks for a second build of it for wider registers, picked when the program starts. Both
 // do the same operations in the same order (no fused multiply-add), so both give the same bits.
-// -DDP_SCALAR leaves only the plain build. Only static functions have clones: Clang gives those of
-// shared ones a name that other files do not know.
+// -DDP_SCALAR leaves only the plain build. Only static functions have clones, whose names no other
+// file has: Clang gives those of shared ones a name that other files do not know, and shows those of static
+// ones to all.
 #pragma once
 #include <limits.h>  // tells __GLIBC__, whose loader picks the clone
 

@@ -26,9 +26,9 @@ static inline float over(float firm, float base, float steep, float surface, flo
 }
 
 DP_CLONES
-static int decide(const Walls* walls, float* restrict share, float* restrict give,
-                  const float* restrict firm, const float* restrict height, ptrdiff_t row,
-                  int count, float film, float most)
+static int decide_walls(const Walls* walls, float* restrict share, float* restrict give,
+                        const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                        int count, float film, float most)
 {
     const float* restrict base = walls->base, * restrict steep = walls->steep;
     const float* restrict slack = walls->slack;
@@ -66,9 +66,10 @@ static int decide(const Walls* walls, float* restrict share, float* restrict giv
 }
 
 DP_CLONES
-static void take(const Walls* walls, double* restrict sum, double* restrict floor,
-                 const float* restrict share, const float* restrict give,
-                 const float* restrict firm, const float* restrict height, ptrdiff_t row, int count)
+static void take_walls(const Walls* walls, double* restrict sum, double* restrict floor,
+                       const float* restrict share, const float* restrict give,
+                       const float* restrict firm, const float* restrict height, ptrdiff_t row,
+                       int count)
 {
     const float* restrict base = walls->base, * restrict steep = walls->steep;
     for (int i = 0; i < count; ++i) {
@@ -85,9 +86,9 @@ static void take(const Walls* walls, double* restrict sum, double* restrict floo
 }
 
 DP_CLONES
-static void fill(const Walls* to, const float* restrict base_height,
-                 const float* restrict wall_slope, const int32_t* restrict ring, int count,
-                 double cell, double level, double tan_slack)
+static void fill_walls(const Walls* to, const float* restrict base_height,
+                       const float* restrict wall_slope, const int32_t* restrict ring, int count,
+                       double cell, double level, double tan_slack)
 {
     float* restrict base = to->base, * restrict steep = to->steep, * restrict slack = to->slack;
     for (int i = 0; i < count; ++i) {
@@ -107,7 +108,7 @@ int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict g
                     const float* restrict firm, const float* restrict height, ptrdiff_t row,
                     int count, float film, float most)
 {
-    return decide(walls, share, give, firm, height, row, count, film, most);
+    return decide_walls(walls, share, give, firm, height, row, count, film, most);
 }
 
 void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict floor,
@@ -115,14 +116,14 @@ void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict fl
                    const float* restrict firm, const float* restrict height, ptrdiff_t row,
                    int count)
 {
-    take(walls, sum, floor, share, give, firm, height, row, count);
+    take_walls(walls, sum, floor, share, give, firm, height, row, count);
 }
 
 void dp_walls_fill(const Walls* to, const float* restrict base_height,
                    const float* restrict wall_slope, const int32_t* restrict ring, int count,
                    double cell, double level, double tan_slack)
 {
-    fill(to, base_height, wall_slope, ring, count, cell, level, tan_slack);
+    fill_walls(to, base_height, wall_slope, ring, count, cell, level, tan_slack);
 }
 
 void dp_walls_lower(float* restrict firm, const double* restrict floor, int count)

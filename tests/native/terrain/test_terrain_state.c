@@ -73,8 +73,8 @@ static bool same(const DpTerrain* a, const DpTerrain* b)
     int          fields;
     bool         holds = dp_terrain_tile_count(a) == dp_terrain_tile_count(b);
     for (const DpFieldInfo* f = dp_terrain_fields(&fields); fields-- > 0; ++f) {
-        CHECK(dp_terrain_read(a, f->field, -70, -60, SIDE, SIDE, one) == DP_OK);
-        CHECK(dp_terrain_read(b, f->field, -70, -60, SIDE, SIDE, other) == DP_OK);
+        CHECK(dp_terrain_read(a, (DpField)f->field, -70, -60, SIDE, SIDE, one) == DP_OK);
+        CHECK(dp_terrain_read(b, (DpField)f->field, -70, -60, SIDE, SIDE, other) == DP_OK);
         holds = holds && memcmp(one, other, sizeof one) == 0;
     }
     for (int n = 0; n < 40; ++n) {  // between cells of touched tiles and beyond them
