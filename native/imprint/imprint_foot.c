@@ -17,11 +17,11 @@
 
 struct DpImprintScratch
 {
-    double*  corner;   // posed corners (u, v, z)
-    float*   low;      // samples
-    float*   sum;      // one row of cells: heights summed down each column of samples
-    float*   covered;  // and how many there were
-    DpReach* due;      // triangles of one sole
+    double*       corner;   // posed corners (u, v, z)
+    float*        low;      // samples
+    float*        sum;      // one row of cells: heights summed down each column of samples
+    float*        covered;  // and how many there were
+    DpSampleRect* due;      // triangles of one sole
 };
 
 DpImprintScratch* dp_imprint_scratch_create(void)
@@ -162,8 +162,8 @@ DP_INLINE void mean_cells(const float* sum, const float* covered, int cells, int
             z += sum[samples / 2];
             count += covered[samples / 2];
         }
-        const float most = count > 0.0f ? count : 1.0f;
-        bottom[i] = count > 0.0f ? (float)(lowest + (double)z / (double)most) : INFINITY;
+        const float counted = count > 0.0f ? count : 1.0f;
+        bottom[i] = count > 0.0f ? (float)(lowest + (double)z / (double)counted) : INFINITY;
         cover[i] = count * share;
     }
 }
@@ -227,12 +227,12 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
 {
     if (!is_patch(patch) || count < 0 || samples < 1 || samples > MOST_SAMPLES)
         return DP_BAD_ARGUMENT;
-    size_t corners = 0, most = 0;
+    size_t corners = 0, max_triangles = 0;
     for (int s = 0; s < count; ++s) {
         if (!is_mesh(&soles[s])) return DP_BAD_ARGUMENT;
         corners += (size_t)soles[s].vertex_count;
         const size_t triangles = (size_t)soles[s].triangle_count;
-        most = triangles > most ? triangles : most;
+        max_triangles = triangles > max_triangles ? triangles : max_triangles;
     }
     if (!dp_make_room(&scratch->corner, corners, 3 * sizeof *scratch->corner)) return DP_NO_MEMORY;
 
@@ -270,7 +270,7 @@ DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpM
     if (!dp_make_room(&scratch->low, size, sizeof *scratch->low) ||
         !dp_make_room(&scratch->sum, row, sizeof *scratch->sum) ||
         !dp_make_room(&scratch->covered, row, sizeof *scratch->covered) ||
-        !dp_make_room(&scratch->due, most, sizeof *scratch->due))
+        !dp_make_room(&scratch->due, max_triangles, sizeof *scratch->due))
         return DP_NO_MEMORY;
     window.low = scratch->low;
     for (size_t n = 0; n < size; ++n) window.low[n] = INFINITY;

@@ -40,15 +40,15 @@ DP_INLINE double held(double x, double limit)
 // x is held, so that it fits an int and the shifted sums below stay positive
 DP_INLINE int first_at(double x, int past)
 {
-    const int whole = (int)x;
-    const int up = whole + ((double)whole < x);
+    const int cut = (int)x;
+    const int up = cut + ((double)cut < x);
     return ((up + past + 3) >> 1) - 1;
 }
 
 DP_INLINE int last_at(double x, int past)
 {
-    const int whole = (int)x;
-    const int down = whole - ((double)whole > x);
+    const int cut = (int)x;
+    const int down = cut - ((double)cut > x);
     return ((down + past + 2) >> 1) - 1;
 }
 
@@ -95,22 +95,22 @@ typedef struct Plane
 DP_INLINE int plane_through(Plane* plane, const Corner* const* corner)
 {
     const uint8_t* by_z = order_of(corner[0]->z, corner[1]->z, corner[2]->z);
-    const Corner*  least = corner[by_z[0]];
+    const Corner*  lowest = corner[by_z[0]];
     const Corner*  one = corner[by_z[1]];
-    const Corner*  most = corner[by_z[2]];
-    const int      alone = least->z < one->z;  // the lowest, or else the highest
-    const Corner*  from = alone ? least : most;
-    const Corner*  two = alone ? most : least;
+    const Corner*  highest = corner[by_z[2]];
+    const int      alone = lowest->z < one->z;  // the lowest, or else the highest
+    const Corner*  from = alone ? lowest : highest;
+    const Corner*  two = alone ? highest : lowest;
     const double   u1 = one->u - from->u, v1 = one->v - from->v, z1 = one->z - from->z;
     const double   u2 = two->u - from->u, v2 = two->v - from->v, z2 = two->z - from->z;
     const double   twice = u1 * v2 - u2 * v1;
     if (twice == 0.0) return 0;
-    const double whole = 1.0 / twice;
-    const double du = (z1 * v2 - z2 * v1) * whole;
-    const double dv = (u1 * z2 - u2 * z1) * whole;
+    const double per_area = 1.0 / twice;
+    const double du = (z1 * v2 - z2 * v1) * per_area;
+    const double dv = (u1 * z2 - u2 * z1) * per_area;
     const int    fair = (du < STEEPEST) & (du > -STEEPEST) & (dv < STEEPEST) & (dv > -STEEPEST);
     plane->u = from->u, plane->v = from->v;
-    plane->z = fair ? from->z : least->z;
+    plane->z = fair ? from->z : lowest->z;
     plane->du = fair ? du : 0.0;
     plane->dv = fair ? dv : 0.0;
     return 1;
@@ -120,7 +120,7 @@ DP_INLINE int plane_through(Plane* plane, const Corner* const* corner)
 #define PICK(mask, a, b) ((Wide)(((WideMask)(a) & (mask)) | ((WideMask)(b) & ~(mask))))
 
 // which samples a triangle can cover; 0 where there are none
-DP_INLINE int reach_of(DpReach* reach, const DpSamples* samples, const Corner* const* corner)
+DP_INLINE int rect_of(DpSampleRect* rect, const DpSamples* samples, const Corner* const* corner)
 {
     const double u0 = corner[0]->u, u1 = corner[1]->u, u2 = corner[2]->u;
     const double v0 = corner[0]->v, v1 = corner[1]->v, v2 = corner[2]->v;
@@ -133,11 +133,11 @@ DP_INLINE int reach_of(DpReach* reach, const DpSamples* samples, const Corner* c
     const int    p1 = last_at(held(u_max, u_end), samples->past_u);
     const int    q0 = first_at(held(v_min, v_end), samples->past_v);
     const int    q1 = last_at(held(v_max, v_end), samples->past_v);
-    reach->p0 = p0 > samples->p0 ? p0 : samples->p0;
-    reach->p1 = p1 < samples->p1 ? p1 : samples->p1 - 1;
-    reach->q0 = q0 > samples->q0 ? q0 : samples->q0;
-    reach->q1 = q1 < samples->q1 ? q1 : samples->q1 - 1;
-    return (reach->p0 <= reach->p1) & (reach->q0 <= reach->q1);
+    rect->p0 = p0 > samples->p0 ? p0 : samples->p0;
+    rect->p1 = p1 < samples->p1 ? p1 : samples->p1 - 1;
+    rect->q0 = q0 > samples->q0 ? q0 : samples->q0;
+    rect->q1 = q1 < samples->q1 ? q1 : samples->q1 - 1;
+    return (rect->p0 <= rect->p1) & (rect->q0 <= rect->q1);
 }
 
 // keep the lowest along one row between two crossings, LANES at a time
@@ -153,11 +153,11 @@ DP_INLINE void lower_span(const DpSamples* samples, int q, double v, double one,
     const int first = first_at(left, samples->past_u), last = last_at(right, samples->past_u);
     if (first > last) return;
 
-    // heights go out from the span's middle: short ways, small rounding, no side preferred
+    // heights go out from the span's middle: short distances, small rounding, no side preferred
     const int   middle = first + last - samples->past_u;
     const float z0 =
         (float)(plane->z + (v - plane->v) * plane->dv + ((double)middle - plane->u) * plane->du);
-    const float slope = (float)plane->du, reached = (float)(last - first);
+    const float slope = (float)plane->du, half_width = (float)(last - first);
     const Wide  lanes = {0.0f, 2.0f, 4.0f, 6.0f, 8.0f, 10.0f, 12.0f, 14.0f};
 
     const int begin = (first - samples->p0) & ~(LANES - 1);
@@ -167,13 +167,13 @@ DP_INLINE void lower_span(const DpSamples* samples, int q, double v, double one,
         Wide was;
         memcpy(&was, low + p, sizeof was);
         const Wide z = z0 + d * slope;
-        const Wide now = PICK((d >= -reached) & (d <= reached) & (z < was), z, was);
+        const Wide now = PICK((d >= -half_width) & (d <= half_width) & (z < was), z, was);
         memcpy(low + p, &now, sizeof now);
     }
 }
 
 // Rows that meet a corner end in it exactly, so that all triangles about a corner meet there.
-DP_INLINE void lower_triangle(const DpSamples* samples, const DpReach* reach,
+DP_INLINE void lower_triangle(const DpSamples* samples, const DpSampleRect* rect,
                               const Corner* const* corner)
 {
     Plane plane;
@@ -182,15 +182,15 @@ DP_INLINE void lower_triangle(const DpSamples* samples, const DpReach* reach,
     const Corner*  low = corner[by_v[0]];
     const Corner*  mid = corner[by_v[1]];
     const Corner*  top = corner[by_v[2]];
-    const Edge     whole = edge_between(low, top);
-    const double   v0 = (double)(2 * reach->q0 - samples->past_v);
-    const double   v1 = (double)(2 * reach->q1 - samples->past_v);
-    Edge           lower = whole, upper = whole;  // many triangles have no row in one of them
+    const Edge     long_side = edge_between(low, top);
+    const double   v0 = (double)(2 * rect->q0 - samples->past_v);
+    const double   v1 = (double)(2 * rect->q1 - samples->past_v);
+    Edge lower = long_side, upper = long_side;  // many triangles have no row in one of them
     if (v0 < mid->v) lower = edge_between(low, mid);
     if (v1 > mid->v) upper = edge_between(mid, top);
-    for (int q = reach->q0; q <= reach->q1; ++q) {
+    for (int q = rect->q0; q <= rect->q1; ++q) {
         const double v = (double)(2 * q - samples->past_v);
-        double       one = crossing(&whole, v);
+        double       one = crossing(&long_side, v);
         double       two = crossing(v < mid->v ? &lower : &upper, v);
         if (v <= low->v || v >= top->v || v == mid->v) {
             one = v <= low->v ? low->u : v >= top->v ? top->u : one;
@@ -227,20 +227,21 @@ static double guess_below(const Corner* at, const int32_t* triangle, int count)
 
 // no sample of the triangle can be lower than what is there: rows from its first sample on, what is
 // beyond its last does not count
-DP_INLINE int is_hidden(const DpSamples* samples, const DpReach* reach, const Corner* const* corner)
+DP_INLINE int is_hidden(const DpSamples* samples, const DpSampleRect* rect,
+                        const Corner* const* corner)
 {
     const double z0 = corner[0]->z, z1 = corner[1]->z, z2 = corner[2]->z;
-    double       least = z0 < z1 ? z0 : z1, most = z0 < z1 ? z1 : z0;
-    least = z2 < least ? z2 : least, most = z2 > most ? z2 : most;
-    const float    bottom = (float)(least - 1e-6 * most);  // no rounding of a sample goes so far
+    double       lowest = z0 < z1 ? z0 : z1, highest = z0 < z1 ? z1 : z0;
+    lowest = z2 < lowest ? z2 : lowest, highest = z2 > highest ? z2 : highest;
+    const float bottom = (float)(lowest - 1e-6 * highest);  // no rounding of a sample goes so far
     const WideMask lanes = {0, 1, 2, 3, 4, 5, 6, 7};
     WideMask       open = {0, 0, 0, 0, 0, 0, 0, 0};
-    for (int q = reach->q0; q <= reach->q1; ++q) {
+    for (int q = rect->q0; q <= rect->q1; ++q) {
         const float* low = samples->low + (size_t)(q - samples->q0) * (size_t)samples->row;
-        for (int p = reach->p0; p <= reach->p1; p += LANES) {
+        for (int p = rect->p0; p <= rect->p1; p += LANES) {
             Wide was;
             memcpy(&was, low + (p - samples->p0), sizeof was);
-            open |= (was > bottom) & (lanes <= reach->p1 - p);
+            open |= (was > bottom) & (lanes <= rect->p1 - p);
         }
     }
     int64_t any[LANES / 2];
@@ -249,19 +250,19 @@ DP_INLINE int is_hidden(const DpSamples* samples, const DpReach* reach, const Co
 }
 
 DP_CLONES static void lower_triangles(const DpSamples* samples, const Corner* at,
-                                      const int32_t* triangle, int count, DpReach* due)
+                                      const int32_t* triangle, int count, DpSampleRect* due)
 {
     // who is due: first those that are likely below from the front, then the others from the back
     const double below = guess_below(at, triangle, count);
     int          front = 0, back = count;
     for (int t = 0; t < count; ++t) {
         const Corner* const corner[3] = CORNERS(at, triangle, t);
-        DpReach             reach;
-        const int           meets = reach_of(&reach, samples, corner);
+        DpSampleRect        rect;
+        const int           meets = rect_of(&rect, samples, corner);
         const int           above = seen_from_above(corner) * below > 0.0;
-        reach.triangle = t;
-        due[front] = reach;
-        due[back - 1] = reach;
+        rect.triangle = t;
+        due[front] = rect;
+        due[back - 1] = rect;
         front += meets & !above;
         back -= meets & above;
     }
@@ -276,7 +277,7 @@ DP_CLONES static void lower_triangles(const DpSamples* samples, const Corner* at
 }
 
 void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
-                      int count, DpReach* due)
+                      int count, DpSampleRect* due)
 {
     lower_triangles(samples, (const Corner*)(const void*)corner, triangle, count, due);
 }

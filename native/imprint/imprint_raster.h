@@ -21,12 +21,12 @@ int dp_samples_first(double x, int past);
 int dp_samples_last(double x, int past);
 
 // Rectangle of samples that a triangle can cover, both ends included.
-typedef struct DpReach
+typedef struct DpSampleRect
 {
     int32_t triangle, p0, p1, q0, q1;
-} DpReach;
+} DpSampleRect;
 
 // Lower the samples under `count` triangles over corners (u, v, z). z >= 0 above the lowest point.
 // `due` is scratch for `count` of them.
 void dp_samples_lower(const DpSamples* samples, const double* corner, const int32_t* triangle,
-                      int count, DpReach* due);
+                      int count, DpSampleRect* due);

@@ -35,8 +35,8 @@ static DpStatus status_of(int error)
 static DpStatus write_all(int file, const unsigned char* data, size_t size)
 {
     while (size > 0) {
-        const size_t  most = (size_t)1 << 30;
-        const ssize_t done = write(file, data, size < most ? size : most);
+        const size_t  max_bytes = (size_t)1 << 30;
+        const ssize_t done = write(file, data, size < max_bytes ? size : max_bytes);
         if (done < 0 && errno == EINTR) continue;
         if (done < 0) return status_of(errno);
         if (done == 0) return DP_CANNOT_WRITE;

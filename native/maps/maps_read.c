@@ -70,12 +70,12 @@ static DpStatus read_shape(exr_const_context_t context, int64_t file_size, DpMap
 
     // no packing shrinks pixels further than this; only DWA writes next to nothing for even planes
     const bool    dwa = packing == EXR_COMPRESSION_DWAA || packing == EXR_COMPRESSION_DWAB;
-    const int64_t most = (file_size + 256) * (dwa ? 262144 : 4096);
+    const int64_t max_bytes = (file_size + 256) * (dwa ? 262144 : 4096);
     uint32_t      tile_x = 1, tile_y = 1;
     if (*tiled && exr_get_tile_descriptor(context, 0, &tile_x, &tile_y, NULL, NULL))
         return DP_BAD_FILE;
     if (tile_x > LARGEST_TILE || tile_y > LARGEST_TILE) return DP_BAD_FILE;
-    if (nx * ny * channels * 4 > most || (int64_t)tile_x * tile_y * channels * 4 > most)
+    if (nx * ny * channels * 4 > max_bytes || (int64_t)tile_x * tile_y * channels * 4 > max_bytes)
         return DP_BAD_FILE;
     map->nx = (int)nx;
     map->ny = (int)ny;
