@@ -60,7 +60,7 @@ def test_a_soil_is_saved_and_taken_from_a_file(folder):
     assert grounds.soils(ground) == [mine]
     baked(ground)
     report = json.loads((folder / "bake" / "report.json").read_text())
-    assert report["parameters"]["soils"] == [mine.told()]
+    assert report["parameters"]["soils"] == [mine.parameters()]
     (folder / "mine.json").write_text('{"desire_path_soil": 1, "young_modulus": -3}')
     refused(bpy.ops.object.desire_path_bake, "young_modulus")
     settings.soil_file = str(folder / "none.json")

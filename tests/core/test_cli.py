@@ -58,7 +58,7 @@ def test_a_soil_is_taken_from_a_file_and_changed(tmp_path, walk):
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "folder" / "report.json").read_text())["parameters"]["soils"]
-    assert told == [replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2).told()]
+    assert told == [replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2).parameters()]
 
 
 def test_kinds_add_up_however_they_are_listed(tmp_path, walk):

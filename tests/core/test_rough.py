@@ -216,9 +216,9 @@ def test_a_state_goes_on_from_rough_ground(tmp_path):
 
 def test_a_soil_tells_its_numbers_where_they_matter():
     for soil in SOILS.values():
-        assert soil.told().keys() >= {"layer_depth", "shear_modulus"}
-        assert Soil(**soil.told()) == soil
-    assert "roughness" in ROUGH.told() and "grain_size" not in ROUGH.told()
+        assert soil.parameters().keys() >= {"layer_depth", "shear_modulus"}
+        assert Soil(**soil.parameters()) == soil
+    assert "roughness" in ROUGH.parameters() and "grain_size" not in ROUGH.parameters()
 
 
 def test_loose_soil_rests_at_slopes_that_differ():

@@ -136,7 +136,7 @@ class Plan:
             "frame_end": self.frame_end,
             "frame_rate": self.frame_rate,
             "load_model": options.load_model,
-            "soils": [soil.told() for soil in soils],
+            "soils": [soil.parameters() for soil in soils],
             "ground": parcel.ground.name,
             **({"trail": parcel.ground.trail.path} if parcel.ground.trail else {}),
             "walkers": list(self.gait.walker_name),
@@ -145,7 +145,7 @@ class Plan:
             "heap": options.heap,
             "rim_width": options.rim_width,
             "origin": options.origin,
-            **({"plants": [planting.told() for planting in plants]} if plants else {}),
+            **({"plants": [planting.parameters() for planting in plants]} if plants else {}),
             **({"film": self.film} if self.film != "frames" else {}),
         }
 

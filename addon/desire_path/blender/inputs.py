@@ -123,10 +123,12 @@ def marks(obj, company, made, found):
     ]
     for each in gait.soles:
         walk += [each.vertices, each.triangles]
-    plantings = sorted((each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.told()))
+    plantings = sorted(
+        (each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.parameters())
+    )
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: getattr(made.options, name) for name in ("law", "heap", "rim_width")}  # the rest does not show
-    soils = sorted(([soil.told() for soil in parcel.soils] for parcel in made.parcels), key=repr)
+    soils = sorted(([soil.parameters() for soil in parcel.soils] for parcel in made.parcels), key=repr)
     chosen = [
         made.cell_size,
         made.frame_start,
@@ -144,7 +146,7 @@ def marks(obj, company, made, found):
     return {
         "walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
         "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
-        "plants": mesh.mark(grown, [planting.told() for planting in plantings]),
+        "plants": mesh.mark(grown, [planting.parameters() for planting in plantings]),
         "settings": mesh.mark((), chosen),
     }
 

@@ -29,14 +29,14 @@ class Ground(Record):
 
     def __repr__(self) -> str:
         kind, *numbers = self.native
-        told = kind
+        said = kind
         if kind == "flat":
-            told += f", {numbers[0]:g} m"
+            said += f", {numbers[0]:g} m"
         elif kind == "heights":
-            told += f", {numbers[0].shape[1]} x {numbers[0].shape[0]} samples {numbers[1]:g} m apart"
+            said += f", {numbers[0].shape[1]} x {numbers[0].shape[0]} samples {numbers[1]:g} m apart"
         elif kind == "mesh":
-            told += f", {len(numbers[0])} vertices, {len(numbers[1])} triangles"
-        return f"Ground({told}{'' if self.trail is None else f', {self.trail!r}'})"
+            said += f", {len(numbers[0])} vertices, {len(numbers[1])} triangles"
+        return f"Ground({said}{'' if self.trail is None else f', {self.trail!r}'})"
 
     @staticmethod
     def flat(height: float = 0.0) -> Ground:

@@ -85,9 +85,9 @@ def around(gait: Gait) -> np.ndarray:
     span = gait.time[-1] - gait.time[0]
     step = max(1, int(len(gait.time) / max(1.0, span * RATE)))
     at = point_places(gait)[:, ::step]
-    reach = length(gait)
+    radius = length(gait)
     turn = np.arange(8) * np.pi / 4
-    ring = reach * np.stack([np.cos(turn), np.sin(turn)], 1)
+    ring = radius * np.stack([np.cos(turn), np.sin(turn)], 1)
     ring = np.concatenate([np.zeros((1, 2)), 0.5 * ring, ring])
     out = np.repeat(at.reshape(-1, 3), len(ring), axis=0)
     out[:, :2] += np.tile(ring, (at.shape[0] * at.shape[1], 1))
@@ -124,13 +124,13 @@ def storeys(parcels: Sequence[Parcel], gait: Gait) -> list[list[int]]:
     at = around(gait)
     height = heights(parcels, at[:, :2])
     trodden = np.bincount(nearest(height, at[:, 2]) + 1, minlength=len(parcels) + 1)[1:]
-    most = APART * length(gait)
+    max_apart = APART * length(gait)
     there = np.isfinite(height)
     below = there.reshape(len(parcels), -1, AROUND)[..., :BELOW]
 
     def apart(a: int, b: int) -> bool:
         """Whether one lies over the other: at another height, or below all of a foot."""
-        return (np.abs(height[a] - height[b]) > most).any() or (below[a] & below[b]).all(axis=1).any()
+        return (np.abs(height[a] - height[b]) > max_apart).any() or (below[a] & below[b]).all(axis=1).any()
 
     found: list[list[int]] = []
     for number in sorted(range(len(parcels)), key=lambda n: (-trodden[n], n)):
@@ -268,10 +268,10 @@ def under(parcel: Parcel, gait: Gait, loads: FootForce, wide: float) -> tuple[fl
     if not len(part):
         return None
     size = np.array([np.linalg.norm(sole.vertices.astype(float), axis=1).max() for sole in gait.soles])
-    reach = size[part, None] + wide
+    radius = size[part, None] + wide
     at = gait.pose[part, sample, :2]
     box = np.array(parcel.box)
-    low, high = np.maximum(at - reach, box[:2]), np.minimum(at + reach, box[2:])
+    low, high = np.maximum(at - radius, box[:2]), np.minimum(at + radius, box[2:])
     there = (low < high).all(axis=1)
     return (*low[there].min(axis=0), *high[there].max(axis=0)) if there.any() else None
 

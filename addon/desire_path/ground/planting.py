@@ -144,7 +144,7 @@ class Planting:
         """Side of the squares [m]: SQUARE, or twice that and so on for plants that stand far apart."""
         return SQUARE * 2.0 ** max(0, math.ceil(math.log2(4.0 / (SQUARE * math.sqrt(self.density)))))
 
-    def told(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, Any]:
         """What it is, for a report: numbers and words only."""
         told: dict[str, Any] = {"kind": asdict(self.kind), "density": self.density, "seed": int(self.seed)}
         if self.rectangle is not None:

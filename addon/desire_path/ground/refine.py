@@ -65,9 +65,9 @@ class Refined:
 
     def _kept_corners(self) -> np.ndarray:
         """Corners of the faces that were left, in order."""
-        whole = np.zeros(len(self.of.starts) - 1, bool)
-        whole[self.kept] = True
-        return np.repeat(whole, np.diff(self.of.starts))
+        is_kept = np.zeros(len(self.of.starts) - 1, bool)
+        is_kept[self.kept] = True
+        return np.repeat(is_kept, np.diff(self.of.starts))
 
     def corner_points(self, corner_points: np.ndarray) -> np.ndarray:
         """The point of every corner, from those of the old mesh, int32."""

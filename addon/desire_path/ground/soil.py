@@ -32,7 +32,7 @@ class Soil:
     def __post_init__(self) -> None:
         check(self, NUMBERS, "A soil's")
 
-    def told(self) -> dict[str, float]:
+    def parameters(self) -> dict[str, float]:
         """The numbers by name that tell this soil from others: those after the first seven where they are not usual."""
         usual = Soil()
         return {

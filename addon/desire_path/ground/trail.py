@@ -52,7 +52,7 @@ class Trail(Record):
 
     def on(self, cell: float, origin: tuple[float, float]) -> tuple[int, int, dict[str, np.ndarray], list[str]]:
         """The trail on cells of another size or place [m]: (i0, j0, its grids by name, sentences)."""
-        told = (
+        sentences = (
             [f"The plants of {self.path} are not in the map: what grows here now was not trodden before."]
             if self.planted
             else []
@@ -63,8 +63,8 @@ class Trail(Record):
             abs(cell / self.cell - 1.0) * max(self.rest.shape) < SAME
             and max(abs(i0 - round(i0)), abs(j0 - round(j0))) < SAME
         ):
-            return round(i0), round(j0), grids, told
-        told.append(
+            return round(i0), round(j0), grids, sentences
+        sentences.append(
             f"The cells of {self.path} ({self.cell:g} m from {self.x0:g}, {self.y0:g}) are not those of this "
             f"bake: the trail was averaged over cells of {cell:g} m."
         )
@@ -79,7 +79,7 @@ class Trail(Record):
                 (origin[0], self.x0, i0 + np.arange(nx), self.rest.shape[1]),
             )
         ]
-        return i0, j0, {name: _averaged(grid, *at) for name, grid in grids.items()}, told
+        return i0, j0, {name: _averaged(grid, *at) for name, grid in grids.items()}, sentences
 
 
 def _shares(low: np.ndarray, wide: float, cell: float, count: int) -> tuple[np.ndarray, float]:
@@ -91,10 +91,10 @@ def _averaged(grid: np.ndarray, rows: tuple[np.ndarray, float], columns: tuple[n
     """Means of a grid over a lattice of rectangles, what lies outside counted as 0."""
     for (ends, wide), axis in ((rows, 0), (columns, 1)):
         total = np.insert(np.cumsum(grid, axis=axis, dtype=np.float64), 0, 0.0, axis=axis)
-        whole = np.minimum(ends.astype(int), total.shape[axis] - 2)
-        part = np.expand_dims(ends - whole, 2 - axis)
-        low = np.take(total, whole, axis=axis)
-        high = np.take(total, whole + 1, axis=axis)
+        first = np.minimum(ends.astype(int), total.shape[axis] - 2)
+        part = np.expand_dims(ends - first, 2 - axis)
+        low = np.take(total, first, axis=axis)
+        high = np.take(total, first + 1, axis=axis)
         if axis == 0:
             sums = low + (high - low) * part
             grid = (sums[1] - sums[0]) / wide

@@ -193,12 +193,12 @@ def bent(root: np.ndarray, at: np.ndarray, tilt: np.ndarray, arch: np.ndarray) -
     share = (at[:, 2:] / root[:, 2:]).astype(np.float64)
     out = np.zeros((len(at), 3))
     for place, weight in GAUSS:
-        way, rise, _ = _towards(tilt + arch * share * place)
-        out += weight * at[:, 2:] * (way * rise[:, :1] + (0.0, 0.0, 1.0) * rise[:, 1:])
-    way, rise, _ = _towards(tilt + arch * share)
+        direction, rise, _ = _towards(tilt + arch * share * place)
+        out += weight * at[:, 2:] * (direction * rise[:, :1] + (0.0, 0.0, 1.0) * rise[:, 1:])
+    direction, rise, _ = _towards(tilt + arch * share)
     across = at * (1.0, 1.0, 0.0)
-    along = (across * way).sum(axis=1, keepdims=True)
-    out += across - way * along * (1.0 - rise[:, 1:]) - (0.0, 0.0, 1.0) * along * rise[:, :1]
+    along = (across * direction).sum(axis=1, keepdims=True)
+    out += across - direction * along * (1.0 - rise[:, 1:]) - (0.0, 0.0, 1.0) * along * rise[:, :1]
     return out + root * (1.0, 1.0, 0.0)
 
 
