@@ -208,7 +208,6 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     const double  press =
         soil_max(soil_min(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
     const double loose = soil_min(press, (double)b);
-    const double deepest = patch->spring ? dp_soil_spring_deepest(patch, p) : 0.0;
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + (press - loose));
     if (patch->pressure_time)
@@ -218,16 +217,12 @@ static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, D
     // the ledger counts what the float grids really hold
     const double out_of_heap = (double)b - (double)patch->heap[p];
     const double out_of_firm = (double)patch->compression[p] - (double)c;
-    double       elastic = 0.0;
-    if (patch->spring) {  // MODEL 6.9
-        const double now = (double)patch->compression[p];
-        elastic = soil_max(soil_min(now, deepest) - (double)c, 0.0);
-        patch->spring[p] = -(float)soil_max(now, deepest);
-    }
-    const double moved = out_of_heap + (out_of_firm - elastic);
+    const double elastic = patch->spring ? dp_soil_spring_press(patch, p, (double)c) : 0.0;
+    const double lasting = out_of_firm - elastic;
+    const double moved = out_of_heap + lasting;
     pressed->loose += soil_on_grid(out_of_heap, PRESS_GRID);
-    pressed->firm += soil_on_grid(out_of_firm - elastic, PRESS_GRID);
-    pressed->elastic += soil_on_grid(elastic, PRESS_GRID);
+    pressed->firm += soil_on_grid(lasting, PRESS_GRID);
+    if (elastic > 0.0) pressed->elastic += soil_on_grid(elastic, PRESS_GRID);
     pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
                                        PRESS_GRID);
     pressed->deepest = soil_max(pressed->deepest, (double)patch->compression[p]);

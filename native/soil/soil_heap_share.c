@@ -21,6 +21,7 @@ static double ahead_of(const HeapShares* shares, int i, int j)
 
 double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
 {
+    if (shares->even && !patch->uneven) return 1.0;
     const double coarse = ldexp(1.5, 52 - 30);
     double       share = 1.0;
     if (!shares->even)

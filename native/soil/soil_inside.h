@@ -10,8 +10,9 @@
 #define SPRING_ROUGH 1.6  // how much the share that comes back differs, by the soil's roughness
 #define SPRING_MOST 0.9   // of the depth comes back at most
 
-// soil_rebound.c: the deepest a cell has been pressed [m]; the share of it that comes back. The patch has springs.
-double dp_soil_spring_deepest(const DpSoilPatch* patch, size_t p);
+// soil_rebound.c, of a patch that has springs: a cell was pressed from compression `before` [m] to what it is now, and how
+// much of that had come back before [m]; the share of its depth that comes back.
+double dp_soil_spring_press(DpSoilPatch* patch, size_t p, double before);
 double dp_soil_spring_share(const DpSoilPatch* patch, size_t p);
 
 struct DpSoilScratch

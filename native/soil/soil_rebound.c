@@ -4,12 +4,20 @@
 // has come back of that. What is pressed again up to there displaces nothing anew.
 #include "soil/soil_inside.h"
 
-double dp_soil_spring_deepest(const DpSoilPatch* patch, size_t p)
+// how deep a cell was when it was pressed deepest [m]; c: how deep it is
+static double deepest_of(const DpSoilPatch* patch, size_t p, double c)
 {
-    const double c = (double)patch->compression[p], spring = (double)patch->spring[p];
+    const double spring = (double)patch->spring[p];
     if (spring < 0.0) return -spring;
     if (spring > 0.0) return c + spring;
     return c / (1.0 - dp_soil_spring_share(patch, p));  // as if a sole that is gone had left it
+}
+
+double dp_soil_spring_press(DpSoilPatch* patch, size_t p, double before)
+{
+    const double now = (double)patch->compression[p], deepest = deepest_of(patch, p, before);
+    patch->spring[p] = -(float)soil_max(now, deepest);
+    return soil_max(soil_min(now, deepest) - before, 0.0);  // MODEL 6.9
 }
 
 double dp_soil_spring_share(const DpSoilPatch* patch, size_t p)
