@@ -176,6 +176,8 @@ class Bake(Plan):
             for share in self.shares:
                 share.find(name)
             check_grounds(self.options.limits, self.gait, self.shares, self.count)
+            for share in self.shares:
+                share.look()
             states = States(self.shares, name, refused)
             if states.restore():
                 return sims, states

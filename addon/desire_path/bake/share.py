@@ -60,10 +60,13 @@ class Share:
     # ---- what is made ---------------------------------------------------------------------------
 
     def find(self, signature: str) -> None:
-        """Look at what the very same bake left, and at the ground before its first step."""
-        plan = self.plan
+        """Look at what the very same bake left."""
         self.index = self._index(signature)
         self._find()
+
+    def look(self) -> None:
+        """Look at the ground before its first step, once it is known that there is room for it."""
+        plan = self.plan
         self.start = self._start_maps()
         if self.parcel.plant_mesh and (len(plan.parcels) == 1 or self._is_planted()):
             count = plan.frame_end - plan.frame_start + 1
