@@ -18,10 +18,6 @@ def fine():
     return rig, ground
 
 
-def _far(rig, ground):
-    ground.location.x = 80.0
-
-
 def _flat(rig, ground):
     ground.scale = (1.0, 0.0, 0.0)
 
@@ -177,7 +173,6 @@ def _no_kind(rig, ground):
 
 
 BROKEN = {
-    "the ground lies elsewhere": (_far, "beside"),
     "the ground is scaled to nothing": (_flat, "scaled to nothing"),
     "the ground stands upright": (_upright, "upright|steep|faces"),
     "the ground has no faces": (_no_faces, "no faces"),
