@@ -207,9 +207,13 @@ def soil_of(settings):
     """The Soil that a ground's settings, or a painted soil's, come to."""
     if settings.soil_file:
         return Soil.load(bpy.path.abspath(settings.soil_file))
+    usual = SOILS[settings.soil]
     if not settings.soil_numbers.changed:
-        return SOILS[settings.soil]
-    return Soil(**{name: axes.typed(getattr(settings.soil_numbers, name)) for name in WORDS})
+        return usual
+    # what was set to the preset's own number is that, to the last bit: library overrides set all of them on reading
+    numbers = {name: axes.typed(getattr(settings.soil_numbers, name)) for name in WORDS}
+    kept = {name: getattr(usual, name) for name in WORDS}
+    return Soil(**{name: kept[name] if axes.typed(kept[name]) == each else each for name, each in numbers.items()})
 
 
 class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):
