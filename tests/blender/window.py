@@ -3,7 +3,6 @@
 import pathlib
 import sys
 import time
-import traceback
 
 import bpy
 import numpy as np
@@ -14,7 +13,7 @@ bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 
 desire_path.register()
-from scenes import meshes, people  # noqa: E402
+from scenes import hands, meshes, people  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
 from desire_path.blender import bake_job, op_forces, playback, state  # noqa: E402
@@ -42,11 +41,8 @@ def press_bake():
     assert not bpy.ops.object.desire_path_free.poll()
 
 
-def until(condition, seconds=40):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited too long"
-        yield 0.05
+def until(condition):
+    return hands.until(condition, 40)
 
 
 def shot(name):
@@ -180,22 +176,6 @@ def story():
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     assert not op_forces._handles and not op_forces._shown
     yield 0.5
-    print("all seen", flush=True)
 
 
-steps = story()
-
-
-def tick():
-    try:
-        return next(steps)
-    except StopIteration:
-        pass
-    except Exception:
-        traceback.print_exc()
-    sys.stdout.flush()
-    bpy.ops.wm.quit_blender()
-    return None
-
-
-bpy.app.timers.register(tick, first_interval=1.0, persistent=True)
+hands.tell(story())

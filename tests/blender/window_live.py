@@ -3,7 +3,6 @@
 import pathlib
 import sys
 import time
-import traceback
 
 import bpy
 import numpy as np
@@ -14,7 +13,7 @@ bpy.context.preferences.view.show_splash = False
 import desire_path  # noqa: E402
 
 desire_path.register()
-from scenes import meshes, people  # noqa: E402
+from scenes import hands, meshes, people  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
 from desire_path.blender import bake_job, live, panels, playback, state, timeline  # noqa: E402
@@ -38,10 +37,7 @@ def ground():
 
 
 def until(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, f"waited too long: {told()}"
-        yield 0.02
+    return hands.until(condition, seconds, 0.02, told)
 
 
 def told():
@@ -242,22 +238,6 @@ def story():
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield 0.5
     assert not live.begun() and not bpy.app.timers.is_registered(live._tick) and not timeline._handles
-    print("all seen", flush=True)
 
 
-steps = story()
-
-
-def tick():
-    try:
-        return next(steps)
-    except StopIteration:
-        pass
-    except Exception:
-        traceback.print_exc()
-    sys.stdout.flush()
-    bpy.ops.wm.quit_blender()
-    return None
-
-
-bpy.app.timers.register(tick, first_interval=1.0, persistent=True)
+hands.tell(story())

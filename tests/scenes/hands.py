@@ -85,11 +85,12 @@ class Hands:
         return found.reshape(height, width, 4)[:, :, :3]
 
 
-def until(condition, seconds=180):
+def until(condition, seconds=180, pause=0.05, told=None):
+    """Wait for something; told: what to say of it, if it does not come."""
     end = time.monotonic() + seconds
     while not condition():
-        assert time.monotonic() < end, "waited too long"
-        yield 0.05
+        assert time.monotonic() < end, f"waited too long{f': {told()}' if told else ''}"
+        yield pause
 
 
 def tell(story):
