@@ -1,5 +1,7 @@
 """Walkers who go in turn: memory grows with who is there, and nothing else changes."""
 
+import gc
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,10 +10,12 @@ import pytest
 
 import desire_path
 from desire_path import Gait, _native
+from desire_path.bake import grounds
 from desire_path.bake.bake import Bake
 from desire_path.errors import DesirePathError
 from desire_path.files import npz
-from desire_path.ground import maps
+from desire_path.ground import maps, parcels
+from desire_path.ground.parcels import Parcel
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
 from desire_path.motion.tracks import TrackArray, joined
@@ -136,6 +140,69 @@ def test_memory_is_that_of_who_is_there(eight):
     sim.load(eight, loads)
     held = _native.bytes_live() - before - eight.time.nbytes
     assert held <= 1.2 * alone * (13 * 8 + 1) / (7 * 8) + 50_000  # soles and limbs
+
+
+def places(folder, bridge=0.5):
+    """Two tiles of ground side by side, and one that lies over both."""
+
+    def tile(x0, x1, z, soil, name):
+        corner = [(x0, -1.0, z), (x1, -1.0, z), (x1, 4.0, z), (x0, 4.0, z)]
+        return Parcel(Ground.mesh(np.array(corner), [[0, 1, 2], [0, 2, 3]]), soil, folder / name, name)
+
+    return [tile(-1, 1, 0.0, "mud", "a"), tile(1, 4, 0.0, "snow", "b"), tile(0.5, 1.5, bridge, "mud", "c")]
+
+
+def test_memory_over_several_grounds_is_that_of_who_is_there(walk, tmp_path):
+    def taken(count):
+        """(samples, bytes that are held, most that are, bytes of the core) of 16 passes by so many walkers in turn."""
+        gait = passes.in_turn([walk.along([(0, 0.3 * n), (2, 0.3 * n)], 16 // count, seed=n) for n in range(count)])
+        bake = Bake(gait, places(tmp_path / str(count)), cell_size=0.02)
+        core = bake.stepped.pose.nbytes and _native.bytes_live()
+        gc.collect()
+        tracemalloc.start()
+        try:
+            sims, loads, _ = grounds.simulations(bake)
+            held, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+        assert len(sims) == 2 and loads.force.nbytes <= 1.2 * bake.stepped.pose.nbytes * 3 / 7
+        return len(bake.stepped.time), held, peak, _native.bytes_live() - core
+
+    (samples, *alone), (of_eight, *eight) = taken(1), taken(8)
+    assert 0.9 * samples < of_eight < 1.1 * samples
+    for one, other in zip(alone, eight):
+        assert other <= 1.2 * one, (alone, eight)
+
+
+@pytest.mark.parametrize("bridge", [0.5, -0.004])  # feet pass below it, or tread it
+def test_several_grounds_are_told_of_tracks_what_they_are_of_a_dense_recording(walk, tmp_path, bridge):
+    gait = passes.in_turn([walk.along([(0, 0.3 * n), (2, 0.3 * n)], 2, seed=n) for n in range(2)])
+    bake = Bake(gait, places(tmp_path, bridge), cell_size=0.02)
+    tracks, same = bake.stepped, dense(bake.stepped)
+    _, loads, shares = grounds.simulations(bake)
+    there = np.asarray(tracks.pose.alike([np.ones(each.shape[:2], bool) for _, _, each in tracks.pose.blocks], False))
+    assert isinstance(loads.force, TrackArray) and 0.4 < there.mean() < 0.6
+    lands = [parcel.land.rest_height for parcel in bake.parcels[1:]]
+    for found, want, here in zip(
+        parcels.treads(tracks, lands), parcels.treads(same, lands), (there, there[tracks.point_part])
+    ):
+        assert np.array_equal(np.asarray(found)[here], want[here], equal_nan=True)
+        assert len(np.unique(want[here & np.isfinite(want)])) == 2
+    over, _ = parcels.treads(same, lands)
+    for storey in (0, 1):
+        found = dense_loads(parcels.on(loads, parcels.treads(tracks, lands)[0], storey))
+        want = parcels.on(dense_loads(loads), over, storey)
+        for name in ("touching", "force", "point"):
+            assert np.array_equal(getattr(found, name), getattr(want, name), equal_nan=True)
+        assert found.touching.any()
+    for share in shares:
+        own, end = dense_loads(share.loads), len(tracks.time) * 3 // 4
+        assert share.loads.force.nbytes < 0.6 * own.force.nbytes
+        box = parcels.under(share.parcel, tracks, share.loads, 0.1)
+        assert box is not None and box == parcels.under(share.parcel, same, own, 0.1)
+        count = parcels.contacts(share.parcel, tracks, share.loads, end)
+        assert count == parcels.contacts(share.parcel, same, own, end)
+        assert count < parcels.contacts(share.parcel, tracks, share.loads, len(tracks.time))
 
 
 def test_tracks_leave_the_bits_of_a_dense_recording(eight):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import DesirePathError
-from ..motion.points import point_places
+from ..motion import tracks
+from ..motion.points import moved_points
+from ..motion.tracks import TrackArray
 from .planting import as_plantings
 from .sim import Ground, Simulation, as_soils
 from .soil import Soil
@@ -25,6 +27,7 @@ from .soil import Soil
 if TYPE_CHECKING:
     from ..loads.force import FootForce
     from ..motion.gait import Gait
+    from ..motion.tracks import Array
 
 RATE = 10.0  # feet are looked at so often to find what they pass over [1/s]
 APART = 0.25  # grounds whose heights differ more than this at one place lie over each other [lengths of a sole]
@@ -80,18 +83,29 @@ class Parcel:
 
 def around(gait: Gait) -> np.ndarray:
     """Places (n, 3) below and around the feet of a recording, at the height of the feet [m]: BELOW of them as far as
-    half a sole is long, then the others, AROUND in all for each foot.
+    half a sole is long, then the others, AROUND in all for each foot. Who is not there treads nowhere.
     """
     span = gait.time[-1] - gait.time[0]
     step = max(1, int(len(gait.time) / max(1.0, span * RATE)))
-    at = point_places(gait)[:, ::step]
+    found = []
+    for _, first, places in _points_there(gait):
+        seen = places[:, -first % step :: step]
+        found.append((seen if seen.size else places[:, :1]).reshape(-1, 3))
+    at = np.concatenate(found)
     radius = length(gait)
     turn = np.arange(8) * np.pi / 4
     ring = radius * np.stack([np.cos(turn), np.sin(turn)], 1)
     ring = np.concatenate([np.zeros((1, 2)), 0.5 * ring, ring])
-    out = np.repeat(at.reshape(-1, 3), len(ring), axis=0)
-    out[:, :2] += np.tile(ring, (at.shape[0] * at.shape[1], 1))
+    out = np.repeat(at, len(ring), axis=0)
+    out[:, :2] += np.tile(ring, (len(at), 1))
     return out
+
+
+def _points_there(gait: Gait) -> Iterator[tuple[np.ndarray, int, np.ndarray]]:
+    """(contact points (k,), first sample, their places (k, n, 3) [m]) while their walkers are there."""
+    for rows, first, poses in tracks.blocks(gait.pose):
+        points = np.flatnonzero(np.isin(gait.point_part, rows))
+        yield points, first, moved_points(poses[np.searchsorted(rows, gait.point_part[points])], gait.point[points])
 
 
 def length(gait: Gait) -> float:
@@ -143,23 +157,29 @@ def storeys(parcels: Sequence[Parcel], gait: Gait) -> list[list[int]]:
     return [sorted(storey) for storey in found]
 
 
-def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> tuple[Array, Array]:
     """(storey of each part (P, T), height of the ground each contact point treads (K, T) [m]) among storeys.
 
-    lands: rest_height of each. Who is over none of them is on the first.
+    lands: rest_height of each. Who is over none of them is on the first. Of who is not there nothing is told: storey 0,
+    height NaN.
     """
-    at = point_places(gait)
-    height = np.array([land(np.ascontiguousarray(at[..., :2].reshape(-1, 2))) for land in lands])
-    height = height.reshape(len(lands), *at.shape[:2])
-    parts = np.zeros((len(gait.part_limb), len(gait.time)), np.int64)
-    for part in range(len(parts)):
-        points = np.flatnonzero(gait.point_part == part)
-        if len(points):
-            away = np.abs(height[:, points] - at[points, :, 2])
+    found, below = [], []
+    for (points, first, at), (rows, _, poses) in zip(_points_there(gait), tracks.blocks(gait.pose)):
+        height = np.array([land(np.ascontiguousarray(at[..., :2].reshape(-1, 2))) for land in lands])
+        height = height.reshape(len(lands), *at.shape[:2])
+        parts = np.zeros(poses.shape[:2], np.int64)
+        own = np.searchsorted(rows, gait.point_part[points])
+        for part in np.unique(own):
+            mine = np.flatnonzero(own == part)
+            away = np.abs(height[:, mine] - at[mine, :, 2])
             away = np.where(np.isfinite(away), away, np.inf).min(axis=1)
             parts[part] = away.argmin(axis=0)
-    of_points = parts[gait.point_part]
-    return parts, np.take_along_axis(height, of_points[None], axis=0)[0]
+        found.append(parts)
+        below.append((points, first, np.take_along_axis(height, parts[own][None], axis=0)[0]))
+    if not isinstance(gait.pose, TrackArray):
+        return found[0], below[0][2]
+    samples = len(gait.time)
+    return gait.pose.alike(found, 0), TrackArray(len(gait.point), samples, below, np.nan)
 
 
 # ---- one ground of several -------------------------------------------------------------------------------
@@ -247,50 +267,58 @@ def _hem(
 # ---- what one of several bears -----------------------------------------------------------------------------
 
 
-def on(loads: FootForce, over: np.ndarray, storey: int) -> FootForce:
+def on(loads: FootForce, over: Array, storey: int) -> FootForce:
     """The loads of the parts that tread one of several storeys; over: of each part (P, T), see treads()."""
-    here = over == storey
+    here = [each == storey for each in tracks.values(over)]
+
+    def borne(array: Array, elsewhere: float) -> Array:
+        found = [
+            np.where(on if values.ndim == 2 else on[..., None], values, elsewhere).astype(values.dtype)
+            for on, values in zip(here, tracks.values(array))
+        ]
+        return array.alike(found, array.missing) if isinstance(array, TrackArray) else found[0]
+
     return replace(
-        loads,
-        touching=np.where(here, loads.touching, 0).astype(loads.touching.dtype),
-        force=np.where(here[..., None], loads.force, 0.0),
-        point=np.where(here[..., None], loads.point, np.nan),
+        loads, touching=borne(loads.touching, 0), force=borne(loads.force, 0.0), point=borne(loads.point, np.nan)
     )
 
 
 def under(parcel: Parcel, gait: Gait, loads: FootForce, wide: float) -> tuple[float, ...] | None:
     """Rectangle (x0, y0, x1, y1) [m] of a parcel that feet which touch can change, `wide` [m] around their soles; None
     where they do not reach it."""
-    touching = loads.touching != 0
-    touching[:, :-1] |= touching[:, 1:].copy()  # a step presses where either of its ends touches
-    touching[:, 1:] |= touching[:, :-1].copy()
-    part, sample = np.nonzero(touching)
-    if not len(part):
-        return None
     size = np.array([np.linalg.norm(sole.vertices.astype(float), axis=1).max() for sole in gait.soles])
-    radius = size[part, None] + wide
-    at = gait.pose[part, sample, :2]
-    box = np.array(parcel.box)
-    low, high = np.maximum(at - radius, box[:2]), np.minimum(at + radius, box[2:])
-    there = (low < high).all(axis=1)
-    return (*low[there].min(axis=0), *high[there].max(axis=0)) if there.any() else None
+    own = np.array(parcel.box)
+    lows, highs = [], []
+    for rows, first, poses in tracks.blocks(gait.pose):
+        before = min(first, 1)
+        near = loads.touching[rows, first - before : first + poses.shape[1] + 1] != 0
+        touching = near.copy()  # a step presses where either of its ends touches
+        touching[:, :-1] |= near[:, 1:]
+        touching[:, 1:] |= near[:, :-1]
+        part, sample = np.nonzero(touching[:, before : before + poses.shape[1]])
+        radius = size[rows[part], None] + wide
+        at = poses[part, sample, :2]
+        low, high = np.maximum(at - radius, own[:2]), np.minimum(at + radius, own[2:])
+        there = (low < high).all(axis=1)
+        lows.append(low[there])
+        highs.append(high[there])
+    low, high = np.concatenate(lows), np.concatenate(highs)
+    return (*low.min(axis=0), *high.max(axis=0)) if len(low) else None
 
 
 def contacts(parcel: Parcel, gait: Gait, loads: FootForce, end: int) -> int:
     """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides."""
-    limbs = len(gait.limb_walker)
-    touching = np.zeros((limbs, end), bool)
-    here = np.zeros((limbs, end), bool)
-    part, sample = np.nonzero(loads.touching[:, :end])
-    point = loads.point[part, sample]
+    limbs, samples, points = [], [], []
+    for (rows, first, touching), values in zip(tracks.blocks(loads.touching), tracks.values(loads.point)):
+        part, sample = np.nonzero(touching[:, : max(end - first, 0)])
+        limbs.append(gait.part_limb[rows[part]])
+        samples.append(first + sample)
+        points.append(values[part, sample])
+    limb, sample, point = (np.concatenate(each) for each in (limbs, samples, points))
     known = np.isfinite(point).all(axis=1)
-    bears = np.zeros(len(part), bool)
+    bears = np.zeros(len(point), bool)
     bears[known] = parcel.has(np.ascontiguousarray(point[known, :2]))
-    np.logical_or.at(touching, (gait.part_limb[part], sample), True)
-    np.logical_or.at(here, (gait.part_limb[part], sample), bears)
-    count = 0
-    for limb in range(limbs):
-        stands = np.flatnonzero(touching[limb])
-        for stance in np.split(stands, np.flatnonzero(np.diff(stands) > 2) + 1):  # as the core tells stances apart
-            count += bool(len(stance) and here[limb, stance].any())
-    return count
+    order = np.lexsort((sample, limb))
+    limb, sample, bears = limb[order], sample[order], bears[order]
+    begins = (np.diff(limb, prepend=-1) != 0) | (np.diff(sample, prepend=0) > 2)  # as the core tells stances apart
+    return len(np.unique(np.cumsum(begins)[bears]))

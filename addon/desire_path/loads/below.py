@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..motion.gait import Gait
 from ..motion.points import point_places
+from ..motion.tracks import Array, TrackArray
 
 Heights: TypeAlias = Callable[[np.ndarray], np.ndarray]  # points (n, 2) -> (n,) [m], NaN where there is no ground
 
@@ -21,7 +22,7 @@ class Land(Protocol):
     def rest_height(self, xy: np.ndarray) -> np.ndarray: ...
 
 
-GivenHeights: TypeAlias = float | np.ndarray | Heights | None
+GivenHeights: TypeAlias = float | Array | Heights | None
 GroundHeights: TypeAlias = GivenHeights | Land  # see ground_below()
 
 
@@ -54,6 +55,8 @@ def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
 
 def heights_of(ground: GroundHeights) -> GivenHeights:
     """A ground as ground_below() takes it, with a Simulation's function of places in its stead."""
+    if isinstance(ground, TrackArray):
+        return ground
     if isinstance(ground, Land):
         return ground.rest_height
     if not callable(ground):
@@ -67,9 +70,18 @@ def heights_of(ground: GroundHeights) -> GivenHeights:
     return ground
 
 
+def heights_given(gait: Gait, heights: GivenHeights) -> Array:
+    """Heights as ground_below() tells them, or those (K, T) that are given of who is there, as they are."""
+    if not isinstance(heights, TrackArray):
+        return ground_below(gait, heights)
+    if heights.shape != (len(gait.point), len(gait.time)):
+        return ground_below(gait, np.asarray(heights))  # says what is wrong
+    return heights
+
+
 def is_alike(ground: GivenHeights) -> TypeGuard[float | Heights | None]:
     """Whether a ground is told without naming the points and samples of a recording."""
-    return callable(ground) or np.ndim(0.0 if ground is None else ground) == 0
+    return ground is None or callable(ground) or np.ndim(ground) == 0
 
 
 def on_even(gait: Gait, even: Gait, ground: GivenHeights) -> np.ndarray:

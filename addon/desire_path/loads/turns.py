@@ -14,7 +14,7 @@ from ..motion import freeze, tracks
 from ..motion import size as sizes
 from ..motion.gait import Gait
 from ..motion.tracks import Array
-from .below import GivenHeights, GroundHeights, ground_below, heights_of, is_alike
+from .below import GivenHeights, GroundHeights, heights_given, heights_of, is_alike
 from .checks import Sunk
 from .force import GRAVITY, FootForce
 
@@ -61,7 +61,7 @@ class Turn:
 def turns_of(gait: Gait, ground: GroundHeights) -> Iterator[Turn]:
     """The turns of a recording with its legs, over a ground as ground_below() takes it."""
     heights = heights_of(ground)
-    given = None if is_alike(heights) else ground_below(gait, heights)
+    given = None if is_alike(heights) else heights_given(gait, heights)
     for there, first, after in _spans(gait):
         piece = (gait if len(there) == len(gait.mass) else gait.only(there)).piece(first, after)
         alike = dict[tuple[float, tuple[tuple[int, int], ...]], list[int]]()
@@ -76,7 +76,7 @@ def turns_of(gait: Gait, ground: GroundHeights) -> Iterator[Turn]:
             samples = first + freeze.kept(after - first, stops)
             yield Turn(
                 freeze.without(own, stops) if stops else own,
-                heights if given is None else given[np.ix_(points, samples)],
+                heights if given is None else given[points, first:after][:, samples - first],
                 walkers,
                 parts,
                 points,

@@ -182,6 +182,11 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
         ]
         return TrackArray(len(self), self.shape[1], blocks, missing)
 
+    def alike(self, values: Iterable[np.ndarray], missing: Any) -> TrackArray:
+        """An array of the same rows and spans that holds these values, block by block."""
+        blocks = [(rows, first, own) for (rows, first, _), own in zip(self.blocks, values)]
+        return TrackArray(len(self), self.shape[1], blocks, missing)
+
     def put(self, rows: Sequence[int] | np.ndarray, samples: ArrayLike, values: ArrayLike) -> None:
         """Set rows (r,) at samples (n,) to values (r, n, ..); what falls on nobody is dropped."""
         samples = np.asarray(samples)
@@ -207,6 +212,11 @@ def pieces(array: Array, row: int) -> list[tuple[int, np.ndarray]]:
     return [(first, array.blocks[number][2][place]) for first, number, place in array._of_row[row]]
 
 
+def blocks(array: Array) -> Sequence[tuple[np.ndarray, int, np.ndarray]]:
+    """(rows rising (r,), first sample, values (r, n, ..)) it is made of; of a plain array all of it."""
+    return array.blocks if isinstance(array, TrackArray) else [(np.arange(len(array)), 0, array)]
+
+
 def parts(array: Array) -> list[np.ndarray]:
     """The arrays it is made of."""
     if not isinstance(array, TrackArray):
@@ -223,12 +233,11 @@ def joined(arrays: Sequence[Array]) -> Array:
     """Arrays over the same samples as one, row after row."""
     if not any(isinstance(each, TrackArray) for each in arrays):
         return np.concatenate(arrays)
-    blocks, count = [], 0
+    found, count = [], 0
     for each in arrays:
-        own = each.blocks if isinstance(each, TrackArray) else [(np.arange(len(each)), 0, each)]
-        blocks += [(rows + count, first, values) for rows, first, values in own]
+        found += [(rows + count, first, values) for rows, first, values in blocks(each)]
         count += len(each)
-    return TrackArray(count, arrays[0].shape[1], blocks)
+    return TrackArray(count, arrays[0].shape[1], found)
 
 
 def put(array: Array, rows: Sequence[int] | np.ndarray, samples: ArrayLike, values: ArrayLike) -> None:
