@@ -37,6 +37,8 @@ __getattr__, __dir__, __all__ = lazy.names(
         "Bake": "bake.bake",
         "BakeOptions": "bake.options",
         "BakeOutput": "bake.options",
+        "LivePress": "bake.press",
+        "PressBody": "bake.press",
         "read_index": "bake.folder",
         "DesirePathError": "errors",
     },

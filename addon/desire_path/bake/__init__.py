@@ -11,6 +11,8 @@ __getattr__, __dir__, __all__ = lazy.names(
         "FILMS": "options",
         "FORMAT": "folder",
         "FrameIndex": "folder",
+        "LivePress": "press",
+        "PressBody": "press",
         "free": "output",
         "read_index": "folder",
     },
