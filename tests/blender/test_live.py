@@ -53,7 +53,7 @@ def follows(folder, ground):
     for who, what, value in (
         (settings, "soil", "snow"),
         (walker.desire_path, "mass", 150.0),
-        (settings.soil_numbers, "layer_depth", 0.3),
+        (settings.soil_numbers, "layer_depth", 0.21),
         (settings, "cell_size", 0.016),
         (walker.location, "x", 0.05),
         (settings, "frame_end", FRAMES - 2),
