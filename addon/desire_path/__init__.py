@@ -26,6 +26,7 @@ __getattr__, __dir__, __all__ = lazy.names(
         "Walker": "loads.walker",
         "place_feet": "placement.place",
         "Soil": "ground.soil",
+        "SoilKeys": "ground.soil_keys",
         "SOILS": "ground.soil",
         "Kind": "ground.plants",
         "KINDS": "ground.plants",

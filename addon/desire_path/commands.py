@@ -18,6 +18,7 @@ from .ground.options import HEAPS, LAWS, SimulationOptions
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
 from .ground.soil import SOILS, as_soil
+from .ground.soil_keys import AnySoil, SoilKeys
 from .loads import plot, walker
 from .loads.force import FootForce
 from .loads.report import sentences, summary, write_contacts
@@ -31,6 +32,7 @@ from .study import calibrate, trampling
 from .version import VERSION
 
 SOIL_HELP = f"one of {', '.join(SOILS)}, or a .json file that Soil.save or Save Soil wrote"
+KEYS_HELP = 'numbers of that soil that change over time, as {"young_modulus": [[0, 2e6], [5, 4e5]]}: seconds, values'
 SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 
 
@@ -75,6 +77,12 @@ def _cells(args: argparse.Namespace, ground: Ground) -> tuple[float, tuple[float
 def _kind(text: str) -> str | Kind:
     """A kind's name, or a file that Kind.save or the fit wrote."""
     return Kind.load(text) if text.endswith(".json") else text
+
+
+def _soil(args: argparse.Namespace) -> AnySoil:
+    """The soil of the command line, with its keys."""
+    soil = as_soil(args.soil).changed(args.soil_set)
+    return SoilKeys.load(args.soil_keys, soil) if args.soil_keys else soil
 
 
 def _walk(path: str) -> Gait:
@@ -131,7 +139,7 @@ def _bake(args: argparse.Namespace) -> None:
     bake = Bake(
         _along(args, gait, ground),
         ground,
-        as_soil(args.soil).changed(args.soil_set),
+        _soil(args),
         args.out,
         cell_size=cell,
         plants=plants,
@@ -268,6 +276,7 @@ def _parser() -> Parser:
     bake.option("--spacing", SAMPLES, type=float, help="distance of the EXR's samples [m], if it does not say")
     bake.add_argument("--soil", default="dry-sand", help=SOIL_HELP)
     bake.add_argument("--soil-set", action="append", default=[], metavar="NAME=VALUE", help=SET_HELP)
+    bake.add_argument("--soil-keys", metavar="KEYS.json", help=KEYS_HELP)
     bake.add_argument("--cell", type=float, help="side of a cell [m] (0.01, or that of the trail that goes on)")
     bake.add_argument(
         "--origin",

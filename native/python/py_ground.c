@@ -21,13 +21,13 @@ static int read_soil(PyObject* object, Py_ssize_t place, DpSoil* soil)
     return -1;
 }
 
-// Soils, each a dict of numbers by name, or all of them in order.
-DpSoil* dp_py_soils(PyObject* object, int* count)
+// Soils, each a dict of numbers by name, or all of them in order; 1 to `most`.
+DpSoil* dp_py_soils(PyObject* object, int most, int* count)
 {
     const Py_ssize_t size = PySequence_Size(object);
     if (size < 0) return NULL;
-    if (size < 1 || size > 255) {
-        PyErr_SetString(PyExc_ValueError, "soils: give 1 to 255 soils");
+    if (size < 1 || size > most) {
+        PyErr_Format(PyExc_ValueError, "soils: give 1 to %d soils", most);
         return NULL;
     }
     *count = (int)size;

@@ -18,18 +18,32 @@ static void simulation_dealloc(PyObject* object)
     Py_DECREF(type);
 }
 
+#define MAX_ROWS (1 << 24)  // soils at all times
+
+// times of soils that change [s], increasing or twice the same; None: they do not
+static bool read_times(DpBuffers* buffers, PyObject* object, DpShape* shape, double** time)
+{
+    if (object == Py_None) return true;
+    shape->n[0] = -1;
+    *time = dp_buffers_open(buffers, object, "times", 'd', shape, false);
+    if (!*time) return false;
+    if (shape->n[0] >= 1 && shape->n[0] <= MAX_ROWS) return true;
+    PyErr_SetString(PyExc_ValueError, "times: give at least one");
+    return false;
+}
+
 static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
 {
-    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law", "heap",
-                            "rim_width", "most_sweeps", "normal_radius", "workers", NULL};
-    PyObject *   ground_tuple, *soils_object;
+    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law",   "heap",
+                            "rim_width", "most_sweeps", "normal_radius", "workers", "times", NULL};
+    PyObject *   ground_tuple, *soils_object, *times_object = Py_None;
     DpSimOptions options = dp_sim_options_default();
     double       cell, origin[2] = {0.0, 0.0};
     int          law = 0, heap = 0;
-    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!Od|(dd)iididi:Simulation", words,
-                                     &PyTuple_Type, &ground_tuple, &soils_object, &cell, &origin[0],
-                                     &origin[1], &law, &heap, &options.rim_width,
-                                     &options.max_sweeps, &options.normal_radius, &options.workers))
+    if (!PyArg_ParseTupleAndKeywords(
+            args, kwargs, "O!Od|(dd)iididiO:Simulation", words, &PyTuple_Type, &ground_tuple,
+            &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
+            &options.max_sweeps, &options.normal_radius, &options.workers, &times_object))
         return NULL;
     if (law < 0 || law > 1 || heap < 0 || heap > 1)
         return PyErr_Format(PyExc_ValueError, "law, heap: expected 0 or 1 each, got %d and %d", law,
@@ -47,11 +61,22 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpGround  ground;
     int       soil_count = 0;
     PyObject* made = NULL;
-    DpSoil*   soils = dp_py_soils(soils_object, &soil_count);
-    if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
-        const DpTerrainOptions terrain = {
-            {cell, origin[0], origin[1]}, soils, soil_count, options.workers};
-        DpStatus status;
+    DpShape   times = {1, {0}};
+    DpSoil*   soils = NULL;
+    double*   time = NULL;
+    if (read_times(&buffers, times_object, &times, &time))
+        soils = dp_py_soils(soils_object, time ? MAX_ROWS : 255, &soil_count);
+    if (soils && time && soil_count % times.n[0] != 0)
+        PyErr_SetString(PyExc_ValueError, "soils: give as many for each of the times");
+    else if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
+        if (time) soil_count /= (int)times.n[0];
+        const DpTerrainOptions terrain = {.grid = {cell, origin[0], origin[1]},
+                                          .soils = soils,
+                                          .soil_count = soil_count,
+                                          .workers = options.workers,
+                                          .times = (int)times.n[0],
+                                          .time = time};
+        DpStatus               status;
         Py_BEGIN_ALLOW_THREADS
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
         if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);

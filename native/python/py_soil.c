@@ -42,7 +42,7 @@ static void close_call(Call* call)
 
 static int open_soils(Call* call, PyObject* object)
 {
-    call->soils = dp_py_soils(object, &call->patch.soil_count);
+    call->soils = dp_py_soils(object, 255, &call->patch.soil_count);
     call->patch.soils = call->soils;
     return call->soils ? 0 : -1;
 }

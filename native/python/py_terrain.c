@@ -30,7 +30,7 @@ static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
     ground.vertex_count = (int)corners.n[0], ground.triangle_count = (int)faces.n[0];
     ground.vertex = vertex, ground.triangle = triangle;
     const DpSoil           soil = dp_soil_default();  // does not matter
-    const DpTerrainOptions options = {{1.0, 0.0, 0.0}, &soil, 1, 1};
+    const DpTerrainOptions options = {{1.0, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
     DpTerrain*             terrain = NULL;
     DpStatus               status;
     Py_BEGIN_ALLOW_THREADS

@@ -153,6 +153,7 @@ static DpStatus meet(DpSim* sim, Limb* limb)
 DpStatus dp_step_plan(DpSim* sim, int sample)
 {
     sim->groups = 0;
+    dp_terrain_set_time(sim->terrain, dp_motion_time(sim->motion, sample));
     dp_pressing_clear(sim);
     bool any = false;
     for (int l = 0; l < sim->cast.limbs; ++l) {

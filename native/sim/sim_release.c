@@ -1,13 +1,6 @@
 // sim/sim_release.c - ground from which soles have gone comes back, after all limbs have pressed. MODEL 6.9
 #include "sim/sim_inside.h"
 
-static bool springs(const DpSim* sim)
-{
-    for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
-        if (dp_terrain_soils(sim->terrain)[s].rebound > 0.0f) return true;
-    return false;
-}
-
 // cells of `patch`, which begins at (i0, j0), on which a limb stands: ring 0
 static void stand(const DpSim* sim, int l, int sample, DpCellRect cells, DpImprint* imprint,
                   int row)
@@ -26,7 +19,7 @@ static void stand(const DpSim* sim, int l, int sample, DpCellRect cells, DpImpri
 
 DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample)
 {
-    if (!springs(sim) || dp_cells_empty(cells)) return DP_OK;
+    if (!dp_terrain_springs(sim->terrain) || dp_cells_empty(cells)) return DP_OK;
     WorkerScratch* scratch = &sim->scratch[0];
     DpSoilPatch*   patch = NULL;
     DpStatus       status = dp_terrain_acquire(sim->terrain, scratch->lease, cells, &patch);
@@ -44,7 +37,7 @@ DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample)
 
 DpStatus dp_release_step(DpSim* sim, int sample)
 {
-    for (int l = 0; springs(sim) && l < sim->cast.limbs; ++l) {
+    for (int l = 0; dp_terrain_springs(sim->terrain) && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->active) continue;
         const DpStatus status =

@@ -23,7 +23,8 @@ static bool are_options(const DpTerrainOptions* options)
         !isfinite(options->grid.x0) || !isfinite(options->grid.y0))
         return false;
     if (options->soil_count < 1 || options->soil_count > 255 || !options->soils) return false;
-    for (int s = 0; s < options->soil_count; ++s)
+    if (options->times < 0 || (options->times > 0 && !options->time)) return false;
+    for (int s = 0; s < options->soil_count * (options->times > 0 ? options->times : 1); ++s)
         if (!is_soil(&options->soils[s])) return false;
     return true;
 }
@@ -45,7 +46,8 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
                                      : DP_NO_MEMORY;
     if (status == DP_OK) {
         memcpy(created->soils, options->soils, soils * sizeof *created->soils);
-        status = dp_rough_soils(created) ? DP_OK : DP_NO_MEMORY;
+        status = dp_times_keep(created, options);
+        if (status == DP_OK && !dp_rough_soils(created)) status = DP_NO_MEMORY;
     }
     if (status != DP_OK) {
         dp_terrain_destroy(created);
@@ -65,6 +67,8 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_free(terrain->slot);
     dp_source_destroy(&terrain->source);
     dp_free(terrain->soils);
+    dp_free(terrain->row);
+    dp_free(terrain->time);
     dp_free(terrain->slope);
     dp_free(terrain->wall);
     dp_free(terrain);
@@ -94,6 +98,11 @@ int dp_terrain_soil_count(const DpTerrain* terrain)
 const DpSoil* dp_terrain_soils(const DpTerrain* terrain)
 {
     return terrain->soils;
+}
+
+bool dp_terrain_springs(const DpTerrain* terrain)
+{
+    return terrain->springs;
 }
 
 size_t dp_terrain_tile_count(const DpTerrain* terrain)

@@ -43,10 +43,13 @@ typedef struct DpGround
 
 typedef struct DpTerrainOptions
 {
-    DpGrid        grid;        // its cells
-    const DpSoil* soils;       // copied; kinds index it
+    DpGrid        grid;   // its cells
+    const DpSoil* soils;  // copied; kinds index it; with times a row for each (times, soil_count)
     int           soil_count;  // 1..255
     int           workers;     // threads for filling tiles, >= 1
+
+    int times;           // soils that change over time: so many rows; 0 = they do not    MODEL 6.10
+    const double* time;  // of each row, never falling [s] (times)
 } DpTerrainOptions;
 
 DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
@@ -55,7 +58,12 @@ void     dp_terrain_destroy(DpTerrain* terrain);
 
 DpGrid        dp_terrain_grid(const DpTerrain* terrain);
 int           dp_terrain_soil_count(const DpTerrain* terrain);
-const DpSoil* dp_terrain_soils(const DpTerrain* terrain);
+const DpSoil* dp_terrain_soils(const DpTerrain* terrain);  // as they are at the time at hand
+// From now on soils are as they are at a time [s], MODEL 6.10; before the first row and after the last they stay. What
+// is pressed stays as it is. No patch may be out.
+void dp_terrain_set_time(DpTerrain* terrain, double time);
+// Whether some soil comes back when a sole lifts, now or at another time.
+bool dp_terrain_springs(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
 void dp_terrain_bounds(const DpTerrain* terrain, double bounds[4]);
 

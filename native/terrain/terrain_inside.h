@@ -100,9 +100,10 @@ typedef struct Tile
     DP_TERRAIN_FIELDS(TILE_GRID, DP_FIELD_NONE)
     uint8_t    kind[TILE_CELLS];
     long       tx, ty;
+    int        revision;  // of the soils that its rough grids are of
     atomic_int changed;
     float      plant
-        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, tile_spring
+        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves
 } Tile;
 
 struct DpTerrain
@@ -110,12 +111,16 @@ struct DpTerrain
     DpGrid  grid;
     double  datum;
     int     soil_count, workers;
-    DpSoil* soils;
-    float*  slope;    // tan(rest_angle) of each soil
-    float*  wall;     // tan(wall_angle) of each soil, +inf = walls stand
-    bool    walls;    // those of some soil do not stand
-    bool    rough;    // some soil differs from place to place
-    bool    springs;  // some soil comes back when a sole lifts
+    DpSoil* soils;  // as they are now
+    DpSoil* row;    // soils at each time (times, soil_count); NULL = they do not change
+    double* time;   // [s] (times)
+    int     times;
+    int     revision;  // of what soils are like at rest: goes up when that changes
+    float*  slope;     // tan(rest_angle) of each soil
+    float*  wall;      // tan(wall_angle) of each soil, +inf = walls stand
+    bool    walls;     // those of some soil do not stand
+    bool    rough;     // some soil differs from place to place
+    bool    springs;   // some soil comes back when a sole lifts
     Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
@@ -156,9 +161,21 @@ static inline float* tile_spring(const DpTerrain* terrain, Tile* tile)
     return tile_rough(terrain, tile) + (terrain->rough ? ROUGH_GRIDS * TILE_CELLS : 0);
 }
 
-// terrain_rough.c: what soils are like at rest; and from place to place, of a tile whose kinds are known
+// on rough ground whose soils change: how walls and rests differ there (2, TILE_CELLS), before any roughness
+static inline float* tile_waves(const DpTerrain* terrain, Tile* tile)
+{
+    return tile_spring(terrain, tile) + (terrain->springs ? TILE_CELLS : 0);
+}
+
+// terrain_rough.c: what soils are like at rest, at all times and now; and from place to place, of a tile whose kinds
+// are known; the same once more, where soils have changed since
 bool dp_rough_soils(DpTerrain* terrain);
+void dp_rest_soils(DpTerrain* terrain);
 void dp_rough_tile(const DpTerrain* terrain, Tile* tile);
+void dp_rough_again(const DpTerrain* terrain, Tile* tile);
+
+// terrain_times.c: keep rows of soils, checked; DP_OK where there are none
+DpStatus dp_times_keep(DpTerrain* terrain, const DpTerrainOptions* options);
 
 // strength and E_v of all of a tile, (2, TILE_CELLS)
 void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant);

@@ -20,16 +20,24 @@ bool dp_rough_soils(DpTerrain* terrain)
     terrain->slope = dp_alloc(soils, sizeof *terrain->slope);
     terrain->wall = dp_alloc(soils, sizeof *terrain->wall);
     if (!terrain->slope || !terrain->wall) return false;
-    for (size_t s = 0; s < soils; ++s) {
-        const DpSoil* soil = &terrain->soils[s];
-        const double  wall = (double)soil->wall_angle;
-        terrain->slope[s] = (float)tan((double)soil->rest_angle);
-        terrain->wall[s] = wall > STANDS ? INFINITY : (float)tan(wall);
-        terrain->walls = terrain->walls || wall <= STANDS;
-        terrain->rough = terrain->rough || soil->roughness > 0.0f;
-        terrain->springs = terrain->springs || soil->rebound > 0.0f;
+    const DpSoil* all = terrain->row ? terrain->row : terrain->soils;
+    for (size_t s = 0; s < soils * (terrain->row ? (size_t)terrain->times : 1); ++s) {
+        terrain->walls = terrain->walls || (double)all[s].wall_angle <= STANDS;
+        terrain->rough = terrain->rough || all[s].roughness > 0.0f;
+        terrain->springs = terrain->springs || all[s].rebound > 0.0f;
     }
+    dp_rest_soils(terrain);
     return true;
+}
+
+void dp_rest_soils(DpTerrain* terrain)
+{
+    for (int s = 0; s < terrain->soil_count; ++s) {
+        const double wall = (double)terrain->soils[s].wall_angle;
+        terrain->slope[s] = (float)tan((double)terrain->soils[s].rest_angle);
+        terrain->wall[s] = wall > STANDS ? INFINITY : (float)tan(wall);
+    }
+    ++terrain->revision;
 }
 
 // the cells of one kind: as their soil is, times what their place makes of it
@@ -48,6 +56,36 @@ static void rough_kind(const DpTerrain* terrain, const Tile* tile, int kind, con
     }
 }
 
+// whether a soil is rough now, or at any other time
+static bool is_rough(const DpTerrain* terrain, int kind)
+{
+    bool rough = terrain->soils[kind].roughness > 0.0f;
+    for (int t = 0; t < terrain->times && !rough; ++t)
+        rough = terrain->row[t * terrain->soil_count + kind].roughness > 0.0f;
+    return rough;
+}
+
+void dp_rough_again(const DpTerrain* terrain, Tile* tile)
+{
+    tile->revision = terrain->revision;
+    if (!terrain->rough) return;
+    const float* waves = tile_waves(terrain, tile);
+    for (int kind = 0; kind < terrain->soil_count; ++kind)
+        rough_kind(terrain, tile, kind, waves, waves + TILE_CELLS, tile_rough(terrain, tile));
+}
+
+// waves of a soil that the ground shows where it lies, for when the soil has changed
+static void keep_waves(const DpTerrain* terrain, Tile* tile, int kind, const float* walls,
+                       const float* rests)
+{
+    float* waves = tile_waves(terrain, tile);
+    for (int n = 0; n < TILE_CELLS; ++n) {
+        if (terrain->soil_count > 1 && tile->kind[n] != kind) continue;
+        waves[n] = walls[n];
+        waves[TILE_CELLS + n] = rests[n];
+    }
+}
+
 void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
 {
     const DpCellRect cells = dp_cells(tile->tx * DP_TILE, tile->ty * DP_TILE, DP_TILE, DP_TILE);
@@ -57,7 +95,7 @@ void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
     for (int kind = 0; kind < terrain->soil_count; ++kind) {
         if (!there[kind]) continue;
         const double grain = (double)terrain->soils[kind].grain_size;
-        if (terrain->soils[kind].roughness > 0.0f) {
+        if (is_rough(terrain, kind)) {
             dp_noise_waves(&terrain->grid, cells, 4.0 * grain, 0.5 * grain, WALL_SEED, walls);
             dp_noise_pieces(&terrain->grid, cells, 2.0 * grain, PIECE_SEED, pieces);
             dp_noise_waves(&terrain->grid, cells, 2.0 * grain, 0.5 * grain, REST_SEED, rests);
@@ -66,5 +104,6 @@ void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
             for (int n = 0; n < TILE_CELLS; ++n) walls[n] = rests[n] = 0.0f;
         }
         rough_kind(terrain, tile, kind, walls, rests, tile_rough(terrain, tile));
+        if (terrain->row) keep_waves(terrain, tile, kind, walls, rests);
     }
 }

@@ -40,17 +40,17 @@ static uint64_t fold(uint64_t sum, const void* bytes, size_t count)
 #define NORMAL(name, unit, lowest, highest, normal, meaning) .name = (float)(normal),
 #define FIRST_NUMBERS 7  // of a soil; those after them count where they are not as usual
 
-static uint64_t fold_soils(uint64_t sum, const DpTerrain* terrain)
+static uint64_t fold_soils(uint64_t sum, const DpTerrain* terrain, const DpSoil* soil)
 {
     const DpSoil normal = {DP_SOIL_NUMBERS(NORMAL)};
     const size_t first = FIRST_NUMBERS * sizeof(float), soils = (size_t)terrain->soil_count;
     char         row[255 * FIRST_NUMBERS * sizeof(float)];
-    for (size_t s = 0; s < soils; ++s) memcpy(row + s * first, &terrain->soils[s], first);
+    for (size_t s = 0; s < soils; ++s) memcpy(row + s * first, &soil[s], first);
     sum = fold(sum, row, soils * first);
     for (size_t s = 0; s < soils; ++s)
         for (size_t k = FIRST_NUMBERS; k < sizeof normal / sizeof(float); ++k) {
             float value, usual;
-            memcpy(&value, (const char*)&terrain->soils[s] + k * sizeof value, sizeof value);
+            memcpy(&value, (const char*)&soil[s] + k * sizeof value, sizeof value);
             memcpy(&usual, (const char*)&normal + k * sizeof usual, sizeof usual);
             const double told[3] = {(double)s, (double)k, (double)value};
             if (value < usual || value > usual) sum = fold(sum, told, sizeof told);
@@ -81,7 +81,10 @@ static uint64_t name_of(const DpTerrain* terrain)
     const size_t      heights = (size_t)source->nx * (size_t)source->ny;
     const size_t      vertices = 3 * (size_t)mesh->vertex_count;
     uint64_t          sum = fold(1, number, sizeof number);
-    sum = fold_soils(sum, terrain);
+    sum = fold_soils(sum, terrain, terrain->row ? terrain->row : terrain->soils);
+    for (int t = 1; t < terrain->times; ++t)
+        sum = fold_soils(sum, terrain, terrain->row + t * terrain->soil_count);
+    sum = fold(sum, terrain->time, (size_t)terrain->times * sizeof *terrain->time);
     sum = fold(sum, source->heights, heights * sizeof *source->heights);
     sum = fold(sum, source->kind_weight,
                (size_t)source->kind_count * source->weights * sizeof *source->kind_weight);

@@ -111,6 +111,7 @@ static void fill_tile(void* context, int index, int worker)
     const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
     dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
+    tile->revision = terrain->revision;
     if (terrain->rough) dp_rough_tile(terrain, tile);
     if (filling->covered) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
 }
@@ -118,7 +119,7 @@ static void fill_tile(void* context, int index, int worker)
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 {
     const size_t grids = (terrain->cover ? 2u : 0u) + (terrain->rough ? ROUGH_GRIDS : 0u) +
-                         (terrain->springs ? 1u : 0u);
+                         (terrain->springs ? 1u : 0u) + (terrain->rough && terrain->row ? 2u : 0u);
     Tile* tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
     if (tile) tile->tx = tx, tile->ty = ty;
     return tile;
@@ -147,7 +148,11 @@ DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells)
 
     size_t missing = 0;
     for (long ty = ty0; ty <= ty1; ++ty)
-        for (long tx = tx0; tx <= tx1; ++tx) missing += !dp_tile_find(terrain, tx, ty);
+        for (long tx = tx0; tx <= tx1; ++tx) {
+            Tile* tile = dp_tile_find(terrain, tx, ty);
+            missing += !tile;
+            if (tile && tile->revision != terrain->revision) dp_rough_again(terrain, tile);
+        }
     if (missing == 0) return DP_OK;
 
     Tile** fresh = dp_alloc(missing, sizeof *fresh);

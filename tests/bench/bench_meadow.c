@@ -34,7 +34,7 @@ typedef struct World
 static World world_make(int workers)
 {
     const DpSoil           soil = dp_soil_default();
-    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, workers};
+    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, workers, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     DpSimOptions           choice = dp_sim_options_default();
     World                  world = {.stand = -1};

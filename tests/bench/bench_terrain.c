@@ -94,7 +94,7 @@ static DpTerrain* terrain_on(const DpGround* ground, double* seconds)
                                    .rest_angle = 0.5f,
                                    .wall_angle = 1.5707964f,
                                    .grain_size = 0.012f};
-    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1};
+    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
     DpTerrain*             terrain = NULL;
     const double           from = bench_now();
     if (dp_terrain_create(&terrain, &options, ground) != DP_OK) printf("no terrain\n");

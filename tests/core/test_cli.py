@@ -61,6 +61,15 @@ def test_a_soil_is_taken_from_a_file_and_changed(tmp_path, walk):
     assert told == [replace(SOILS["mud"], layer_depth=0.5, young_modulus=2.5e5, settle_time=0.2).parameters()]
 
 
+def test_a_soil_changes_over_the_walk(tmp_path, walk):
+    (tmp_path / "keys.json").write_text('{"young_modulus": [[0, 2.5e5], [0.3, 1e6]]}')
+    words = ("--soil", "mud", "--soil-keys", tmp_path / "keys.json", "--cell", "0.02", "--out", tmp_path / "folder")
+    done = run("bake", walk, *words)
+    assert done.returncode == 0, done.stderr
+    told = json.loads((tmp_path / "folder" / "report.json").read_text())["parameters"]["soils"]
+    assert told == [{**SOILS["mud"].parameters(), "keys": {"young_modulus": [[0.0, 2.5e5], [0.3, 1e6]]}}]
+
+
 def test_kinds_add_up_however_they_are_listed(tmp_path, walk):
     told = []
     for words in (("--plants", "carex:20", "moss:40"), ("--plants", "carex:20", "--plants", "moss:40")):
@@ -134,6 +143,7 @@ def test_loads_are_a_table(tmp_path, walk):
         (("bake", "{walk}", "--soil", "cheese.json", "--out", "x"), "cheese.json"),
         (("bake", "{walk}", "--soil-set", "softness=2", "--out", "x"), "softness"),
         (("bake", "{walk}", "--soil-set", "young_modulus=-2", "--out", "x"), "young_modulus"),
+        (("bake", "{walk}", "--soil-keys", "keys.json", "--out", "x"), "keys.json"),
         (("bake", "{walk}", "--cell", "-1", "--out", "x"), "cell size"),
         (("bake", "{walk}", "--ground", "missing.exr", "--out", "x"), "missing.exr"),
         (("bake", "{walk}", "--ground", "flat:high", "--out", "x"), "flat"),

@@ -12,6 +12,7 @@ import numpy as np
 from ..core import _native
 from ..errors import DesirePathError
 from ..ground.parcels import Parcel
+from ..ground.soil_keys import rows
 from ..motion import jumps, size, tracks
 from ..motion.gait import Gait
 from ..placement.passes import turns_of
@@ -45,7 +46,18 @@ class Plan:
         self.frame_rate = float(gait.frame_rate)
         self.frame_start, self.frame_end = self._frame_range()
         self.cell_size = float(cell_size)
-        self.warnings: tuple[str, ...] = (*gait.warnings, *coarse_cells(gait, self.cell_size))
+        self.warnings: tuple[str, ...] = (*gait.warnings, *coarse_cells(gait, self.cell_size), *self._unkeyed())
+
+    def _unkeyed(self) -> list[str]:
+        """A sentence about keys on soils that do not count."""
+        soils: list[Any] = [soil for parcel in self.parcels for soil in parcel.soils]
+        taus = [len({row.settle_time for row in rows(soil)}) for soil in soils]
+        if self.options.load_model != "impulse" or max(taus) < 2:
+            return []
+        return [
+            "The model impulse takes settle_time as it is at first, and its keys count for the depth of prints alone: "
+            "choose the model inertia."
+        ]
 
     def _frame_range(self) -> tuple[int, int]:
         """First and last scene frame that are written."""

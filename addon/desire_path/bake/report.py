@@ -7,6 +7,7 @@ from typing import Any
 
 from ..ground import parcels as fields
 from ..ground.sim import Simulation
+from ..ground.soil_keys import rows
 from ..version import VERSION
 from .plan import Plan
 from .share import Share
@@ -33,7 +34,8 @@ def summary(
     total = {name: sum(each[name] for each in found) for name in found[0]}
     left = [each for sim in sims for each in sim.warnings]
     warnings = list(dict.fromkeys([*before, *left, *after]))
-    if any(each["deepest_m"] >= RIGID * min(soil.layer_depth for soil in sim.soils) for sim, each in zip(sims, found)):
+    layers = [min(row.layer_depth for soil in sim.soils for row in rows(soil)) for sim in sims]
+    if any(each["deepest_m"] >= RIGID * layer for layer, each in zip(layers, found)):
         warnings.append(RIGID_GROUND)
     if total["off_ground"] and not any(BESIDE in each for each in warnings):
         warnings.append(f"Feet on the ground {BESIDE}: make the ground larger, or move it under the walk.")

@@ -14,6 +14,7 @@ from ..arrays import Record, kept
 from ..errors import DesirePathError
 from . import trail
 from .soil import Soil, as_soil
+from .soil_keys import AnySoil, SoilKeys
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -138,15 +139,27 @@ class Ground(Record):
         )
 
 
-def as_soils(soils: str | Soil | Iterable[str | Soil]) -> list[Soil]:
-    """A list of Soil from one Soil, one preset's name, or a sequence of either."""
-    if isinstance(soils, (str, Soil)):
+def as_soils(soils: str | AnySoil | Iterable[str | AnySoil]) -> list[AnySoil]:
+    """A list of Soil and SoilKeys from one of them, one preset's name, or a sequence of any."""
+    if isinstance(soils, (str, Soil, SoilKeys)):
         soils = [soils]
-    found = []
+    found: list[AnySoil] = []
     for soil in soils:
-        found.append(as_soil(soil))
+        found.append(soil if isinstance(soil, SoilKeys) else as_soil(soil))
     if not 1 <= len(found) <= 255:
         raise DesirePathError("Give the ground between 1 and 255 soils.")
+    return found
+
+
+def as_lasting_soils(soils: str | Soil | Iterable[str | Soil]) -> list[Soil]:
+    """The same of soils that do not change: DesirePathError for SoilKeys, where no walk tells the time."""
+    found = []
+    for soil in as_soils(soils):
+        if isinstance(soil, SoilKeys):
+            raise DesirePathError(
+                "Ground that is pressed by hand takes no SoilKeys: give it the Soil of one moment, keys.at(2.0)."
+            )
+        found.append(soil)
     return found
 
 

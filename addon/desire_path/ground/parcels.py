@@ -22,7 +22,7 @@ from ..motion.points import moved_points
 from ..motion.tracks import TrackArray
 from .planting import as_plantings
 from .sim import Ground, Simulation, as_soils
-from .soil import Soil
+from .soil_keys import AnySoil
 
 if TYPE_CHECKING:
     from ..loads.force import FootForce
@@ -185,7 +185,7 @@ def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> t
 # ---- one ground of several -------------------------------------------------------------------------------
 
 
-def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[Soil]]:
+def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]:
     """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names."""
     if len(parcels) == 1:
         return parcels[0].ground, list(parcels[0].soils)
@@ -219,7 +219,7 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[Soil]]:
     return ground, as_soils(soils)
 
 
-def _kinds(parcel: Parcel, soils: list[Soil]) -> np.ndarray:
+def _kinds(parcel: Parcel, soils: list[AnySoil]) -> np.ndarray:
     """Weights of all soils at the vertices of a parcel (soils, n): the heaviest of its own is still the same."""
     own = parcel.soils
     count = len(parcel.ground.native[1])

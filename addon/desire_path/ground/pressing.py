@@ -19,8 +19,9 @@ from ..core import _native
 from ..errors import DesirePathError
 from ..motion.gait import HEEL, Gait, Sole
 from ..motion.rotation import turned
+from .ground import as_lasting_soils
 from .options import SimulationOptions
-from .sim import TILE, Ground, Simulation, as_soils
+from .sim import TILE, Ground, Simulation
 from .trail import LEFT, Trail
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ class Pressing:
         *,
         options: SimulationOptions = SimulationOptions(),
     ) -> None:
-        self.ground, self.soils = ground, as_soils(soils)
+        self.ground, self.soils = ground, as_lasting_soils(soils)
         self.cell_size, self.options = float(cell_size), options
         self.bodies = (bodies,) if isinstance(bodies, PressBody) else tuple(bodies)
         if not self.bodies:

@@ -27,7 +27,7 @@ from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
 from .options import HEAPS, LAWS, SimulationOptions
 from .planting import Plants, as_plantings, seed_of
-from .soil import Soil
+from .soil_keys import AnySoil, rows, table
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -59,7 +59,8 @@ Stand = tuple[int, int, int]  # its number, that of its planting, plants
 class Simulation:
     """Ground that walkers press.
 
-    ground: Ground; soils: a preset's name, a Soil, or a list (painted ground counts through it).
+    ground: Ground; soils: a preset's name, a Soil, SoilKeys where it changes over time, or a list (painted ground
+        counts through it).
     cell_size: side of a cell [m], 0.0005 to 1.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.
@@ -71,7 +72,7 @@ class Simulation:
     def __init__(
         self,
         ground: Ground,
-        soils: str | Soil | Iterable[str | Soil] = "dry-sand",
+        soils: str | AnySoil | Iterable[str | AnySoil] = "dry-sand",
         cell_size: float = 0.01,
         *,
         plants: Plants = (),
@@ -88,10 +89,11 @@ class Simulation:
         self.warnings: list[str] = []  # sentences about what could not be taken as it was given
         self.stands: list[Stand] = []  # (stand, number of the planting, plants), in the order they were planted
         self._planted: list[set[tuple[int, int]]] = [set() for _ in self.plantings]  # squares
+        now, times = table(self.soils)
         try:
             self._core = _native.Simulation(
                 ground.native,
-                soil_numbers(self.soils),
+                soil_numbers(now),
                 self.cell_size,
                 self.origin,
                 LAWS.index(options.law),
@@ -100,6 +102,7 @@ class Simulation:
                 100000,
                 0.25,
                 options.threads,
+                times,
             )
         except ValueError as problem:
             if "no ground" in str(problem):
@@ -154,8 +157,8 @@ class Simulation:
         return height
 
     def settle_time(self, xy: ArrayLike) -> np.ndarray:
-        """tau of the soil at points xy (n, 2), float64 (n,) [s]."""
-        taus = np.array([soil.settle_time for soil in self.soils])
+        """tau of the soil at points xy (n, 2), float64 (n,) [s]; where it changes over time, as it is at first."""
+        taus = np.array([rows(soil)[0].settle_time for soil in self.soils])
         if len(taus) == 1:
             return np.full(len(np.asarray(xy)), taus[0])
         cells, number = np.unique(

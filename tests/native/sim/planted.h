@@ -18,7 +18,7 @@ static inline DpStatus world_make(World* world, const DpPlantKind* kind, double 
 {
     DpSoil soil = dp_soil_default();
     soil.young_modulus = 0.6e6f;
-    const DpTerrainOptions options = {{cell, 0.0, 0.0}, &soil, 1, workers};
+    const DpTerrainOptions options = {{cell, 0.0, 0.0}, &soil, 1, workers, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     DpSimOptions           sim = dp_sim_options_default();
     sim.workers = workers;

@@ -39,7 +39,7 @@ static Limb* load(Scene* s, int parts, const DpMesh* sole)
     static const uint8_t   touching[6] = {1, 1, 1, 1, 1, 1};
     const DpMesh           soles[] = {*sole, *sole};
     const DpSoil           soil = dp_soil_default();
-    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, &soil, 1, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT, .height = ground_height};
     const DpSimOptions     chosen = dp_sim_options_default();
     const DpGait           gait = {.times = 3,

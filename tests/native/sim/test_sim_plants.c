@@ -267,7 +267,7 @@ TEST(roots_need_ground)
     const DpSoil      soil = dp_soil_default();
     const DpGround    slope = {
            .kind = DP_GROUND_HEIGHTS, .nx = 2, .ny = 2, .spacing = 2.0, .heights = height};
-    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1};
+    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
     const DpSimOptions     choice = dp_sim_options_default();
     World                  world = {.plants = dp_plants_create(1)};
     CHECK(dp_terrain_create(&world.terrain, &options, &slope) == DP_OK);

@@ -37,7 +37,7 @@ static void load(Scene* s, const DpSoil* soil, const DpGround* ground, DpHeapLaw
     static const double    mass = MASS;
     static const int32_t   owner = 0;
     const DpMesh           sole = {4, 2, BOX, FACES};
-    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soil, 1, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soil, 1, 1, 0, NULL};
     DpSimOptions           chosen = dp_sim_options_default();
     const DpGait           gait = {.times = TIMES,
                                    .walkers = 1,

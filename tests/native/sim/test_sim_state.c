@@ -27,7 +27,7 @@ static DpStatus world_open(World* world, const Case* is, int workers)
 {
     DpSoil soil = dp_soil_default();
     soil.young_modulus = 0.6e6f, soil.shear_modulus = 0.02f;
-    const DpTerrainOptions options = {{0.02, 0.1, 0.2}, &soil, 1, workers};
+    const DpTerrainOptions options = {{0.02, 0.1, 0.2}, &soil, 1, workers, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     DpSimOptions           sim = dp_sim_options_default();
     sim.workers = workers, sim.law = is->law, sim.heap_law = is->heap;

@@ -22,7 +22,7 @@ typedef struct World
 
 static DpStatus world_make(World* world, const DpSoil* soil, double cell, int workers)
 {
-    const DpTerrainOptions options = {{cell, 0.0, 0.0}, soil, 1, workers};
+    const DpTerrainOptions options = {{cell, 0.0, 0.0}, soil, 1, workers, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     DpSimOptions           sim = dp_sim_options_default();
     sim.workers = workers;

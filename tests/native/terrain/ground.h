@@ -27,7 +27,7 @@ static const DpSoil ground_soils[3] = {{.layer_depth = 0.3f,
 
 static inline DpTerrainOptions ground_options(double cell, double origin_x, double origin_y)
 {
-    const DpTerrainOptions options = {{cell, origin_x, origin_y}, ground_soils, 3, 2};
+    const DpTerrainOptions options = {{cell, origin_x, origin_y}, ground_soils, 3, 2, 0, NULL};
     return options;
 }
 

@@ -35,7 +35,7 @@ static double strength_at(const Garden* garden, long i, long j)
 static DpTerrain* garden_terrain(Garden* garden)
 {
     const DpGround         flat = ground_flat(0.25);
-    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, ground_soils, 3, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, ground_soils, 3, 1, 0, NULL};
     DpTerrain*             terrain = NULL;
     CHECK(dp_terrain_create(&terrain, &options, &flat) == DP_OK);
     CHECK(dp_terrain_set_cover(terrain, grow, garden) == DP_OK);

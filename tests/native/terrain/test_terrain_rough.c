@@ -19,7 +19,7 @@ static void slopes_of(float rho0, float rho1, float* slope, uint8_t* kind)
     for (int k = 0; k < SIDE * SIDE; ++k)
         weight[k] = k % SIDE < 2 ? 1.0f : 0.0f, weight[SIDE * SIDE + k] = 1.0f - weight[k];
     ground.kind_count = 2, ground.kind_weight = weight;
-    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soils, 2, 1};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soils, 2, 1, 0, NULL};
     CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_OK);
     DpLease* lease = dp_lease_create();
     CHECK(dp_terrain_acquire(terrain, lease, dp_cells(100, 100, CELLS, CELLS), &patch) == DP_OK);
