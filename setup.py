@@ -1,5 +1,5 @@
 """pip install . - one wheel for CPython 3.11 and every later one: CMake builds desire_path._native
-against the stable ABI. Needs a C compiler, make, and on Debian libimath-dev libdeflate-dev."""
+against the stable ABI. Needs a C compiler and make."""
 
 import os
 import re

@@ -2,8 +2,9 @@
 
 #include <stdatomic.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/os.h"
 
 #define ALIGNMENT \
     64  // a cache line, and the widest vector; the size stands in the line before a block
@@ -40,7 +41,7 @@ void* dp_alloc(size_t count, size_t size)
     if (!may_allocate()) return NULL;
     const size_t bytes = count * size;
     const size_t padded = (bytes + 2 * ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    char*        front = aligned_alloc(ALIGNMENT, padded);
+    char*        front = dp_os_memory(ALIGNMENT, padded);
     if (!front) return NULL;
     void* block = front + ALIGNMENT;
     *size_of(block) = bytes;
@@ -74,7 +75,7 @@ void dp_free(void* block)
 {
     if (!block) return;
     atomic_fetch_sub(&live, *size_of(block));
-    free((char*)block - ALIGNMENT);
+    dp_os_memory_free((char*)block - ALIGNMENT);
 }
 
 size_t dp_bytes_live(void)

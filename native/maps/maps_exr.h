@@ -3,6 +3,7 @@
 #pragma once
 #include <openexr.h>
 
+#include "base/os.h"
 #include "maps/maps.h"
 
 // Memory that grows at its end.
@@ -20,11 +21,8 @@ void     dp_bytes_free(DpBytes* bytes);
 // every byte and the closing have gone well. Else it is gone and the target as it was.
 DpStatus dp_file_save(const char* path, const void* data, size_t size);
 
-// A list of files, a line each: name, how many bytes, and their digest in hexadecimal digits. The file
-// of the list is there already; open: a number for the next two, or -1.
-int      dp_list_open(const char* path);
-DpStatus dp_list_add(int list, const char* path, const void* data, size_t size);
-void     dp_list_close(int list);  // -1 is fine
+// Add a line to a list of files, opened by dp_file_append: name, how many bytes, and their digest in hexadecimal digits.
+DpStatus dp_list_add(DpFile list, const char* path, const void* data, size_t size);
 
 // Most pixels an image may have, written or read.
 #define DP_MAPS_PIXELS (1 << 28)

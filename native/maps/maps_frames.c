@@ -40,7 +40,7 @@ struct DpFrames
     Tile*   tile;  // (tiles_y, tiles_x), ty = 0 lowest
     Bench   bench[WORKERS];
     DpBytes file;  // the frame being written
-    int     list;  // of the files, see dp_list_open; -1 = none
+    DpFile  list;  // of the files, or DP_NO_FILE
 };
 
 // ---- packing one tile, OpenEXR's ZIP ------------------------------------------------------------
@@ -153,7 +153,7 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
     }
     if (exr_finish(&context) != EXR_ERR_SUCCESS || done) return DP_NO_MEMORY;
     status = dp_file_save(path, frames->file.at, frames->file.size);
-    if (status == DP_OK && frames->list >= 0)
+    if (status == DP_OK && frames->list != DP_NO_FILE)
         status = dp_list_add(frames->list, path, frames->file.at, frames->file.size);
     return status;
 }
@@ -161,9 +161,10 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
 DpStatus dp_frames_list(DpFrames* frames, const char* path)
 {
     if (!frames || !path) return DP_BAD_ARGUMENT;
-    const int list = dp_list_open(path);
-    if (list < 0) return DP_CANNOT_OPEN;
-    dp_list_close(frames->list);
+    DpFile         list;
+    const DpStatus status = dp_file_append(path, &list);
+    if (status != DP_OK) return status;
+    dp_file_close(frames->list);
     frames->list = list;
     return DP_OK;
 }
@@ -242,7 +243,7 @@ DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const cha
     if (!fresh) return DP_NO_MEMORY;
     fresh->tiles_x = tiles_x;
     fresh->tiles_y = tiles_y;
-    fresh->list = -1;
+    fresh->list = DP_NO_FILE;
     const DpStatus status = fill(fresh, channel, channel_count, notes, note_count);
     if (status == DP_OK)
         *frames = fresh;
@@ -274,6 +275,6 @@ void dp_frames_destroy(DpFrames* frames)
     dp_free(frames->tile);
     dp_free(frames->zero.packed);
     dp_bytes_free(&frames->file);
-    dp_list_close(frames->list);
+    dp_file_close(frames->list);
     dp_free(frames);
 }

@@ -1,11 +1,7 @@
 // maps/maps_read.c - a flat OpenEXR file of any writer, read whole; damaged ones are refused.
 //
 // What a header promises is held against the size of the file before memory is taken for it.
-#include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/alloc.h"
 #include "maps/maps_exr.h"
@@ -15,7 +11,7 @@
 
 typedef struct Source
 {
-    int     file;
+    DpFile  file;
     int64_t size;  // [bytes]
 } Source;
 
@@ -24,17 +20,8 @@ static int64_t read_bytes(exr_const_context_t context, void* user, void* into, u
 {
     (void)context, (void)complain;
     const Source* source = user;
-    uint64_t      got = 0;
     if (offset > (uint64_t)source->size) return -1;
-    while (got < count) {
-        const ssize_t step =
-            pread(source->file, (char*)into + got, (size_t)(count - got), (off_t)(offset + got));
-        if (step < 0 && errno == EINTR) continue;
-        if (step < 0) return -1;
-        if (step == 0) break;
-        got += (uint64_t)step;
-    }
-    return (int64_t)got;
+    return dp_file_read(source->file, into, (size_t)count, (int64_t)offset);
 }
 
 static int64_t size_of_source(exr_const_context_t context, void* user)
@@ -258,20 +245,16 @@ static DpStatus read_all(Source* source, DpMapFile* map)
 DpStatus dp_maps_read(const char* path, DpMapFile** file)
 {
     if (!path || !*path || !file) return DP_BAD_ARGUMENT;
-    Source source = {open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), 0};
-    if (source.file < 0) return DP_CANNOT_OPEN;
-    struct stat about;
-    DpStatus    status = fstat(source.file, &about) == 0 ? DP_OK : DP_CANNOT_OPEN;
-    if (status == DP_OK && !S_ISREG(about.st_mode)) status = DP_BAD_FILE;
+    Source     source;
+    DpStatus   status = dp_file_open(path, &source.file, &source.size);
     DpMapFile* map = NULL;
     if (status == DP_OK) {
-        source.size = about.st_size;
         map = dp_alloc(1, sizeof *map);
         status = !map                      ? DP_NO_MEMORY
                  : is_packed_anew(&source) ? DP_BAD_PACKING
                                            : read_all(&source, map);
     }
-    close(source.file);
+    dp_file_close(source.file);
     if (status == DP_OK)
         *file = map;
     else

@@ -1,10 +1,10 @@
 // maps/maps_writer.c - files written in the background: what changed is copied, one thread packs it
 // and writes it, in order, while the ground goes on changing.
-#include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/os.h"
 #include "base/parallel.h"
 #include "maps/maps.h"
 
@@ -26,17 +26,17 @@ struct DpTiles
 
 struct DpWriter
 {
-    pthread_t       thread;
-    pthread_mutex_t lock;
-    pthread_cond_t  given, written;
-    DpTiles *       first, *last;  // waiting
-    DpTiles*        idle;          // their memory is used again
-    int             on_the_way;    // waiting or being written
-    int             workers;
-    bool            threaded, leave;
-    DpStatus        status;  // of the first failure nobody has heard of
-    char*           path;    // and its file
-    char*           failed;
+    DpThread thread;
+    DpLock   lock;
+    DpSignal given, written;
+    DpTiles *first, *last;  // waiting
+    DpTiles* idle;          // their memory is used again
+    int      on_the_way;    // waiting or being written
+    int      workers;
+    bool     threaded, leave;
+    DpStatus status;  // of the first failure nobody has heard of
+    char*    path;    // and its file
+    char*    failed;
 };
 
 // ---- what is given -----------------------------------------------------------------------------
@@ -124,26 +124,25 @@ static void fail(DpWriter* writer, DpTiles* tiles, DpStatus status)
 static void write_next(DpWriter* writer)
 {
     DpTiles* tiles = take_first(writer);
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_give(&writer->lock);
     const DpStatus status = write_out(tiles, writer->workers);
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     if (status != DP_OK) fail(writer, tiles, status);
     put_away(writer, tiles);
     --writer->on_the_way;
-    pthread_cond_broadcast(&writer->written);
+    dp_signal_all(&writer->written);
 }
 
-static void* run(void* context)
+static void run(void* context)
 {
     DpWriter* writer = context;
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     for (;;) {
-        while (!writer->first && !writer->leave) pthread_cond_wait(&writer->given, &writer->lock);
+        while (!writer->first && !writer->leave) dp_signal_wait(&writer->given, &writer->lock);
         if (!writer->first) break;
         write_next(writer);
     }
-    pthread_mutex_unlock(&writer->lock);
-    return NULL;
+    dp_lock_give(&writer->lock);
 }
 
 // ---- a life ------------------------------------------------------------------------------------
@@ -153,10 +152,10 @@ DpStatus dp_writer_create(DpWriter** writer, int workers)
     DpWriter* created = dp_alloc(1, sizeof *created);
     if (!created) return DP_NO_MEMORY;
     created->workers = workers < 1 ? 1 : workers;
-    pthread_mutex_init(&created->lock, NULL);
-    pthread_cond_init(&created->given, NULL);
-    pthread_cond_init(&created->written, NULL);
-    created->threaded = pthread_create(&created->thread, NULL, run, created) == 0;
+    dp_lock_create(&created->lock);
+    dp_signal_create(&created->given);
+    dp_signal_create(&created->written);
+    created->threaded = dp_thread_start(&created->thread, run, created);
     *writer = created;
     return DP_OK;
 }
@@ -164,14 +163,14 @@ DpStatus dp_writer_create(DpWriter** writer, int workers)
 void dp_writer_destroy(DpWriter* writer)
 {
     if (!writer) return;
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     writer->leave = true;
-    pthread_cond_broadcast(&writer->given);
-    pthread_mutex_unlock(&writer->lock);
-    if (writer->threaded) pthread_join(writer->thread, NULL);
-    pthread_cond_destroy(&writer->written);
-    pthread_cond_destroy(&writer->given);
-    pthread_mutex_destroy(&writer->lock);
+    dp_signal_all(&writer->given);
+    dp_lock_give(&writer->lock);
+    if (writer->threaded) dp_thread_join(&writer->thread);
+    dp_signal_destroy(&writer->written);
+    dp_signal_destroy(&writer->given);
+    dp_lock_destroy(&writer->lock);
     free_tiles(writer->first);
     free_tiles(writer->idle);
     dp_free(writer->path);
@@ -182,11 +181,11 @@ void dp_writer_destroy(DpWriter* writer)
 DpTiles* dp_writer_tiles(DpWriter* writer, DpFrames* frames)
 {
     const size_t size = (size_t)DP_TILE * DP_TILE * (size_t)dp_frames_channels(frames);
-    pthread_mutex_lock(&writer->lock);
-    while (writer->on_the_way >= MAX_WAITING) pthread_cond_wait(&writer->written, &writer->lock);
+    dp_lock_take(&writer->lock);
+    while (writer->on_the_way >= MAX_WAITING) dp_signal_wait(&writer->written, &writer->lock);
     DpTiles* tiles = writer->idle;
     if (tiles) writer->idle = tiles->next;
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_give(&writer->lock);
     if (!tiles) tiles = dp_alloc(1, sizeof *tiles);
     if (!tiles) return NULL;
     tiles->next = NULL;
@@ -203,7 +202,7 @@ DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, doub
         return DP_NO_MEMORY;
     }
     tiles->time = time;
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     if (writer->status != DP_OK) {
         put_away(writer, tiles);
     } else {
@@ -214,30 +213,30 @@ DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, doub
         writer->last = tiles;
         ++writer->on_the_way;
         if (!writer->threaded) write_next(writer);
-        pthread_cond_signal(&writer->given);
+        dp_signal_one(&writer->given);
     }
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_give(&writer->lock);
     return DP_OK;
 }
 
 void dp_writer_drop(DpWriter* writer, DpTiles* tiles)
 {
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     put_away(writer, tiles);
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_give(&writer->lock);
 }
 
 void dp_writer_wait(DpWriter* writer)
 {
-    pthread_mutex_lock(&writer->lock);
-    while (writer->on_the_way > 0) pthread_cond_wait(&writer->written, &writer->lock);
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_take(&writer->lock);
+    while (writer->on_the_way > 0) dp_signal_wait(&writer->written, &writer->lock);
+    dp_lock_give(&writer->lock);
 }
 
 DpStatus dp_writer_outcome(DpWriter* writer, bool wait, const char** path)
 {
     if (wait) dp_writer_wait(writer);
-    pthread_mutex_lock(&writer->lock);
+    dp_lock_take(&writer->lock);
     const DpStatus status = writer->status;
     writer->status = DP_OK;
     if (status != DP_OK) {
@@ -245,7 +244,7 @@ DpStatus dp_writer_outcome(DpWriter* writer, bool wait, const char** path)
         writer->failed = writer->path;
         writer->path = NULL;
     }
-    pthread_mutex_unlock(&writer->lock);
+    dp_lock_give(&writer->lock);
     *path = status != DP_OK && writer->failed ? writer->failed : "";
     return status;
 }

@@ -1,10 +1,10 @@
 // sim/sim_film.c - films of the ground: which tiles are new in each, and what they show.
 #include <limits.h>
-#include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/os.h"
 #include "base/parallel.h"
 #include "sim/sim_inside.h"
 
@@ -26,11 +26,11 @@ struct DpFilm
 
 struct DpReel
 {
-    DpSim*          sim;
-    DpWriter*       writer;
-    DpFilm*         first;
-    int             workers;
-    pthread_mutex_t lock;  // of the list, and of what its films hold
+    DpSim*    sim;
+    DpWriter* writer;
+    DpFilm*   first;
+    int       workers;
+    DpLock    lock;  // of the list, and of what its films hold
 };
 
 // ---- what a film shows -------------------------------------------------------------------------
@@ -146,9 +146,9 @@ DpStatus dp_film_list(DpFilm* film, const char* path)
 
 DpStatus dp_film_write(DpFilm* film, const char* path, double time, const char** failed)
 {
-    pthread_mutex_lock(&film->reel->lock);
+    dp_lock_take(&film->reel->lock);
     const DpStatus status = write_changed(film, path, time, failed);
-    pthread_mutex_unlock(&film->reel->lock);
+    dp_lock_give(&film->reel->lock);
     return status;
 }
 
@@ -165,7 +165,7 @@ DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers)
         dp_free(created);
         return status;
     }
-    pthread_mutex_init(&created->lock, NULL);
+    dp_lock_create(&created->lock);
     *reel = created;
     return DP_OK;
 }
@@ -186,7 +186,7 @@ void dp_reel_destroy(DpReel* reel)
         reel->first = film->next;
         drop(film);
     }
-    pthread_mutex_destroy(&reel->lock);
+    dp_lock_destroy(&reel->lock);
     dp_free(reel);
 }
 
@@ -275,10 +275,10 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
         return status;
     }
     if (created->of_soles) dp_sim_soles(reel->sim, mark_sole, created);
-    pthread_mutex_lock(&reel->lock);
+    dp_lock_take(&reel->lock);
     created->next = reel->first;
     reel->first = created;
-    pthread_mutex_unlock(&reel->lock);
+    dp_lock_give(&reel->lock);
     *film = created;
     return DP_OK;
 }
@@ -317,11 +317,11 @@ void dp_film_close(DpFilm* film)
 {
     if (!film) return;
     DpReel* reel = film->reel;
-    pthread_mutex_lock(&reel->lock);
+    dp_lock_take(&reel->lock);
     DpFilm** at = &reel->first;
     while (*at != film) at = &(*at)->next;
     *at = film->next;
-    pthread_mutex_unlock(&reel->lock);
+    dp_lock_give(&reel->lock);
     dp_writer_wait(reel->writer);
     drop(film);
 }

@@ -132,6 +132,8 @@ def test_rooms_hold(tmp_path):
         ("native/sim/a.c", '#include "soil/soil_heaps.h"\n', "by its door, soil/soil.h"),
         ("native/sim/a.c", '#include "python/door.h"\n', "sim may not know python"),
         ("native/soil/a.c", '#include "soil.h"\n', "by its room"),
+        ("native/soil/a.c", "#include <pthread.h>\n", "<pthread.h> is of one system"),
+        ("native/soil/a.c", "#include <openexr.h>\n", "<openexr.h> is of one system"),
         ("native/attic/a.c", '#include "base/vec.h"\n', "does not know"),
         ("addon/desire_path/ground/sim.py", "def f():\n    import bpy\n", "stays free of bpy"),
         ("addon/desire_path/ground/sim.py", "from ..blender import axes\n", "does not know blender/"),

@@ -36,7 +36,7 @@ TEST(what_is_written_is_what_is_read)
     CHECK(strcmp(map->note_name[1], "unit.heap") == 0 && strcmp(map->note_text[1], "m") == 0);
     CHECK(map->note_text[2] && strcmp(map->note_text[2], "") == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
 }
 
 TEST(one_cell_is_a_map_too)
@@ -49,7 +49,7 @@ TEST(one_cell_is_a_map_too)
     CHECK(dp_maps_read(path, &map) == DP_OK);
     CHECK(map && map->nx == 1 && map->ny == 1 && map->value[0] == 0.125f && map->note_count == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
 }
 
 TEST(bad_arguments_are_refused)
@@ -98,7 +98,7 @@ TEST(no_memory_is_survived)
     CHECK(status == DP_OK && tries > 10);
     CHECK(map && memcmp(map->value, grid[1], sizeof grid[1]) == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
 }
 
 int main(void)

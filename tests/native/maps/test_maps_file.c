@@ -90,7 +90,7 @@ TEST(a_full_disk_leaves_the_old_file)
     CHECK(holds(path, 1.0f));
     CHECK(save(path, 3.0f) == DP_OK);
     CHECK(holds(path, 3.0f));
-    unlink(path);
+    remove(path);
 }
 
 TEST(a_full_disk_leaves_the_old_frame)
@@ -115,7 +115,7 @@ TEST(a_full_disk_leaves_the_old_frame)
     CHECK(map && map->value[0] == 0.5f);
     dp_map_file_destroy(map);
     dp_frames_destroy(frames);
-    unlink(path);
+    remove(path);
 }
 
 TEST(a_disk_that_says_so_when_closing)
@@ -128,7 +128,7 @@ TEST(a_disk_that_says_so_when_closing)
     CHECK(status == DP_DISK_FULL);
     CHECK(holds(path, 1.0f));
     CHECK(files_there() == 1);
-    unlink(path);
+    remove(path);
 }
 
 TEST(an_interrupted_write_goes_on)
@@ -138,7 +138,7 @@ TEST(an_interrupted_write_goes_on)
     CHECK(save(path, 4.0f) == DP_OK);
     CHECK(interruptions == 0);
     CHECK(holds(path, 4.0f));
-    unlink(path);
+    remove(path);
 }
 
 TEST(a_target_that_cannot_be_replaced)

@@ -71,7 +71,7 @@ TEST(what_is_set_is_what_is_read)
         CHECK(strcmp(map->note_text[2], "dry-sand \xc3\xa9") == 0);
         dp_map_file_destroy(map);
     }
-    unlink(path);
+    remove(path);
     dp_frames_destroy(frames);
 }
 
@@ -103,7 +103,7 @@ TEST(what_cannot_be_packed_is_kept_as_it_is)
                              i < SIDE ? 0.0f : rgba[(j * SIDE + i - SIDE) * 4 + 3 - c]);
     CHECK(map && bad == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
     dp_frames_destroy(frames);
 }
 
@@ -123,7 +123,7 @@ TEST(untouched_ground_costs_next_to_nothing)
     CHECK(dp_maps_read(path, &map) == DP_OK);
     CHECK(map && differences(map, 16, 16, seeds) == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
     dp_frames_destroy(frames);
 }
 
@@ -158,7 +158,7 @@ TEST(the_same_bytes_for_any_number_of_workers)
             CHECK(world_bytes(path, other, sizeof other) == size);
             CHECK(size > 100000 && memcmp(first, other, size) == 0);
         }
-        unlink(path);
+        remove(path);
         dp_frames_destroy(job.frames);
     }
     free(rgba);
@@ -185,7 +185,7 @@ TEST(channels_are_found_by_name)
                 CHECK(map->value[c * SIDE * SIDE + n] == (float)(k * 10000 + n));
         }
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
     dp_frames_destroy(frames);
 }
 
@@ -261,7 +261,7 @@ TEST(no_memory_is_survived)
     CHECK(dp_maps_read(path, &map) == DP_OK);
     CHECK(map && differences(map, 2, 2, seeds) == 0);
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
     dp_frames_destroy(frames);
 }
 
@@ -291,7 +291,7 @@ TEST(files_are_listed_with_what_they_hold)
     line[end] = 0;
     CHECK(strcmp(line, want) == 0 && !fgets(line, sizeof line, file));
     fclose(file);
-    unlink(list), unlink(path);
+    remove(list), remove(path);
     dp_frames_destroy(frames);
 }
 

@@ -37,7 +37,7 @@ static size_t film(bool background, unsigned char* bytes, size_t most)
         if (k % 3 == 2) continue;
         snprintf(name, sizeof name, "film_%02d.exr", k);
         size += world_bytes(world_path(name), bytes + size, most - size);
-        unlink(world_path(name));
+        remove(world_path(name));
     }
     dp_writer_destroy(writer);
     dp_frames_destroy(frames);
@@ -76,7 +76,7 @@ TEST(a_flood_of_tiles_is_one_file)
         CHECK(map->value[(size_t)(k / 6 * SIDE) * 6 * SIDE + (size_t)(k % 6 * SIDE)] ==
               (float)(3 * (k + 1)));
     dp_map_file_destroy(map);
-    unlink(path);
+    remove(path);
     dp_writer_destroy(writer);
     dp_frames_destroy(frames);
 }
@@ -107,7 +107,7 @@ TEST(nothing_is_written_after_a_failure_until_it_was_told)
     CHECK(dp_writer_give(writer, dp_writer_tiles(writer, frames), path, 0.0) == DP_OK);
     CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK);
     CHECK(access(path, F_OK) == 0);
-    unlink(path);
+    remove(path);
     DpTiles* tiles = dp_writer_tiles(writer, frames);
     dp_writer_drop(writer, tiles);
     dp_writer_destroy(writer);

@@ -4,23 +4,20 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "check.h"
+#include "folder.h"
 #include "maps/maps.h"
 
 #define RGBA ((const char* const[]){"R", "G", "B", "A"})  // as frames have them
 
-static char world_folder[64];
+static char world_folder[512];
 
 static inline const char* world_path(const char* name)
 {
-    static char path[4][160];
+    static char path[4][640];
     static int  turn;
-    if (!*world_folder) {
-        strcpy(world_folder, "/tmp/desire_path_maps_XXXXXX");
-        if (!mkdtemp(world_folder)) abort();
-    }
+    if (!*world_folder) folder_make(world_folder, sizeof world_folder, "maps");
     char* out = path[turn++ % 4];
     snprintf(out, sizeof path[0], "%s/%s", world_folder, name);
     return out;
@@ -28,7 +25,7 @@ static inline const char* world_path(const char* name)
 
 static inline void world_end(void)
 {
-    if (*world_folder) rmdir(world_folder);
+    if (*world_folder) FOLDER_REMOVE(world_folder);
 }
 
 // numbers of every kind: smooth, zero, tiny, huge, negative zero, infinite, not a number

@@ -1,15 +1,15 @@
 // Films of one ground: each sees its own rectangle of every change, and none outlives the reel.
 #include <stdio.h>
-#include <unistd.h>
 
 #include "check.h"
+#include "folder.h"
 #include "sim/planted.h"
 
-static char folder[64];
+static char folder[512];
 
 static const char* path_of(const char* name, int number)
 {
-    static char path[2][128];
+    static char path[2][640];
     static int  turn;
     char*       out = path[turn++ % 2];
     snprintf(out, sizeof path[0], "%s/%s%d.exr", folder, name, number);
@@ -75,7 +75,7 @@ TEST(parts_are_cut_from_the_whole)
     CHECK(dp_reel_outcome(reel, true, &failed) == DP_OK && !*failed);
     dp_reel_destroy(reel);
     for (int k = 0; k < 2; ++k) {
-        unlink(path_of("left", k)), unlink(path_of("whole", k)), unlink(path_of("right", k));
+        remove(path_of("left", k)), remove(path_of("whole", k)), remove(path_of("right", k));
     }
     world_drop(&world);
     stride_drop(&s);
@@ -110,7 +110,7 @@ TEST(frames_for_playback_are_written_from_c)
         CHECK(dp_film_write(film[k], path_of("play", k), 0.5, &failed) == DP_OK);
         dp_film_close(film[k]);
         CHECK(dp_maps_read(path_of("play", k), &file[k]) == DP_OK);
-        unlink(path_of("play", k));
+        remove(path_of("play", k));
     }
     for (int k = 0; k < 2 && file[0] && file[1]; ++k) {
         CHECK(file[k]->nx == 3 * DP_TILE && file[k]->ny == 2 * DP_TILE);
@@ -156,11 +156,10 @@ TEST(what_cannot_be_filmed_is_refused)
 
 int main(void)
 {
-    snprintf(folder, sizeof folder, "/tmp/desire_path_film_XXXXXX");
-    if (!mkdtemp(folder)) return 1;
+    folder_make(folder, sizeof folder, "film");
     RUN(parts_are_cut_from_the_whole);
     RUN(frames_for_playback_are_written_from_c);
     RUN(what_cannot_be_filmed_is_refused);
-    rmdir(folder);
+    FOLDER_REMOVE(folder);
     return check_done();
 }

@@ -1,0 +1,137 @@
+// Threads, files, time and memory are the same on every system.
+#include "base/os.h"
+
+#include <stdatomic.h>
+
+#include "check.h"
+#include "folder.h"
+
+static char folder[256];
+
+static const char* place(const char* name)
+{
+    static char path[4][4096];
+    static int  turn;
+    char*       out = path[turn++ % 4];
+    snprintf(out, sizeof path[0], "%s/%s", folder, name);
+    return out;
+}
+
+static int put(const char* path, const char* text)
+{
+    DpFile file;
+    return dp_file_create(path, &file) == DP_OK &&
+           dp_file_write(file, text, strlen(text)) == DP_OK && dp_file_close(file) == DP_OK;
+}
+
+static int holds(const char* path, const char* text)
+{
+    DpFile  file;
+    int64_t size = -1;
+    char    read[64] = "";
+    if (dp_file_open(path, &file, &size) != DP_OK) return 0;
+    const int64_t got = dp_file_read(file, read, sizeof read - 1, 0);
+    return dp_file_close(file) == DP_OK && got == size && (size_t)size == strlen(text) &&
+           strcmp(read, text) == 0;
+}
+
+TEST(a_file_is_written_added_to_and_replaced)
+{
+    DpFile  file;
+    int64_t size;
+    CHECK(dp_file_open(place("a"), &file, &size) == DP_CANNOT_OPEN);
+    CHECK(dp_file_append(place("a"), &file) == DP_CANNOT_OPEN);
+    CHECK(put(place("a"), "one\r\ntwo\n"));  // bytes, not lines
+    CHECK(holds(place("a"), "one\r\ntwo\n"));
+    CHECK(dp_file_append(place("a"), &file) == DP_OK);
+    CHECK(dp_file_write(file, "three", 5) == DP_OK);
+    CHECK(dp_file_close(file) == DP_OK);
+    CHECK(holds(place("a"), "one\r\ntwo\nthree"));
+    CHECK(put(place("b"), "new"));
+    CHECK(dp_file_open(place("a"), &file, &size) ==
+          DP_OK);  // who reads the old one goes on reading it
+    CHECK(dp_file_replace(place("b"), place("a")) == DP_OK);
+    char byte[2];
+    CHECK(dp_file_read(file, byte, 2, 3) == 2 && byte[0] == '\r' && byte[1] == '\n');
+    CHECK(dp_file_read(file, byte, 2, size - 1) == 1);
+    CHECK(dp_file_read(file, byte, 2, size + 9) == 0);
+    CHECK(dp_file_close(file) == DP_OK);
+    CHECK(holds(place("a"), "new"));
+    CHECK(dp_file_open(place("b"), &file, &size) == DP_CANNOT_OPEN);
+    dp_file_remove(place("a"));
+    dp_file_remove(place("a"));
+    CHECK(dp_file_open(place("a"), &file, &size) == DP_CANNOT_OPEN);
+    CHECK(dp_file_close(DP_NO_FILE) == DP_OK);
+}
+
+TEST(what_is_no_file_is_told)
+{
+    DpFile  file;
+    int64_t size;
+    CHECK(dp_file_open(folder, &file, &size) == DP_BAD_FILE);
+    CHECK(file == DP_NO_FILE);
+    CHECK(dp_file_create(place("none/a"), &file) == DP_CANNOT_OPEN);
+    CHECK(put(place("a"), "x"));
+    CHECK(dp_file_replace(place("a"), folder) == DP_CANNOT_WRITE);
+    CHECK(holds(place("a"), "x"));
+    dp_file_remove(place("a"));
+}
+
+TEST(names_may_have_any_letter)
+{
+    const char* name = place("\xe9\x9b\xaa\xe3\x81\xae\xe8\xb7\xa1 \xc3\xa4.exr");
+    CHECK(put(name, "snow"));
+    CHECK(holds(name, "snow"));
+    dp_file_remove(name);
+    CHECK(strcmp(dp_os_name("a/b.exr"), "b.exr") == 0);
+    CHECK(strcmp(dp_os_name("b.exr"), "b.exr") == 0);
+}
+
+static atomic_int sum;
+static DpLock     lock = DP_LOCK_READY;
+static DpSignal   changed = DP_SIGNAL_READY;
+static int        arrived;
+
+static void arrive(void* context)
+{
+    atomic_fetch_add(&sum, *(int*)context);
+    dp_lock_take(&lock);
+    ++arrived;
+    dp_signal_all(&changed);
+    dp_lock_give(&lock);
+}
+
+TEST(threads_start_meet_and_end)
+{
+    DpThread thread[4];
+    int      number[4] = {1, 20, 300, 4000};
+    for (int k = 0; k < 4; ++k) CHECK(dp_thread_start(&thread[k], arrive, &number[k]));
+    dp_lock_take(&lock);
+    while (arrived < 4) dp_signal_wait(&changed, &lock);
+    dp_lock_give(&lock);
+    for (int k = 0; k < 4; ++k) dp_thread_join(&thread[k]);
+    CHECK(atomic_load(&sum) == 4321);
+}
+
+TEST(time_and_memory)
+{
+    const int64_t start = dp_os_time();
+    CHECK(dp_os_time() >= start);
+    CHECK(dp_os_processors() >= 1);
+    char* memory = dp_os_memory(64, 640);
+    CHECK(memory && (uintptr_t)memory % 64 == 0);
+    dp_os_memory_free(memory);
+    dp_os_memory_free(NULL);
+}
+
+int main(void)
+{
+    folder_make(folder, sizeof folder, "os");
+    RUN(a_file_is_written_added_to_and_replaced);
+    RUN(what_is_no_file_is_told);
+    RUN(names_may_have_any_letter);
+    RUN(threads_start_meet_and_end);
+    RUN(time_and_memory);
+    FOLDER_REMOVE(folder);
+    return check_done();
+}
