@@ -119,6 +119,9 @@ def soil_default() -> tuple[float, ...]: ...
 def soil_numbers() -> _Numbers: ...
 def soil_anisotropy(push: _Vec3, threshold: float, /) -> float: ...
 def soil_compress(patch: _Patch, imprint: _Imprint, foot: tuple[Any, ...], law: int, dt: float, /) -> _Pressed: ...
+def soil_carve(
+    patch: _Patch, imprint: _Imprint, descent: tuple[float, float, float, float], dt: float, /
+) -> dict[str, float]: ...
 def soil_accumulate(
     patch: _Patch,
     imprint: _Imprint,
@@ -292,6 +295,7 @@ class Simulation:
         touching: _Array,
         force: _Array,
         point: _Array,
+        contact_law: _Array | None = None,  # (W,) u1
         /,
     ) -> None: ...
     def load_tracks(
@@ -309,6 +313,7 @@ class Simulation:
         touching: _Array,
         force: _Array,
         point: _Array,
+        contact_law: _Array | None = None,  # (W,) u1
         /,
     ) -> None: ...
     def load_live(
@@ -321,6 +326,7 @@ class Simulation:
         sole_vertex_count: _Array,
         sole_triangle: _Array,
         sole_triangle_count: _Array,
+        contact_law: _Array | None = None,  # (W,) u1
         /,
     ) -> None: ...
     def push(

@@ -14,7 +14,7 @@ from .bake.output import check_idle
 from .bounds import ADVICE, Limits
 from .errors import DesirePathError
 from .files import atomic_file
-from .ground.options import HEAPS, LAWS, SimulationOptions
+from .ground.options import CONTACT_LAWS, HEAPS, SimulationOptions
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
 from .ground.soil import SOILS, as_soil
@@ -319,7 +319,12 @@ def _parser() -> Parser:
     bake.add_argument("--frame-start", type=int, help="first scene frame (the recording's)")
     bake.add_argument("--frame-end", type=int, help="last scene frame (the recording's)")
     bake.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
-    bake.add_argument("--law", choices=LAWS, default="sole", help="how a sole presses")
+    bake.add_argument(
+        "--law",
+        choices=CONTACT_LAWS,
+        default="sole",
+        help="how walkers press that do not say it themselves: carve = down to where they are, whatever they weigh",
+    )
     bake.add_argument("--heap", choices=HEAPS, default="rest", help="how displaced soil is laid")
     bake.option(
         "--rim-width", PAPER, type=float, default=0.04, metavar="METRES", help="how wide the rim of a paper heap is"

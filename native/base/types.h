@@ -68,7 +68,12 @@ typedef struct DpGait
     const double*  point;        // contact points, in the part's frame         [m]    (K, 3)
     const int32_t* point_part;   // part of each contact point                  [-]    (K)
     const int32_t* point_role;   // DpPointRole of each contact point           [-]    (K)
+    const uint8_t*
+        contact_law;  // DpContactLaw of each walker, DP_LAW_ANY: as others do; NULL: all (W)
 } DpGait;
+
+#define DP_LAW_COUNT 3  // laws of soil/soil.h
+#define DP_LAW_ANY 255  // presses by the law that the simulation goes by
 
 // One kind of ground. Start from dp_soil_default() and change what you know.
 // base/soil_numbers.h has the meaning, unit and range of each number.

@@ -52,7 +52,7 @@ void dp_motion_destroy(DpMotion* motion);
 
 // ---- who walks ---------------------------------------------------------------------------------
 
-// Walkers, limbs, parts, mass, owners and soles; no times, poses or points.
+// Walkers, limbs, parts, mass, owners, soles and laws; no times, poses or points.
 const DpGait* dp_motion_cast(const DpMotion* motion);
 bool          dp_motion_is_live(const DpMotion* motion);
 // How many samples there are (recorded, tracks), or were pushed (live), and their times [s].

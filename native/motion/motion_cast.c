@@ -35,6 +35,8 @@ static bool cast_holds(const DpGait* g)
     if (g->walkers < 1 || g->limbs < 1 || g->parts < 1) return false;
     for (int w = 0; w < g->walkers; ++w)
         if (!(g->mass[w] > 0.0 && isfinite(g->mass[w]))) return false;
+    for (int w = 0; g->contact_law && w < g->walkers; ++w)
+        if (g->contact_law[w] >= DP_LAW_COUNT && g->contact_law[w] != DP_LAW_ANY) return false;
     for (int l = 0; l < g->limbs; ++l)
         if (g->limb_walker[l] < 0 || g->limb_walker[l] >= g->walkers) return false;
     for (int p = 0; p < g->parts; ++p) {
@@ -85,13 +87,16 @@ DpStatus dp_motion_open(DpMotion** motion_out, const DpGait* cast)
     motion->walker_of = dp_alloc(parts, sizeof *motion->walker_of);
     motion->own_number = dp_alloc(parts, sizeof *motion->own_number);
     motion->own_parts = dp_alloc(walkers, sizeof *motion->own_parts);
+    motion->law = dp_alloc(walkers, sizeof *motion->law);
     motion->first_touch = NAN;
     if (!motion->mass || !motion->owner || !motion->walker_of || !motion->own_number ||
-        !motion->own_parts || !copy_soles(motion, cast)) {
+        !motion->own_parts || !motion->law || !copy_soles(motion, cast)) {
         dp_motion_drop(motion);
         return DP_NO_MEMORY;
     }
     memcpy(motion->mass, cast->mass, walkers * sizeof *motion->mass);
+    memset(motion->law, DP_LAW_ANY, walkers);
+    if (cast->contact_law) memcpy(motion->law, cast->contact_law, walkers);
     memcpy(motion->owner, cast->limb_walker, limbs * sizeof *motion->owner);
     memcpy(motion->owner + limbs, cast->part_limb, parts * sizeof *motion->owner);
     for (int p = 0; p < cast->parts; ++p) {
@@ -104,7 +109,8 @@ DpStatus dp_motion_open(DpMotion** motion_out, const DpGait* cast)
                             .mass = motion->mass,
                             .limb_walker = motion->owner,
                             .part_limb = motion->owner + limbs,
-                            .sole = motion->sole};
+                            .sole = motion->sole,
+                            .contact_law = motion->law};
     *motion_out = motion;
     return DP_OK;
 }
@@ -115,10 +121,10 @@ void dp_motion_drop(DpMotion* motion)
     for (int b = 0; motion->start && b < motion->start[motion->cast.walkers]; ++b)
         dp_block_drop(&motion->block[b]);
     dp_block_drop(&motion->window);
-    void* const blocks[] = {motion->mass,      motion->owner,      motion->sole,
-                            motion->vertex,    motion->triangle,   motion->walker_of,
-                            motion->own_parts, motion->own_number, motion->time,
-                            motion->block,     motion->start,      motion->present};
+    void* const blocks[] = {
+        motion->mass,      motion->owner,     motion->sole,       motion->vertex, motion->triangle,
+        motion->walker_of, motion->own_parts, motion->own_number, motion->time,   motion->block,
+        motion->start,     motion->present,   motion->law};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
     dp_free(motion);
 }

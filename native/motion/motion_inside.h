@@ -16,6 +16,7 @@ struct DpMotion
 {
     DpGait   cast;   // copies of all its arrays, below
     double*  mass;   // (walkers)
+    uint8_t* law;    // (walkers)
     int32_t* owner;  // limb_walker (limbs), part_limb (parts)
     DpMesh*  sole;   // (parts)
     float*   vertex;

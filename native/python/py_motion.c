@@ -72,19 +72,29 @@ static bool open_cast(DpBuffers* buffers, PyObject* const object[8], Cast* cast)
     return cast->sole != NULL;
 }
 
+// Laws of the walkers, None: those of the simulation; false with an exception.
+static bool open_laws(DpBuffers* buffers, PyObject* object, Cast* cast)
+{
+    if (object == Py_None) return true;
+    const uint8_t* laws =
+        dp_buffers_open(buffers, object, "contact_law", 'B', DP_SHAPE1(cast->gait.walkers), false);
+    cast->gait.contact_law = laws;
+    return laws != NULL;
+}
+
 PyObject* dp_py_load(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
-    PyObject *  item[8], *o_pose, *o_touching, *o_force, *o_point;
-    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO:load", &item[0], &item[1], &o_pose, &item[2],
+    PyObject *  item[8], *o_pose, *o_touching, *o_force, *o_point, *o_law = Py_None;
+    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOO|O:load", &item[0], &item[1], &o_pose, &item[2],
                           &item[3], &item[4], &item[5], &item[6], &item[7], &o_touching, &o_force,
-                          &o_point))
+                          &o_point, &o_law))
         return NULL;
     DpBuffers     buffers = {.count = 0};
     Cast          cast = {.sole = NULL};
     DpLoadedPoses poses;
     PyObject*     result = NULL;
-    if (!open_cast(&buffers, item, &cast)) goto done;
+    if (!open_cast(&buffers, item, &cast) || !open_laws(&buffers, o_law, &cast)) goto done;
     const Py_ssize_t T = cast.times, P = cast.parts;
     if (!(poses.pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', DP_SHAPE3(P, T, 7), false)) ||
         !(poses.touching =
@@ -152,10 +162,10 @@ static DpTrack* cut_tracks(const DpGait* cast, const int32_t* row, Py_ssize_t ro
 PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
-    PyObject *  item[8], *o_track, *o_pose, *o_touching, *o_force, *o_point;
-    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOOO:load_tracks", &item[0], &item[1], &item[2], &item[3],
-                          &item[4], &item[5], &item[6], &item[7], &o_track, &o_pose, &o_touching,
-                          &o_force, &o_point))
+    PyObject *  item[8], *o_track, *o_pose, *o_touching, *o_force, *o_point, *o_law = Py_None;
+    if (!PyArg_ParseTuple(args, "OOOOOOOOOOOOO|O:load_tracks", &item[0], &item[1], &item[2],
+                          &item[3], &item[4], &item[5], &item[6], &item[7], &o_track, &o_pose,
+                          &o_touching, &o_force, &o_point, &o_law))
         return NULL;
     DpBuffers     buffers = {.count = 0};
     Cast          cast = {.sole = NULL};
@@ -164,7 +174,7 @@ PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
     DpTrack*      track = NULL;
     int32_t*      row;
     PyObject*     result = NULL;
-    if (!open_cast(&buffers, item, &cast) ||
+    if (!open_cast(&buffers, item, &cast) || !open_laws(&buffers, o_law, &cast) ||
         !(row = dp_buffers_open(&buffers, o_track, "track", 'i', &rows, false)) ||
         !(poses.pose = dp_buffers_open(&buffers, o_pose, "pose", 'd', &places, false)))
         goto done;
@@ -197,14 +207,15 @@ done:
 PyObject* dp_py_load_live(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
-    PyObject*   item[8];
-    if (!PyArg_ParseTuple(args, "OOOOOOOO:load_live", &item[0], &item[1], &item[2], &item[3],
-                          &item[4], &item[5], &item[6], &item[7]))
+    PyObject *  item[8], *o_law = Py_None;
+    if (!PyArg_ParseTuple(args, "OOOOOOOO|O:load_live", &item[0], &item[1], &item[2], &item[3],
+                          &item[4], &item[5], &item[6], &item[7], &o_law))
         return NULL;
     DpBuffers buffers = {.count = 0};
     Cast      cast = {.sole = NULL};
     PyObject* result = NULL;
-    if (open_cast(&buffers, item, &cast) && dp_py_enter(self)) {
+    if (open_cast(&buffers, item, &cast) && open_laws(&buffers, o_law, &cast) &&
+        dp_py_enter(self)) {
         DpMotion* motion = NULL;
         DpStatus  status = dp_motion_live(&motion, &cast.gait);
         if (status == DP_OK) status = dp_sim_follow(self->sim, motion);

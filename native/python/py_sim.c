@@ -45,10 +45,10 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
             &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
             &options.max_sweeps, &options.normal_radius, &options.workers, &times_object))
         return NULL;
-    if (law < 0 || law > 1 || heap < 0 || heap > 1)
-        return PyErr_Format(PyExc_ValueError, "law, heap: expected 0 or 1 each, got %d and %d", law,
-                            heap);
-    options.law = law ? DP_CONTACT_UNIFORM : DP_CONTACT_SOLE;
+    if (law < 0 || law >= DP_LAW_COUNT || heap < 0 || heap > 1)
+        return PyErr_Format(PyExc_ValueError,
+                            "law, heap: expected 0 to 2 and 0 or 1, got %d and %d", law, heap);
+    options.law = (DpContactLaw)law;
     options.heap_law = heap ? DP_HEAP_PAPER : DP_HEAP_REST;
     if (options.workers == 0) options.workers = dp_parallel_width();
 

@@ -200,6 +200,30 @@ static PyObject* soil_compress(PyObject* module, PyObject* arguments)
     return result;
 }
 
+static PyObject* soil_carve(PyObject* module, PyObject* arguments)
+{
+    (void)module;
+    PyObject *patch, *imprint, *result = NULL;
+    DpDescent d;
+    double    dt;
+    Call      call;
+    if (!PyArg_ParseTuple(arguments, "OO(dddd)d:soil_carve", &patch, &imprint, &d.at, &d.along_x,
+                          &d.along_y, &d.along_z, &dt))
+        return NULL;
+    if (open_call(&call, patch, imprint, NULL) == 0) {
+        DpCarved       c;
+        const DpStatus status = dp_soil_carve(&call.patch, &call.imprint, &d, dt, &c);
+        result =
+            status != DP_OK
+                ? dp_py_because(status, "carving soil", "dt must be above 0 s and finite")
+                : Py_BuildValue("{s:d,s:d,s:d,s:d,s:d,s:d}", "firm", c.pressed.firm, "loose",
+                                c.pressed.loose, "displaced", c.pressed.displaced, "area",
+                                c.pressed.area, "cut_firm", c.cut_firm, "cut_loose", c.cut_loose);
+    }
+    close_call(&call);
+    return result;
+}
+
 static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
 {
     (void)module;
@@ -214,6 +238,7 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
     if (law != DP_HEAP_REST && law != DP_HEAP_PAPER)
         return PyErr_Format(PyExc_ValueError, "law: expected 0 (rest) or 1 (paper), got %d", law);
     options.law = (DpHeapLaw)law;
+    options.outward = false;
     if (open_call(&call, patch, imprint, foot) == 0) {
         DpStatus status;
         Py_BEGIN_ALLOW_THREADS
@@ -348,6 +373,7 @@ static PyObject* soil_numbers(PyObject* module, PyObject* arguments)
 
 PyMethodDef dp_py_soil_methods[] = {
     {"soil_compress", soil_compress, METH_VARARGS, "Press a sole into a patch for dt seconds."},
+    {"soil_carve", soil_carve, METH_VARARGS, "Push the surface of a patch down to a body."},
     {"soil_accumulate", soil_accumulate, METH_VARARGS, "Lay displaced soil around a sole."},
     {"soil_stabilize", soil_stabilize, METH_VARARGS, "Let loose soil slide until it rests."},
     {"soil_anisotropy", soil_anisotropy, METH_VARARGS, "How one-sided the heap is, TRAIL (13)."},

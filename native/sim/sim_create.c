@@ -19,7 +19,8 @@ DpSimOptions dp_sim_options_default(void)
 
 static bool options_hold(const DpSimOptions* o)
 {
-    return (o->law == DP_CONTACT_SOLE || o->law == DP_CONTACT_UNIFORM) &&
+    return (o->law == DP_CONTACT_SOLE || o->law == DP_CONTACT_UNIFORM ||
+            o->law == DP_CONTACT_CARVE) &&
            (o->heap_law == DP_HEAP_REST || o->heap_law == DP_HEAP_PAPER) &&
            isfinite(o->rim_width) && o->rim_width > 0.0 && o->tolerance > 0.0 &&
            o->tolerance < 1.0 && o->max_sweeps > 0 && isfinite(o->normal_radius) &&

@@ -45,6 +45,9 @@ static DpStatus make_limbs(DpSim* sim)
         Limb* limb = &sim->limb[l];
         limb->walker = cast->limb_walker[l];
         limb->part = next;
+        limb->law = sim->cast.contact_law[limb->walker] == DP_LAW_ANY
+                        ? sim->options.law
+                        : (DpContactLaw)sim->cast.contact_law[limb->walker];
         next += limb->part_count;
         most = limb->part_count > most ? limb->part_count : most;
         limb->part_count = 0;
@@ -53,6 +56,9 @@ static DpStatus make_limbs(DpSim* sim)
         Limb* limb = &sim->limb[cast->part_limb[p]];
         limb->part[limb->part_count++] = p;
     }
+    for (int l = 0; l < cast->limbs; ++l)
+        if (sim->limb[l].law == DP_CONTACT_CARVE && sim->limb[l].part_count * DP_CARVE_STEPS > most)
+            most = sim->limb[l].part_count * DP_CARVE_STEPS;
     sim->worker_sole = dp_alloc(workers * (size_t)most, sizeof *sim->worker_sole);
     sim->worker_pose = dp_alloc(workers * (size_t)most, sizeof *sim->worker_pose);
     if (!sim->worker_sole || !sim->worker_pose) return DP_NO_MEMORY;

@@ -7,25 +7,27 @@
 // One limb and the stance it is in.
 typedef struct Limb
 {
-    int        walker;
-    int        part_count;
-    int*       part;         // its parts, in the order of the recording (part_count)
-    bool       stands;       // in a stance
-    bool       flows;        // has let go, and soil around still slides
-    double     heap_height;  // T of the rest heap, from step to step of a stance          [m]
-    double     margin;       // of ground around its soles that a step may change        [m]
-    double     unlaid;       // displaced volume that found no border cell yet             [m^3]
-    double     sink;         // how far its soles stand below where they were recorded     [m]
-    DpVec3     slip;         // how far its soles have slipped along the ground in this stance [m]
-    DpVec3     sheared;      // of that, what the soil carries the push with as it is now       [m]
-    double     lowered;      // the same as plants saw it at the end of the last step      [m]
-    DpCellRect trodden;      // cells its patches covered during this stance
-    float*     met;  // `uniform`: heap - compression on `met_at` as this stance met them [m]
-    DpCellRect met_at;
+    int          walker;
+    int          part_count;
+    int*         part;         // its parts, in the order of the recording (part_count)
+    DpContactLaw law;          // how it presses
+    bool         stands;       // in a stance
+    bool         flows;        // has let go, and soil around still slides
+    double       heap_height;  // T of the rest heap, from step to step of a stance          [m]
+    double       margin;       // of ground around its soles that a step may change        [m]
+    double       unlaid;       // displaced volume that found no border cell yet             [m^3]
+    double       sink;         // how far its soles stand below where they were recorded     [m]
+    DpVec3       slip;         // how far its soles have slipped along the ground in this stance [m]
+    DpVec3       sheared;  // of that, what the soil carries the push with as it is now       [m]
+    double       lowered;  // the same as plants saw it at the end of the last step      [m]
+    DpCellRect   trodden;  // cells its patches covered during this stance
+    float*       met;      // `uniform`: heap - compression on `met_at` as this stance met them [m]
+    DpCellRect   met_at;
 
     // this step's work and what came of it
     DpCellRect patch;   // cells this step's patch covers
     bool       active;  // presses or settles in this step
+    bool       begins;  // its stance begins
     bool       lifts;   // has let go: its rim comes to rest
     bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
     double     firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
@@ -130,7 +132,7 @@ struct DpSim
     DpGait    cast;    // its walkers, limbs, parts and soles
     double    datum;   // of the terrain, from which heights count                       [m]
     int*      part_of_limb;
-    int       limb_parts;   // as many as any limb has
+    int       limb_parts;   // as many as any limb has, in all poses of a step
     DpMesh*   worker_sole;  // room of every worker for the soles and poses of one limb
     DpPose*   worker_pose;
 
@@ -208,6 +210,19 @@ bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still t
 // sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody presses
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
 void     dp_pressing_clear(DpSim* sim);
+
+// sim_lay.c: what its sole has displaced, and what still waits, is laid around the imprint in the scratch; threshold: of
+// TRAIL (13) [N]
+DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                     const DpFootForce* foot, double volume, double threshold);
+
+#define DP_CARVE_STEPS 128  // poses of a body between two samples, at most
+
+// sim_carve.c: how far a body that carves goes into the surface at most in an interval, 0 where it stays over it [m];
+// one's step on its patch
+double   dp_carve_depth(const DpSim* sim, const Limb* limb, int sample);
+DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                       int sample);
 
 // sim_release.c: what no sole stands on any more comes back, on the cells of limbs that are active, or of one
 DpStatus dp_release_step(DpSim* sim, int sample);

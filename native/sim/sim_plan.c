@@ -9,7 +9,11 @@
 #define SPILL_GROWTH \
     1.5  // .. so many times more, after a step whose loose soil wanted to go farther
 #define BULGE_REACH 4.0  // widths of a bulge, beyond which it is level
-#define HEAP_SPARE 4     // cells beyond the foot of the heap
+#define HEAP_OF_DEPTH \
+    0.7                   // a body so deep leaves at once a heap no higher than this share of it ..
+#define HIGHEST_HEAP 1.0  // .. nor than this [m]
+#define CARVED_MARGIN 0.7  // what is cut may be pushed so much farther than what is pressed [m]
+#define HEAP_SPARE 4       // cells beyond the foot of the heap
 
 // how far soles may slip on any of the soils [m]
 static double slips(const DpSim* sim)
@@ -38,14 +42,18 @@ static bool presses_from(const DpSim* sim, const Limb* limb, int sample)
 // What a limb does in the interval from `sample` to the next, and on which cells.
 static void plan_limb(DpSim* sim, Limb* limb, int sample)
 {
-    const bool presses = presses_from(sim, limb, sample);
+    const bool   carves = limb->law == DP_CONTACT_CARVE;
+    bool         presses = presses_from(sim, limb, sample);
+    const double depth = presses && carves ? dp_carve_depth(sim, limb, sample) : 0.0;
+    if (carves && !(depth > 0.0)) presses = false;
     limb->lifts = (limb->stands || limb->flows) && !presses;
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;
     limb->firm = limb->loose = limb->laid = limb->deepest = 0.0;
     limb->loosened = limb->rebounded = 0.0;
-    if (presses && !limb->stands) {
+    limb->begins = presses && !limb->stands;
+    if (limb->begins) {
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
         limb->margin = HEAP_MARGIN;
@@ -60,8 +68,9 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
             slope = fmin(slope, tan((double)dp_terrain_soils(sim->terrain)[s].rest_angle));
         const bool   paper = sim->options.heap_law == DP_HEAP_PAPER;
         const double rim = paper ? sim->options.rim_width : 0.0;
-        const double spread = fmax(1.25 * limb->heap_height / slope, fmax(rim, bulges(sim))) +
-                              HEAP_SPARE * sim->grid.cell;
+        const double heap =
+            fmax(1.25 * limb->heap_height, fmin(HEAP_OF_DEPTH * depth, HIGHEST_HEAP)) / slope;
+        const double spread = fmax(heap, fmax(rim, bulges(sim))) + HEAP_SPARE * sim->grid.cell;
         if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
         limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, spread) + slips(sim));
     } else {
@@ -165,7 +174,7 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
         Limb* limb = &sim->limb[l];
         if (!limb->active || dp_cells_empty(limb->patch)) continue;
         DpStatus status = dp_terrain_touch(sim->terrain, limb->patch);
-        if (status == DP_OK && sim->options.law == DP_CONTACT_UNIFORM && !limb->lifts)
+        if (status == DP_OK && limb->law == DP_CONTACT_UNIFORM && !limb->lifts)
             status = meet(sim, limb);
         if (status != DP_OK) return status;
     }
@@ -179,12 +188,13 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
     const double margin =
         3 * fmax(HEAP_MARGIN, fmax(rim, bulges(sim))) + slips(sim) + dp_stage_margin(sim);
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
-        const Limb* limb = &sim->limb[l];
-        int         first, end;
+        const Limb*  limb = &sim->limb[l];
+        const double more = limb->law == DP_CONTACT_CARVE ? CARVED_MARGIN : 0.0;
+        int          first, end;
         for (int n = 0; dp_motion_stay(sim->motion, limb->walker, n, &first, &end); ++n)
             for (int k = first; k < end && k + 1 < dp_motion_samples(sim->motion); ++k)
                 if (presses_from(sim, limb, k))
-                    cells = dp_cells_join(cells, dp_limb_cells(sim, limb, k, margin));
+                    cells = dp_cells_join(cells, dp_limb_cells(sim, limb, k, margin + more));
     }
     bounds[0] = cells.i0, bounds[1] = cells.i1, bounds[2] = cells.j0, bounds[3] = cells.j1;
 }

@@ -6,7 +6,6 @@
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
-#define BORDER_RINGS 1
 #define SLIDING_SWEEPS \
     16                    // of one step: slides take time; all comes to rest when the foot has left
 #define FLOW_REACH 0.1    // what slides goes so far in a soil's flow_time [m]
@@ -85,7 +84,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     if (status != DP_OK) return status;
 
     DpPressed pressed;
-    status = dp_soil_compress(patch, &scratch->imprint, &foot, sim->options.law, dt, &pressed);
+    status = dp_soil_compress(patch, &scratch->imprint, &foot, limb->law, dt, &pressed);
     if (status != DP_OK) return status;
     if (pressed.area <= 0.0) {
         limb->off_ground =
@@ -98,20 +97,26 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     limb->loose += pressed.loose;
     limb->deepest = fmax(limb->deepest, pressed.deepest);
 
-    const double volume = pressed.displaced + limb->unlaid;
-    if (volume <= 0.0) return DP_OK;
     const DpSoil* soil = soil_under(patch, foot.point);
     const double  half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
-    const DpHeapOptions heap = {
-        sim->options.heap_law, sim->options.rim_width,
-        soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight};
-    dp_imprint_rings(&scratch->imprint, patch, BORDER_RINGS);
-    status = dp_soil_accumulate(patch, &scratch->imprint, &foot, volume, &heap, &limb->heap_height,
-                                scratch->soil_scratch);
-    const bool laid = status == DP_OK;
-    limb->unlaid = laid ? 0.0 : volume;  // no border cell in reach: it waits for one
-    if (laid) limb->laid += volume;
-    return status == DP_NO_GROUND ? DP_OK : status;
+    return dp_limb_lay(sim, limb, patch, scratch, &foot, pressed.displaced,
+                       soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight);
+}
+
+// The steps of a sole in an interval; the last leaves its imprint.
+static DpStatus press_in_turn(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                              int sample)
+{
+    const int    substeps = dp_limb_substeps(sim, limb, sample);
+    const double dt = (dp_sim_interval(sim, sample)) / substeps;
+    DpStatus     status = DP_OK;
+    scratch->imprint.met = met_on(patch, limb, scratch);
+    for (int u = 0; u < substeps && status == DP_OK; ++u) {
+        status = dp_pressing_open(&sim->pressing[limb - sim->limb], limb, patch);
+        if (status == DP_OK)
+            status = press(sim, limb, patch, scratch, sample, (u + 0.5) / substeps, dt);
+    }
+    return status;
 }
 
 static const DpSoil* middle_soil(const DpSoilPatch* patch)
@@ -137,16 +142,10 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     DpStatus status = dp_limb_fit(scratch, patch);
     if (status != DP_OK) return status;
 
-    Pressing*    pressing = &sim->pressing[limb - sim->limb];
-    const int    substeps = dp_limb_substeps(sim, limb, sample);
-    const double dt = (dp_sim_interval(sim, sample)) / substeps;
+    Pressing* pressing = &sim->pressing[limb - sim->limb];
     scratch->imprint.i0 = scratch->imprint.i1 = 0;
-    scratch->imprint.met = met_on(patch, limb, scratch);
-    for (int u = 0; u < substeps && status == DP_OK; ++u) {
-        status = dp_pressing_open(pressing, limb, patch);
-        if (status == DP_OK)
-            status = press(sim, limb, patch, scratch, sample, (u + 0.5) / substeps, dt);
-    }
+    status = limb->law == DP_CONTACT_CARVE ? dp_limb_carve(sim, limb, patch, scratch, sample)
+                                           : press_in_turn(sim, limb, patch, scratch, sample);
     if (status != DP_OK) return status;
 
     DpSettled  settled;

@@ -30,8 +30,9 @@ void                         dp_soil_scratch_destroy(DpSoilScratch* scratch);
 
 typedef enum DpContactLaw
 {
-    DP_CONTACT_SOLE = 0,    // a rigid sole on springs, one sink for the limb (ours; MODEL 6.2)
-    DP_CONTACT_UNIFORM = 1  // one stress for all touched cells, as in the papers
+    DP_CONTACT_SOLE = 0,     // a rigid sole on springs, one sink for the limb (ours; MODEL 6.2)
+    DP_CONTACT_UNIFORM = 1,  // one stress for all touched cells, as in the papers
+    DP_CONTACT_CARVE = 2     // down to where the body is, whatever it weighs (MODEL 6.11)
 } DpContactLaw;
 
 // What one step of pressing did.
@@ -46,13 +47,36 @@ typedef struct DpPressed
     double deepest;    // largest compression of a touched cell                 [m]   >= 0
 } DpPressed;
 
-// Press the sole into the patch for dt seconds with the force's part along -normal.
+// By the laws of a sole, not DP_CONTACT_CARVE: press the sole into the patch for dt seconds with the force's part along -normal.
 // Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap
 // and pressure_time of touched cells only. Loose heap is used up before firm ground yields.
 // What of the sole stands over no ground carries its share of the load all the same, and presses nothing.
 // With no load, or no ground under the sole: nothing touched, all zero, DP_OK.
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed);
+
+// How far a body has come down in a step: each point of it, which is now at (x, y, z), by
+// at + along_x (x - x_m) + along_y (y - y_m) + along_z z, (x_m, y_m) the middle of the patch; less than 0: it has risen.
+typedef struct DpDescent
+{
+    double at;                         // [m]
+    double along_x, along_y, along_z;  // [m per m]
+} DpDescent;
+
+// What one step of carving did.
+typedef struct DpCarved
+{
+    DpPressed pressed;              // sink is 0; area is that of the body's contact
+    double    cut_firm, cut_loose;  // volume in its way, to be laid down ahead [m^3] >= 0
+    double    x, y;                 // middle of the contact [m]
+} DpCarved;
+
+// Push the surface down to a body wherever it stands above the underside. Of what a column loses it is pressed by no more
+// than the body has come down there; the rest was cut, as by a plough. imprint: all that the body was in since the last
+// step. Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap and pressure_time
+// of touched cells only. Pressure is what the columns would press back with, E/L0 times their depth.
+DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* descent, double dt,
+                       DpCarved* carved);
 
 // Where no sole stands any more, a share of the depth comes back; imprint as the step left it, NULL: nobody stands.
 // Changes compression and spring. @return the volume that has come back [m^3] >= 0
@@ -87,6 +111,9 @@ typedef struct DpHeapOptions
     DpHeapLaw law;
     double    rim_width;  // `paper`: how wide the rim is, at least one cell [m] > 0
     double    threshold;  // F_threshold, TRAIL (13)                      [N] > 0
+    bool
+        outward;  // u_k of TRAIL (11) is away from the touched cells beside the border cell, as what
+                  //   is cut is pushed; else from the centre of pressure
 } DpHeapOptions;
 
 // Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,

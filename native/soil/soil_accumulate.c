@@ -60,6 +60,7 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
           .dir_y = dir.y,
           .from_x = (foot->point.x - patch->x0) / patch->cell,
           .from_y = (foot->point.y - patch->y0) / patch->cell,
+          .outward = options->outward ? imprint : NULL,
     };
     if (!isfinite(shares.beta) || !isfinite(shares.from_x) || !isfinite(shares.from_y))
         return DP_BAD_ARGUMENT;

@@ -313,7 +313,8 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed)
 {
-    if (!soil_patch_ok(patch) || !imprint || !foot || !pressed || !(dt > 0.0) || !isfinite(dt))
+    if (!soil_patch_ok(patch) || !imprint || !foot || !pressed || !(dt > 0.0) || !isfinite(dt) ||
+        law == DP_CONTACT_CARVE)
         return DP_BAD_ARGUMENT;
     const double load = -dp_dot(foot->force, foot->normal);
     if (!isfinite(load)) return DP_BAD_ARGUMENT;

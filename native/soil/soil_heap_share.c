@@ -19,13 +19,32 @@ static double ahead_of(const HeapShares* shares, int i, int j)
     return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
 }
 
+// the same with u away from the touched cells around a border cell
+static double outward_of(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
+{
+    int x = 0, y = 0;
+    for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+            const bool inside =
+                i + di >= 0 && i + di < patch->nx && j + dj >= 0 && j + dj < patch->ny;
+            if (!inside || shares->outward->ring[soil_at(patch, i + di, j + dj)] != 0) continue;
+            x -= di, y -= dj;
+        }
+    if (x == 0 && y == 0) return 0.0;
+    const double far = sqrt((double)(x * x + y * y));
+    return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
+}
+
 double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
 {
     if (shares->even && !patch->uneven) return 1.0;
     const double coarse = ldexp(1.5, 52 - 30);
     double       share = 1.0;
-    if (!shares->even)
-        share = shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+    if (!shares->even) {
+        const double ahead =
+            shares->outward ? outward_of(shares, patch, i, j) : ahead_of(shares, i, j);
+        share = shares->beta * ahead + (1.0 - shares->beta);  // TRAIL (12)
+    }
     if (patch->uneven)
         share *= dp_noise_growth(RIM_SHARE * (double)patch->uneven[soil_at(patch, i, j)]);
     return soil_on_grid(share, coarse);

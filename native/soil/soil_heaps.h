@@ -9,6 +9,8 @@ typedef struct HeapShares
     double dir_x, dir_y;    // of the push                      [-]
     double from_x, from_y;  // centre of pressure, in cells of the patch
     bool   even;            // no border cell lies ahead: all share alike
+    const DpImprint*
+        outward;  // u_k is away from its touched cells; NULL: from the centre of pressure
 } HeapShares;
 
 // omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12); MODEL 6.7.

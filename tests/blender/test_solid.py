@@ -180,3 +180,52 @@ def test_who_is_no_rigid_body_is_told_what_to_do(folder):
     meshes.activate(empty)
     refused(bpy.ops.object.desire_path_walker_add, "no faces")
     assert chosen.walkers(bpy.context.scene, ground) == []
+
+
+def ball(radius=0.2, name="Ball"):
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=48, radius=radius)
+    obj = bpy.context.object
+    obj.name = name
+    return obj
+
+
+def test_a_ball_moved_a_hand_deep_leaves_that_whatever_it_weighs(folder):
+    """Within 2 mm of 100 mm: its underside is round, and a cell of 2 cm holds the mean of it."""
+    ground, obj = sand(folder, size=2.0), ball()
+    for frame, z in ((1, 0.25), (10, 0.1), (15, 0.1), (24, 0.5)):
+        key(obj, frame, location=(0.013, 0.007, z))
+    for mass, law in ((1.0, "CARVE"), (20.0, "CARVE"), (75.0, "AUTO")):
+        obj.desire_path.contact_law = law
+        report, depth, at = pressed_by(obj, ground, folder, mass=mass)
+        assert report["contacts"] == 1, report
+        assert abs(report["deepest_m"] - 0.1) < 0.002, (mass, law, report["deepest_m"])
+        assert any("carves" in each for each in report["warnings"]) == (law == "AUTO"), report["warnings"]
+        assert report["parameters"]["walkers"] == ["Ball"]
+
+
+def test_what_its_weight_carries_is_not_carved(folder):
+    """By weight a ball of 1 kg that is moved a hand deep leaves a few millimetres."""
+    ground, obj = sand(folder, size=2.0), ball()
+    for frame, z in ((1, 0.25), (10, 0.1), (30, 0.1)):
+        key(obj, frame, location=(0.013, 0.007, z))
+    obj.desire_path.contact_law = "SOLE"
+    report, _, _ = pressed_by(obj, ground, folder, mass=1.0)
+    assert 0.0 < report["deepest_m"] < 0.02
+
+
+def test_an_open_mesh_carves_and_one_over_the_ground_is_told(folder):
+    ground = sand(folder, size=2.0)
+    bpy.ops.mesh.primitive_plane_add(size=0.5)
+    plate = bpy.context.object
+    plate.name = "Plate"
+    for frame, z in ((1, 0.1), (10, -0.03), (20, 0.3)):
+        key(plate, frame, location=(0.0, 0.0, z))
+    report, _, _ = pressed_by(plate, ground, folder, mass=0.0)
+    assert abs(report["deepest_m"] - 0.03) < 0.001
+    for layer in people_curves(plate):
+        for point in layer.keyframe_points:
+            point.co.y += 0.05 if layer.array_index == 2 else 0.0
+            point.handle_left.y += 0.05 if layer.array_index == 2 else 0.0
+            point.handle_right.y += 0.05 if layer.array_index == 2 else 0.0
+    report, _, _ = pressed_by(plate, ground, folder, mass=0.0)
+    assert report["deepest_m"] == 0.0 and any("stays over the ground" in each for each in report["warnings"])

@@ -159,7 +159,7 @@ def test_windows_of_more_cells_than_there_are_numbers_for_are_refused(shape):
 
 def test_laws_that_there_are_not_are_refused():
     soils = [{}]
-    for law, heap in ((2, 0), (-1, 0), (0, 7)):
+    for law, heap in ((3, 0), (-1, 0), (0, 7)):
         with pytest.raises(ValueError, match="law, heap"):
             _native.Simulation(("flat", 0.0), soils, 0.02, (0.0, 0.0), law, heap)
 

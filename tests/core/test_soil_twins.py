@@ -169,6 +169,24 @@ def test_compress_trail_10_soft22_11(seed, law):
     assert firm > 0
 
 
+@pytest.mark.parametrize("descent", ((1e6, 0, 0, 0), (0.004, 0, 0, 0), (0.001, 0.02, -0.03, 0.1), (-0.1, 0, 0, 0)))
+@pytest.mark.parametrize("seed", range(3))
+def test_carve(seed, descent):
+    both = Both(seed)
+    bottom, cover = both.sole()
+    ring = np.zeros(both.shape, np.int32)
+    for lower in (0.0, 0.01, -0.01, 0.03):
+        low = bottom - np.float32(lower)
+        carved = _native.soil_carve(both.patch(), (low, cover, ring), descent, 0.01)
+        touched, *volumes = twin.carve(both.twin, low.astype(float), cover.astype(float), descent)
+        assert np.array_equal(ring == 0, touched)
+        for name, volume in zip(("firm", "loose", "displaced", "cut_firm", "cut_loose"), volumes):
+            assert carved[name] == pytest.approx(volume, rel=1e-4, abs=1e-9), name
+        both.same("compression", 3e-7)
+        both.same("heap", 3e-7)
+    assert both.native["compression"].max() > 0.02
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_the_load_is_carried(seed):
     both = Both(seed, holes=False)

@@ -177,6 +177,38 @@ def compress(patch, bottom, cover, load, dt, law="sole"):
     return touched, firm, loose, displaced, sink
 
 
+def carve(patch, bottom, cover, descent):
+    """One step of a body that goes where it is moved to, MODEL 6.11. descent: how far it came down at (x, y, z), as
+    four numbers about the middle of the patch. Returns (touched, firm, loose, displaced, cut_firm, cut_loose)."""
+    ny, nx = cover.shape
+    touched = np.zeros(cover.shape, bool)
+    firm = loose = displaced = cut_firm = cut_loose = 0.0
+    for j in range(ny):
+        for i in range(nx):
+            a, rest = cover[j, i], patch["rest"][j, i]
+            if not a or math.isnan(rest):
+                continue
+            below = rest - bottom[j, i]
+            goal = a * below if below > 0 else below / a
+            over = goal - (patch["compression"][j, i] - patch["heap"][j, i])
+            touched[j, i] = over > -5e-4
+            if over <= 0:
+                continue
+            x, y = (i - 0.5 * (nx - 1)) * patch["cell"], (j - 0.5 * (ny - 1)) * patch["cell"]
+            came = descent[0] + descent[1] * x + descent[2] * y + descent[3] * bottom[j, i]
+            pressed = min(a * max(came, 0.0), over)
+            share = 1.0 - pressed / over if over - pressed > 1e-7 else 0.0  # that was cut
+            b = min(over, patch["heap"][j, i])
+            c = over - b
+            patch["heap"][j, i] -= b
+            patch["compression"][j, i] += c
+            firm, loose = firm + (1 - share) * c, loose + (1 - share) * b
+            displaced += pushed_aside((1 - share) * c, patch["nu"][j, i]) + (1 - share) * b
+            cut_firm, cut_loose = cut_firm + share * c, cut_loose + share * b
+    area = patch["cell"] ** 2
+    return touched, firm * area, loose * area, displaced * area, cut_firm * area, cut_loose * area
+
+
 # ---- ours: how heaps are laid, MODEL 6.3 --------------------------------------------------------
 
 

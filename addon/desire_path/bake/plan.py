@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,7 +15,7 @@ from ..errors import DesirePathError
 from ..ground.parcels import Parcel
 from ..ground.soil_keys import rows
 from ..motion import jumps, size, tracks
-from ..motion.gait import Gait
+from ..motion.gait import AUTO, Gait
 from ..placement.passes import turns_of
 from ..rig.sole import coarse_cells
 from ..version import VERSION
@@ -37,7 +38,11 @@ class Plan:
     def __init__(
         self, gait: Gait, parcels: list[Parcel], cell_size: float, options: BakeOptions, output: BakeOutput
     ) -> None:
-        self.gait = gait = jumps.found(gait.check())
+        gait = gait.check()
+        if options.law == "carve":
+            laws = gait.contact_law or (AUTO,) * len(gait.mass)
+            gait = replace(gait, contact_law=tuple("carve" if law == AUTO else law for law in laws))
+        self.gait = gait = jumps.found(gait)
         self.options, self.output = options, output
         self.passes = _passes(gait)
         self.film = output.film or FILMS[len(self.passes) > 1]
@@ -176,6 +181,8 @@ class Plan:
             gait.jump,
             gait.leg,
         ]
+        if gait.contact_law:
+            digest.update(repr(gait.contact_law).encode())
         for sole in gait.soles:
             arrays += [sole.vertices, sole.triangles]
         for parcel in self.parcels:

@@ -16,7 +16,7 @@ from ..ground import mesh, parcels
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, ground, paths, plants, reach, sample
+from . import axes, bodies, ground, paths, plants, reach, sample
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 
@@ -51,6 +51,7 @@ def taken(scene, company, folders, **more):
             each.desire_path.place_feet for each in walkers
         ):
             gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
+    gait = bodies.laws(walkers, gait, lambda: _land(found, gait, cell))
     gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell)))
     origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
     if len(found) > 1 and any(ground.smooth(each.vertices, cell, origin) for each in found.values()):
@@ -121,6 +122,7 @@ def marks(obj, company, made, found):
         gait.point_role,
         gait.cut,
     ]
+    laws = repr(gait.contact_law) if gait.contact_law else ""
     for each in gait.soles:
         walk += [each.vertices, each.triangles]
     plantings = sorted(
@@ -144,7 +146,7 @@ def marks(obj, company, made, found):
         sum(each.desire_path.place_feet for each in company.walkers),
     ]
     return {
-        "walk": mesh.mark(walk, [f"{mass:.9g}" for mass in gait.mass]),
+        "walk": mesh.mark(walk, [*(f"{mass:.9g}" for mass in gait.mass), *filter(None, [laws])]),
         "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
         "plants": mesh.mark(grown, [planting.parameters() for planting in plantings]),
         "settings": mesh.mark((), chosen),

@@ -4,8 +4,9 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ..errors import DesirePathError
+from ..ground.sim import Ground, Simulation
 from ..rig import rigs
-from . import axes, moves, plants, sample
+from . import axes, bodies, ground, moves, plants, sample
 from .chosen import WALKERS, grounds, walkers
 from .ops import AsksFirst, Refusal, active
 from .show import free
@@ -201,6 +202,15 @@ class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _land(scene, obj, gait, first):
+    """The ground of a walker as it is to be asked for heights; without one: flat at 0."""
+    on = obj.desire_path.ground
+    if on is None:
+        return Simulation(Ground.flat())
+    cell = axes.typed(on.desire_path.cell_size)
+    return ground.land(ground.read(scene, on, cell, first, box=ground.under(gait)), cell)
+
+
 class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
     """Write what the active walker does to a file that bakes without Blender"""
 
@@ -230,6 +240,7 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
         else:
             first, last = moves.frame_range(scene, obj)
         gait = sample.record(scene, obj, first, last)
+        gait = bodies.laws([obj], gait, lambda: _land(scene, obj, gait, first))
         path = bpy.path.abspath(self.filepath)
         gait.save(path)
         for each in gait.warnings:

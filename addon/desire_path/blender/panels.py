@@ -234,6 +234,7 @@ def draw_walker(layout, context, obj):
         way.prop(settings, "scatter")
         way.prop(settings, "path_seed")
         way.prop(settings, "back_and_forth")
+    column.prop(settings, "contact_law")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")
     row = layout.row(align=True)

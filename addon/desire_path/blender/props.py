@@ -298,6 +298,16 @@ class DesirePathSettings(bpy.types.PropertyGroup):
             ("impulse", "Impulse", "Weight, and an impulse at every touch-down"),
         ),
     )
+    contact_law: EnumProperty(
+        name="Presses",
+        description="How the walker presses the ground",
+        items=(
+            ("AUTO", "Automatic", "As the ground says; a mesh that is moved into the ground goes where it is moved to"),
+            ("SOLE", "By Weight", "As a rigid sole that its weight presses"),
+            ("CARVE", "Carve", "Down to where it is, whatever it weighs, and what is in its way is pushed ahead"),
+            ("UNIFORM", "Even Pressure", "The same pressure everywhere under it"),
+        ),
+    )
     subframes: IntProperty(
         name="Subframes",
         default=1,

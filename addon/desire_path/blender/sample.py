@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import DesirePathError
-from ..motion.gait import Gait
+from ..motion.gait import AUTO, Gait
 from ..rig import body, mass, rigs, solid
 from ..rig.foot import FootShape
 from . import axes, clock, compat, playback, ride
@@ -258,7 +258,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         ),
     )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
-    return replace(gait, warnings=size + gait.warnings + told + rode)
+    law = (settings.contact_law.lower(),)
+    return replace(gait, warnings=size + gait.warnings + told + rode, contact_law=law)
 
 
 def _solid(scene, obj, frames, samples, rate, scale):
@@ -291,7 +292,7 @@ def _solid(scene, obj, frames, samples, rate, scale):
         told.append(
             f"'{obj.name}' changes its shape or size between the frames: it presses as it is at frame {frames[0]:g}."
         )
-    kilograms, estimated = _solid_weight(obj, vertices, faces)
+    kilograms, estimated, law = _solid_weight(obj, vertices, faces)
     time = (np.asarray(frames) - frames[0]) / rate
     gait = solid.gait_from_solid(
         time,
@@ -303,7 +304,7 @@ def _solid(scene, obj, frames, samples, rate, scale):
         options=solid.SolidOptions(obj.name, round(frames[0]), told + estimated),
     )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
-    return replace(gait, warnings=gait.warnings + rode)
+    return replace(gait, warnings=gait.warnings + rode, contact_law=(law,))
 
 
 def _shape(found):
@@ -312,17 +313,21 @@ def _shape(found):
 
 
 def _solid_weight(obj, vertices, faces):
-    """(mass [kg], sentences about it) of a rigid body; mass 0 is estimated from its volume."""
+    """(mass [kg], sentences about it, contact law) of a rigid body; mass 0 is estimated from its volume, and what has
+    none carves, unless it is to press by its weight."""
     settings = obj.desire_path
+    law = settings.contact_law.lower()
     if settings.mass > 0.0:
-        return axes.typed(settings.mass), []
+        return axes.typed(settings.mass), [], law
     volume = solid.centre(vertices, faces)[1] if len(faces) else 0.0
+    if law == "carve" or not volume > 0.0 and law == AUTO and len(faces):
+        return mass.DENSITY * volume or 1.0, [], "carve"
     if not volume > 0.0:
         raise DesirePathError(
             f"The mass of '{obj.name}' cannot be estimated, since its mesh is not closed: give it a mass in kilograms."
         )
     settings.estimated_mass = mass.DENSITY * volume
-    return mass.DENSITY * volume, [mass.sentence_by_volume(obj.name, mass.DENSITY * volume, volume)]
+    return mass.DENSITY * volume, [mass.sentence_by_volume(obj.name, mass.DENSITY * volume, volume)], law
 
 
 def simulated(obj):

@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..motion.recording import AUTO, CONTACT_LAWS
 from ..motion.tracks import TrackArray
 
 if TYPE_CHECKING:
     from ..loads.force import FootForce
     from ..motion.gait import Gait
 
+ANY = 255  # DP_LAW_ANY in native/base/types.h
 HELD = 128  # DP_HELD in native/sim/sim.h, added to what touches
 
 
@@ -29,6 +31,13 @@ def cast_of(gait: Gait) -> tuple[np.ndarray, ...]:
         np.ascontiguousarray(triangles),
         np.array([len(sole.triangles) for sole in gait.soles], np.int32),
     )
+
+
+def laws_of(gait: Gait) -> np.ndarray | None:
+    """DpContactLaw of each walker (W,); None: all press as the simulation says."""
+    if not gait.contact_law:
+        return None
+    return np.array([ANY if law == AUTO else CONTACT_LAWS.index(law) for law in gait.contact_law], np.uint8)
 
 
 def pressing_of(touching: np.ndarray, held: np.ndarray | None) -> np.ndarray:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from ..bounds import Limits
 from ..errors import DesirePathError
+from ..motion.recording import CONTACT_LAWS
 
-LAWS = ("sole", "uniform")  # how a sole presses: one sink for the limb | one stress, as in TRAIL (10)
+LAWS = CONTACT_LAWS[:2]  # how a sole presses by its load: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
 MAX_THREADS = 64
 FARTHEST = 1e7  # cells may begin from the origin of the scene [m]
@@ -18,7 +19,7 @@ FARTHEST = 1e7  # cells may begin from the origin of the scene [m]
 class SimulationOptions:
     """What a Simulation goes by; DesirePathError when it is made of what cannot be."""
 
-    law: str = "sole"  # how a sole presses, one of LAWS
+    law: str = "sole"  # how walkers press that do not say it themselves (Gait.contact_law), one of CONTACT_LAWS
     heap: str = "rest"  # how displaced soil is laid, one of HEAPS
     rim_width: float = 0.04  # of the rim of a "paper" heap [m] > 0
     origin: tuple[float, float] = (0.0, 0.0)  # where cells begin [m]
@@ -26,8 +27,8 @@ class SimulationOptions:
     limits: Limits = Limits()  # how many plants, and how much memory for them
 
     def __post_init__(self) -> None:
-        if self.law not in LAWS:
-            raise DesirePathError(f"There is no contact law '{self.law}': choose {' or '.join(LAWS)}.")
+        if self.law not in CONTACT_LAWS:
+            raise DesirePathError(f"There is no contact law '{self.law}': choose {' or '.join(CONTACT_LAWS)}.")
         if self.heap not in HEAPS:
             raise DesirePathError(f"There is no heap law '{self.heap}': choose {' or '.join(HEAPS)}.")
         try:

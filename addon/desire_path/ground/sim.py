@@ -18,10 +18,11 @@ from numpy.typing import ArrayLike
 from ..core import _native
 from ..errors import DesirePathError
 from ..keywords import fields_of
+from ..motion.recording import CONTACT_LAWS
 from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import rectangle_cells, state_file, trail
-from .cast import cast_of, pressing_of, tracks_of
+from .cast import cast_of, laws_of, pressing_of, tracks_of
 from .fields import FIELDS, LEAN
 from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
@@ -96,7 +97,7 @@ class Simulation:
                 soil_numbers(now),
                 self.cell_size,
                 self.origin,
-                LAWS.index(options.law),
+                CONTACT_LAWS.index(options.law),
                 HEAPS.index(options.heap),
                 options.rim_width,
                 100000,
@@ -233,11 +234,12 @@ class Simulation:
         held = getattr(loads, "held", None)
         if isinstance(gait.pose, TrackArray):
             track, poses, pressing = tracks_of(gait, loads, held)
-            self._core.load_tracks(time, mass, *cast, track, poses, *pressing)
+            self._core.load_tracks(time, mass, *cast, track, poses, *pressing, laws_of(gait))
         else:
             touching = pressing_of(np.asarray(loads.touching), None if held is None else np.asarray(held))
             force, point = np.ascontiguousarray(loads.force), np.ascontiguousarray(loads.point)
-            self._core.load(time, mass, np.ascontiguousarray(gait.pose), *cast, touching, force, point)
+            pose = np.ascontiguousarray(gait.pose)
+            self._core.load(time, mass, pose, *cast, touching, force, point, laws_of(gait))
         if self.plantings:
             self._plant_reach()
 
@@ -248,7 +250,7 @@ class Simulation:
         their own are there, since nobody knows where the walk will go.
         """
         time, *cast = cast_of(gait)
-        self._core.load_live(time[:0], *cast)
+        self._core.load_live(time[:0], *cast, laws_of(gait))
 
     def push(
         self,

@@ -26,12 +26,14 @@ T = TypeVar("T")
 
 def _spans(gait: Gait) -> Iterator[tuple[np.ndarray, int, int]]:
     """(walkers, first sample, sample after the last) of each piece; who jumps has pieces of its own. From a pose
-    that stands alone nothing can be told."""
+    that stands alone nothing can be told. Who carves is asked for no forces."""
+    carving = gait.carving()
     jumpers = np.unique(gait.jump[:, 1])
     others = np.setdiff1d(np.arange(len(gait.mass)), jumpers)
     for who in [others, *jumpers[:, None]]:
         for first, after in gait.pieces(gait.cuts_of(who)):
             there = np.intersect1d(gait.there(first, after), who)
+            there = there[~carving[there]]
             if len(there) and (after - first > 1 or len(gait.time) == 1):
                 yield there, first, after
 
@@ -99,6 +101,8 @@ def let_go(gait: Gait, touching: Array) -> None:
 
 def middle(clearance: Sequence[np.ndarray], points: int) -> np.ndarray:
     """Clearance of each point (K,) over all pieces; 0 where none knows."""
+    if not clearance:
+        return np.zeros(points)
     pieces = np.array(clearance).reshape(-1, points)
     pieces[:, ~np.isfinite(pieces).any(axis=0)] = 0.0
     return np.asarray(np.nanmedian(pieces, axis=0))

@@ -17,6 +17,7 @@ from ..motion.gait import Gait
 from ..motion.points import point_places
 from ..tables import Number, check_some, table
 from .below import GivenHeights, GroundHeights, Heights, carried_on, ground_below, heights_of, off_ground, on_even
+from .carving import carved
 from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, off, sinks, slides, weigh
 from .force import ELSEWHERE, GRAVITY, PRESSES, FootForce, native_gait, write_loads
 from .times import RATE, at_times, even_rate, frame_rate_of, nearest
@@ -136,6 +137,7 @@ def loads(
     tau [s], of the soil that is landed on: a number, or a function of places (n, 2) [m] that tells it (n,);
     half_sine spreads the landing as a half-sine). ground: see ground_below. cell: of the ground's grid [m], by which
     nothing finer can be told apart.
+    Walkers whose contact law is "carve" have no forces: they touch where they are near the ground.
     What stands on something that is not the ground (a box, a deck, stairs that were left out) is carried there: its
     force is told, and `touching` is ELSEWHERE.
     """
@@ -154,7 +156,7 @@ def loads(
                 return problem
             raise
 
-    found = together(gait, each_found(turns_of(gait, ground), find, ground))
+    found = carved(gait, ground, together(gait, each_found(turns_of(gait, ground), find, ground)))
     return replace(found, warnings=gait.warnings[before:] + found.warnings)
 
 

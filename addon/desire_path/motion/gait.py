@@ -20,14 +20,14 @@ from ..errors import DesirePathError
 from ..files import atomic_file, npz
 from ..keywords import fields_of
 from . import freeze, size, tracks
-from .recording import BALL, HEEL, NAMES, NUMBERS, TIP, Recording, Sole
+from .recording import AUTO, BALL, CONTACT_LAWS, HEEL, NAMES, NUMBERS, TIP, Recording, Sole
 from .scatter import Scatter
 from .tracks import TrackArray
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["BALL", "HEEL", "TIP", "Gait", "Sole"]
+__all__ = ["AUTO", "BALL", "CONTACT_LAWS", "HEEL", "TIP", "Gait", "Sole"]
 
 # what carries a recording elsewhere knows recordings: Gait.carried and Gait.along only name it
 _cycle = lazy.module("..placement.cycle", __package__)
@@ -51,6 +51,8 @@ class Gait(Recording):
         for name in _TEXTS:
             arrays[name] = np.array(getattr(self, name), dtype="U")
         arrays["cut"], arrays["jump"], arrays["leg"] = self.cut, self.jump, self.leg
+        if self.contact_law:
+            arrays["contact_law"] = np.array(self.contact_law, dtype="U")
         arrays["version"] = np.array(_VERSION)
         if isinstance(self.com, TrackArray):  # only those who are there
             arrays["version"] = np.array(_TRACKS)
@@ -99,6 +101,7 @@ class Gait(Recording):
                 cut=arrays.get("cut", none),
                 jump=arrays.get("jump", none),
                 leg=arrays.get("leg", none),
+                contact_law=tuple(arrays["contact_law"].tolist()) if "contact_law" in arrays else (),
                 **wanted,
             )
         except DesirePathError:
@@ -154,6 +157,7 @@ class Gait(Recording):
             warnings=tuple(dict.fromkeys(chain("warnings"))),
             cut=np.unique(np.concatenate([g.cut for g in gaits])),
             jump=np.concatenate([g.jump + (0, before) for g, before in zip(gaits, walkers)]),
+            contact_law=tuple(law for g in gaits for law in g.contact_law or (AUTO,) * len(g.mass)),
             leg=np.concatenate([size.legs(g) for g in gaits]) if any(len(g.leg) for g in gaits) else np.empty(0),
         )
 

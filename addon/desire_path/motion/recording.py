@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 HEEL, BALL, TIP = 0, 1, 2  # point_role
+CONTACT_LAWS = ("sole", "uniform", "carve")  # DpContactLaw in native/soil/soil.h
+AUTO = "auto"  # as the simulation goes by
 
 MAX_FRAME = 1 << 31  # a frame's number may be
 MAX_TIME, MAX_RATE = 1e12, 1e6  # [s], [1/s]
@@ -87,6 +89,7 @@ class Recording(Record):
     cut: np.ndarray = field(default_factory=_nothing)  # samples at which a new piece begins, rising (C,)
     jump: np.ndarray = field(default_factory=_nothing)  # those at which one walker only jumps: sample, walker (J, 2)
     leg: np.ndarray = field(default_factory=_nothing)  # hips to ankles (W,) [m] > 0; empty: size.legs() finds it
+    contact_law: tuple[str, ...] = ()  # how each walker presses: AUTO or one of CONTACT_LAWS (W); empty: AUTO for all
 
     def __post_init__(self) -> None:
         for name, kind, _ in NUMBERS:
@@ -98,6 +101,8 @@ class Recording(Record):
         object.__setattr__(self, "jump", read_only(np.array(self.jump, "i8").reshape(-1, 2)))
         object.__setattr__(self, "leg", read_only(np.array(self.leg, "f8").reshape(-1)))
         object.__setattr__(self, "soles", tuple(self.soles))
+        laws = tuple(str(law) for law in self.contact_law)
+        object.__setattr__(self, "contact_law", laws if set(laws) - {AUTO} else ())
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in NAMES:
             names = tuple(str(n) for n in getattr(self, name))
@@ -140,6 +145,11 @@ class Recording(Record):
     def bone(self, part: int) -> str:
         """The foot bone of a part's limb."""
         return str(self.limb_name[self.part_limb[part]])
+
+    def carving(self) -> np.ndarray:
+        """Which walkers press by "carve" (W,), whatever they weigh."""
+        laws = self.contact_law or (AUTO,) * len(self.mass)
+        return np.array([law == "carve" for law in laws], bool)
 
     # ---- pieces: between two cuts the motion is one ----------------------------------------------
 
@@ -255,6 +265,13 @@ class Recording(Record):
                 )
         if len(self.leg) not in (0, len(self.mass)) or not ((self.leg > 0) & np.isfinite(self.leg)).all():
             raise DesirePathError("The recording's legs have no length above 0 for each walker: record the walk again.")
+        for law in self.contact_law:
+            if law not in (AUTO, *CONTACT_LAWS):
+                raise DesirePathError(f"There is no contact law '{law}': choose {AUTO} or {' or '.join(CONTACT_LAWS)}.")
+        if len(self.contact_law) not in (0, len(self.mass)):
+            raise DesirePathError(
+                f"The recording has {len(self.contact_law)} contact laws for {len(self.mass)} walkers: give each one."
+            )
         for p in range(len(self.part_limb)):
             bad = _broken(self.pose, p, lambda at: ~np.isfinite(at).all(axis=1))
             if bad is not None:
@@ -319,6 +336,7 @@ class Recording(Record):
             mass=self.mass[walkers],
             pose=tracks.some(self.pose, parts),
             leg=self.leg[walkers] if len(self.leg) else _nothing(),
+            contact_law=tuple(self.contact_law[w] for w in walkers) if self.contact_law else (),
             limb_walker=np.searchsorted(walkers, self.limb_walker[limbs]),
             part_limb=np.searchsorted(limbs, self.part_limb[parts]),
             soles=tuple(self.soles[p] for p in parts),

@@ -3,8 +3,8 @@
 #include "check.h"
 #include "ground.h"
 
-static const DpHeapOptions rest = {DP_HEAP_REST, 0.04, 367.0};
-static const DpHeapOptions paper = {DP_HEAP_PAPER, 0.04, 367.0};
+static const DpHeapOptions rest = {DP_HEAP_REST, 0.04, 367.0, false};
+static const DpHeapOptions paper = {DP_HEAP_PAPER, 0.04, 367.0, false};
 
 static DpSoil sand(double degrees)
 {
@@ -199,7 +199,7 @@ TEST(paper_falls_off)
     CHECK(row[39] == 0.0f);
     for (int n = 1; n < 5; ++n) {  // the width is what is said, in metres
         memset(ground.heap, 0, 3600 * sizeof(float));
-        const DpHeapOptions wide = {DP_HEAP_PAPER, 0.01 * n, 367.0};
+        const DpHeapOptions wide = {DP_HEAP_PAPER, 0.01 * n, 367.0, false};
         CHECK(lay(&ground, ground_load(700.0), 1e-4, &wide, &height) == DP_OK);
         CHECK(row[34 + n] > 0.0f && row[35 + n] == 0.0f);
         CHECK_CLOSE(ground_sum(&ground, ground.heap), 1e-4, 1e-6);

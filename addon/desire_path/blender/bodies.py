@@ -1,0 +1,39 @@
+"""bodies.py - how walkers press: as it was chosen, and where nothing was, as a body's motion says."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..motion.points import point_places
+from ..motion.recording import AUTO
+from . import sample
+
+SUNK = 0.02  # what is moved deeper into the ground does not stand on it by its weight [m]
+
+
+def laws(walkers, gait, below):
+    """A recording with the contact law of each walker. A mesh for which none was chosen carves where it is moved into
+    the ground, if no rigid-body simulation lets it lie there.
+
+    below: tells of the Simulation of the ground, when it is asked
+    """
+    chosen, told = [], []
+    for number, obj in enumerate(walkers):
+        law = gait.contact_law[number] if gait.contact_law else AUTO
+        if law == AUTO and obj.type == "MESH" and not sample.simulated(obj):
+            deep = _depth(gait.only([number]), below())
+            if deep > SUNK:
+                law = "carve"
+                told.append(
+                    f"'{obj.name}' is moved {deep:.2f} m deep into the ground: it carves, whatever it weighs. Choose "
+                    "what it presses by in its panel to have it otherwise."
+                )
+        chosen.append(law)
+    return replace(gait, contact_law=tuple(chosen), warnings=gait.warnings + tuple(told))
+
+
+def _depth(gait, below):
+    """How far the contact points of one walker go below the ground at most [m]."""
+    places = point_places(gait).reshape(-1, 3)
+    deep = below.rest_height(places[:, :2]) - places[:, 2]
+    return float(np.nanmax(deep)) if np.isfinite(deep).any() else 0.0

@@ -1,0 +1,167 @@
+// sim/sim_carve.c - a body that goes where it is moved to, through whatever ground is there. SUMNER99, MODEL 6.11
+//
+//   poses between two samples --(lower envelope of all)--> imprint --> pressed and cut --> laid around and ahead
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define PROBES 24     // places along a side of a body's box at which the surface is looked at
+#define PROBED 512    // vertices looked at to tell how fast it moves
+#define LOW_PART 0.5  // of a body's height: what is lower may be in the ground
+#define STILL 1e-6    // what moves by less along the ground in a step pushes nothing ahead [m]
+#define ALL_DOWN 1e6  // as if a body had come down from there: what it meets is pressed [m]
+
+static DpBox joined(DpBox a, DpBox b)
+{
+    return (DpBox){fmin(a.x0, b.x0), fmin(a.y0, b.y0), fmin(a.z0, b.z0),
+                   fmax(a.x1, b.x1), fmax(a.y1, b.y1), fmax(a.z1, b.z1)};
+}
+
+static DpBox box_of(const DpSim* sim, const Limb* limb, int sample, double w)
+{
+    DpBox box = {INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    for (int p = 0; p < limb->part_count; ++p) {
+        const DpMesh* sole = &sim->cast.sole[limb->part[p]];
+        box = joined(box, dp_imprint_box(sole, dp_limb_pose(sim, limb->part[p], sample, w)));
+    }
+    return box;
+}
+
+double dp_carve_depth(const DpSim* sim, const Limb* limb, int sample)
+{
+    const DpBox  box = joined(box_of(sim, limb, sample, 0.0), box_of(sim, limb, sample, 1.0));
+    const double cell = sim->grid.cell, wide = box.x1 - box.x0, deep = box.y1 - box.y0;
+    const int    nx = (int)dp_clamp(ceil(wide / cell), 1.0, PROBES);
+    const int    ny = (int)dp_clamp(ceil(deep / cell), 1.0, PROBES);
+    double       highest = -INFINITY;
+    for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) {
+            const double z =
+                dp_terrain_surface_at(sim->terrain, box.x0 + wide * i / nx, box.y0 + deep * j / ny);
+            if (z > highest) highest = z;
+        }
+    // between two probes it may be higher, as on a slope of 45 degrees
+    return fmax(highest + fmax(wide / nx, deep / ny) + cell - box.z0, 0.0);
+}
+
+// So many poses that nothing low moves by more than half a cell from one to the next.
+static int steps_of(const DpSim* sim, const Limb* limb, int sample)
+{
+    const DpBox box = box_of(sim, limb, sample, 0.0);
+    double      farthest = 0.0;
+    for (int p = 0; p < limb->part_count; ++p) {
+        const DpMesh* sole = &sim->cast.sole[limb->part[p]];
+        const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
+        const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
+        const int     stride = sole->vertex_count / PROBED + 1;
+        for (int v = 0; v < sole->vertex_count; v += stride) {
+            const float* at = sole->vertex + 3 * (size_t)v;
+            const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
+            const DpVec3 from = dp_place(a, point), to = dp_place(b, point);
+            if (from.z <= box.z0 + LOW_PART * (box.z1 - box.z0))
+                farthest = fmax(farthest, hypot(to.x - from.x, to.y - from.y));
+        }
+    }
+    const double moves = ceil(farthest / (0.5 * sim->grid.cell));
+    return (int)dp_clamp(moves, 1.0, DP_CARVE_STEPS - 1);
+}
+
+// The parts in all poses since the sample; returns how many.
+static int sweep(const DpSim* sim, const Limb* limb, int sample, WorkerScratch* scratch)
+{
+    const int steps = steps_of(sim, limb, sample);
+    int       count = 0;
+    for (int u = limb->begins ? 0 : 1; u <= steps; ++u)
+        for (int p = 0; p < limb->part_count; ++p) {
+            scratch->sole[count] = sim->cast.sole[limb->part[p]];
+            scratch->pose[count++] = dp_limb_pose(sim, limb->part[p], sample, (double)u / steps);
+        }
+    return count;
+}
+
+// How a part has moved in an interval: what is at p now was at  from + turn (p - to).
+typedef struct Moved
+{
+    DpQuat turn;
+    DpVec3 from, to;
+} Moved;
+
+static Moved moved(const DpSim* sim, int part, int sample)
+{
+    const DpPose a = dp_limb_pose(sim, part, sample, 0.0), b = dp_limb_pose(sim, part, sample, 1.0);
+    return (Moved){dp_quat_product(a.turn, dp_quat_back(b.turn)), a.at, b.at};
+}
+
+// The mean of its parts.
+static DpDescent descent_of(const DpSim* sim, const Limb* limb, int sample,
+                            const DpSoilPatch* patch)
+{
+    const double xm = patch->x0 + 0.5 * (double)(patch->nx - 1) * patch->cell;
+    const double ym = patch->y0 + 0.5 * (double)(patch->ny - 1) * patch->cell;
+    const double share = 1.0 / limb->part_count;
+    DpDescent    descent = {0};
+    for (int p = 0; p < limb->part_count; ++p) {
+        const Moved  m = moved(sim, limb->part[p], sample);
+        const DpVec3 z = dp_turn(dp_quat_back(m.turn), dp_vec3(0.0, 0.0, 1.0));
+        descent.at += share * (z.x * (xm - m.to.x) + z.y * (ym - m.to.y) - z.z * m.to.z + m.from.z);
+        descent.along_x += share * z.x;
+        descent.along_y += share * z.y;
+        descent.along_z += share * (z.z - 1.0);
+    }
+    return descent;
+}
+
+// How far what is now at a place has gone along the ground, the mean of the parts.
+static DpVec3 gone(const DpSim* sim, const Limb* limb, int sample, DpVec3 place)
+{
+    DpVec3 sum = {0, 0, 0};
+    for (int p = 0; p < limb->part_count; ++p) {
+        const Moved  m = moved(sim, limb->part[p], sample);
+        const DpVec3 was = dp_add(m.from, dp_turn(m.turn, dp_sub(place, m.to)));
+        sum = dp_add(sum, dp_scale(dp_sub(place, was), 1.0 / limb->part_count));
+    }
+    sum.z = 0.0;
+    return sum;
+}
+
+static void count(Limb* limb, const DpCarved* carved)
+{
+    limb->sink = 0.0;
+    limb->firm += carved->pressed.firm;
+    limb->loose += carved->pressed.loose;
+    limb->rebounded -= carved->pressed.elastic;
+    limb->loosened += carved->cut_firm;
+    limb->laid -= carved->cut_firm + carved->cut_loose;  // what is laid of it was not displaced
+    limb->deepest = fmax(limb->deepest, carved->pressed.deepest);
+}
+
+DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                       int sample)
+{
+    DpStatus status = dp_pressing_open(&sim->pressing[limb - sim->limb], limb, patch);
+    if (status != DP_OK) return status;
+    const int poses = sweep(sim, limb, sample, scratch);
+    status = dp_imprint_foot(&scratch->imprint, patch, scratch->sole, scratch->pose, poses,
+                             sim->samples, scratch->imprint_scratch);
+    if (status != DP_OK) return status;
+
+    const DpBox     box = box_of(sim, limb, sample, 1.0);
+    const DpVec3    low = dp_vec3(0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), box.z0);
+    const DpVec3    way = gone(sim, limb, sample, low);
+    const double    far = dp_length(way);
+    const bool      pushes = far > STILL && !limb->begins;
+    const DpDescent straight = {ALL_DOWN, 0.0, 0.0, 0.0};
+    const DpDescent descent = pushes ? descent_of(sim, limb, sample, patch) : straight;
+    DpCarved        carved;
+    status =
+        dp_soil_carve(patch, &scratch->imprint, &descent, dp_sim_interval(sim, sample), &carved);
+    if (status != DP_OK || carved.pressed.area <= 0.0) return status;
+    count(limb, &carved);
+
+    const double      cut = carved.cut_firm + carved.cut_loose;
+    const double      volume = carved.pressed.displaced + cut;
+    const double      ahead = pushes && volume > 0.0 ? cut / volume : 0.0;  // beta of TRAIL (13)
+    const DpFootForce foot = {ahead > 0.0 ? dp_scale(way, ahead / far) : dp_vec3(0.0, 0.0, 0.0),
+                              dp_vec3(carved.x, carved.y, box.z0),
+                              {0.0, 0.0, 1.0}};
+    return dp_limb_lay(sim, limb, patch, scratch, &foot, volume, 1.0);
+}
