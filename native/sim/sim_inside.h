@@ -29,6 +29,7 @@ typedef struct Limb
     bool       active;  // presses or settles in this step
     bool       begins;  // its stance begins
     bool       lifts;   // has let go: its rim comes to rest
+    bool       left;    // .. before this step, and soil only slides on
     bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
     double     firm, loose, laid, deepest;  // this step's volumes [m^3] and depth [m]
     double     loosened, rebounded;         // .. of walls and springs, and when it settles [m^3]

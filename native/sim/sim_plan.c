@@ -47,6 +47,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     const double depth = presses && carves ? dp_carve_depth(sim, limb, sample) : 0.0;
     if (carves && !(depth > 0.0)) presses = false;
     limb->lifts = (limb->stands || limb->flows) && !presses;
+    limb->left = limb->lifts && !limb->stands;
     limb->active = presses || limb->lifts;
     const bool spilled = limb->spills;
     limb->spills = limb->off_ground = false;

@@ -9,6 +9,7 @@
 #define SLIDING_SWEEPS \
     16                    // of one step: slides take time; all comes to rest when the foot has left
 #define FLOW_REACH 0.1    // what slides goes so far in a soil's flow_time [m]
+#define FLOW_ENDS 0.02    // .. until it is so near to its rest angle, and then at once [rad]
 #define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
 
@@ -168,6 +169,33 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     return DP_OK;
 }
 
+// cells of a patch that begins where `at` does, in the world
+static DpCellRect in_world(DpCellRect cells, DpCellRect at)
+{
+    return (DpCellRect){at.i0 + cells.i0, at.i0 + cells.i1, at.j0 + cells.j0, at.j0 + cells.j1};
+}
+
+// Some sweeps over what slides; when little is left to go, all that are left.
+static DpStatus let_flow(const DpSim* sim, DpSoilPatch* patch, int sweeps, WorkerScratch* scratch,
+                         DpSettled* settled)
+{
+    const double tolerance = sim->options.tolerance;
+    DpSettled    flown = {.at_rest = true};
+    if (sweeps < sim->options.max_sweeps) {
+        const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, fmax(tolerance, FLOW_ENDS),
+                                                  sweeps, scratch->soil_scratch, &flown);
+        if (status != DP_OK || !flown.at_rest) {
+            *settled = flown;
+            return status;
+        }
+    }
+    const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, tolerance, sim->options.max_sweeps,
+                                              scratch->soil_scratch, settled);
+    settled->changed = dp_cells_join(settled->changed, flown.changed);
+    settled->loosened += flown.loosened;
+    return status;
+}
+
 // Let the rim slide that the sole held, in ever larger patches until nothing wants to leave; what takes its time
 // slides on in the next step.
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch)
@@ -181,12 +209,15 @@ DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scrat
         if (status != DP_OK) return status;
         DpSettled settled;
         const int sweeps = sweeps_of(sim, middle_soil(patch), sample);
-        status = dp_soil_stabilize(patch, NULL, NULL, sim->options.tolerance, sweeps,
-                                   scratch->soil_scratch, &settled);
+        status = let_flow(sim, patch, sweeps, scratch, &settled);
         if (status != DP_OK) return status;
         dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
         limb->loosened += settled.loosened;
         limb->flows = sweeps < sim->options.max_sweeps && !settled.at_rest;
+        if (middle_soil(patch)->flow_time > 0.0f && !dp_cells_empty(settled.changed)) {
+            const DpCellRect slid = in_world(settled.changed, at);  // all else lies still
+            limb->trodden = limb->flows ? slid : dp_cells_join(limb->trodden, slid);
+        }
         if (!settled.at_edge) return DP_OK;
         at = dp_cells_grown(at, SETTLE_GROWTH);
         if (!limb->flows) continue;

@@ -39,7 +39,7 @@ DpStatus dp_release_step(DpSim* sim, int sample)
 {
     for (int l = 0; dp_terrain_springs(sim->terrain) && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
-        if (!limb->active) continue;
+        if (!limb->active || limb->left) continue;  // what it left came back when it lifted
         const DpStatus status =
             dp_release_limb(sim, limb, limb->lifts ? limb->trodden : limb->patch, sample);
         if (status != DP_OK) return status;

@@ -25,12 +25,18 @@ typedef struct Reach
 {
     int      i0, j0, nx, ny;
     size_t   row;
-    int32_t* far;  // of a cell's centre [steps] (ny + 2, row)
+    int32_t* far;     // of a cell's centre [steps] (ny + 2, row)
+    double*  weight;  // what a cell asks for (ny, nx)
 } Reach;
 
 static int32_t* far_at(const Reach* reach, int i, int j)
 {
     return reach->far + (size_t)(j - reach->j0 + 1) * reach->row + (size_t)(i - reach->i0 + 1);
+}
+
+static double* weight_at(const Reach* reach, int i, int j)
+{
+    return reach->weight + (size_t)(j - reach->j0) * (size_t)reach->nx + (size_t)(i - reach->i0);
 }
 
 static void nearer(int32_t* far, int32_t other, int32_t step)
@@ -130,10 +136,14 @@ static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* 
     const int j0 = imprint->j0 > more ? imprint->j0 - more : 0;
     const int i1 = patch->nx - imprint->i1 > more ? imprint->i1 + more : patch->nx;
     const int j1 = patch->ny - imprint->j1 > more ? imprint->j1 + more : patch->ny;
-    *reach = (Reach){i0, j0, i1 - i0, j1 - j0, (size_t)(i1 - i0) + 2, NULL};
+    *reach = (Reach){i0, j0, i1 - i0, j1 - j0, (size_t)(i1 - i0) + 2, NULL, NULL};
     const size_t cells = reach->row * ((size_t)reach->ny + 2);
-    reach->far = dp_soil_scratch_block(scratch, cells * sizeof *reach->far);
-    return reach->far != NULL;
+    const size_t weights = (size_t)reach->nx * (size_t)reach->ny * sizeof *reach->weight;
+    char*        block = dp_soil_scratch_block(scratch, weights + cells * sizeof *reach->far);
+    if (!block) return false;
+    reach->weight = (double*)(void*)block;
+    reach->far = (int32_t*)(void*)(block + weights);
+    return true;
 }
 
 // lay the volume by shares and by how the rim falls off; none on cells pressed to `hollow` [m]
@@ -147,21 +157,26 @@ static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShar
     measure(&reach, imprint, patch, rim->bulges);
 
     double total = 0.0;
-    for (int pass = 0; pass < 2; ++pass)  // the blended shares are normalised as a whole
-        for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
-            for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
-                const size_t p = soil_at(patch, i, j);
-                if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
-                const double full = height_of(rim, *far_at(&reach, i, j));
-                if (!(full > 0.0) || !(patch->compression[p] < hollow)) continue;
-                const double weight =
-                    soil_on_grid(dp_soil_heap_share(shares, patch, i, j) * full, coarse);
-                if (pass == 0)
-                    total += weight;
-                else if (total > 0.0)
-                    patch->heap[p] += (float)(weight / total * volume / area);  // TRAIL (12)
-            }
-    return total > 0.0 ? DP_OK : DP_NO_GROUND;
+    for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
+        for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
+            const size_t p = soil_at(patch, i, j);
+            double*      weight = weight_at(&reach, i, j);
+            *weight = 0.0;
+            if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
+            const double full = height_of(rim, *far_at(&reach, i, j));
+            if (!(full > 0.0) || !(patch->compression[p] < hollow)) continue;
+            *weight = soil_on_grid(dp_soil_heap_share(shares, patch, i, j) * full, coarse);
+            total += *weight;
+        }
+    if (!(total > 0.0)) return DP_NO_GROUND;
+    for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)  // normalised as a whole
+        for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
+            const double weight = *weight_at(&reach, i, j);
+            if (weight > 0.0)
+                patch->heap[soil_at(patch, i, j)] +=
+                    (float)(weight / total * volume / area);  // TRAIL (12)
+        }
+    return DP_OK;
 }
 
 DpStatus dp_soil_heap_paper(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,

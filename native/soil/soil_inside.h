@@ -74,3 +74,10 @@ static inline size_t soil_at(const DpSoilPatch* patch, long i, long j)
 {
     return (size_t)j * (size_t)patch->row + (size_t)i;
 }
+
+// Does what slides in the middle of a patch take its time? MODEL 6.4
+static inline bool soil_takes_time(const DpSoilPatch* patch)
+{
+    const size_t middle = soil_at(patch, patch->nx / 2, patch->ny / 2);
+    return patch->soils[patch->kind[middle]].flow_time > 0.0f;
+}

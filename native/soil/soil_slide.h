@@ -17,9 +17,10 @@ typedef struct Row
 
 // First stencil: what each cell of a row gives away, TRAIL (14) (15); returns ROW_ bits.
 // @param film  an excess as large counts as one neighbour [m]
+// @param most  a cell gives at most so much [m]
 int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
                     const float* restrict heap, const float* restrict fall,
-                    const float* restrict slack, ptrdiff_t row, int count, float film);
+                    const float* restrict slack, ptrdiff_t row, int count, float film, float most);
 
 // Second stencil: each cell of a row takes what its neighbours give, TRAIL (16).
 void dp_slide_take(double* restrict sum, const float* restrict give, const float* restrict h,

@@ -20,7 +20,7 @@ static inline float at_most_one(float x)
 DP_CLONES
 static int decide(float* restrict share, float* restrict give, const float* restrict h,
                   const float* restrict heap, const float* restrict fall,
-                  const float* restrict slack, ptrdiff_t row, int count, float film)
+                  const float* restrict slack, ptrdiff_t row, int count, float film, float most)
 {
     const float one = 1.0f / film;  // an excess as large as a film counts as one neighbour
     int         moves = 0, restless = 0;
@@ -41,7 +41,7 @@ static int decide(float* restrict share, float* restrict give, const float* rest
         const float by_corners = (at_most_one(ne * one) + at_most_one(sw * one)) +
                                  (at_most_one(nw * one) + at_most_one(se * one));
         const float sum = sides + corners, part = 1.0f / ((by_sides + by_corners) + 1.0f);
-        const float has = heap[i] / (sum * part + 1e-35f);
+        const float has = (heap[i] < most ? heap[i] : most) / (sum * part + 1e-35f);
         const float ew = e > w ? e : w, ns = n > s ? n : s;
         const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
         const float steep = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
@@ -119,9 +119,9 @@ static void fill(const Row* to, const float* restrict base_height,
 
 int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
                     const float* restrict heap, const float* restrict fall,
-                    const float* restrict slack, ptrdiff_t row, int count, float film)
+                    const float* restrict slack, ptrdiff_t row, int count, float film, float most)
 {
-    return decide(share, give, h, heap, fall, slack, row, count, film);
+    return decide(share, give, h, heap, fall, slack, row, count, film, most);
 }
 
 void dp_slide_take(double* restrict sum, const float* restrict give, const float* restrict h,

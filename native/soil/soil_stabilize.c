@@ -27,7 +27,7 @@
 #include "base/alloc.h"
 #include "soil/soil_slide.h"
 
-#define MOST_FALLS 0.5f  // of a cell, in a sweep from a wall: high ones do not jump
+#define MOST_FALLS 0.5f  // of a cell, in a sweep: high walls do not jump, nor what takes time
 #define FRAME 3          // cells around the window that only stand as walls
 #define FIRST_MARGIN 8   // cells the window is larger than what is looked at
 
@@ -37,6 +37,7 @@ typedef struct Window
     DpCellRect box;  // patch cells it holds
     size_t     row;
     float      cell;    // side of a cell                                   [m]
+    float      most;    // a heap gives at most so much in a sweep            [m]
     float*     firm;    // firm ground, BARRIER where no soil can be          [m]
     float*     height;  // firm + heap                                        [m]
     double*    sum;     // b, kept finer than a float: small flows add up      [m]
@@ -104,6 +105,7 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     const size_t cells = window->row * (ny + 2 * FRAME);
     window->slides = patch->wall_slope != NULL;
     window->cell = (float)patch->cell;
+    window->most = soil_takes_time(patch) ? MOST_FALLS * window->cell : INFINITY;
     const size_t floats = window->slides ? GRIDS + WALL_GRIDS : GRIDS;
     const size_t fine = window->slides ? 2 : 1;
     double*      doubles =
@@ -299,7 +301,7 @@ static DpCellRect decide(const Window* window, DpCellRect look, float film, bool
         const int count = (int)(look.i1 - look.i0);
         const int wish = dp_slide_decide(window->share + at, window->give + at, window->height + at,
                                          window->heap + at, window->fall + at, window->slack + at,
-                                         (ptrdiff_t)window->row, count, film);
+                                         (ptrdiff_t)window->row, count, film, window->most);
         clear_sides(window->share + at, count);
         clear_sides(window->give + at, count);
         const int falls = window->slides ? decide_walls(window, at, count, film) : 0;

@@ -49,6 +49,21 @@ def test_slides_take_their_time_and_longer_ones_longer():
     assert slower == pytest.approx(2 * slow, rel=0.2)
 
 
+def test_no_slope_falls_all_at_once():
+    """A high wall and what it leaves go down half a cell each a sweep, a hundred times lower than they are."""
+    soil, cell = replace(SLOW, young_modulus=4e4, rest_angle=0.6, wall_angle=math.radians(80)), 0.005
+    sim, end = begun(soil, cell)
+    sim.run(LIFT)
+    before, most = height(sim), 0.0
+    assert before.min() < -0.15
+    sweeps = math.ceil(0.1 / (soil.flow_time * cell) / 120.0)
+    for k in range(LIFT + 1, end + 1):
+        sim.run(k)
+        now = height(sim)
+        most, before = max(most, (before - now).max()), now
+    assert 0.5 * cell < most < 1.01 * sweeps * cell, most
+
+
 def test_they_take_as_long_in_any_cell():
     coarse, fine = still(SLOW)[0], still(SLOW, 0.005)[0]
     assert fine == pytest.approx(coarse, rel=0.5)

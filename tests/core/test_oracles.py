@@ -11,6 +11,7 @@ from desire_path.ground.soil import SOILS, Soil
 from desire_path.loads import walker
 from desire_path.motion.gait import Gait
 from tests.scenes import gaits, slopes
+from tests.scenes.plain import plain
 
 G = 9.81
 FIRM = Soil(layer_depth=0.3, young_modulus=0.35e6, poisson_ratio=0.35, settle_time=0.15, rest_angle=math.radians(20))
@@ -148,7 +149,7 @@ def test_a_turned_scene_leaves_the_same_print_turned():
 
 def test_every_loose_slope_rests():
     for name in ("dry-sand", "mud", "soft-soil"):
-        soil = SOILS[name]
+        soil = plain(name)
         maps, _ = press([FOOT], [AT_ORIGIN], [[120, 0, -900]], soil=soil)
         heap, surface = maps["heap"], maps["heap"] - maps["compression"]
         assert heap.max() > 0.001
@@ -206,7 +207,7 @@ def test_a_paper_rim_is_as_wide_as_it_is_told_in_metres():
 
 
 def test_a_paper_rim_too_high_for_its_width_slides_out_to_rest_while_the_foot_stands():
-    mud = replace(SOILS["mud"], poisson_ratio=0.45)
+    mud = replace(plain("mud"), poisson_ratio=0.45)
     height, reach = rim(0.01, sole=gaits.box(0.5, 0.4), load=8000, soil=mud)
     assert reach > 2 * 0.04
     assert height == pytest.approx(reach * math.tan(mud.rest_angle), rel=0.15)

@@ -24,7 +24,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path[:0] = [str(ROOT / "addon"), str(HERE)]
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(HERE)]
 
 from worlds import worlds  # noqa: E402
 

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from desire_path import KINDS, SOILS, Gait, Ground, Planting, Simulation, Soil, Sole
+from tests.scenes.plain import plain
 
 RATE = 60.0  # samples a second
 STRIDE = 1.0  # [m]
@@ -146,7 +147,7 @@ def _flat():
     hold[:, 20:26] = True
     both = together(slipping, held)
     both[1].held = np.concatenate([np.zeros(both[1].touching[:4].shape, bool), hold[:, : both[1].touching.shape[1]]])
-    soils = {"rest": "dry-sand", "paper": "snow"}
+    soils = {"rest": plain("dry-sand"), "paper": plain("snow")}
     cells = {"rest": 0.0075, "paper": 0.015}  # a sole is sampled three and four times along a cell's side
 
     def make(law, heap, threads):
@@ -162,7 +163,7 @@ def _hill():
     second = np.clip((y[:, None] + 7.1) * 4.0 + 0.0 * x[None, :], 0.0, 1.0)
     weight = np.stack([1.0 - second, second, 1.5 * (x[None, :] > 40.6) + 0.0 * y[:, None]])
     ground = Ground.heights(heights, 0.05, 38.9, -8.0, kind_weight=weight)
-    soils = [SOILS["dry-sand"], SOILS["mud"], SOILS["snow"]]
+    soils = [plain("dry-sand"), plain("mud"), plain("snow")]
 
     def make(law, heap, threads):
         return Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads, origin=(0.005, 0.003))

@@ -18,7 +18,7 @@ from desire_path.blender import compat, playback_tree
 from desire_path.ground import maps
 from desire_path.ground import soil as soils
 
-from . import gaits, meshes
+from . import gaits, meshes, plain
 
 ASIDE = 0.15  # the left foot stands here on rest pose's x, the right one opposite [m]
 ANKLE = 0.08  # height of the foot bones [m]
@@ -30,6 +30,13 @@ def soil(name="dry-soil", **numbers):
     """A preset with some numbers changed, for as long as a test needs it."""
     with mock.patch.dict(soils._SOILS, {name: replace(soils.SOILS[name], **numbers)}):
         yield soils.SOILS[name]
+
+
+@contextmanager
+def plain_soils():
+    """Presets with the numbers of the papers alone, for as long as prints are reckoned by hand."""
+    with mock.patch.dict(soils._SOILS, plain.all_plain()):
+        yield
 
 
 def ground(cell=0.01, half=(0.6, 0.6), name="dry-soil", folder=None):
@@ -122,7 +129,7 @@ class Trail:
 
 
 def bake(obj, seconds=None, **settings):
-    """Bake a ground of `ground()` from frame 1 on and look at it; a point and a cell are one there."""
+    """Bake a ground of `ground()`, its soils plain, from frame 1 on and look at it; a point is a cell there."""
     own, scene = obj.desire_path, bpy.context.scene
     for name, value in settings.items():
         setattr(own, name, value)
@@ -130,7 +137,8 @@ def bake(obj, seconds=None, **settings):
         own.frame_start = 1
         own.frame_end = 1 + math.ceil(seconds * scene.render.fps / scene.render.fps_base - 1e-6)
     meshes.activate(obj)
-    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    with plain_soils():
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     folder = bpy.path.abspath(own.folder)
     with open(folder + "/report.json", encoding="utf-8") as file:
         report = json.load(file)

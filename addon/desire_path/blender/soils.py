@@ -198,8 +198,9 @@ def take(settings, soil):
 def refill(obj):
     """The same for a ground of a file that does not hold them, as those of earlier versions, or holds another's."""
     for each in (obj.desire_path, *obj.desire_path.painted):
-        numbers = each.soil_numbers
-        if not numbers.changed and abs(numbers.young_modulus / SOILS[each.soil].young_modulus - 1.0) > 1e-6:
+        numbers, usual = each.soil_numbers, SOILS[each.soil]
+        shown = all(axes.typed(getattr(numbers, name)) == axes.typed(getattr(usual, name)) for name in WORDS)
+        if not numbers.changed and not shown:
             fill(each)
 
 
