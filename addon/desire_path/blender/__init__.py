@@ -13,6 +13,7 @@ from . import (
     op_material,
     op_place,
     op_plants,
+    op_press,
     op_walk_it,
     op_walkers,
     panels,
@@ -31,6 +32,7 @@ _CLASSES = (
     + op_place.CLASSES
     + op_plants.CLASSES
     + op_walk_it.CLASSES
+    + op_press.CLASSES
     + op_material.CLASSES
     + soils.CLASSES
     + messages.CLASSES
@@ -45,6 +47,7 @@ def register():
     for each in _CLASSES:
         bpy.utils.register_class(each)
     op_walk_it.register()
+    op_press.register()
     translations.register()
     handlers.register()
     if not bpy.app.binary_path:
@@ -56,6 +59,7 @@ def unregister():
     atexit.unregister(unregister)
     handlers.unregister()
     op_forces.hide()
+    op_press.unregister()
     op_walk_it.unregister()
     translations.unregister()
     for each in reversed(_CLASSES):

@@ -20,6 +20,8 @@ from . import (
     overrides,
     playback,
     playback_tree,
+    press_view,
+    pressed,
     replant,
     show,
     soils,
@@ -86,7 +88,10 @@ def after_undo(*_):
     state.doubt()
     for scene in bpy.data.scenes:
         for obj in scene.objects:
-            if obj.type != "MESH" or obj.library is not None or not obj.desire_path.is_ground:
+            if obj.type != "MESH" or obj.library is not None:
+                continue
+            press_view.clear(obj)
+            if not obj.desire_path.is_ground:
                 continue
             if playback.modifier(obj) is not None:
                 refresh(scene, obj)
@@ -115,6 +120,7 @@ def after_save(*_):
     first, _unsaved = _unsaved and bool(bpy.data.filepath), False
     if bpy.data.filepath:
         trash.empty()
+        pressed.tidy()
     there = (
         [
             obj

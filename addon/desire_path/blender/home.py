@@ -236,7 +236,9 @@ def move_in(obj):
     """Let the bake of a ground whose file was just saved for the first time move beside it."""
     settings = obj.desire_path
     old = folder(obj)
-    there = owner_of(old) == settings.bake_id and not sharing(obj)
+    place = settings.folder
+    by_hand = settings.pressed.startswith(f"{place}/")
+    there = (by_hand or owner_of(old) == settings.bake_id) and not sharing(obj)
     settings.bake_file = _file()
     settle(obj)
     new = folder(obj)
@@ -244,6 +246,8 @@ def move_in(obj):
         os.makedirs(os.path.dirname(new), exist_ok=True)
         shutil.move(old, new)
         playback.repoint(old, settings.folder)
+        if by_hand:
+            settings.pressed = settings.folder + settings.pressed[len(place) :]
         leave(old)
 
 

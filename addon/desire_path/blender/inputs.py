@@ -16,7 +16,7 @@ from ..ground import mesh, parcels
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, reach, sample
+from . import axes, bodies, ground, paths, plants, pressed, reach, sample
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 
@@ -62,7 +62,7 @@ def taken(scene, company, folders, **more):
         grown = plants.plantings(scene, each)
         parcels.append(
             Parcel(
-                found[each.name].ground,
+                pressed.start(each, found[each.name].ground),
                 ground.soils(each),
                 path,
                 each.name,
@@ -145,9 +145,13 @@ def marks(obj, company, made, found):
         settings.vertex_group,
         sum(each.desire_path.place_feet for each in company.walkers),
     ]
+    trails = [parcel.ground.trail for parcel in made.parcels if parcel.ground.trail is not None]
     return {
         "walk": mesh.mark(walk, [*(f"{mass:.9g}" for mass in gait.mass), *filter(None, [laws])]),
-        "ground": mesh.mark((), sorted(found[parcel.name].mark for parcel in made.parcels)),
+        "ground": mesh.mark(
+            [array for trail in trails for array in trail.arrays()],
+            sorted(found[parcel.name].mark for parcel in made.parcels),
+        ),
         "plants": mesh.mark(grown, [planting.parameters() for planting in plantings]),
         "settings": mesh.mark((), chosen),
     }

@@ -21,6 +21,7 @@ def draw(layout, context):
         row = layout.row()
         row.scale_y = 1.4
         row.operator("object.desire_path_walk_it", icon="MOD_DYNAMICPAINT")
+        layout.operator("object.desire_path_press", icon="BRUSH_DATA")
     if obj is None or obj.type not in {"MESH", "ARMATURE"}:
         layout.label(text="Select a ground mesh or a walker", icon="INFO")
     elif obj.type == "MESH" and not obj.desire_path.is_walker:
@@ -71,6 +72,7 @@ def draw_ground(layout, context, obj):
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
         _column(layout).prop(settings, "auto_update")
+        layout.operator("object.desire_path_press", icon="BRUSH_DATA")
         if len(grounds(context.scene)) > 1:
             layout.operator("wm.desire_path_bake_all")
         row = layout.row(align=True)

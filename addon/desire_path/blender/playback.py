@@ -20,6 +20,7 @@ from . import axes, compat, playback_tree, strengths, tree_numbers
 
 COPIED = "desire_path_copied"  # on a tree: which mesh the copy it shows was made of
 WISHES = "desire_path_wishes"  # on a tree: how fine the mesh was wanted; trees of before lack it
+BY_HAND = "desire_path_by_hand"  # on a tree that shows ground while it is pressed by hand
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
 STACKED = ("show_viewport", "show_render", "levels", "render_levels", "subdivision_type")  # of modifiers
 MOVED = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
@@ -33,6 +34,11 @@ def modifier(obj):
         if each.type == "NODES" and each.node_group is not None and playback_tree.TAG in each.node_group:
             return each
     return None
+
+
+def is_by_hand(modifier):
+    """Whether a modifier shows ground while it is pressed by hand."""
+    return modifier.type == "NODES" and modifier.node_group is not None and BY_HAND in modifier.node_group
 
 
 def image_of(tree):
@@ -182,6 +188,8 @@ def stacked(obj):
         tree = each.node_group if each.type == "NODES" else None
         if tree is not None and playback_tree.TAG in tree:
             out.append("ours")
+            continue
+        if is_by_hand(each):
             continue
         of = f'modifiers["{bpy.utils.escape_identifier(each.name)}"].'
         values = {

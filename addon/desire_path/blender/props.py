@@ -206,6 +206,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     made_groups: StringProperty(options={"HIDDEN"})
     made_attributes: StringProperty(options={"HIDDEN"})
     summary: StringProperty(options={"HIDDEN"}, description="What the last bake did")
+    pressed: StringProperty(options={"HIDDEN"}, description="The folder of what was pressed by hand, see pressed.py")
 
     # plain Python: Blender reads properties of its own while it saves and loads overrides, when nobody may look around
     @property

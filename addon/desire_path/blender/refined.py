@@ -74,12 +74,52 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         else None,
     )
     wanted = _as_seen(scene, obj, surface, index, wanted)
+    found = cut(scene, obj, surface, index.frame_start, wanted, into)
+    if found is None:
+        return None
+    carrier, copied = found.carrier, found.carrier.data
+    if settings.detail_size:
+        _detail(carrier, surface, obj, found.weights, found.made)
+    if settings.attributes:
+        value = cover.values(carrier, surface, index, planes, standing)
+        for name in planes:
+            if name not in copied.attributes:
+                new = copied.attributes.new(name, "FLOAT", "POINT")
+                if name in value:
+                    new.data.foreach_set("value", value[name])
+    warnings = [
+        f"The refined copy of '{obj.name}' lacks its attribute '{name}', which is of a kind that is not known here."
+        for name in found.left
+    ]
+    if not found.made.valid:
+        warnings.append(
+            f"Prints on '{obj.name}' are shown coarser than asked for: finer, they would take more than "
+            f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
+        )
+    return Copy(carrier, tuple(warnings))
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A copy of a ground's mesh, cut."""
+
+    carrier: bpy.types.Object  # in no collection
+    made: refine.Refined
+    weights: dict  # of the vertex groups by name, None where nothing is
+    left: list  # names of attributes that could not be carried over
+
+
+def cut(scene, obj, surface, frame, wanted, into=None):
+    """The Cut of a ground's mesh as it is at a frame, or None where no wish asks for one.
+
+    wanted: refine.Wishes; into: the object of an earlier copy, which is made anew then
+    """
     groups = [each.name for each in obj.vertex_groups]
     trees = [stack.realised()] if surface.place.realise else []
     trees += [ground.weights_tree(groups)] if groups else []
     with stack.shaped(scene, obj, surface.place.before, trees) as (own, copy):
         stack.show(scene, copy, obj)
-        mesh = private.evaluated(own, copy, index.frame_start).data
+        mesh = private.evaluated(own, copy, frame).data
         made = refine.refine(_triangles(mesh, surface), wanted)
         if not len(made.triangles):
             return None
@@ -91,31 +131,12 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         carrier = into or bpy.data.objects.new(
             f"Desire Path {obj.name}", bpy.data.meshes.new(f"Desire Path {obj.name}")
         )
-        copied = carrier.data
-        left = _fill(copied, mesh, made)
+        left = _fill(carrier.data, mesh, made)
     for name, weight in zip(groups, weights):
         group = carrier.vertex_groups.new(name=name)
         if weight is not None and weight.any():
             cover.weigh(group, made.on_points(weight))
-    if settings.detail_size:
-        _detail(carrier, surface, obj, dict(zip(groups, weights)), made)
-    if settings.attributes:
-        value = cover.values(carrier, surface, index, planes, standing)
-        for name in planes:
-            if name not in copied.attributes:
-                new = copied.attributes.new(name, "FLOAT", "POINT")
-                if name in value:
-                    new.data.foreach_set("value", value[name])
-    warnings = [
-        f"The refined copy of '{obj.name}' lacks its attribute '{name}', which is of a kind that is not known here."
-        for name in left
-    ]
-    if not made.valid:
-        warnings.append(
-            f"Prints on '{obj.name}' are shown coarser than asked for: finer, they would take more than "
-            f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
-        )
-    return Copy(carrier, tuple(warnings))
+    return Cut(carrier, made, dict(zip(groups, weights)), left)
 
 
 def _detail(carrier, surface, obj, weights, made):

@@ -2,27 +2,32 @@
 
 import os
 
+import bpy
+
 from ..bake.bake import read_index
 from ..bake.contents import MAPS_ALWAYS, is_complete
 from ..errors import DesirePathError
-from . import cover, ground, home, materials, plants, playback, playback_tree, refined, stems, trash
+from . import cover, ground, home, materials, plants, playback, playback_tree, pressed, refined, stems, trash
 from .home import folder
 
 
-def play(scene, obj, surface, baked=None):
+def play(scene, obj, surface, baked=None, place=""):
     """Play the bake in the object's folder, as far as it is whole. Returns its FrameIndex and
     sentences about what could not be written.
 
-    baked: the final maps by name, where the bake was made just now and is whole
+    baked: the final maps by name, where the bake was made just now and is whole; place: another folder, as Blender
+    writes paths
     """
     settings = obj.desire_path
-    index = read_index(folder(obj), just_baked=baked is not None)
+    place = place or settings.folder
+    path = os.path.abspath(bpy.path.abspath(place))
+    index = read_index(path, just_baked=baked is not None)
     cover.remove(obj)
     materials.refresh(obj)
     if index.frames:
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
-        frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
+        frames = playback.join(place, *os.path.relpath(index.folder, path).split(os.sep))
         planes = baked or cover.planes(index)
         copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj))
         carrier = copy and copy.object
@@ -59,9 +64,7 @@ def play(scene, obj, surface, baked=None):
         warnings = []
     plants.show(obj, index)
     stems.remove(plants.grass.of(settings.plant_object, obj))
-    settings.plant_object = (
-        stems.show(obj, settings.folder, folder(obj), index.frame_start, surface.scale) if index.complete else None
-    )
+    settings.plant_object = stems.show(obj, place, path, index.frame_start, surface.scale) if index.complete else None
     return index, warnings
 
 
@@ -128,4 +131,5 @@ def free(obj):
     stems.remove(plants.grass.of(settings.plant_object, obj))
     cover.remove(obj)
     materials.forget(obj)
+    pressed.forget(obj)
     settings.summary = ""

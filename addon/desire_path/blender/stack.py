@@ -46,7 +46,7 @@ class Place:
 def others(obj):
     """All modifiers but ours, in order."""
     own = playback.modifier(obj)
-    return [each for each in obj.modifiers if each != own]
+    return [each for each in obj.modifiers if each != own and not playback.is_by_hand(each)]
 
 
 def find(scene, obj, frame):

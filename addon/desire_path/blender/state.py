@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import compat, home, inputs, playback, show
+from . import compat, home, inputs, playback, pressed, show
 from .chosen import walkers
 from .private import looked_at
 
@@ -74,6 +74,13 @@ def _changed(obj, index):
     scene = bpy.context.scene
     if obj.name not in scene.objects:
         scene = (obj.users_scene or (scene,))[0]
+    if pressed.HAND in index.inputs:
+        if walkers(scene, obj):
+            return f"'{obj.name}' is shown as it was pressed by hand, before anybody walks on it: bake it."
+        try:
+            return pressed.changed(scene, obj, index)
+        except DesirePathError as problem:
+            return f"The scene has changed since the ground was pressed: {problem}"
     if not walkers(scene, obj) and not home.is_own(obj):
         # who walked is in another file, which tells, or walks on the ground of which this is a copy
         return "This ground was moved since the bake: bake again." if playback.is_moved(obj) else ""
@@ -117,6 +124,7 @@ _listener = None  # called after a change
 baking = {}  # name of a ground that is baked again by itself -> how far that is
 refused = {}  # name of a ground that could not be baked by itself -> after which change of the scene, and why not
 held = False  # while live.py looks itself
+at_hand = False  # while ground is pressed by hand
 
 
 def last(obj):
@@ -263,6 +271,8 @@ def _look():
 
 def busy(played=False):
     """Whether the user is in the middle of something. played: what plays does not count"""
+    if at_hand:
+        return True
     for window in bpy.context.window_manager.windows:
         active = window.view_layer.objects.active
         if (

@@ -3,8 +3,7 @@
     PressBody, pose --move--> as many steps as the way is long --Simulation.push, run--> ground pressed so far
                     --lift--> the stroke has ended, its rims rest        --undo--> as it was before that stroke
 
-A body with a mass sinks until the ground carries it; one without presses the ground down to its own shape, whatever
-its weight: what it takes to sink as deep as it stands is found from the stiffness of the ground below it. MODEL 6.2
+A body with a mass sinks until the ground carries it; one without carves: the ground makes way, whatever it weighs.
 """
 
 from __future__ import annotations
@@ -18,6 +17,7 @@ import numpy as np
 from ..core import _native
 from ..errors import DesirePathError
 from ..motion.gait import HEEL, Gait, Sole
+from ..motion.recording import AUTO
 from ..motion.rotation import turned
 from .ground import as_lasting_soils
 from .options import SimulationOptions
@@ -35,9 +35,9 @@ TOUCH = 5e-4  # a body that hovers no higher than this touches [m]
 AROUND = 0.3  # a body changes the ground no farther away than this [m]
 STEP = 0.04  # how long a step takes, if nobody says [s]
 MOST_STEPS = 64  # that one move is cut into
+SWEPT = 12.0  # a body that carves is swept so far in a step [cells]
 MOST_CELLS = 1 << 20  # a body may cover
 SAMPLE = 0.0025  # undersides are sampled so closely, or four times a cell [m]
-RIGID, STIFFER = 0.95, 100.0  # below this share of the layer the ground is so much stiffer, MODEL 6.2
 GRAVITY = 9.81  # [m/s^2]
 
 
@@ -70,7 +70,6 @@ class _Contact:
 
     gap: float  # from the ground up to its underside, < 0 where it reaches into it; inf beside the ground [m]
     rest_gap: float  # the same from the ground before anybody pressed it [m]
-    load: float  # what it takes to press the ground down to its shape [N]
     point: tuple[float, float, float]  # where it presses [m]
 
 
@@ -140,6 +139,7 @@ class Pressing:
                 point=np.zeros((count, 3)),
                 point_part=one,
                 point_role=np.full(count, HEEL),
+                contact_law=tuple("carve" if each.mass is None else AUTO for each in self.bodies),
                 limb_name=tuple(each.name for each in self.bodies),
                 part_name=("body",) * count,
                 walker_name=tuple(each.name for each in self.bodies),
@@ -170,8 +170,6 @@ class Pressing:
             between = (1.0 - share) * start + share * poses if number < steps else poses
             between[:, 3:] /= np.linalg.norm(between[:, 3:], axis=1)[:, None]
             touches = self._step(between, seconds / steps)
-        if touches and any(each.mass is None for each in self.bodies):
-            self._step(poses, seconds / steps)  # on the way there it was a little behind
         return touches
 
     def lift(self) -> None:
@@ -202,6 +200,13 @@ class Pressing:
         self._open(self.ground if left is None else replace(self.ground, trail=left))
         self.window = window
         return True
+
+    def weigh(self, body: int, mass: float) -> None:
+        """Let a body (its number) that has a mass have another one from now on [kg]."""
+        if self.bodies[body].mass is None:
+            raise DesirePathError(f"'{self.bodies[body].name}' presses by its shape: give it a mass when it is made.")
+        heavier = replace(self.bodies[body], mass=float(mass))
+        self.bodies = (*self.bodies[:body], heavier, *self.bodies[body + 1 :])
 
     def drop(self) -> None:
         """Give all of it up."""
@@ -264,11 +269,12 @@ class Pressing:
         return poses
 
     def _steps(self, start: np.ndarray, end: np.ndarray) -> int:
-        """Into how many steps a move is cut so that no body jumps over ground."""
+        """Into how many steps a move is cut so that no body jumps over ground; who carves sweeps it by itself."""
         way = np.linalg.norm(end[:, :3] - start[:, :3], axis=1)
-        wide = [float(np.ptp(each.vertices[:, :3], axis=0).max()) for each in self.bodies]
+        wide = np.array([float(np.ptp(each.vertices[:, :3], axis=0).max()) for each in self.bodies])
         turn = np.linalg.norm(end[:, 3:] - start[:, 3:], axis=1) * wide
-        long = np.maximum(2.0 * self.cell_size, 0.1 * np.array(wide))
+        carves = np.array([each.mass is None for each in self.bodies])
+        long = np.where(carves, SWEPT * self.cell_size, np.maximum(2.0 * self.cell_size, 0.1 * wide))
         return int(np.clip(math.ceil(float(((way + turn) / long).max())), 1, MOST_STEPS))
 
     def _step(self, poses: np.ndarray, seconds: float) -> bool:
@@ -276,14 +282,12 @@ class Pressing:
         found = [self._contact(number, pose) for number, pose in enumerate(poses)]
         touching = np.array([each.gap <= TOUCH for each in found])
         force, point = np.zeros((len(found), 3)), np.array([each.point for each in found])
-        for number, (body, each) in enumerate(zip(self.bodies, found)):
-            if not touching[number]:
-                continue
-            force[number, 2] = -each.load if body.mass is None else -body.mass * GRAVITY
-            self._grow(body, poses[number])
-            if body.mass is None:  # it goes down to its shape in this step
-                seconds = max(seconds, 1.25 * max(soil.settle_time for soil in self.soils))
-        self._push(poses, touching, force, point, seconds)
+        for number, body in enumerate(self.bodies):
+            if touching[number]:
+                self._grow(body, poses[number])
+                force[number, 2] = -body.mass * GRAVITY if body.mass is not None else 0.0
+        carves = np.array([body.mass is None for body in self.bodies])  # wherever it meets ground
+        self._push(poses, touching | carves, force, point, seconds)
         self._at = poses
         return bool(touching.any())
 
@@ -367,7 +371,7 @@ class Pressing:
         )
         on = (cover > 0.0) & there
         if not on.any():
-            return _Contact(math.inf, math.inf, 0.0, (float(pose[0]), float(pose[1]), base))
+            return _Contact(math.inf, math.inf, (float(pose[0]), float(pose[1]), base))
         below = rest.astype(np.float64) - base
         gap = float((bottom - below - heap + pressed)[on].min())
         rest_gap = float((bottom - below)[on].min())
@@ -375,23 +379,4 @@ class Pressing:
         reach = np.maximum(-(bottom - below)[on].astype(np.float64), 0.0) * cover[on] + 1e-9
         x, y = ((reach * k).sum() / reach.sum() for k in (i, j))
         point = (ox + (i0 + 0.5 + x) * cell, oy + (j0 + 0.5 + y) * cell, base)
-        load = 0.0
-        if body.mass is None and gap <= TOUCH:
-            load = self._load(i0, j0, np.where(there, below, 0.0) - bottom, cover, there)
-            load /= self.sim.normal(point[:2], 0.25)[2]
-        return _Contact(gap, rest_gap, load, point)
-
-    def _load(self, i0: int, j0: int, depth: np.ndarray, cover: np.ndarray, there: np.ndarray) -> float:
-        """What it takes to press columns as deep as a body reaches below the rest ground, `depth` [m]; what stands
-        over no ground carries its share as if that went on. MODEL 6.2"""
-        ny, nx = depth.shape
-        stiff = self.sim.read("young_modulus", i0, j0, nx, ny).astype(np.float64)
-        kind = self.sim.read("soil", i0, j0, nx, ny)
-        kinds = np.where(there, kind, 0.0).astype(int).clip(0, len(self.soils) - 1)
-        layer = np.array([soil.layer_depth for soil in self.soils])[kinds]
-        stiff = np.where(there, stiff, stiff[there].mean())
-        rigid = RIGID * layer
-        spring = np.maximum(depth, 0.0)
-        spring = np.where(spring > rigid, rigid + STIFFER * (spring - rigid), spring)
-        on = cover > 0.0
-        return float((cover * stiff / layer * spring)[on].sum()) * self.cell_size**2
+        return _Contact(gap, rest_gap, point)

@@ -50,6 +50,19 @@ class Trail(Record):
         """What tells it from another trail."""
         return [np.array([self.cell, self.x0, self.y0]), *(getattr(self, name) for name in ("rest", *LEFT))]
 
+    def cells(self, cell: float, origin: tuple[float, float]) -> tuple[int, int, int, int]:
+        """Cells (i0, i1, j0, j1) of another size or place [m] in which something is left; empty where i0 >= i1."""
+        j, i = np.nonzero((self.compression > 0.0) | (self.heap > 0.0))
+        if not len(i):
+            return 0, 0, 0, 0
+        ends = [
+            (start + self.cell * at - low) / cell
+            for start, low, of in ((self.x0, origin[0], i), (self.y0, origin[1], j))
+            for at in (of.min(), of.max() + 1)
+        ]
+        i0, i1, j0, j1 = (round(end) if abs(end - round(end)) < SAME * 1e3 else end for end in ends)
+        return math.floor(i0), math.ceil(i1), math.floor(j0), math.ceil(j1)
+
     def on(self, cell: float, origin: tuple[float, float]) -> tuple[int, int, dict[str, np.ndarray], list[str]]:
         """The trail on cells of another size or place [m]: (i0, j0, its grids by name, sentences)."""
         sentences = (

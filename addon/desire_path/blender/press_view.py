@@ -1,0 +1,213 @@
+"""press_view.py - ground shows what is pressed into it, as it is pressed.
+
+    LivePress.picture --pixels--> an image in memory --the tree that plays bakes--> the ground, or a copy that is fine
+                                                                                    around the hand
+All of it is gone when remove() has been called: the ground's mesh is never touched, and what it played plays on.
+"""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+
+from ..ground import refine
+from ..ground.sim import TILE
+from . import axes, compat, cover, ground, playback, playback_tree, refined
+
+MOST = 1 << 20  # cells of the image; larger ground is shown around what was pressed
+MARGIN = 4  # tiles around that
+NEAR = 0.12  # the copy has to be fine so far around a body [m]
+SQUARE = 0.5  # and is made so at least that far [m]
+SHADES = 1e-7  # where less was pressed or heaped nothing is to be seen [m]
+
+
+class View:
+    """Ground that shows a LivePress. warnings: sentences about what cannot be shown."""
+
+    def __init__(self, scene, obj, surface, press):
+        self.scene, self.name, self.surface, self.press = scene, obj.name, surface, press
+        self.warnings, self.copy, self.fine, self.tiles = [], None, None, None
+        self.modifier_name = ""
+        ours = playback.modifier(obj)
+        self.hidden = ours is not None and ours.show_viewport
+        if self.hidden:
+            ours.show_viewport = False
+        why = refined.held(scene, obj, surface.place)
+        self.refines = obj.desire_path.refine and not why
+        if obj.desire_path.refine and why:
+            self.warnings.append(f"'{obj.name}' shows prints on its own points alone, since {why}.")
+
+    def object(self):
+        return bpy.data.objects.get(self.name)
+
+    # ---- what is shown ---------------------------------------------------------------------------
+
+    def show(self, boxes=()):
+        """Show the ground as it is now. boxes: rectangles of the world (x0, y0, x1, y1) in which bodies are about to
+        press [m]"""
+        press = self.press
+        if press.window is None and not boxes:
+            return
+        tiles = self._tiles(boxes)
+        if tiles != self.tiles:
+            self._open(tiles)
+        if self.refines and not self._is_fine(boxes):
+            self._cut(boxes)
+        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        self.image.pixels.foreach_set(press.picture(i0, j0, nx, ny).ravel())
+        self.image.update()
+        obj = self.object()
+        self.tree.update_tag()
+        obj.update_tag(refresh={"DATA"})
+
+    def _tiles(self, boxes):
+        """Tiles (x, y, nx, ny) that are shown: all of the ground, or what was pressed of a large one."""
+        press = self.press
+        if self.tiles is not None and self._holds(self.tiles, boxes):
+            return self.tiles
+        bounds = press.sim.bounds()
+        if np.isfinite(bounds).all():
+            whole = _around(press.sim.cells(bounds), 0)
+            if whole[2] * whole[3] * TILE * TILE <= MOST:
+                return whole
+        there = [press.sim.cells(each) for each in boxes] + ([press.window] if press.window is not None else [])
+        low, high = np.array(there)[:, 0::2].min(axis=0), np.array(there)[:, 1::2].max(axis=0)
+        return _around((low[0], high[0], low[1], high[1]), MARGIN)
+
+    def _holds(self, tiles, boxes):
+        x, y, nx, ny = tiles
+        inside = [self.press.sim.cells(each) for each in boxes]
+        if self.press.window is not None:
+            inside.append(self.press.window)
+        bounds = self.press.sim.bounds()
+        if np.isfinite(bounds).all():
+            a0, a1, b0, b1 = self.press.sim.cells(bounds)
+            inside = [(max(i0, a0), min(i1, a1), max(j0, b0), min(j1, b1)) for i0, i1, j0, j1 in inside]
+        return all(
+            i0 >= i1
+            or j0 >= j1
+            or TILE * x <= i0
+            and i1 <= TILE * (x + nx)
+            and TILE * y <= j0
+            and j1 <= TILE * (y + ny)
+            for i0, i1, j0, j1 in inside
+        )
+
+    def _index(self):
+        """Where the image lies, as a bake's index says it."""
+        x, y, nx, ny = self.tiles
+        (ox, oy), side = self.press.options.origin, TILE * self.press.cell_size
+        return SimpleNamespace(
+            cell=self.press.cell_size, x0=ox + x * side, y0=oy + y * side, nx=nx * TILE, ny=ny * TILE, frame_start=1
+        )
+
+    def _open(self, tiles):
+        """An image over other tiles, and the tree that shows it."""
+        self.tiles = tiles
+        index = self._index()
+        image = bpy.data.images.new("desire_path press", index.nx, index.ny, alpha=True, float_buffer=True)
+        image.colorspace_settings.name = "Non-Color"
+        image.alpha_mode = "CHANNEL_PACKED"
+        image[playback_tree.TAG] = "trail"
+        self.image = image
+        self._tree()
+
+    def _tree(self):
+        """Show the image by a new tree, in place of the one before."""
+        obj, surface, index = self.object(), self.surface, self._index()
+        smooth = (
+            self.copy is not None
+            or surface.between
+            or any(
+                ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
+            )
+        )
+        tree = playback_tree.create(
+            obj,
+            {"trail": self.image},
+            index,
+            1,
+            surface.world,
+            surface.scale,
+            smooth,
+            surface.corners,
+            0.0,
+            (),
+            surface.place,
+            self.copy,
+        )
+        tree[playback.BY_HAND] = True
+        modifier = obj.modifiers.get(self.modifier_name) if self.modifier_name else None
+        if modifier is None:
+            modifier = compat.nodes_modifier(obj, "Desire Path Press", tree)
+            modifier.show_expanded = False
+            self.modifier_name = modifier.name
+            compat.move_modifier(obj, modifier, surface.place.before)
+        else:
+            old, modifier.node_group = modifier.node_group, tree
+            playback.discard(old)
+        self.tree = tree
+
+    # ---- a copy that is fine around the hand -------------------------------------------------------
+
+    def _is_fine(self, boxes):
+        """Whether the copy shows every cell near bodies."""
+        if self.fine is None:
+            return False
+        x0, y0, x1, y1 = self.fine
+        return all(
+            x0 <= a0 - NEAR and y0 <= b0 - NEAR and a1 + NEAR <= x1 and b1 + NEAR <= y1 for a0, b0, a1, b1 in boxes
+        )
+
+    def _cut(self, boxes):
+        """Make the copy fine around bodies, and as fine as what was pressed asks for elsewhere."""
+        press, index, obj = self.press, self._index(), self.object()
+        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        seen = press.picture(i0, j0, nx, ny)
+        changed = (seen[..., 2] > SHADES) | (np.abs(seen[..., 0]) > SHADES)
+        square, self.fine = np.zeros((ny, nx), bool), (0.0, 0.0, 0.0, 0.0)
+        if boxes:
+            low, high = np.array(boxes)[:, :2].min(axis=0), np.array(boxes)[:, 2:].max(axis=0)
+            wide = np.maximum(SQUARE, 1.5 * (high - low)) + NEAR
+            self.fine = (*(low - wide), *(high + wide))
+            a0, a1, b0, b1 = press.sim.cells(self.fine)
+            square[max(b0 - j0, 0) : max(b1 - j0, 0), max(a0 - i0, 0) : max(a1 - i0, 0)] = True
+        printed = {"compression": (changed | square).astype(np.float32)}
+        if cover.spacing(self.surface, index, printed) < refined.FINE:
+            return
+        size = axes.typed(obj.desire_path.refine_size)
+        finest = max(size, press.cell_size)
+        wanted = refine.wishes(seen[..., 0], changed, index.cell, (index.x0, index.y0), size, (square, finest))
+        found = refined.cut(self.scene, obj, self.surface, self.scene.frame_current, wanted, self.copy)
+        if found is not None and self.copy is None:
+            self.copy = found.carrier
+            self._tree()
+
+    # ---- and nothing of it -----------------------------------------------------------------------
+
+    def remove(self):
+        """Take all of it away; what the ground played plays on."""
+        obj = self.object()
+        if obj is not None:
+            clear(obj)
+            ours = playback.modifier(obj)
+            if self.hidden and ours is not None:
+                ours.show_viewport = True
+        self.tiles = self.fine = self.copy = None
+        self.modifier_name = ""
+
+
+def clear(obj):
+    """Take what shows pressed ground off an object, wherever it comes from: undo may have brought it back."""
+    for each in list(obj.modifiers):
+        if playback.is_by_hand(each):
+            tree = each.node_group
+            obj.modifiers.remove(each)
+            playback.discard(tree)
+
+
+def _around(cells, margin):
+    """Tiles (x, y, nx, ny) around cells (i0, i1, j0, j1)."""
+    i0, i1, j0, j1 = (int(each) for each in cells)
+    x, y = i0 // TILE - margin, j0 // TILE - margin
+    return x, y, -(-i1 // TILE) + margin - x, -(-j1 // TILE) + margin - y
