@@ -203,6 +203,76 @@ def test_a_ball_moved_a_hand_deep_leaves_that_whatever_it_weighs(folder):
         assert report["parameters"]["walkers"] == ["Ball"]
 
 
+def test_a_body_that_came_apart_is_told_before_anything_is_lost(folder):
+    ground, obj = sand(folder, size=2.0), crate()
+    key(obj, 1, location=(0.0, 0.0, 0.15))
+    key(obj, 10, location=(0.0, 0.0, 0.15))
+    report, _, _ = pressed_by(obj, ground, folder)
+    assert 0.049 < report["deepest_m"] < 0.051
+    key(obj, 20, location=(1e9, 0.0, 1e9))
+    meshes.activate(ground)
+    refused(bpy.ops.object.desire_path_bake, "Crate", "1e+09 m away", "frame 20")
+    assert json.loads((folder / "bake" / "report.json").read_text()) == report  # what was baked is still there
+
+
+def blocks(rig):
+    """A block of 10 cm about every bone of an armature, bound to it."""
+    mesh = bpy.data.meshes.new("Blocks")
+    vertices, faces, owner = [], [], []
+    for bone in rig.data.bones:
+        middle = (np.array(bone.head_local) + np.array(bone.tail_local)) / 2.0
+        half = np.maximum(np.abs(np.array(bone.tail_local) - np.array(bone.head_local)) / 2.0, 0.05)
+        first = len(vertices)
+        vertices += [middle + half * (x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+        owner += [bone.name] * 8
+        sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        faces += [[first + k for k in side] for side in sides]
+    mesh.from_pydata([tuple(map(float, each)) for each in vertices], [], faces)
+    obj = meshes.link(bpy.data.objects.new("Blocks", mesh))
+    for k, name in enumerate(owner):
+        (obj.vertex_groups.get(name) or obj.vertex_groups.new(name=name)).add([k], 1.0, "REPLACE")
+    obj.parent = rig
+    obj.modifiers.new("Armature", "ARMATURE").object = rig
+    return obj
+
+
+def test_all_limbs_of_who_falls_press(folder):
+    """A person who falls on his back leaves the whole pattern, from head to foot, two hands deep where he lies so."""
+    ground = sand(folder, size=6.0, cell=0.02)
+    rig = people.biped()
+    blocks(rig)
+    rig.rotation_mode = "XYZ"
+    key(rig, 1, location=(0.0, 0.0, 0.05), rotation_euler=(0.0, 0.0, 0.0))
+    key(rig, 12, location=(0.0, 0.0, 0.0), rotation_euler=(-math.pi / 2, 0.0, 0.0))
+    key(rig, 20, location=(0.0, 0.0, 0.0), rotation_euler=(-math.pi / 2, 0.0, 0.0))
+    rig.desire_path.limbs = "ALL"
+    report, depth, at = pressed_by(rig, ground, folder, mass=75.0)
+    gait = sample.record(bpy.context.scene, rig, 1, 20)
+    assert gait.contact_law == ("carve",) and set(gait.limb_name) == {bone.name for bone in rig.data.bones}
+    deep = at[depth > 0.02]
+    assert np.ptp(deep[:, 1]) > 1.3, np.ptp(deep[:, 1])  # from the heels to the head
+    lowest = min(
+        (rotated(pose[-1], sole.vertices)[:, 2].min() for pose, sole in zip(gait.pose, gait.soles)), default=0.0
+    )
+    assert abs(report["deepest_m"] + lowest) < 0.03, (report["deepest_m"], lowest)
+
+
+def rotated(pose, vertices):
+    """Vertices (n, 3) of a part in the world."""
+    w, v = pose[3], pose[4:]
+    twice = 2.0 * np.cross(v, vertices)
+    return pose[:3] + vertices + w * twice + np.cross(v, twice)
+
+
+def test_limbs_without_a_mesh_are_told(folder):
+    sand(folder)
+    rig = people.walk(people.biped())
+    rig.desire_path.limbs = "ALL"
+    meshes.activate(rig)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    refused(bpy.ops.object.desire_path_record, "No mesh hangs on the bones of 'Walker'", filepath=str(folder / "a.npz"))
+
+
 def test_what_its_weight_carries_is_not_carved(folder):
     """By weight a ball of 1 kg that is moved a hand deep leaves a few millimetres."""
     ground, obj = sand(folder, size=2.0), ball()

@@ -5,7 +5,9 @@ import pytest
 
 from desire_path import DesirePathError, Ground, Simulation, Soil
 from desire_path.loads import walker
-from desire_path.rig import solid
+from desire_path.motion.points import point_places
+from desire_path.rig import limbs, solid
+from desire_path.rig.skeleton import Motion, Skeleton, Skin
 
 BOX_FACES = np.array(
     [
@@ -173,3 +175,40 @@ def test_what_is_said_of_a_body_may_be_given_one_by_one():
     with pytest.warns(DeprecationWarning, match=r"SolidOptions\(name=.*frame_start=.*warnings="):
         old = solid.gait_from_solid(*body, mass=5.0, frame_rate=60.0, name="Crate", frame_start=7, warnings=["Odd."])
     assert old == new and new.walker_name == ("Crate",) and new.frame_start == 7 and new.warnings == ("Odd.",)
+
+
+def test_every_bone_that_has_faces_is_a_limb_of_its_own():
+    """Two bones along +X, each with a block, and one with nothing; the second one swings by 90 degrees."""
+    rest = np.tile(np.eye(4), (3, 1, 1))
+    rest[:, :3, :3] = ((0, 1, 0), (1, 0, 0), (0, 0, -1))  # +Y of a bone is +X
+    rest[:, 0, 3] = (0.0, 1.0, 2.0)
+    shapes = [box((0.8, 0.2, 0.1), at=(x, 0.0, 0.0)) for x in (0.5, 1.5)]
+    skin = Skin(
+        np.concatenate([vertices for vertices, _ in shapes]),
+        np.concatenate([BOX_FACES, BOX_FACES + 8]).astype(np.int32),
+        {"upper": np.repeat((1.0, 0.2), 8).astype("f4"), "lower": np.repeat((0.0, 0.8), 8).astype("f4")},
+    )
+    skeleton = Skeleton(("upper", "lower", "tip"), np.array((-1, 0, 1)), rest, np.ones(3))
+    assert limbs.bones_of(skeleton, skin) == ("upper", "lower")
+    matrix = np.tile(rest[:2], (2, 1, 1, 1))
+    matrix[1, 1, :3, :3] = ((1, 0, 0), (0, 0, -1), (0, 1, 0))  # +Y of it is +Z
+    gait = limbs.gait_from_limbs(
+        skeleton, Motion(np.array((0.0, 0.1)), ("upper", "lower"), matrix), skin, mass=70.0, frame_rate=24.0
+    )
+    assert gait.limb_name == ("upper", "lower") and gait.part_name == ("limb", "limb") and len(gait.soles) == 2
+    places = point_places(gait)
+    for part, x in ((0, 0.5), (1, 1.5)):
+        own = places[gait.point_part == part, 0]
+        np.testing.assert_allclose(own.min(axis=0), (x - 0.4, -0.1, -0.05), atol=1e-6)
+        np.testing.assert_allclose(own.max(axis=0), (x + 0.4, 0.1, 0.05), atol=1e-6)
+    up = places[gait.point_part == 1, 1]
+    assert up[:, 2].max() == pytest.approx(0.9) and up[:, 2].min() == pytest.approx(0.1)  # along +Z from its joint
+    with pytest.raises(DesirePathError, match="No mesh hangs on the bones of 'Rider'"):
+        limbs.gait_from_limbs(
+            skeleton,
+            Motion(np.array((0.0, 0.1)), ("tip",), matrix[:, :1]),
+            skin,
+            mass=70.0,
+            frame_rate=24.0,
+            options=solid.SolidOptions("Rider"),
+        )

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..motion.points import point_places
 from ..motion.recording import AUTO
-from . import sample
+from . import physics
 
 SUNK = 0.02  # what is moved deeper into the ground does not stand on it by its weight [m]
 
@@ -20,7 +20,7 @@ def laws(walkers, gait, below):
     chosen, told = [], []
     for number, obj in enumerate(walkers):
         law = gait.contact_law[number] if gait.contact_law else AUTO
-        if law == AUTO and obj.type == "MESH" and not sample.simulated(obj):
+        if law == AUTO and obj.type == "MESH" and not physics.simulated(obj):
             deep = _depth(gait.only([number]), below())
             if deep > SUNK:
                 law = "carve"

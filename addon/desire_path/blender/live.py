@@ -15,7 +15,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import bake_job, messages, ops, sample, state, timeline, undo_step
+from . import bake_job, messages, ops, physics, state, timeline, undo_step
 from .chosen import grounds, walkers
 
 REST = 0.2  # without a change before anything is done [s]
@@ -152,7 +152,7 @@ def _turn():
 
 def _held_by_playback(wanted):
     """Whether somebody is moved by physics, which only a scene that does not play can be asked for."""
-    return any(sample.simulated(each) for scene, obj in wanted for each in walkers(scene, obj))
+    return any(physics.simulated(each) for scene, obj in wanted for each in walkers(scene, obj))
 
 
 def _begin(scene, obj):

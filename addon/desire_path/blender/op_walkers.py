@@ -119,6 +119,8 @@ def add(context, obj):
 
 def _means(scene, obj):
     """(by what a walker leaves prints, in words; sentences about it)"""
+    if obj.type == "ARMATURE" and obj.desire_path.limbs == "ALL":
+        return "with all that hangs on its bones", ()
     if obj.type == "ARMATURE":
         found = detect(scene, obj, keep=not obj.desire_path.is_walker)
         shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))

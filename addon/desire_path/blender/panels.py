@@ -236,6 +236,8 @@ def draw_walker(layout, context, obj):
         way.prop(settings, "scatter")
         way.prop(settings, "path_seed")
         way.prop(settings, "back_and_forth")
+    if legged:
+        column.prop(settings, "limbs")
     column.prop(settings, "contact_law")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")

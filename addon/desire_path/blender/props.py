@@ -299,6 +299,14 @@ class DesirePathSettings(bpy.types.PropertyGroup):
             ("impulse", "Impulse", "Weight, and an impulse at every touch-down"),
         ),
     )
+    limbs: EnumProperty(
+        name="Limbs",
+        description="Which limbs of an armature press the ground",
+        items=(
+            ("FEET", "Feet", "The feet that were found"),
+            ("ALL", "All", "Every bone that a mesh hangs on, as of who falls; it carves, unless told otherwise"),
+        ),
+    )
     contact_law: EnumProperty(
         name="Presses",
         description="How the walker presses the ground",

@@ -15,12 +15,14 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..motion.gait import AUTO, Gait
-from ..rig import body, mass, rigs, solid
+from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
-from . import axes, clock, compat, playback, ride
+from . import axes, clock, compat, physics, playback, ride
 from .private import evaluated, looked_at, private_scene
 from .worn import skin, tread
 
+FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
+USUAL_MASS = 75.0  # of who carves and has none, which nobody asks for [kg]
 STIFF = 0.01  # a rigid body may change by so much of its size
 PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
 
@@ -231,6 +233,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     ):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
+        if settings.limbs == "ALL":
+            return _limbs(scene, armature, shape, own, carry, frames)
         found, volume = rig(armature, shape), None
         size = believed(armature, shape, found)
         if len(found.feet) > 2:  # no table knows this body: its mesh does
@@ -262,6 +266,30 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     return replace(gait, warnings=size + gait.warnings + told + rode, contact_law=law)
 
 
+def _limbs(scene, armature, shape, own, carry, frames):
+    """What an armature did all of whose limbs press; it carves, unless it is to press by its weight."""
+    scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
+    settings, world = armature.desire_path, axes.matrix(evaluated(own, armature, frames[0]).matrix_world, armature.name)
+    worn = skin(scene, armature, None, world, scale, frames)
+    names = limbs.bones_of(shape, worn) if worn is not None else ()
+    if not names:
+        raise DesirePathError(
+            f"No mesh hangs on the bones of '{armature.name}', so that its limbs have nothing to press with: bind one "
+            "to it, or let its feet press."
+        )
+    gait = limbs.gait_from_limbs(
+        shape,
+        motion(own, armature, names, frames, rate, scale, carry),
+        worn,
+        mass=axes.typed(settings.mass) if settings.mass > 0.0 else USUAL_MASS,
+        frame_rate=rate,
+        options=solid.SolidOptions(armature.name, round(frames[0])),
+    )
+    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    law = "carve" if settings.contact_law == "AUTO" else settings.contact_law.lower()
+    return replace(gait, warnings=gait.warnings + tuple(rode), contact_law=(law,))
+
+
 def _solid(scene, obj, frames, samples, rate, scale):
     """What a mesh did as one rigid body, as it is at the first frame, with its modifiers."""
     with (
@@ -272,9 +300,15 @@ def _solid(scene, obj, frames, samples, rate, scale):
     ):
         (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
         placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
-    if simulated(obj):
-        placed = _fallen(scene, obj, frames, samples)
+    if physics.simulated(obj):
+        placed = physics.fallen(scene, obj, frames, samples)
         placed = placed if carry is None else np.array(carry.back) @ placed
+    away = np.abs(placed[:, :3, 3]).max(axis=1) * scale
+    if FARTHEST < away.max() < axes.FAR:
+        raise DesirePathError(
+            f"'{obj.name}' is {away.max():.3g} m away at frame {frames[away.argmax()]:g}, as when a simulation comes "
+            "apart or a key is wrong: mend it, or let the frames end before."
+        )
     bad = ~(np.abs(placed) < axes.FAR).all(axis=(1, 2)) | ~(np.linalg.norm(placed[:, :3, :3], axis=1) > 0.0).all(axis=1)
     if bad.any():
         raise DesirePathError(
@@ -328,37 +362,6 @@ def _solid_weight(obj, vertices, faces):
         )
     settings.estimated_mass = mass.DENSITY * volume
     return mass.DENSITY * volume, [mass.sentence_by_volume(obj.name, mass.DENSITY * volume, volume)], law
-
-
-def simulated(obj):
-    """Whether Blender's rigid bodies move an object or one that it hangs on."""
-    while obj is not None:
-        if obj.rigid_body is not None and obj.rigid_body.type == "ACTIVE":
-            return True
-        obj = obj.parent
-    return False
-
-
-def _fallen(scene, obj, frames, samples):
-    """World matrices of what is simulated: its own scene is stepped through, and left as it was."""
-    world = scene.rigidbody_world
-    before, keep, out = scene.frame_current, scene.frame_subframe, []
-    first, last = round(frames[0]), round(frames[-1])
-    try:
-        for frame in range(min(first, world.point_cache.frame_start if world is not None else first), last + 1):
-            scene.frame_set(frame)
-            if frame >= first:
-                depsgraph = scene.view_layers[0].depsgraph
-                out.append(np.array(obj.evaluated_get(depsgraph).matrix_world, np.float64))
-    finally:
-        scene.frame_set(before, subframe=keep)
-    placed = np.array(out)
-    if samples == 1:
-        return placed
-    at = np.arange(len(frames)) / samples  # between whole frames, straight
-    low = np.minimum(at.astype(int), len(placed) - 2)
-    share = (at - low)[:, None, None]
-    return (1.0 - share) * placed[low] + share * placed[low + 1]
 
 
 def gaits(scene, walkers, frame_start, frame_end, land=None):

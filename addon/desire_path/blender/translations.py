@@ -55,6 +55,7 @@ GERMAN = {
         "Write Tables": "Tabellen schreiben",
     },
     "*": {
+        "All": "Alle",
         "At rest": "Zur Ruhe gekommen",
         "Attributes": "Attribute",
         "Auto Update": "Selbst erneuern",
@@ -107,6 +108,7 @@ GERMAN = {
         "Keep": "Behalten",
         "Kind": "Art",
         "Limb": "Glied",
+        "Limbs": "Gliedmaßen",
         "Load": "Last",
         "Looking for Changes": "Sucht nach Änderungen",
         "Loose Layer": "Lockere Schicht",
