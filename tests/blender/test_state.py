@@ -116,21 +116,39 @@ def test_what_changes_nothing(folder):
     assert ground.desire_path.bake_state == "OUTDATED"
 
 
-def test_scale_that_is_applied_after_the_bake(folder):
-    ground = meshes.grid(60, 130, 0.01, -0.3, -1.1)
-    ground.scale = (2.0, 2.0, 2.0)
-    meshes.activate(ground)
-    assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
-    ground.desire_path.folder, ground.desire_path.cell_size = str(folder / "bake"), 0.02
-    walker = people.walk(people.biped(), frames=12)
-    meshes.activate(walker)
-    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
-    meshes.activate(ground)
-    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    before = placed(ground, 12)
-    assert bpy.ops.object.transform_apply(location=False, rotation=False, scale=True) == {"FINISHED"}
-    stays = np.abs(placed(ground, 12) - before).max() < 1e-5
-    assert stays or ground.desire_path.bake_state == "OUTDATED" and "ground" in ground.desire_path.missing
+def test_transforms_that_are_applied_after_the_bake(folder):
+    """The points of the ground have other numbers and lie where they lay: nothing is to be baked again."""
+    hills = lambda x, y: 0.004 * np.sin(9 * x) * np.cos(7 * y)  # noqa: E731
+    for number, applied in enumerate((("scale",), ("rotation",), ("location",), ("location", "rotation", "scale"))):
+        ground = meshes.grid(60, 130, 0.01, -0.3, -1.1, hills)
+        ground.scale, ground.rotation_euler, ground.location = (2.0, 2.1, 1.9), (0.0, 0.0, 0.2), (0.05, -0.1, 0.001)
+        paint = ground.vertex_groups.new(name="wet")
+        paint.add(range(4000), 1.0, "REPLACE")
+        meshes.activate(ground)
+        assert bpy.ops.object.desire_path_ground_add() == {"FINISHED"}
+        ground.desire_path.folder, ground.desire_path.cell_size = str(folder / str(number)), 0.02
+        ground.desire_path.painted.add().vertex_group = "wet"
+        walker = people.walk(people.biped(f"Walker {number}"), frames=12)
+        meshes.activate(walker)
+        assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+        meshes.activate(ground)
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        before = placed(ground, 12)
+        chosen = {each: each in applied for each in ("location", "rotation", "scale")}
+        assert bpy.ops.object.transform_apply(**chosen) == {"FINISHED"}
+        assert np.abs(placed(ground, 12) - before).max() < 1e-5
+        assert ground.desire_path.bake_state == "FRESH", (applied, ground.desire_path.missing)
+        trodden = int(np.argmin(before[:, 2]))
+        height = ground.data.vertices[trodden].co.z
+        ground.data.vertices[trodden].co.z = height + 1e-3
+        assert ground.desire_path.bake_state == "OUTDATED" and "ground" in ground.desire_path.missing
+        ground.data.vertices[trodden].co.z = height
+        assert ground.desire_path.bake_state == "FRESH"
+        paint.add([trodden], 0.5, "REPLACE")
+        assert ground.desire_path.bake_state == "OUTDATED"
+        for each in (ground, walker):
+            bpy.data.objects.remove(each)
+        bpy.context.view_layer.update()  # nothing is selected that is gone
 
 
 def placed(ground, frame):

@@ -214,6 +214,9 @@ def test_what_is_off_in_renders_is_not_worn():
         mesh.keyframe_insert("hide_render", frame=frame)
     scene.frame_set(1)
     assert mesh.hide_render and skin_of(obj) is not None and skin_of(obj, range(1, 9)) is None
+    for first, last, told in ((1, 12, 1), (1, 9, 0), (10, 20, 0)):
+        said = [each for each in sample.record(scene, obj, first, last).warnings if "off in renders" in each]
+        assert len(said) == told and all(mesh.name in each and obj.name in each for each in said), (first, said)
     mesh.animation_data_clear()
     mesh.hide_render = False
     layer.children["Outfit"].exclude = True

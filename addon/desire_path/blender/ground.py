@@ -45,6 +45,7 @@ class Surface:
     place: stack.Place  # of our modifier
     drawn: np.ndarray  # the points the viewport has, in the world (m, 3) [m]
     mark: str  # another one when anything of the mesh, its place or its painted soils is
+    painted: str  # another one when its painted soils are
     finer: int = 1  # times as many points as were read are in renders
     between: bool = False  # its points are to be shown between cells, as those of its neighbours are
 
@@ -93,7 +94,8 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         del later
         near = _near(found.data, world * scale, box)
         weights = [compat.float_attribute(found.data, WEIGHT.format(k)) for k in range(len(groups))]
-        mark = _mark(found.data, world * scale, weights)
+        painted = [each for each in weights if each is not None]
+        mark = _mark(found.data, world * scale, painted)
         drawn = None
         if stack.differs(scene, obj, place.before):
             stack.show(scene, copy, obj, render=False)
@@ -119,6 +121,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         place,
         vertices if drawn is None else drawn,
         mark,
+        meshes.mark(painted),
         finer,
     )
 
@@ -150,11 +153,10 @@ def _near(mesh, place, box):
     return meshes.near(compat.positions(mesh), *compat.faces(mesh), place[:3], box)
 
 
-def _mark(mesh, place, weights):
+def _mark(mesh, place, painted):
     """A word for all of a mesh, where it is, and what is painted on it."""
     corners, _, _ = compat.faces(mesh)
-    there = [each for each in weights if each is not None]
-    return meshes.mark([compat.positions(mesh), corners, *there], [len(mesh.polygons), place.tolist()])
+    return meshes.mark([compat.positions(mesh), corners, *painted], [len(mesh.polygons), place.tolist()])
 
 
 def under(gait):

@@ -5,20 +5,24 @@
     plants, settings --> Parcels ----------/
 """
 
+import os
 from dataclasses import replace
 
 import numpy as np
 
 from ..bake.bake import Bake
+from ..bake.contents import MAPS_ALWAYS
 from ..bake.options import BakeOptions, BakeOutput
 from ..errors import DesirePathError
-from ..ground import mesh, parcels
+from ..ground import maps, mesh, parcels
+from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, pressed, reach, sample
+from . import axes, bodies, ground, paths, plants, playback, pressed, reach, sample
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
+ROUNDED = 4e-7  # rounding moves points no farther, in shares of their distance from the origin
 
 
 def taken(scene, company, folders, **more):
@@ -88,12 +92,36 @@ def taken(scene, company, folders, **more):
 
 
 def now(scene, obj):
-    """The marks of what a ground would be baked from now."""
+    """The marks of what a ground would be baked from now, and the Surface of each ground baked with it, by name."""
     company = _all(reach.company(scene, obj))
     if not company.walkers:
         raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
     made, found = _all(taken(scene, company, [(str(number), "") for number in range(len(company.grounds))]))
-    return marks(obj, company, made, found)
+    return marks(obj, company, made, found), found
+
+
+def was_applied(obj, index, now, found):
+    """Whether all that was done to a ground that is baked alone is that its scale, rotation or location was applied:
+    it has other numbers, and lies where it lay but for rounding.
+
+    index: the FrameIndex of its bake; now, found: as now() gives them
+    """
+    before = index.inputs
+    if before.get("placed") == now["placed"] or before.get("painted") != now["painted"] or len(found) > 1:
+        return False  # bakes of earlier versions tell neither
+    if playback.is_moved(obj):
+        return False
+    (surface,) = found.values()
+    try:
+        before = maps.read(os.path.join(os.path.dirname(index.folder), MAPS_ALWAYS[0])).planes["rest"]
+        shape = replace(surface.ground, native=(*surface.ground.native[:3], None))
+        land = Simulation(shape, cell_size=index.cell, options=SimulationOptions(origin=(index.x0, index.y0)))
+        with land:
+            rest = land.read("rest", 0, 0, index.nx, index.ny)
+    except (DesirePathError, KeyError):
+        return False
+    far = max(np.abs(surface.vertices).max(initial=1.0), 1.0)
+    return before.shape == rest.shape and bool(np.allclose(before, rest, rtol=0.0, atol=ROUNDED * far, equal_nan=True))
 
 
 def _all(steps):
@@ -146,12 +174,12 @@ def marks(obj, company, made, found):
         sum(each.desire_path.place_feet for each in company.walkers),
     ]
     trails = [parcel.ground.trail for parcel in made.parcels if parcel.ground.trail is not None]
+    left = [array for trail in trails for array in trail.arrays()]
     return {
         "walk": mesh.mark(walk, [*(f"{mass:.9g}" for mass in gait.mass), *filter(None, [laws])]),
-        "ground": mesh.mark(
-            [array for trail in trails for array in trail.arrays()],
-            sorted(found[parcel.name].mark for parcel in made.parcels),
-        ),
+        "ground": mesh.mark(left, sorted(found[parcel.name].mark for parcel in made.parcels)),
+        "painted": mesh.mark(left, sorted(found[parcel.name].painted for parcel in made.parcels)),
+        "placed": mesh.mark((), sorted((each.world * each.scale).tolist() for each in found.values())),
         "plants": mesh.mark(grown, [planting.parameters() for planting in plantings]),
         "settings": mesh.mark((), chosen),
     }

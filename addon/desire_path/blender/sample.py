@@ -19,7 +19,7 @@ from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
 from . import axes, clock, compat, physics, playback, ride
 from .private import evaluated, looked_at, private_scene
-from .worn import skin, tread
+from .worn import hanging, owners, skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
 USUAL_MASS = 75.0  # of who carves and has none, which nobody asks for [kg]
@@ -186,6 +186,21 @@ def weight(armature, shape, found, volume=None):
     return kilograms, (mass.sentence(armature.name, kilograms, height),)
 
 
+def worn_at_times(scene, armature, feet, frames):
+    """Sentences about what moves with the feet and is off in renders at some frames of the walk only."""
+    owner, told = owners(armature, feet), []
+    for obj in hanging(scene, armature):
+        keyed = compat.curve(obj.animation_data, "hide_render")
+        if keyed is None or not (obj.parent_bone in owner or any(group.name in owner for group in obj.vertex_groups)):
+            continue
+        if len({keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames}) > 1:
+            told.append(
+                f"'{obj.name}' is off in renders at some of the frames: '{armature.name}' wears it at all of them "
+                "where it walks."
+            )
+    return tuple(told)
+
+
 # ---- all of it --------------------------------------------------------------------------------------
 
 
@@ -246,6 +261,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         kilograms, told = weight(armature, shape, found, volume)
         moved = motion(own, armature, found.bones, frames, rate, scale, carry)
     worn = skin(scene, armature, found.feet, world, scale, frames)
+    told += worn_at_times(scene, armature, found.feet, frames)
     gait = body.gait_from_bones(
         shape,
         moved,

@@ -87,12 +87,13 @@ def _changed(obj, index):
     try:
         with looked_at(*walkers(scene, obj)):
             bpy.context.view_layer.update()
-            now = inputs.now(scene, obj)
+            now, found = inputs.now(scene, obj)
     except DesirePathError as problem:
         return f"The scene has changed since the bake: {problem}"
-    changed = [words for name, words in PARTS.items() if index.inputs.get(name) != now[name]]
-    if not changed:
+    changed = [name for name in PARTS if index.inputs.get(name) != now[name]]
+    if not changed or changed == ["ground"] and inputs.was_applied(obj, index, now, found):
         return ""
+    changed = [PARTS[name] for name in changed]
     text = " and ".join(filter(None, (", ".join(changed[:-1]), changed[-1])))
     one = len(changed) == 1 and not changed[0].endswith("s")
     return f"{text.capitalize()} {'has' if one else 'have'} changed since the bake: bake again."
