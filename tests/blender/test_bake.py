@@ -15,6 +15,7 @@ from test_playback import fresh, shown
 from test_sample import ids
 
 from desire_path.bake import bake, output
+from desire_path.bake.options import BakeOptions
 from desire_path.blender import compat, op_bake, op_forces, playback
 from desire_path.ground import maps, sim
 from desire_path.ground.soil import SOILS
@@ -341,7 +342,7 @@ def test_record_bakes_the_same_without_blender(folder):
         "dry-sand",
         str(folder / "plain"),
         cell_size=0.02,
-        origin=origin_of(folder),
+        options=BakeOptions(origin=origin_of(folder)),
     )
     for _ in job.run():
         pass

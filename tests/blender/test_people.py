@@ -11,6 +11,7 @@ from scenes import meshes, people
 from test_playback import shown
 
 from desire_path.bake import bake
+from desire_path.bake.options import BakeOptions
 from desire_path.blender import clock, moves, sample
 from desire_path.ground import maps, sim
 from desire_path.loads import walker
@@ -211,7 +212,9 @@ def test_one_recording_gives_the_same_bits(folder):
     gait = Gait.load(path)
     found = set()
     for threads in (1, 2, 4):
-        job = bake.Bake(gait, sim.Ground.flat(), "dry-sand", str(folder / f"t{threads}"), threads=threads)
+        job = bake.Bake(
+            gait, sim.Ground.flat(), "dry-sand", str(folder / f"t{threads}"), options=BakeOptions(threads=threads)
+        )
         for _ in job.run():
             pass
         planes = maps.read(str(folder / f"t{threads}" / "maps_final.exr")).planes

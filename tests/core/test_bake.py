@@ -14,12 +14,15 @@ import pytest
 
 from desire_path.bake import bake as bakes
 from desire_path.bake.bake import Bake, read_index
+from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS
 from desire_path.motion.gait import Gait, Sole
 from tests.scenes import gaits
+from tests.scenes.records import for_bake
 
 REPO = Path(__file__).resolve().parents[2]
 
@@ -33,7 +36,7 @@ def standing(seconds=1.5, rate=24.0, at=(0.0, 0.0)):
 
 
 def baked(folder, gait=None, **more):
-    bake = Bake(gait or standing(), Ground.flat(), "mud", folder, **{"threads": 1, **more})
+    bake = Bake(gait or standing(), Ground.flat(), "mud", folder, **for_bake(**{"threads": 1, **more}))
     frames = [progress.frame for progress in bake.run()]
     return bake, frames
 
@@ -124,7 +127,7 @@ def test_a_bake_leaves_frames_maps_and_a_report(tmp_path):
 
 def test_the_report_of_ragged_ground_that_springs_back_closes_its_ledger(tmp_path):
     ragged = replace(SOILS["soil"], young_modulus=1e5, wall_angle=math.radians(40), roughness=0.4, rebound=0.3)
-    bake = Bake(standing(), Ground.flat(), ragged, tmp_path, threads=1)
+    bake = Bake(standing(), Ground.flat(), ragged, tmp_path, options=BakeOptions(threads=1))
     for _ in bake.run():
         pass
     report = bake.report
@@ -180,7 +183,7 @@ def test_a_stopped_bake_plays_what_is_whole_and_goes_on(tmp_path):
     whole = tmp_path / "whole"
     baked(whole)
     stopped = tmp_path / "stopped"
-    bake = Bake(standing(), Ground.flat(), "mud", stopped, threads=1)
+    bake = Bake(standing(), Ground.flat(), "mud", stopped, options=BakeOptions(threads=1))
     run = bake.run()
     for _ in range(10):
         next(run)
@@ -196,7 +199,7 @@ def test_a_stopped_bake_plays_what_is_whole_and_goes_on(tmp_path):
 
 def test_a_killed_bake_plays_what_is_whole(tmp_path):
     """Killed: no clean-up at all ran, and a temporary file lies about."""
-    bake = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1)
+    bake = Bake(standing(), Ground.flat(), "mud", tmp_path, options=BakeOptions(threads=1))
     run = bake.run()
     for _ in range(7):
         next(run)
@@ -226,7 +229,7 @@ def test_damaged_frames_count_as_missing_and_are_written_again(tmp_path):
     assert content(whole) == good and read_index(whole).complete
     # the same in a bake that goes on
     stopped = tmp_path / "stopped"
-    run = Bake(standing(), Ground.flat(), "mud", stopped, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", stopped, options=BakeOptions(threads=1)).run()
     for _ in range(10):
         next(run)
     run.close()
@@ -291,7 +294,9 @@ def test_frames_beyond_the_recording_are_refused(tmp_path):
     last = read_index_of(tmp_path / "whole").frame_end
     for first, end in ((last + 1, last + 20), (-20, 0)):
         with pytest.raises(DesirePathError, match=f"frames 1 to {last}"):
-            Bake(standing(), Ground.flat(), "mud", tmp_path / "none", frame_start=first, frame_end=end)
+            Bake(
+                standing(), Ground.flat(), "mud", tmp_path / "none", output=BakeOutput(frame_start=first, frame_end=end)
+            )
     _, frames = baked(tmp_path / "more", frame_start=-5, frame_end=last + 5)
     assert frames == list(range(-5, last + 6))
 
@@ -305,14 +310,14 @@ def test_an_earlier_bake_plays_until_the_new_one_is_whole(tmp_path):
     baked(tmp_path)
     before = content(tmp_path)
     second = (tmp_path / "maps" / "second_0001.exr").read_bytes()
-    bake = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1)
+    bake = Bake(standing(), Ground.flat(), "snow", tmp_path, options=BakeOptions(threads=1))
     run = bake.run()
     for _ in range(5):
         next(run)
     run.close()
     assert content(tmp_path) == before and read_index(tmp_path).complete
     assert (tmp_path / "maps" / "second_0001.exr").read_bytes() == second
-    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run():
+    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, options=BakeOptions(threads=1)).run():
         pass
     assert content(tmp_path) != before and read_index(tmp_path).complete
     assert (tmp_path / "maps" / "second_0001.exr").read_bytes() != second
@@ -340,11 +345,20 @@ def test_a_bake_belongs_to_its_ground(tmp_path):
 
 @pytest.mark.parametrize("owner", ["the lane", ""])
 def test_a_stopped_bake_of_another_ground_is_not_gone_on_with(tmp_path, owner):
-    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1, owner="the meadow").run()
+    run = Bake(
+        standing(),
+        Ground.flat(),
+        "mud",
+        tmp_path,
+        options=BakeOptions(threads=1),
+        output=BakeOutput(owner="the meadow"),
+    ).run()
     for _ in range(5):
         next(run)
     run.close()
-    again = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1, owner=owner)
+    again = Bake(
+        standing(), Ground.flat(), "mud", tmp_path, options=BakeOptions(threads=1), output=BakeOutput(owner=owner)
+    )
     if owner:
         with pytest.raises(DesirePathError, match="another ground"):
             next(again.run())
@@ -419,8 +433,8 @@ def test_bad_ground_is_a_sentence():
         ("not there", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]])),
         ("weights", lambda: Ground.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[1, 1]])),
         ("weights", lambda: Ground.heights(np.zeros((3, 3)), 0.5, kind_weight=np.ones((2, 3)))),
-        ("rim width", lambda: Simulation(Ground.flat(), rim_width=0.0)),
-        ("origin", lambda: Simulation(Ground.flat(), origin=(0.0, float("inf")))),
+        ("rim width", lambda: Simulation(Ground.flat(), options=SimulationOptions(rim_width=0.0))),
+        ("origin", lambda: Simulation(Ground.flat(), options=SimulationOptions(origin=(0.0, float("inf"))))),
         ("soil", lambda: Simulation(Ground.flat(), [])),
         ("at least one", lambda: Simulation(Ground.flat()).read("heap", 0, 0, 0, 4)),
         ("no field", lambda: Simulation(Ground.flat()).read("gold", 0, 0, 4, 4)),

@@ -12,9 +12,11 @@ import pytest
 
 from desire_path import bounds
 from desire_path.bake.bake import Bake, read_index
+from desire_path.bake.options import BakeOptions
 from desire_path.bounds import Limits
 from desire_path.errors import DesirePathError
 from desire_path.files import disk
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
@@ -119,7 +121,7 @@ def test_plants_count(tmp_path):
 @pytest.mark.parametrize("cell", [0.005, 0.02])
 def test_frames_take_about_what_is_estimated(tmp_path, cell):
     """Not more than twice what they take, so that a bake that would fit is not refused, and not a tenth."""
-    bake = Bake(Gait.load(WALK), Ground.flat(), "mud", tmp_path, cell_size=cell, threads=2)
+    bake = Bake(Gait.load(WALK), Ground.flat(), "mud", tmp_path, cell_size=cell, options=BakeOptions(threads=2))
     for _ in bake.run():
         pass
     index = read_index(tmp_path)
@@ -208,6 +210,6 @@ def test_a_command_without_memory_is_a_sentence(tmp_path, megabytes):
 
 def test_a_simulation_keeps_its_limits_too():
     with pytest.raises(DesirePathError, match="limit of plants"):
-        sim = Simulation(Ground.flat(), "mud", plants=["lawn"], limits=Limits(plants=10))
+        sim = Simulation(Ground.flat(), "mud", plants=["lawn"], options=SimulationOptions(limits=Limits(plants=10)))
         gait = standing().resample(120.0)
         sim.load(gait, walker.loads(gait, ground=sim.rest_height))

@@ -11,6 +11,7 @@ from desire_path.ground import maps
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import Soil
 from tests.scenes import gaits
+from tests.scenes.records import for_bake, for_simulation
 
 G = 9.81
 SOIL = Soil(layer_depth=0.3, young_modulus=0.5e6, poisson_ratio=0.35, settle_time=0.1, rest_angle=math.radians(25))
@@ -19,7 +20,7 @@ TILTED = [0, 0, 0.004, math.cos(0.03), 0, math.sin(0.03), 0]  # its front lower 
 
 def pressed(pose=TILTED, force=(0, 0, -700), ground=None, soil=SOIL, **choices):
     """compression and heap, 1 cm cells about the origin, after a box has stood for half a second; it still stands."""
-    sim = Simulation(ground or Ground.flat(), soil, 0.01, **choices)
+    sim = Simulation(ground or Ground.flat(), soil, 0.01, **for_simulation(**choices))
     gait, loads = gaits.pressed([gaits.box(0.25, 0.1)], [pose], [force], seconds=0.5)
     sim.load(gait, loads)
     sim.run(58)
@@ -95,7 +96,9 @@ def test_the_normal_is_that_of_the_ground_under_a_whole_foot():
 
 
 def bake(tmp_path, gait, soil=SOIL, **choices):
-    made = Bake(gait, Ground.flat(), soil, tmp_path, cell_size=0.01, map_seconds=False, threads=1, **choices)
+    made = Bake(
+        gait, Ground.flat(), soil, tmp_path, cell_size=0.01, **for_bake(map_seconds=False, threads=1, **choices)
+    )
     for _ in made.run():
         pass
     return made
@@ -115,7 +118,7 @@ def test_a_bake_is_made_with_what_was_chosen(tmp_path, choice):
         if name == "heap" or "law" in choice:
             assert np.abs(planes[0][name] - planes[1][name]).max() > 0.001
     even = gait.resample(120.0)
-    sim = Simulation(Ground.flat(), SOIL, 0.01, **choice)
+    sim = Simulation(Ground.flat(), SOIL, 0.01, **for_simulation(**choice))
     sim.load(even, made.loads)
     sim.run(len(even.time) - 1)
     assert sim.report()["deepest_m"] == made.report["deepest_m"]

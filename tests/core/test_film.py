@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from desire_path.ground import maps
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import TILE, Ground, Simulation
 from tests.scenes import gaits
 
@@ -14,7 +15,7 @@ def trodden():
     gait, loads = gaits.pressed(
         [gaits.box(0.25, 0.11)], [[0.02, 0.01, 0, 1, 0, 0, 0]], [[0, 0, -700]], seconds=0.5, rate=60.0, lift=0.5
     )
-    sim = Simulation(Ground.flat(), "mud", 0.01, threads=2)
+    sim = Simulation(Ground.flat(), "mud", 0.01, options=SimulationOptions(threads=2))
     sim.load(gait, loads)
     return sim, len(gait.time)
 

@@ -9,6 +9,7 @@ import pytest
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import Soil
 from tests.scenes import gaits
+from tests.scenes.records import for_simulation
 
 SLUSH = Soil(young_modulus=0.2e6, poisson_ratio=0.1, settle_time=0.02, rest_angle=0.3, wall_angle=math.radians(50))
 SLOW = replace(SLUSH, flow_time=0.3)
@@ -17,7 +18,7 @@ LIFT = 73  # the sample before the one by which the foot is up
 
 def begun(soil, cell=0.01, **more):
     gait, loads = gaits.pressed([gaits.box(0.25, 0.11)], [[0, 0, 0, 1, 0, 0, 0]], [[0, 0, -75 * 9.81]], lift=2.4)
-    sim = Simulation(Ground.flat(), soil, cell, **more)
+    sim = Simulation(Ground.flat(), soil, cell, **for_simulation(**more))
     sim.load(gait, loads)
     return sim, len(gait.time) - 1
 

@@ -66,7 +66,7 @@ def test_what_is_given_twice_or_is_unknown_is_refused():
         walk("p", 1, 2.0, speed=3.0)
     with pytest.raises(TypeError, match="'sped'"):
         walk("p", sped=1.0)
-    with pytest.raises(TypeError, match="positional"):
+    with pytest.warns(DeprecationWarning), pytest.raises(TypeError, match="positional"):
         walk("p", 1, 2.0, 0.4, 5)
     with pytest.raises(TypeError, match="path"):
         walk()

@@ -11,7 +11,9 @@ import pytest
 from scenes import gaits
 
 from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil
+from desire_path.bake.options import BakeOutput
 from desire_path.errors import DesirePathError
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import PAPER, Planting
 from desire_path.ground.trail import Trail
 from desire_path.loads import walker
@@ -127,7 +129,9 @@ def test_simulations_and_bakes_are_shown_on_one_short_line(gait, tmp_path):
 
 def test_a_rectangle_that_bounds_tells_is_one_that_read_takes():
     heights = np.add.outer(np.zeros(5), np.arange(9.0))
-    with Simulation(Ground.heights(heights, 0.1), cell_size=0.05, origin=(0.01, -0.02)) as sim:
+    with Simulation(
+        Ground.heights(heights, 0.1), cell_size=0.05, options=SimulationOptions(origin=(0.01, -0.02))
+    ) as sim:
         whole = sim.read("rest", sim.bounds())
         i0, i1, j0, j1 = sim.cells(sim.bounds())
         np.testing.assert_array_equal(whole, sim.read("rest", i0, j0, i1 - i0, j1 - j0))
@@ -146,7 +150,7 @@ def test_a_rectangle_that_bounds_tells_is_one_that_read_takes():
 
 def test_cells_of_a_box_are_the_cells_it_was_made_of():
     for cell, origin in ((0.01, (0.0, 0.0)), (0.03, (0.1, -0.7)), (0.007, (-3.3, 12.1))):
-        sim = Simulation(Ground.flat(), cell_size=cell, origin=origin)
+        sim = Simulation(Ground.flat(), cell_size=cell, options=SimulationOptions(origin=origin))
         for i in range(-300, 300, 7):
             cells = (i, i + 1 + i % 5, 3 * i, 3 * i + 2)
             assert sim.cells(sim.box(cells)) == cells
@@ -167,7 +171,7 @@ def test_a_bake_frees_its_folder_at_the_end_of_its_block(gait, tmp_path):
         steps = bake.run()
         assert next(steps).frame == 1
     assert list(steps) == []
-    with Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"), cell_size=0.03, wait=0.0) as bake:
+    with Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"), cell_size=0.03, output=BakeOutput(wait=0.0)) as bake:
         assert [each.fraction for each in bake.run()][-1] == 1.0
     assert bake.report["contacts"] > 0
 

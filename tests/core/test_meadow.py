@@ -10,9 +10,11 @@ from scenes import gaits
 from desire_path.bake.bake import Bake, free, read_index
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import KINDS, PAPER, Planting
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS
+from tests.scenes.records import for_bake
 
 TOUGH = KINDS["lawn"]
 FIELDS = ("compression", "heap", "pressure_time", "plant_strength", "young_modulus")
@@ -20,7 +22,9 @@ FIELDS = ("compression", "heap", "pressure_time", "plant_strength", "young_modul
 
 def stand(plants=(), at=(0.0, 0.0), *, newtons=735.0, threads=1, ground=None, cell=0.01, origin=(0.0, 0.0)):
     """A box of 28 x 10 cm stands on soft ground, then lifts off."""
-    sim = Simulation(ground or Ground.flat(), "snow", cell, plants=plants, threads=threads, origin=origin)
+    sim = Simulation(
+        ground or Ground.flat(), "snow", cell, plants=plants, options=SimulationOptions(threads=threads, origin=origin)
+    )
     gait, loads = gaits.pressed([gaits.box(0.28, 0.10)], [[*at, 0.0, 1, 0, 0, 0]], [[0, 0, -newtons]])
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
@@ -190,7 +194,7 @@ def stepping(kind, seconds=2.0, *, threads=1, newtons=735.0, lay=True):
         Ground.flat(),
         "wet-soil",
         0.01,
-        threads=threads,
+        options=SimulationOptions(threads=threads),
         plants=[Planting(kind, density=max(kind.density, 150.0), rectangle=(-0.6, -0.6, 0.6, 0.6))],
     )
     if lay:
@@ -331,7 +335,7 @@ def bake(folder, plants, **more):
     gait, _ = gaits.pressed(
         [gaits.box(0.28, 0.10)] * 2, [[0, 0, 0, 1, 0, 0, 0], [0.1, 0.3, 0, 1, 0, 0, 0]], [[0, 0, -370]] * 2, seconds=1.2
     )
-    made = Bake(gait, Ground.flat(), "snow", folder, plants=plants, **more)
+    made = Bake(gait, Ground.flat(), "snow", folder, plants=plants, **for_bake(**more))
     for _ in made.run():
         pass
     return made

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS, Soil
 from desire_path.loads import walker
@@ -19,7 +20,7 @@ FIRM = Soil(layer_depth=0.3, young_modulus=0.35e6, poisson_ratio=0.35, settle_ti
 
 def press(soles, poses, forces, *, soil=FIRM, cell=0.01, law="sole", heap="rest", threads=1, **more):
     """The ground after standing and lifting off, and the report; a window of 4 m about the origin."""
-    sim = Simulation(Ground.flat(), soil, cell, law=law, heap=heap, threads=threads)
+    sim = Simulation(Ground.flat(), soil, cell, options=SimulationOptions(law=law, heap=heap, threads=threads))
     gait, loads = gaits.pressed(soles, poses, forces, **more)
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
@@ -52,7 +53,7 @@ def rolled(soil, mass, law, heap):
     gait = gaits.writable(gait)
     gait.pose[0, :, 2] += 0.125 * np.abs(np.sin(2 * tilt))
     gait.pose[0, :, 3], gait.pose[0, :, 5] = np.cos(tilt), np.sin(tilt)
-    sim = Simulation(Ground.flat(), soil, 0.01, law=law, heap=heap)
+    sim = Simulation(Ground.flat(), soil, 0.01, options=SimulationOptions(law=law, heap=heap))
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
     return sim.report()
@@ -108,7 +109,7 @@ def test_the_print_does_not_depend_on_the_rate():
 @pytest.mark.parametrize("name", ["dry-sand", "snow", "mud"])
 def test_the_ledger_balances_after_crossing_prints(heap, name):
     soil = SOILS[name]
-    sim = Simulation(Ground.flat(), soil, 0.01, heap=heap)
+    sim = Simulation(Ground.flat(), soil, 0.01, options=SimulationOptions(heap=heap))
     for k in range(6):
         turned = gaits.turn_z(0.7 * k)
         gait, loads = gaits.pressed(
@@ -181,7 +182,7 @@ def test_volume_and_rim_do_not_depend_on_the_cell(turn):
 
 def rim(cell, *, sole=FOOT, load=75 * G, soil=FIRM, width=0.04, turn=0.0):
     """The height of a `paper` rim while the foot still stands [m], and how far it reaches beyond the sole [m]."""
-    sim = Simulation(Ground.flat(), soil, cell, heap="paper", rim_width=width)
+    sim = Simulation(Ground.flat(), soil, cell, options=SimulationOptions(heap="paper", rim_width=width))
     gait, loads = gaits.pressed([sole], [[0.013, 0.021, 0, *gaits.turn_z(turn)]], [[0, 0, -load]])
     sim.load(gait, loads)
     sim.run(len(gait.time) - 20)
@@ -224,7 +225,7 @@ def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
         for law in ("sole", "uniform"):
             found = []
             for ground in (Ground.flat(), ledge):
-                sim = Simulation(ground, FIRM, 0.01, law=law)
+                sim = Simulation(ground, FIRM, 0.01, options=SimulationOptions(law=law))
                 sim.load(replace(gait, pose=pose), loads)
                 sim.run(len(gait.time) - 1)
                 found.append(sim.read("compression", -50, 1, 100, 50))
@@ -302,7 +303,7 @@ def falling_sphere(mass=50.0, height=2.5, radius=0.15):
 def drop(mass=50.0, modulus=1e6, nu=0.35, law="sole"):
     soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2, rest_angle=math.radians(30))
     gait = falling_sphere(mass)
-    sim = Simulation(Ground.flat(), soil, 0.01, law=law)
+    sim = Simulation(Ground.flat(), soil, 0.01, options=SimulationOptions(law=law))
     loads = walker.loads(gait, "impulse", ground=sim.rest_height, settle_time=soil.settle_time)
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)

@@ -13,6 +13,7 @@ import pytest
 
 from desire_path.bake import output
 from desire_path.bake.bake import Bake, free, read_index
+from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.bake.output import NAMES, Output
 from desire_path.errors import DesirePathError
 from desire_path.files import atomic_file, disk
@@ -159,12 +160,12 @@ def test_a_ground_that_cannot_be_ready_holds_back_the_others(tmp_path, monkeypat
             raise OSError(28, "No space left on device", out.folder)
         ready(out)
 
-    for _ in Bake(standing(), parcels("mud"), threads=1).run():
+    for _ in Bake(standing(), parcels("mud"), options=BakeOptions(threads=1)).run():
         pass
     before = [content(tmp_path / name) for name in ("west", "east")]
     monkeypatch.setattr(Output, "ready", full)
     with pytest.raises(DesirePathError, match="No space left"):
-        for _ in Bake(standing(), parcels("snow"), threads=1).run():
+        for _ in Bake(standing(), parcels("snow"), options=BakeOptions(threads=1)).run():
             pass
     for name in ("west", "east"):
         output.settle(tmp_path / name)
@@ -186,8 +187,8 @@ def grown(folder, soil):
         Ground.flat(),
         soil,
         folder,
-        threads=1,
-        plant_mesh=True,
+        options=BakeOptions(threads=1),
+        output=BakeOutput(plant_mesh=True),
         plants=[Planting("carex", 60.0, seed=len(soil))],
     )
 
@@ -236,9 +237,9 @@ def test_free_takes_away_what_a_killed_bake_left(tmp_path, frames):
 
 def test_a_second_bake_into_a_folder_is_refused(tmp_path):
     """In this process or another one, and so is freeing it; the first one goes on."""
-    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, options=BakeOptions(threads=1)).run()
     next(run)
-    other = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1)
+    other = Bake(standing(), Ground.flat(), "snow", tmp_path, options=BakeOptions(threads=1))
     with pytest.raises(DesirePathError, match=f"running .process {os.getpid()} on {socket.gethostname()}") as error:
         next(other.run())
     assert str(tmp_path) in sentence(error)
@@ -322,12 +323,12 @@ def test_what_is_no_plain_file_of_ours_is_never_replaced(tmp_path, name, kind):
 
 
 def test_a_stopped_bake_is_shown_while_it_goes_on(tmp_path):
-    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, options=BakeOptions(threads=1)).run()
     for _ in range(10):
         next(run)
     run.close()
     before = content(tmp_path)
-    run = Bake(standing(), Ground.flat(), "mud", tmp_path, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path, options=BakeOptions(threads=1)).run()
     next(run)
     assert content(tmp_path) == before and len(before) == 11 and read_index(tmp_path).frames == 10
     for _ in run:
@@ -339,14 +340,14 @@ def test_a_stopped_second_bake_goes_on_where_it_was_stopped(tmp_path):
     """The first one is shown all the time; frames of the second that are there are not written again."""
     baked(tmp_path)
     first = content(tmp_path)
-    run = Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "snow", tmp_path, options=BakeOptions(threads=1)).run()
     for _ in range(10):
         next(run)
     run.close()
     kept = tmp_path / "bake.new" / "frames" / "trail_0005.exr"
     written = kept.stat().st_mtime_ns
     assert content(tmp_path) == first and read_index(tmp_path).complete
-    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, threads=1).run():
+    for _ in Bake(standing(), Ground.flat(), "snow", tmp_path, options=BakeOptions(threads=1)).run():
         pass
     assert content(tmp_path) != first and (tmp_path / "frames" / "trail_0005.exr").stat().st_mtime_ns == written
     assert not (tmp_path / "bake.new").exists()
@@ -370,7 +371,7 @@ def test_a_frame_damaged_inside_is_written_again(tmp_path):
     baked(tmp_path / "good")
     good = content(tmp_path / "good")
     folder = tmp_path / "bake"
-    run = Bake(standing(), Ground.flat(), "mud", folder, threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", folder, options=BakeOptions(threads=1)).run()
     for _ in range(10):
         next(run)
     run.close()
@@ -467,7 +468,7 @@ def test_names_may_be_long_and_folders_missing(tmp_path):
 
 
 def test_a_link_in_place_of_a_frame_is_no_frame_to_go_on_from(tmp_path):
-    run = Bake(standing(), Ground.flat(), "mud", tmp_path / "bake", threads=1).run()
+    run = Bake(standing(), Ground.flat(), "mud", tmp_path / "bake", options=BakeOptions(threads=1)).run()
     for _ in range(10):
         next(run)
     run.close()

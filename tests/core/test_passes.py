@@ -12,8 +12,10 @@ import pytest
 from scenes import bvh, ship_walk
 
 from desire_path.bake.bake import Bake, read_index
+from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import KINDS
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
@@ -419,7 +421,7 @@ def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
 
 def test_a_frame_may_be_a_pass(walk, tmp_path):
     gait = walk.along([(0, 0), (2, 0)], 3, pause=1.0)
-    bake = Bake(gait, Ground.flat(), "mud", tmp_path / "passes", cell_size=0.02, threads=1)
+    bake = Bake(gait, Ground.flat(), "mud", tmp_path / "passes", cell_size=0.02, options=BakeOptions(threads=1))
     told = list(bake.run())
     assert [progress.frame for progress in told] == [1, 2, 3] and told[-1].fraction == 1.0
     index = read_index(tmp_path / "passes")
@@ -433,7 +435,15 @@ def test_a_frame_may_be_a_pass(walk, tmp_path):
     assert np.array_equal(second.planes["compression"], pressed[2])
     assert second.notes["time"] == pytest.approx(gait.time[gait.cut[-1]] - gait.time[0], abs=1.1)
 
-    every = Bake(gait, Ground.flat(), "mud", tmp_path / "frames", cell_size=0.02, threads=1, film="frames")
+    every = Bake(
+        gait,
+        Ground.flat(),
+        "mud",
+        tmp_path / "frames",
+        cell_size=0.02,
+        options=BakeOptions(threads=1),
+        output=BakeOutput(film="frames"),
+    )
     for _ in every.run():
         pass
     last = read_index(tmp_path / "frames")
@@ -442,14 +452,14 @@ def test_a_frame_may_be_a_pass(walk, tmp_path):
     volume = [planes["compression"].sum() for planes in final]
     assert volume[0] == pytest.approx(volume[1], rel=0.03)  # steps of 60 and of 120 a second
     with pytest.raises(DesirePathError, match="no film"):
-        Bake(gait, Ground.flat(), film="reel")
+        Bake(gait, Ground.flat(), output=BakeOutput(film="reel"))
 
 
 def test_no_print_is_drawn_from_the_end_of_a_pass_to_the_start_of_the_next(walk):
     """Passes one way: a jump back over the whole path, and over bare ground to a second walker's path."""
     line = [(0, 0), (2, 0)]
     gait = walk.along(line, 2, back_and_forth=False, scatter=Scatter(lateral=0, timing=0, stride=0))
-    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     sim.load(gait, walker.loads(gait))
     sim.run(gait.cut[0] - 1)
     window = sim.reach()

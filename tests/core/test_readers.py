@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from desire_path.bake.bake import Bake, read_index
+from desire_path.bake.options import BakeOptions
 from desire_path.errors import DesirePathError
 from desire_path.files import npz
 from desire_path.ground.plants import Kind
@@ -301,7 +302,7 @@ def test_checksums_of_nonsense_are_none(tmp_path):
     baked(good)
     for number, text in enumerate((b"", b"\xff\xfe\x00", b"trail_0000.exr\n" * 3, b"x" * 100_000)):
         folder = tmp_path / str(number)
-        run = Bake(standing(), Ground.flat(), "mud", folder, threads=1).run()
+        run = Bake(standing(), Ground.flat(), "mud", folder, options=BakeOptions(threads=1)).run()
         for _ in range(5):
             next(run)
         run.close()

@@ -12,6 +12,7 @@ from desire_path.ground.soil import Soil
 from tests.core.test_soil_twins import Both, foot_of
 from tests.reference import soil as twin
 from tests.scenes import gaits
+from tests.scenes.records import for_simulation
 
 G = 9.81
 FOOT = gaits.box(0.25, 0.11)
@@ -29,7 +30,7 @@ def stand(sim, mass=75.0, at=(0.0, 0.0), until=None):
 
 
 def of(soil, **more):
-    return Simulation(Ground.flat(), soil, 0.01, **more)
+    return Simulation(Ground.flat(), soil, 0.01, **for_simulation(**more))
 
 
 def test_a_share_of_the_depth_comes_back_when_the_sole_lifts():

@@ -14,6 +14,7 @@ import pytest
 
 from desire_path.bake import state
 from desire_path.bake.bake import Bake, free, read_index
+from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import Ground, Simulation
@@ -38,13 +39,29 @@ def level(x, y):
 
 
 def soils(folder):
-    return Bake(gaits.strides(1.6, rate=24.0)[0], painted(), ["mud", "snow"], folder, cell_size=CELL, threads=2)
+    return Bake(
+        gaits.strides(1.6, rate=24.0)[0],
+        painted(),
+        ["mud", "snow"],
+        folder,
+        cell_size=CELL,
+        options=BakeOptions(threads=2),
+    )
 
 
 def grown(folder):
     plants = [Planting("carex", 40.0, seed=3), Planting("moss", 60.0, seed=4)]
     gait = gaits.strides(1.4, rate=24.0)[0]
-    return Bake(gait, Ground.flat(), "mud", folder, cell_size=CELL, plants=plants, plant_mesh=True, threads=2)
+    return Bake(
+        gait,
+        Ground.flat(),
+        "mud",
+        folder,
+        cell_size=CELL,
+        plants=plants,
+        output=BakeOutput(plant_mesh=True),
+        options=BakeOptions(threads=2),
+    )
 
 
 def tiles(folder):
@@ -60,7 +77,7 @@ def tiles(folder):
         Parcel(ground[1], "snow", folder / "east"),
         Parcel(bridge, "dry-sand", folder / "bridge", "bridge"),
     ]
-    return Bake(gait, parcels, cell_size=CELL, threads=2)
+    return Bake(gait, parcels, cell_size=CELL, options=BakeOptions(threads=2))
 
 
 def trodden(folder):
@@ -68,7 +85,7 @@ def trodden(folder):
     gait = gaits.strides(1.0, rate=24.0)[0]
     walk = passes.in_turn([gait] * 8)
     ground = Ground.read(folder.parent / "before" / "maps_final.exr")
-    return Bake(walk, ground, "mud", folder, cell_size=CELL, threads=2)
+    return Bake(walk, ground, "mud", folder, cell_size=CELL, options=BakeOptions(threads=2))
 
 
 WORLDS = {each.__name__: each for each in (soils, grown, tiles, trodden)}

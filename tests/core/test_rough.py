@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from desire_path import _native
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS, Soil
 from tests.core.test_soil_twins import Both
@@ -30,7 +31,7 @@ def walk_over(soil, cell=0.01, threads=1, at=(0.0, 0.0), rate=60.0, half=0.5):
     """The ground about `at` after a box has stood there, and the report."""
     pose = [at[0], at[1], 0, 1, 0, 0, 0]
     gait, loads = gaits.pressed([FOOT], [pose], [[40.0, 0, -75 * G]], rate=rate)
-    sim = Simulation(Ground.flat(), soil, cell, threads=threads)
+    sim = Simulation(Ground.flat(), soil, cell, options=SimulationOptions(threads=threads))
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
     i0, j0 = (round((x - half) / cell) for x in at)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from desire_path.bake.bake import Bake, read_index
+from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
 from desire_path.ground.parcels import Parcel
@@ -13,6 +14,7 @@ from desire_path.ground.plants import Planting
 from desire_path.ground.sim import TILE, Ground
 from tests.core.test_parcels import hill, tile
 from tests.scenes import gaits
+from tests.scenes.records import for_bake
 
 CELL = 0.02
 
@@ -34,7 +36,7 @@ def walk(length=4.0, y=0.0):
 
 
 def run(gait, parcels, **more):
-    bake = Bake(gait, parcels, **{"cell_size": CELL, "threads": 2, "map_seconds": False, **more})
+    bake = Bake(gait, parcels, **for_bake(**{"cell_size": CELL, "threads": 2, "map_seconds": False, **more}))
     for _ in bake.run():
         pass
     return bake
@@ -192,7 +194,13 @@ def test_a_stopped_bake_of_two_goes_on_in_both(tmp_path):
         return [Parcel(mesh(-1, -1, 2, 1), folder=top / "west"), Parcel(mesh(2, -1, 5, 1), folder=top / "east")]
 
     run(walk(), parcels(tmp_path / "whole"))
-    stopped = Bake(walk(), parcels(tmp_path / "stopped"), cell_size=CELL, threads=2, map_seconds=False).run()
+    stopped = Bake(
+        walk(),
+        parcels(tmp_path / "stopped"),
+        cell_size=CELL,
+        options=BakeOptions(threads=2),
+        output=BakeOutput(map_seconds=False),
+    ).run()
     for progress in stopped:
         if progress.fraction > 0.8:
             break

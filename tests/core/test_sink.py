@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from desire_path import Bake, Ground, read_index
+from desire_path.bake.options import BakeOutput
 from desire_path.errors import DesirePathError
 from desire_path.ground.sim import Simulation
 from desire_path.loads import walker
@@ -19,7 +20,7 @@ def baked(request, tmp_path_factory):
     ground = Ground.flat() if request.param == "level" else plane(0.15, 0.2, 1.0)
     if request.param == "hill":
         gait = place.place_feet(gait, ground)
-    for _ in Bake(gait, ground, "mud", folder, cell_size=0.01, map_seconds=False).run():
+    for _ in Bake(gait, ground, "mud", folder, cell_size=0.01, output=BakeOutput(map_seconds=False)).run():
         pass
     land = Simulation(ground)
     return gait, walker.loads(gait, ground=land.rest_height), settle_feet.Film(read_index(folder)), land.rest_height

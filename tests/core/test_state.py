@@ -10,6 +10,7 @@ import pytest
 import desire_path
 from desire_path import Gait
 from desire_path.errors import DesirePathError
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import Planting
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
@@ -22,7 +23,7 @@ def make(planted=True, soils="mud", cell=0.02):
     walk = Gait.load(Path(desire_path.__file__).parent / "walks" / "walk.npz")
     gait = passes.in_turn([walk.along([(0, 0), (1.5, 0)], 2, seed=1), walk.along([(0, 0.2), (1.5, 0)], 1, seed=2)])
     plants = [Planting("carex", density=30, seed=3)] if planted else []
-    sim = Simulation(Ground.flat(), soils, cell, threads=2, plants=plants)
+    sim = Simulation(Ground.flat(), soils, cell, options=SimulationOptions(threads=2), plants=plants)
     sim.load(gait, walker.loads(gait))
     return sim, len(gait.time)
 

@@ -12,14 +12,17 @@ import desire_path
 from desire_path import Gait, _native
 from desire_path.bake import grounds
 from desire_path.bake.bake import Bake
+from desire_path.bake.options import BakeOptions
 from desire_path.errors import DesirePathError
 from desire_path.files import npz
 from desire_path.ground import maps, parcels
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
 from desire_path.motion.tracks import TrackArray, joined
 from desire_path.placement import passes
+from tests.scenes.records import for_simulation
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +37,7 @@ def eight(walk):
 
 
 def pressed(gait, loads, **options):
-    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1, **options)
+    sim = Simulation(Ground.flat(), "mud", 0.02, **for_simulation(threads=1, **options))
     sim.load(gait, loads)
     sim.run(len(gait.time) - 1)
     i0, i1, j0, j1 = sim.reach()
@@ -135,7 +138,7 @@ def test_memory_is_that_of_who_is_there(eight):
     assert eight.pose.nbytes <= 1.2 * alone
     loads = walker.loads(eight)
     assert loads.force.nbytes <= 1.2 * alone * 3 / 7
-    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     before = _native.bytes_live()
     sim.load(eight, loads)
     held = _native.bytes_live() - before - eight.time.nbytes
@@ -232,10 +235,10 @@ def test_a_live_motion_leaves_the_same_bits(walk):
     gait = walk.along([(0, 0), (2, 0)], 1)
     loads = walker.loads(gait)
     want = pressed(gait, loads)
-    ahead = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    ahead = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     ahead.load(gait, loads)
     i0, i1, j0, j1 = ahead.reach()
-    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     sim.load_live(gait)
     for t, time in enumerate(gait.time):
         now = (loads.touching[:, t], loads.force[:, t], loads.point[:, t])
@@ -267,7 +270,7 @@ def test_a_thousand_walkers_go_in_turn(walk):
         (block[2] for block in loads.touching.blocks), (block[2] for block in loads.force.blocks)
     ):
         touching[0, 5:15], force[0, 5:15, 2] = 1, -500.0
-    sim = Simulation(Ground.flat(), "mud", 0.02, threads=1)
+    sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     before = _native.bytes_live()
     sim.load(many, loads)
     soles = sum(sole.vertices.nbytes + sole.triangles.nbytes for sole in many.soles)
@@ -324,7 +327,7 @@ def test_they_are_resampled_piece_by_piece(eight):
 
 def test_a_bake_of_them_is_that_of_a_dense_recording(walk, tmp_path):
     gait = passes.in_turn([walk.along([(0, 0.3 * n), (1, 0.3 * n)], 2, seed=n) for n in range(3)])
-    for _ in Bake(gait, Ground.flat(), "mud", tmp_path / "out", cell_size=0.02, threads=1).run():
+    for _ in Bake(gait, Ground.flat(), "mud", tmp_path / "out", cell_size=0.02, options=BakeOptions(threads=1)).run():
         pass
     found = maps.read(tmp_path / "out" / "maps_final.exr")
     assert found.planes["compression"].max() > 0.005

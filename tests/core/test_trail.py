@@ -8,6 +8,7 @@ import pytest
 from desire_path.bake.bake import Bake
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import Ground, Simulation
 from tests.core.test_bake import standing
 from tests.core.test_cli import run
@@ -73,7 +74,7 @@ def test_a_trail_of_other_cells_is_averaged_and_told(tmp_path):
     ground = Ground.read(left(sim, tmp_path / "a.exr", "flat"))
     wanted = {name: float(sim.read(name, *WINDOW).astype(float).sum()) * CELL**2 for name in ("compression", "heap")}
     for cell, origin in ((0.02, (0.0, 0.0)), (0.01, (0.004, -0.003)), (0.007, (0.1, 0.1))):
-        other = Simulation(ground, "mud", cell, origin=origin)
+        other = Simulation(ground, "mud", cell, options=SimulationOptions(origin=origin))
         assert len(other.warnings) == 1 and "averaged over cells" in other.warnings[0]
         side = int(4.5 / cell)
         for name, volume in wanted.items():
@@ -81,7 +82,7 @@ def test_a_trail_of_other_cells_is_averaged_and_told(tmp_path):
             assert float(grid.astype(float).sum()) * cell**2 == pytest.approx(volume, rel=1e-5), (name, cell)
         middle = other.read("compression", round((0.1 - origin[0]) / cell), round((-0.08 - origin[1]) / cell), 1, 1)
         assert middle[0, 0] > 0.005  # the foot at x = 0.1
-    assert not Simulation(ground, "mud", CELL, origin=(3 * CELL, -5 * CELL)).warnings
+    assert not Simulation(ground, "mud", CELL, options=SimulationOptions(origin=(3 * CELL, -5 * CELL))).warnings
 
 
 def test_the_command_line_goes_on_from_a_map(tmp_path):

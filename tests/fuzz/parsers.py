@@ -38,6 +38,7 @@ from desire_path.bake import output  # noqa: E402
 from desire_path.bake.bake import Bake  # noqa: E402
 from desire_path.errors import DesirePathError  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
+from desire_path.ground.options import SimulationOptions  # noqa: E402
 from desire_path.ground.plants import KINDS, Kind  # noqa: E402
 from desire_path.ground.sim import Ground, Simulation  # noqa: E402
 from desire_path.ground.soil import SOILS, Soil  # noqa: E402
@@ -140,7 +141,7 @@ def picture(place):
     def read():
         ground = Ground.read(place / "map.exr")
         for cell in (0.1, 0.25):  # the good trail's own, and others
-            Simulation(ground, cell_size=cell, threads=1)
+            Simulation(ground, cell_size=cell, options=SimulationOptions(threads=1))
 
     return made, place / "map.exr", read, mutate.any_bytes
 

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from desire_path import KINDS, SOILS, Gait, Ground, Planting, Simulation, Soil, Sole
+from desire_path.ground.options import SimulationOptions
 from tests.scenes.plain import plain
 
 RATE = 60.0  # samples a second
@@ -151,7 +152,9 @@ def _flat():
     cells = {"rest": 0.0075, "paper": 0.015}  # a sole is sampled three and four times along a cell's side
 
     def make(law, heap, threads):
-        return Simulation(Ground.flat(), soils[heap], cells[heap], law=law, heap=heap, threads=threads)
+        return Simulation(
+            Ground.flat(), soils[heap], cells[heap], options=SimulationOptions(law=law, heap=heap, threads=threads)
+        )
 
     return World(make, [both], (-96, -96, 384, 256), (-2, -2, 7, 5))
 
@@ -166,7 +169,9 @@ def _hill():
     soils = [plain("dry-sand"), plain("mud"), plain("snow")]
 
     def make(law, heap, threads):
-        return Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads, origin=(0.005, 0.003))
+        return Simulation(
+            ground, soils, 0.02, options=SimulationOptions(law=law, heap=heap, threads=threads, origin=(0.005, 0.003))
+        )
 
     up = walk(1.6, height=slope, start=(39.3, -7.0), push=(0.3, 0.2), sink=0.005)
     return World(make, [up], (1940, -400, 152, 104), (30, -7, 3, 2))
@@ -181,7 +186,7 @@ def _ragged():
     ]
 
     def make(law, heap, threads):
-        return Simulation(ground, soils, 0.01, law=law, heap=heap, threads=threads)
+        return Simulation(ground, soils, 0.01, options=SimulationOptions(law=law, heap=heap, threads=threads))
 
     there, back = walk(0.9), walk(0.9, start=(0.9, 0.05), way=(-1.0, 0.0), mass=95.0)
     return World(make, [there, back], (-64, -64, 256, 128), (-1, -1, 4, 2))
@@ -204,7 +209,13 @@ def _meadow():
     ]
 
     def make(law, heap, threads):
-        return Simulation(Ground.flat(3.2), "soft-soil", 0.02, law=law, heap=heap, threads=threads, plants=plants)
+        return Simulation(
+            Ground.flat(3.2),
+            "soft-soil",
+            0.02,
+            options=SimulationOptions(law=law, heap=heap, threads=threads),
+            plants=plants,
+        )
 
     def lifted(x, y):
         return np.full(np.shape(x), 3.2)
@@ -232,7 +243,9 @@ def _passes():
 
     def make(law, heap, threads):
         soils = [replace(SOILS["wet-soil"], rebound=0.0), "dry-soil"]
-        return Simulation(ground, soils, 0.02, law=law, heap=heap, threads=threads, plants=plants)
+        return Simulation(
+            ground, soils, 0.02, options=SimulationOptions(law=law, heap=heap, threads=threads), plants=plants
+        )
 
     def over(x, y):
         return 0.03 + 0.05 * (np.asarray(x) + 0.4) / 2.4
