@@ -13,8 +13,8 @@ from typing_extensions import Buffer
 
 _Array: TypeAlias = np.ndarray | Buffer
 _Vec3: TypeAlias = tuple[float, float, float]
-_Soil: TypeAlias = dict[str, float] | Sequence[float]  # numbers by name, or all in the order of soil_numbers()
-_Kind: TypeAlias = dict[str, float] | Sequence[float]  # form, sheets, plants_numbers(): by name, or all in order
+_Soil: TypeAlias = dict[str, float]  # numbers by name, of soil_numbers()
+_Kind: TypeAlias = dict[str, float]  # form, sheets, plants_numbers(), by name
 _Numbers: TypeAlias = tuple[tuple[str, str, float, float, float, str], ...]  # name, unit, low, high, usual, meaning
 _Box: TypeAlias = tuple[int, int, int, int]  # i0, i1, j0, j1
 _Gait: TypeAlias = tuple[  # native_gait(): float64, and int32 where things are counted
@@ -82,7 +82,7 @@ def foot_contact(
     ground: _Array,  # (K, T) f8
     touching: _Array,  # filled (P, T) u1
     clearance: _Array,  # filled (K,) f8
-    limits: dict[str, float] | Sequence[float] | None = None,
+    limits: dict[str, float] | None = None,
     /,
 ) -> None: ...
 def foot_force(
@@ -94,7 +94,7 @@ def foot_force(
     half_sine: bool,
     force: _Array,  # filled (P, T, 3) f8
     point: _Array,  # filled (P, T, 3) f8
-    options: dict[str, float] | Sequence[float] | None = None,
+    options: dict[str, float] | None = None,
     settle: _Array | None = None,  # (K, T) f8
     /,
 ) -> None: ...
@@ -232,11 +232,13 @@ def refine(
 ) -> tuple[Any, ...]: ...
 def refine_detail(
     points: _Array,  # (n, 3) f8
-    detail: tuple[float, ...],  # the nine numbers of DpDetail
+    detail: dict[str, float],  # of detail_numbers(), by name
     seed: int,
     shown: _Array,  # (n, 6) f4
     /,
 ) -> None: ...
+
+def detail_numbers() -> _Numbers: ...
 
 # ---- types ----
 @final
@@ -275,7 +277,7 @@ class Simulation:
         walker: int,
         flat: bool,
         carry: bool,
-        numbers: dict[str, float] | Sequence[float],
+        numbers: dict[str, float],
         clearance: _Array,
         pose: _Array,  # changed (P, T, 7) f8
         com: _Array,  # changed (W, T, 3) f8

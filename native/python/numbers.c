@@ -61,10 +61,14 @@ int dp_py_read_numbers(PyObject* object, const char* what, const DpNumber* table
 {
     if (PyDict_Check(object)) return read_dict(object, what, table, count, record);
     if (!PySequence_Check(object) || PySequence_Size(object) != count) {
-        PyErr_Format(PyExc_TypeError, "%s: neither a dict of numbers by name nor all %d in order",
-                     what, count);
+        PyErr_Format(PyExc_TypeError, "%s: not a dict of numbers by name", what);
         return -1;
     }
+    if (PyErr_WarnFormat(
+            PyExc_DeprecationWarning, 1,
+            "%s: numbers in a row are an old way to give them: give a dict of them by name",
+            what) < 0)
+        return -1;
     for (int k = 0; k < count; ++k) {
         PyObject* value = PySequence_GetItem(object, k);
         const int read = read_one(value, what, &table[k], record);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// a dict of its numbers by name, or all in the order of soil_numbers(); those that are not given are as usual
+// a dict of its numbers by name; those that are not given are as usual
 static int read_soil(PyObject* object, Py_ssize_t place, DpSoil* soil)
 {
     char            what[48];
@@ -21,7 +21,7 @@ static int read_soil(PyObject* object, Py_ssize_t place, DpSoil* soil)
     return -1;
 }
 
-// Soils, each a dict of numbers by name, or all of them in order; 1 to `most`.
+// Soils, each a dict of numbers by name; 1 to `most`.
 DpSoil* dp_py_soils(PyObject* object, int most, int* count)
 {
     const Py_ssize_t size = PySequence_Size(object);

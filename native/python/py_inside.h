@@ -32,7 +32,7 @@ static inline bool dp_py_enter(Simulation* self)
 DpSoil* dp_py_soils(PyObject* object, int most, int* count);
 bool    dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
 
-// py_kind.c: a kind by its numbers' names, or all in order; 0 or -1 with an exception.
+// py_kind.c: a kind by its numbers' names; 0 or -1 with an exception.
 int dp_py_kind(PyObject* object, DpPlantKind* kind);
 
 // py_planting.c

@@ -6,7 +6,7 @@
 //   plants_wear(kind, reserve, strength, angle, dt) -> strength
 //   plants_regrow(kind, alpha, seconds) -> alpha
 //
-// kind: a dict of its form, its sheets and plants_numbers by name, or all of them in order.
+// kind: a dict of its form, its sheets and plants_numbers by name.
 #include <math.h>
 
 #include "python/numbers.h"
@@ -56,7 +56,7 @@ int dp_py_kind(PyObject* object, DpPlantKind* kind)
                !(sheets = PySequence_GetItem(object, 1)) ||
                !(numbers = PySequence_GetSlice(object, BEFORE_NUMBERS, PY_SSIZE_T_MAX)) ||
                PySequence_Size(object) != all) {
-        PyErr_Format(PyExc_TypeError, "kind: neither a dict by name nor all %d in order", all);
+        PyErr_SetString(PyExc_TypeError, "kind: not a dict by name");
         goto done;
     }
     read = read_kind(form, sheets, numbers, kind);

@@ -1,5 +1,6 @@
 // python/py_refine.c - triangles cut along a trail until they show it.
 #include "python/buffers.h"
+#include "python/numbers.h"
 #include "refine/refine.h"
 
 // (valid, points, point_source, point_weight, triangles, source, weight, cut), Blocks after the first
@@ -71,13 +72,14 @@ done:
 
 static PyObject* refine_detail(PyObject* module, PyObject* arguments)
 {
-    PyObject *   points, *shown;
-    DpDetail     d;
-    unsigned int seed;
+    PyObject *      points, *chosen, *shown;
+    DpDetail        d = dp_detail_default();
+    unsigned int    seed;
+    int             count;
+    const DpNumber* table = dp_detail_numbers(&count);
     (void)module;
-    if (!PyArg_ParseTuple(arguments, "O(ddddddddd)IO:refine_detail", &points, &d.grit_height,
-                          &d.grit_size, &d.crumb_share, &d.crumb_least, &d.crumb_most,
-                          &d.vein_height, &d.vein_size, &d.fray, &d.fray_size, &seed, &shown))
+    if (!PyArg_ParseTuple(arguments, "OOIO:refine_detail", &points, &chosen, &seed, &shown) ||
+        dp_py_read_numbers(chosen, "detail", table, count, &d) < 0)
         return NULL;
     DpBuffers     buffers = {0};
     PyObject*     answer = NULL;
@@ -99,6 +101,14 @@ static PyObject* refine_detail(PyObject* module, PyObject* arguments)
     return answer;
 }
 
+static PyObject* detail_numbers(PyObject* module, PyObject* unused)
+{
+    (void)module, (void)unused;
+    int             count;
+    const DpNumber* table = dp_detail_numbers(&count);
+    return dp_py_numbers(table, count);
+}
+
 PyMethodDef dp_py_refine_methods[] = {
     {"refine", refine, METH_VARARGS,
      "refine(points, triangles, corners, sizes, block, max_triangles)\n--\n\n"
@@ -108,7 +118,9 @@ PyMethodDef dp_py_refine_methods[] = {
      "Returns (valid, points, point_source, point_weight, triangles, source, weight, cut)."},
     {"refine_detail", refine_detail, METH_VARARGS,
      "refine_detail(points, detail, seed, shown)\n--\n\n"
-     "What points are like below a cell, see refine/refine.h: points float64 (n, 3) [m], detail "
-     "the\n"
-     "nine numbers of DpDetail in order; written to shown float32 (n, 6)."},
+     "What points are like below a cell, see refine/refine.h: points float64 (n, 3) [m],\n"
+     "detail a dict of detail_numbers() by name; written to shown float32 (n, 6)."},
+    {"detail_numbers", detail_numbers, METH_NOARGS,
+     "detail_numbers()\n--\n\nThe numbers of a detail: ((name, unit, low, high, usual, meaning), "
+     "..)."},
     {NULL, NULL, 0, NULL}};

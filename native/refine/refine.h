@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/number.h"
 #include "base/status.h"
 
 // Squares of one size, parallel to x and y, and how long edges that reach into them may be.
@@ -50,19 +51,28 @@ void     dp_refined_free(DpRefined* refined);
 // ---- what is finer than a cell. MODEL 8.3 -----------------------------------------------------------
 
 // What ground is like where it was disturbed, at a size that cells do not hold. Only shown: nothing is fed back.
-// Sizes 0.1 mm to 1 m.
+// X(name, unit, low, high, usual, meaning), as base/number.h has them
+// clang-format off
+#define DP_DETAIL_NUMBERS(X) \
+    X(grit_height, "m", 0.0, 1.0, 0.0, "deviation of grains that are seen") \
+    X(grit_size, "m", 1e-4, 1.0, 0.005, "how long they are") \
+    X(crumb_share, "-", 0.0, 0.5, 0.0, "share of a heap that lies under crumbs") \
+    X(crumb_least, "m", 1e-4, 1.0, 0.002, "radius of the smallest, at most crumb_most") \
+    X(crumb_most, "m", 1e-4, 1.0, 0.004, "and of the largest") \
+    X(vein_height, "m", 0.0, 1.0, 0.0, "of what a sole sucks up when it is lifted") \
+    X(vein_size, "m", 1e-4, 1.0, 0.02, "how far veins lie apart") \
+    X(fray, "m", 0.0, 1.0, 0.0, "deviation by which edges of prints stray, each way") \
+    X(fray_size, "m", 1e-4, 1.0, 0.02, "over which length")
+// clang-format on
+
 typedef struct DpDetail
 {
-    double grit_height;  // deviation of grains that are seen                  [m]  0..1
-    double grit_size;    // how long they are                                  [m]
-    double crumb_share;  // share of a heap that lies under crumbs             [-]  0..0.5
-    double crumb_least;  // radius of the smallest ..                          [m]  <= crumb_most
-    double crumb_most;   // .. and of the largest                              [m]
-    double vein_height;  // of what a sole sucks up when it is lifted          [m]  0..1
-    double vein_size;    // how far veins lie apart                            [m]
-    double fray;         // deviation by which edges of prints stray, each way [m]  0..1
-    double fray_size;    // over which length                                  [m]
+    DP_DETAIL_NUMBERS(DP_DOUBLE_MEMBER)
 } DpDetail;
+
+// Their table, from which panels, files and bindings read them.
+const DpNumber* dp_detail_numbers(int* count);
+DpDetail        dp_detail_default(void);
 
 // What points are like by where they are, whatever was pressed, the cells, the order, or the threads.
 // @param point  (points, 3) [m], finite; height does not count

@@ -134,23 +134,27 @@ static void work(void* context, int index, int worker)
         detail_at(job->detail, job->point + 3 * (size_t)k, job->seed, job->shown + 6 * (size_t)k);
 }
 
-static bool is_size(double value)
+#define DETAIL(...) DP_NUMBER_ROW(DpDetail, __VA_ARGS__)
+static const DpNumber numbers[] = {DP_DETAIL_NUMBERS(DETAIL)};
+#define COUNT ((int)(sizeof numbers / sizeof *numbers))
+
+const DpNumber* dp_detail_numbers(int* count)
 {
-    return isfinite(value) && value >= 1e-4 && value <= 1.0;
+    *count = COUNT;
+    return numbers;
 }
 
-static bool is_height(double value)
+DpDetail dp_detail_default(void)
 {
-    return isfinite(value) && value >= 0.0 && value <= 1.0;
+    DpDetail detail;
+    dp_numbers_usual(&detail, numbers, COUNT);
+    return detail;
 }
 
 DpStatus dp_refine_detail(const double* point, int points, const DpDetail* detail, uint32_t seed,
                           float* shown)
 {
-    if (!is_height(detail->grit_height) || !is_height(detail->vein_height) ||
-        !is_height(detail->fray) || !(detail->crumb_share >= 0.0 && detail->crumb_share <= 0.5) ||
-        !is_size(detail->grit_size) || !is_size(detail->vein_size) || !is_size(detail->fray_size) ||
-        !is_size(detail->crumb_least) || !is_size(detail->crumb_most) ||
+    if (dp_numbers_check(detail, numbers, COUNT, NULL) != DP_OK ||
         detail->crumb_least > detail->crumb_most)
         return DP_BAD_ARGUMENT;
     for (size_t k = 0; k < 3 * (size_t)points; ++k)

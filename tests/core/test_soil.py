@@ -165,14 +165,17 @@ def test_numbers_are_set_by_name():
         as_soil("Mud")
 
 
-def test_all_numbers_in_order_are_a_soil_too():
+def test_numbers_in_a_row_are_a_soil_still_and_warn():
     row = _native.soil_default()
     assert row == tuple(number[4] for number in _native.soil_numbers())
+    old = lambda soils: _native.Simulation(("flat", 0.0), soils, 0.01, (0.0, 0.0))
+    told = r"soil \d: numbers in a row are an old way"
     for soils in ([row], np.array([row, row], "f4")):
-        _native.Simulation(("flat", 0.0), soils, 0.01, (0.0, 0.0))
-    with pytest.raises(TypeError, match="neither a dict"):
-        _native.Simulation(("flat", 0.0), [row[:-1]], 0.01, (0.0, 0.0))
-    with pytest.raises(ValueError, match="out of its range"):
-        _native.Simulation(("flat", 0.0), [(-1.0, *row[1:])], 0.01, (0.0, 0.0))
-    with pytest.raises(TypeError):
-        _native.Simulation(("flat", 0.0), [("soft",) * len(row)], 0.01, (0.0, 0.0))
+        with pytest.warns(DeprecationWarning, match=told):
+            old(soils)
+    with pytest.raises(TypeError, match="not a dict of numbers by name"):
+        old([row[:-1]])
+    with pytest.warns(DeprecationWarning, match=told), pytest.raises(ValueError, match="out of its range"):
+        old([(-1.0, *row[1:])])
+    with pytest.warns(DeprecationWarning, match=told), pytest.raises(TypeError):
+        old([("soft",) * len(row)])

@@ -465,7 +465,7 @@ def test_bad_words_get_a_sentence():
 
 
 def test_limits_and_options_are_those_of_the_core():
-    """By their names or all in order, at its door too; old names still do, and warn."""
+    """By their names, at its door too; all in a row and old names still do, and warn."""
     for known, rows in ((walker.LIMITS, _native.contact_numbers()), (walker.OPTIONS, _native.load_numbers())):
         assert known == {name: usual for name, _, _, _, usual, _ in rows}
     gait = two_feet(1).check()
@@ -475,11 +475,12 @@ def test_limits_and_options_are_those_of_the_core():
         ({"shortest": -1.0}, ValueError, "limits: shortest of -1 s is out of its range"),
         ({"shortness": 1.0}, ValueError, "limits: it has no number 'shortness'"),
         ({"shortest": "long"}, TypeError, "limits: shortest is no number"),
-        (np.zeros(5), TypeError, "limits: neither a dict"),
+        (np.zeros(5), TypeError, "limits: not a dict of numbers by name"),
     ):
         with pytest.raises(kind, match=words):
             _native.foot_contact(native, below, on, np.zeros(len(gait.point)), given)
-    _native.foot_contact(native, below, on, np.zeros(len(gait.point)), np.array(list(walker.LIMITS.values())))
+    with pytest.warns(DeprecationWarning, match="limits: numbers in a row are an old way"):
+        _native.foot_contact(native, below, on, np.zeros(len(gait.point)), np.array(list(walker.LIMITS.values())))
     with pytest.warns(DeprecationWarning, match="call it max_overlap"):
         old = walker.loads(gait, options={"overlap_most": 0.2})
     assert old == walker.loads(gait, options={"max_overlap": 0.2})

@@ -8,44 +8,36 @@ nothing jumps from frame to frame.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import astuple, dataclass, fields
+from dataclasses import asdict, dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core import _native
 from ..errors import DesirePathError
+from ..tables import check, table, with_numbers
 
 FAR = 1e9  # no ground lies farther out [m]
 SHOWN = ("vein", "crumb", "grit", "stray_x", "stray_y", "threshold")  # what a point is like, in order
 
 
-@dataclass(frozen=True)
-class Detail:
-    """What ground is like where it was disturbed; names, units and ranges as in DpDetail of native/refine/refine.h."""
+NUMBERS = table(_native.detail_numbers())  # of a detail, by name: native/refine/refine.h
 
-    grit_height: float = 0.0  # deviation of grains that are seen [m] 0..1
-    grit_size: float = 0.005  # how long they are [m]
-    crumb_share: float = 0.0  # share of a heap that lies under crumbs 0..0.5
-    crumb_least: float = 0.002  # radius of the smallest .. [m]
-    crumb_most: float = 0.004  # .. and of the largest [m]
-    vein_height: float = 0.0  # of what a sole sucks up when it is lifted [m] 0..1
-    vein_size: float = 0.02  # how far veins lie apart [m]
-    fray: float = 0.0  # deviation by which edges of prints stray, each way [m] 0..1
-    fray_size: float = 0.02  # over which length [m]
+
+@dataclass(frozen=True)
+@with_numbers(NUMBERS)
+class Detail:
+    """What ground is like where it was disturbed, in SI units."""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *numbers: float, **by_name: float) -> None: ...
+        def __getattr__(self, name: str) -> float: ...
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
-            low, high = (1e-4, 1.0) if each.name.endswith(("size", "least", "most")) else (0.0, 1.0)
-            if each.name == "crumb_share":
-                high = 0.5
-            if not (math.isfinite(value) and low <= value <= high):
-                raise DesirePathError(
-                    f"A detail's {each.name} of {value:g} cannot be used: choose one from {low:g} to {high:g}."
-                )
+        check(self, NUMBERS, "A detail's")
         if self.crumb_least > self.crumb_most:
             raise DesirePathError("A detail's crumb_least is above its crumb_most: exchange them.")
 
@@ -73,5 +65,5 @@ def details(points: np.ndarray, detail: Detail, seed: int = 0) -> np.ndarray:
     if not (np.abs(points) < FAR).all():
         raise DesirePathError(f"A point is NaN, infinite or farther out than {FAR:g} m: move or remove it.")
     shown = np.empty((len(points), len(SHOWN)), np.float32)
-    _native.refine_detail(points, astuple(detail), seed, shown)
+    _native.refine_detail(points, asdict(detail), seed, shown)
     return shown

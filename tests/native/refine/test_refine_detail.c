@@ -57,6 +57,17 @@ TEST(a_place_is_always_like_this)
     free(point);
 }
 
+TEST(ground_is_flat_that_nothing_is_known_of)
+{
+    const double   here[6] = {0.1, 0.2, 0.0, -3.0, 5.0, 0.0};
+    const DpDetail usual = dp_detail_default();
+    float          shown[12];
+    int            count = 0;
+    CHECK(dp_detail_numbers(&count) != NULL && count == (int)(sizeof usual / sizeof(double)));
+    CHECK(dp_refine_detail(here, 2, &usual, 1, shown) == DP_OK);
+    for (int k = 0; k < 5; ++k) CHECK(shown[k] == 0.0f && shown[6 + k] == 0.0f);
+}
+
 TEST(what_cannot_be_is_refused)
 {
     const double here[3] = {0.0, 0.0, 0.0}, nowhere[3] = {NAN, 0.0, 0.0}, far[3] = {1e10, 0.0, 0.0};
@@ -80,6 +91,7 @@ int main(void)
 {
     RUN(heights_and_shifts_are_of_mean_0);
     RUN(a_place_is_always_like_this);
+    RUN(ground_is_flat_that_nothing_is_known_of);
     RUN(what_cannot_be_is_refused);
     return check_done();
 }
