@@ -264,7 +264,12 @@ def _parser() -> Parser:
     parser = Parser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
     tasks = parser.add_subparsers(required=True, metavar="bake | loads | plot | lane | fit")
+    for add in (_add_bake, _add_loads, _add_plot, _add_lane, _add_fit):
+        add(tasks)
+    return parser
 
+
+def _add_bake(tasks: argparse._SubParsersAction[Parser]) -> None:
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
     bake.add_argument(
@@ -287,22 +292,7 @@ def _parser() -> Parser:
         "the trail that goes on); a report.json says where another bake's did",
     )
     bake.add_argument("--out", required=True, help="folder for the files")
-    bake.add_argument(
-        "--place-feet",
-        action="store_true",
-        help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
-        "is always done",
-    )
-    bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
-    bake.option("--passes", ALONG, type=int, default=1, help="how often it goes along the path (1)")
-    bake.option(
-        "--one-way", PASSES, default=False, action="store_true", help="every pass from the start, not there and back"
-    )
-    bake.option("--lateral", PASSES, type=float, default=0.1, help="how far passes scatter to the side [m] (0.1)")
-    bake.option("--timing", PASSES, type=float, default=0.05, help="by how much their pace differs, a share (0.05)")
-    bake.option("--stride", PASSES, type=float, default=0.05, help="by how much their strides differ, a share (0.05)")
-    bake.option("--pause", ALONG, type=float, default=0.0, help="time between passes [s] (0)")
-    bake.option("--seed", CHANCE, type=int, default=0, help="of the scatter and the plants (0)")
+    _path_options(bake)
     bake.add_argument(
         "--film",
         choices=FILMS,
@@ -340,6 +330,27 @@ def _parser() -> Parser:
     )
     bake.set_defaults(task=_bake)
 
+
+def _path_options(bake: Parser) -> None:
+    bake.add_argument(
+        "--place-feet",
+        action="store_true",
+        help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
+        "is always done",
+    )
+    bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
+    bake.option("--passes", ALONG, type=int, default=1, help="how often it goes along the path (1)")
+    bake.option(
+        "--one-way", PASSES, default=False, action="store_true", help="every pass from the start, not there and back"
+    )
+    bake.option("--lateral", PASSES, type=float, default=0.1, help="how far passes scatter to the side [m] (0.1)")
+    bake.option("--timing", PASSES, type=float, default=0.05, help="by how much their pace differs, a share (0.05)")
+    bake.option("--stride", PASSES, type=float, default=0.05, help="by how much their strides differ, a share (0.05)")
+    bake.option("--pause", ALONG, type=float, default=0.0, help="time between passes [s] (0)")
+    bake.option("--seed", CHANCE, type=int, default=0, help="of the scatter and the plants (0)")
+
+
+def _add_loads(tasks: argparse._SubParsersAction[Parser]) -> None:
     loads = tasks.add_parser("loads", help="write the forces of every part as a table")
     loads.add_argument("walk", help="a recording (.npz)")
     loads.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
@@ -348,6 +359,8 @@ def _parser() -> Parser:
     _load_options(loads)
     loads.set_defaults(task=_loads)
 
+
+def _add_plot(tasks: argparse._SubParsersAction[Parser]) -> None:
     graph = tasks.add_parser("plot", help="draw the vertical force of every foot (needs Matplotlib)")
     graph.add_argument("walk", help="a recording (.npz)")
     graph.add_argument("--model", choices=LOAD_MODELS, default="inertia", help="how forces are computed")
@@ -355,6 +368,8 @@ def _parser() -> Parser:
     _load_options(graph)
     graph.set_defaults(task=_plot)
 
+
+def _add_lane(tasks: argparse._SubParsersAction[Parser]) -> None:
     tread = tasks.add_parser("lane", help="measure the cover that is left of a planted lane after so many passes")
     tread.add_argument("--kind", default="carex", help=f"{', '.join(KINDS)}, or a kind's file (.json)")
     tread.add_argument("--length", type=float, default=5.0, help="of the lane [m] (5)")
@@ -372,6 +387,8 @@ def _parser() -> Parser:
     tread.add_argument("--out", required=True, help="the table passes,cover (.csv)")
     tread.set_defaults(task=_lane)
 
+
+def _add_fit(tasks: argparse._SubParsersAction[Parser]) -> None:
     kinds = tasks.add_parser("fit", help="find the kind of plant that wears as a table of cover says (needs SciPy)")
     kinds.add_argument("cover", help="a table with the columns passes,cover [per cent] and, if it likes, days of rest")
     kinds.add_argument("--kind", default="carex", help="a kind that looks like it: a name or a file (.json)")
@@ -380,7 +397,6 @@ def _parser() -> Parser:
     kinds.add_argument("--mass", type=float, default=75.0, help="of who walked [kg] (75)")
     kinds.add_argument("--out", required=True, help="the kind (.json)")
     kinds.set_defaults(task=_fit)
-    return parser
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

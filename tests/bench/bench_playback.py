@@ -68,17 +68,9 @@ def main():
                         obj.vertex_groups.new(name=playback_tree.group_name(each))
                 co = compat.positions(obj.data)
                 box = np.array([(x, y, 0.0) for x in (co[0, 0], co[-1, 0]) for y in (co[0, 1], co[-1, 1])])
-                playback.attach(
-                    obj,
-                    str(folder / "frames"),
-                    at,
-                    count=COUNT,
-                    world=np.eye(4),
-                    scale=1.0,
-                    smooth=name == "linear",
-                    corners=box,
-                    layer_depth=0.3 if groups else 0.0,
-                )
+                depth = 0.3 if groups else 0.0
+                how = playback_tree.Playing(at, COUNT, np.eye(4), 1.0, name == "linear", box, depth)
+                playback.attach(obj, str(folder / "frames"), how)
                 middle, worst = measure(obj)
                 print(
                     f"{bpy.app.version_string} {side:5d}^2 {name:10s} {middle:7.1f} ms a frame_set (worst {worst:.1f})"

@@ -470,9 +470,7 @@ def images(folder, trail, lean):
 
 def play(ground, index, **more):
     bpy.context.view_layer.update()
-    playback.attach(
-        ground,
-        index.folder,
+    playing = playback_tree.Playing(
         index,
         count=1,
         world=axes.matrix(ground.matrix_world, "g"),
@@ -482,6 +480,7 @@ def play(ground, index, **more):
         standing=plants.standing(ground),
         **more,
     )
+    playback.attach(ground, index.folder, playing)
     plants.show(ground, index)
 
 

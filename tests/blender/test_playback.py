@@ -40,17 +40,8 @@ def corners(obj):
 def play(obj, folder, where, count=5, smooth=False, scale=1.0, layer_depth=0.0):
     bpy.context.view_layer.update()
     world = axes.matrix(obj.matrix_world, obj.name)
-    return playback.attach(
-        obj,
-        playback.join(str(folder), "frames"),
-        where,
-        count=count,
-        world=world,
-        scale=scale,
-        smooth=smooth,
-        corners=corners(obj),
-        layer_depth=layer_depth,
-    )
+    how = playback_tree.Playing(where, count, world, scale, smooth, corners(obj), layer_depth)
+    return playback.attach(obj, playback.join(str(folder), "frames"), how)
 
 
 def shown(obj, frame, subframe=0.0):

@@ -2,7 +2,6 @@
 
 import pathlib
 import sys
-import time
 
 import bpy
 import numpy as np
@@ -21,12 +20,7 @@ from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
 write_frame = sim.Film.write_frame
-
-
-def slowly(self, path, moment):
-    """Bakes in a test are over before anybody could press ESC."""
-    write_frame(self, path, moment)
-    time.sleep(0.02)
+slowly = hands.slowed(write_frame)
 
 
 def window():

@@ -21,11 +21,7 @@ from desire_path.ground import sim  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
 write_frame = sim.Film.write_frame
-
-
-def slowly(self, path, moment):
-    write_frame(self, path, moment)
-    time.sleep(0.02)
+slowly = hands.slowed(write_frame)
 
 
 def window():

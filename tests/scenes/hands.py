@@ -16,6 +16,16 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 KEYS = {" ": "SPACE", "\n": "RET"}
 
 
+def slowed(write_frame, seconds=0.02):
+    """Film.write_frame that takes so long yet [s]: bakes in a test are over before anybody could press ESC."""
+
+    def slowly(film, path, moment):
+        write_frame(film, path, moment)
+        time.sleep(seconds)
+
+    return slowly
+
+
 class Hands:
     """What they did is counted: clicks, keys, digits among these."""
 

@@ -31,7 +31,7 @@ def make_groups(obj):
 
 
 def fill(obj, surface, index, depth, planes, standing=()):
-    """Write the last frame's values, and off the images plants as they grew (`standing`: see playback.attach);
+    """Write the last frame's values, and off the images plants as they grew (`standing`: see playback_tree.Playing);
     returns sentences about what could not be written."""
     settings = obj.desire_path
     mesh = obj.data

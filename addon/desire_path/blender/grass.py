@@ -7,6 +7,9 @@ ever jumps. Everything is in metres and in the world's axes. Only tufts that the
 as touched are made real and bent; all others are instances: cost follows the feet.
 """
 
+from dataclasses import dataclass
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -229,12 +232,71 @@ def _touched(wire, field, here, far):
     return wire.math("GREATER_THAN", most, TOUCHED)
 
 
+@dataclass(frozen=True)
+class _Stem:
+    """The straight stem of a vertex, turned and sized as its plant is: sockets."""
+
+    place: Any  # of its plant
+    foot: Any  # of itself
+    along: Any  # how far up the vertex is ..
+    across: Any  # .. and how far off its middle
+    length: Any
+    tilt: Any
+    arch: Any
+    chance: Any  # three numbers 0..1 of its own
+
+
+@dataclass(frozen=True)
+class _Fate:
+    """What happened at the root of a stem: sockets."""
+
+    is_broken: Any
+    own: Any  # how far this one is crushed 0..1
+    lean: Any  # of all that stand there
+    aside: Any  # how far its tip is said to be off its root
+
+
 def _trodden(wire, points, info, field, high):
     """Real tufts, every stem bent as the images say at its root; a mesh of somebody else is one stem."""
     points = wire.store(points, PLACE, wire.add("GeometryNodeInputPosition").outputs[0], "FLOAT_VECTOR")
     real = wire.add("GeometryNodeRealizeInstances", Geometry=_instances(wire, points, info)).outputs[0]
 
-    # the straight stem of this vertex, turned and sized as its plant is
+    stem = _straight(wire, high)
+    fate = _fate(wire, field, stem)
+    across, tilt, arch = _leaning(wire, stem, fate)
+
+    # broken stems turn to straw and are ground away foot by foot
+    level, pressure = _surface(wire, field, stem.place, stem.foot)
+    ground = wire.math("SUBTRACT", 1.0, wire.math("EXPONENT", wire.math("MULTIPLY", pressure, -1.0 / GRIND)))
+    gone = wire.math("SUBTRACT", ground, wire.math("MULTIPLY_ADD", stem.chance[2], 0.55, 0.30))
+    gone = wire.math("MINIMUM", wire.math("MAXIMUM", wire.math("MULTIPLY", gone, 7.0), 0.0), 0.97)
+    left = wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", gone, fate.is_broken))
+    along, across = wire.math("MULTIPLY", stem.along, left), wire.vector("SCALE", across, scale=left)
+    length = wire.math("MULTIPLY", stem.length, left)
+
+    where = grass_nodes.bent(wire, length, along, across, tilt, arch)
+    where = wire.vector(
+        "ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", stem.foot, (1, 1, 0))), wire.xyz(z=level)
+    )
+    # nothing lies under the ground, but the buried end
+    low, high = STEM_LIFT
+    lift = wire.math(
+        "MULTIPLY",
+        wire.math("MULTIPLY_ADD", stem.chance[1], high - low, low),
+        wire.math("MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0),
+    )
+    least = wire.math("ADD", _surface(wire, field, stem.place, where)[0], lift)
+    least = grass_nodes.mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
+    x, y, z = wire.split(where)
+    real = wire.add(
+        "GeometryNodeSetPosition", Geometry=real, Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))
+    ).outputs[0]
+    pale = wire.math("MULTIPLY", fate.is_broken, wire.math("MULTIPLY_ADD", ground, 0.70, 0.25))
+    return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
+
+
+def _straight(wire, high):
+    """The straight stem of the vertex at hand; of a mesh of somebody else, which is `high` [m], one for all of it."""
     turn, size = wire.named(TURN), wire.named(SIZE)
 
     def turned(name):
@@ -261,11 +323,14 @@ def _trodden(wire, points, info, field, high):
     chance = [
         wire.math("FRACT", wire.math("MULTIPLY_ADD", tone, factor, wire.named(TONE))) for factor in (61.7, 173.3, 331.9)
     ]
+    return _Stem(place, foot, along, across, length, tilt, arch, chance)
 
-    # what happened at its root: b = share broken here; this stem is broken, or one of the others
-    lean, _ = field.lean(foot)
-    broken = field.broken(foot)
-    is_broken = wire.math("LESS_THAN", chance[0], broken)
+
+def _fate(wire, field, stem):
+    """By b, the share that is broken at its root: this stem is broken, or one of the others."""
+    lean, _ = field.lean(stem.foot)
+    broken = field.broken(stem.foot)
+    is_broken = wire.math("LESS_THAN", stem.chance[0], broken)
     crushed = wire.split(lean)[2]
     lean = wire.vector("MULTIPLY", lean, (1, 1, 0))
     of_broken = wire.math("DIVIDE", crushed, wire.math("MAXIMUM", broken, 0.02))
@@ -276,68 +341,50 @@ def _trodden(wire, points, info, field, high):
     own = wire.math("MINIMUM", wire.math("MAXIMUM", own, 0.0), 1.0)
     share = wire.math("DIVIDE", wire.math("ADD", own, 0.05), wire.math("ADD", crushed, 0.05))
     aside = wire.math("MINIMUM", wire.math("MULTIPLY", wire.vector("LENGTH", lean), share), 1.0)
+    return _Fate(is_broken, own, lean, aside)
 
-    # the way it leans: as all do, and a little its own
-    spread = wire.math("MULTIPLY_ADD", chance[1], 0.9, -0.45)
-    way = wire.add("ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=lean, Angle=spread).outputs[0]
-    outward = wire.vector("SCALE", wire.vector("ADD", arch, tilt), scale=wire.math("MULTIPLY", own, 0.12))
-    way = wire.vector("NORMALIZE", wire.vector("ADD", way, outward))
+
+def _leaning(wire, stem, fate):
+    """(across, tilt, arch) of a stem that leans as far as it is crushed."""
+    # whither it leans: as all do, and a little its own
+    spread = wire.math("MULTIPLY_ADD", stem.chance[1], 0.9, -0.45)
+    ahead = wire.add("ShaderNodeVectorRotate", {"rotation_type": "Z_AXIS"}, Vector=fate.lean, Angle=spread).outputs[0]
+    outward = wire.vector(
+        "SCALE", wire.vector("ADD", stem.arch, stem.tilt), scale=wire.math("MULTIPLY", fate.own, 0.12)
+    )
+    ahead = wire.vector("NORMALIZE", wire.vector("ADD", ahead, outward))
     # how far its tip is off the root: as far as it is said, or as the height it lost lets it be
-    height = wire.math("SUBTRACT", 1.0, own)
+    height = wire.math("SUBTRACT", 1.0, fate.own)
     fallen = wire.math(
         "SQRT", wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", height, height)), 0.0)
     )
-    angle = wire.math("ARCTAN2", wire.math("MAXIMUM", aside, fallen), height)
-    angle = wire.math("MULTIPLY", angle, wire.math("MULTIPLY_ADD", chance[2], 0.16, 0.92))
+    angle = wire.math("ARCTAN2", wire.math("MAXIMUM", fate.aside, fallen), height)
+    angle = wire.math("MULTIPLY", angle, wire.math("MULTIPLY_ADD", stem.chance[2], 0.16, 0.92))
     # a leaning stem is an arc, more bent towards its tip; a crushed one lies straight from its root on
-    stiff = wire.math("POWER", own, 1.5)
+    stiff = wire.math("POWER", fate.own, 1.5)
     first = wire.math("MULTIPLY", angle, stiff)
     last = wire.math("MINIMUM", wire.math("SUBTRACT", wire.math("MULTIPLY", angle, 2.0), first), 1.72)
-    keep = wire.math("MULTIPLY_ADD", own, -0.85, 1.0)
-    tilt = wire.vector("ADD", wire.vector("SCALE", tilt, scale=keep), wire.vector("SCALE", way, scale=first))
+    keep = wire.math("MULTIPLY_ADD", fate.own, -0.85, 1.0)
+    tilt = wire.vector("ADD", wire.vector("SCALE", stem.tilt, scale=keep), wire.vector("SCALE", ahead, scale=first))
     arch = wire.vector(
         "ADD",
-        wire.vector("SCALE", arch, scale=keep),
-        wire.vector("SCALE", way, scale=wire.math("SUBTRACT", last, first)),
+        wire.vector("SCALE", stem.arch, scale=keep),
+        wire.vector("SCALE", ahead, scale=wire.math("SUBTRACT", last, first)),
     )
 
-    # what lay across it is pressed flat, to the sides of the way it leans
-    aside = wire.vector("CROSS_PRODUCT", (0, 0, 1), way)
+    # what lay across it is pressed flat, to the sides of where it leans
+    aside = wire.vector("CROSS_PRODUCT", (0, 0, 1), ahead)
     wide = wire.math(
-        "MULTIPLY", wire.vector("LENGTH", across), wire.math("SIGN", wire.vector("DOT_PRODUCT", across, aside))
+        "MULTIPLY",
+        wire.vector("LENGTH", stem.across),
+        wire.math("SIGN", wire.vector("DOT_PRODUCT", stem.across, aside)),
     )
     across = wire.vector(
         "ADD",
-        wire.vector("SCALE", across, scale=height),
-        wire.vector("SCALE", aside, scale=wire.math("MULTIPLY", wide, own)),
+        wire.vector("SCALE", stem.across, scale=height),
+        wire.vector("SCALE", aside, scale=wire.math("MULTIPLY", wide, fate.own)),
     )
-
-    # broken stems turn to straw and are ground away foot by foot
-    level, pressure = _surface(wire, field, place, foot)
-    ground = wire.math("SUBTRACT", 1.0, wire.math("EXPONENT", wire.math("MULTIPLY", pressure, -1.0 / GRIND)))
-    gone = wire.math("SUBTRACT", ground, wire.math("MULTIPLY_ADD", chance[2], 0.55, 0.30))
-    gone = wire.math("MINIMUM", wire.math("MAXIMUM", wire.math("MULTIPLY", gone, 7.0), 0.0), 0.97)
-    left = wire.math("SUBTRACT", 1.0, wire.math("MULTIPLY", gone, is_broken))
-    along, across = wire.math("MULTIPLY", along, left), wire.vector("SCALE", across, scale=left)
-    length = wire.math("MULTIPLY", length, left)
-
-    where = grass_nodes.bent(wire, length, along, across, tilt, arch)
-    where = wire.vector("ADD", wire.vector("ADD", where, wire.vector("MULTIPLY", foot, (1, 1, 0))), wire.xyz(z=level))
-    # nothing lies under the ground, but the buried end
-    low, high = STEM_LIFT
-    lift = wire.math(
-        "MULTIPLY",
-        wire.math("MULTIPLY_ADD", chance[1], high - low, low),
-        wire.math("MINIMUM", wire.math("MULTIPLY", along, 50.0), 1.0),
-    )
-    least = wire.math("ADD", _surface(wire, field, place, where)[0], lift)
-    least = grass_nodes.mix(wire, wire.math("GREATER_THAN", along, 1e-4), -1e6, least)
-    x, y, z = wire.split(where)
-    real = wire.add(
-        "GeometryNodeSetPosition", Geometry=real, Position=wire.xyz(x, y, wire.math("MAXIMUM", z, least))
-    ).outputs[0]
-    pale = wire.math("MULTIPLY", is_broken, wire.math("MULTIPLY_ADD", ground, 0.70, 0.25))
-    return wire.store(real, STRENGTH, wire.math("SUBTRACT", 1.0, pale))
+    return across, tilt, arch
 
 
 def _surface(wire, field, place, at):

@@ -57,28 +57,16 @@ def images(tree):
     return found
 
 
-def attach(
-    obj, frames, index, *, count, world, scale, smooth, corners, layer_depth=0.0, standing=(), place=None, copy=None
-):
+def attach(obj, frames, playing):
     """Play the frames of a bake on the object; replaces what it played before.
 
-    frames: the folder of the images as Blender writes paths (`//` for beside the .blend file)
-    index: cell, x0, y0 [m], nx, ny, frame_start of the images
-    count: frames there are, file 0 not counted
-    world: the object's matrix when it was baked (4, 4); scale: metres in a unit [m]
-    smooth: interpolate between cells, for meshes whose points are not cell centres
-    corners: the local box of the mesh's points (8, 3)
-    layer_depth: > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
-    standing: plants off the images, (vertex group, "" or plants.Spread, their strength where that is 1) each
-    place: where our modifier goes (stack.Place); None: where it was, or after all others
-    copy: an object whose mesh is shown in place of the ground's own (refined.py); None: the ground's own is
+    frames: the folder of the images as Blender writes paths (`//` for beside the .blend file); playing: Playing, how.
     """
+    place = playing.place
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
-    shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(index)]}
-    tree = playback_tree.create(
-        obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy
-    )
+    shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(playing.index)]}
+    tree = playback_tree.create(obj, shown, playing)
     if _taken_over(obj, tree):
         discard(tree)
         ours, tree = old, old.node_group
@@ -91,9 +79,9 @@ def attach(
         ours = compat.nodes_modifier(obj, playback_tree.MODIFIER, tree)
         ours.show_expanded = False
         strengths.give(ours, kept)
-    tree[playback_tree.TAG] = mark(frames, index, count)
+    tree[playback_tree.TAG] = mark(frames, playing.index, playing.count)
     compat.move_modifier(obj, ours, place.before if place is not None else before)
-    keep(obj, tree, world)
+    keep(obj, tree, playing.world)
     return ours
 
 

@@ -3,6 +3,10 @@
 All numbers are constants inside the tree, so the same tree works from 3.4 to 5.2.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -40,7 +44,27 @@ def file_number(wire, index, count, stretch=1.0):
     return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
 
 
-def create(obj, shown, index, count, world, scale, smooth, corners, layer_depth, standing, place, copy):
+@dataclass(frozen=True)
+class Playing:
+    """How the frames of a bake are played on an object."""
+
+    index: Any  # cell, x0, y0 [m], nx, ny, frame_start of the images
+    count: int  # frames there are, file 0 not counted
+    world: np.ndarray  # the object's matrix when it was baked (4, 4)
+    scale: float  # metres in a unit [m]
+    smooth: bool  # interpolate between cells, for meshes whose points are not cell centres
+    corners: np.ndarray  # the local box of the mesh's points (8, 3)
+    layer_depth: float = 0.0  # > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
+    standing: Sequence = ()  # plants off the images: (vertex group, "" or plants.Spread, their strength where it is 1)
+    place: Any = None  # where our modifier goes (stack.Place); None: where it was, or after all others
+    copy: Any = None  # whose mesh is shown in place of the ground's own (refined.py); None: the ground's own is
+
+
+def create(obj, shown, playing):
+    """The tree that plays the images `shown` on an object."""
+    index, place, copy = playing.index, playing.place, playing.copy
+    smooth, standing = playing.smooth, playing.standing
+    world, scale = playing.world, playing.scale
     tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
     strengths.declare(tree)
     wire = wiring.Wiring(tree)
@@ -50,12 +74,12 @@ def create(obj, shown, index, count, world, scale, smooth, corners, layer_depth,
     if copy is not None:
         entry = _in_place(wire, entry, copy)
     leave = tree.nodes.new("NodeGroupOutput")
-    number = file_number(wire, index, count, clock.stretch_of(obj))
+    number = file_number(wire, index, playing.count, clock.stretch_of(obj))
 
     # where in the image
     turn, shift = axes.image_axes(world, scale, index)
     at = _turned(wire, turn, shift)
-    inside = None if _covers(corners, turn, shift) else within(wire, at)
+    inside = None if _covers(playing.corners, turn, shift) else within(wire, at)
     detailed = copy is not None and DETAIL in copy.data.attributes
     if detailed:  # rims are round, and edges stray
         stray = wire.named(STRAY, "FLOAT_VECTOR")
@@ -97,9 +121,9 @@ def create(obj, shown, index, count, world, scale, smooth, corners, layer_depth,
     geometry = strengths.painted(wire, given, geometry, split.outputs[0], split.outputs[2])
 
     # a group of that name on the object is filled instead of an attribute
-    if layer_depth > 0.0:
+    if playing.layer_depth > 0.0:
         strength = wire.named(STRENGTH) if "lean" in shown else split.outputs[1]
-        weights = (strength, wire.math("MULTIPLY", split.outputs[2], 1.0 / layer_depth))
+        weights = (strength, wire.math("MULTIPLY", split.outputs[2], 1.0 / playing.layer_depth))
         for name, weight in zip(GROUPS, weights):
             geometry = wire.store(geometry, group_name(name), weight)
     tree.links.new(geometry, leave.inputs[0])

@@ -48,7 +48,8 @@ class Copy:
 def make(scene, obj, surface, index, planes, standing=(), into=None):
     """The refined Copy of a ground for a bake, or None where its mesh is fine enough, or it is not asked for.
 
-    planes: the maps after the last frame by name; surface: the ground as it was baked; standing: see playback.attach
+    planes: the maps after the last frame by name; surface: the ground as it was baked;
+    standing: see playback_tree.Playing
     into: the object of an earlier copy, which is made anew then
     """
     settings = obj.desire_path

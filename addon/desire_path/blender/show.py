@@ -38,9 +38,7 @@ def play(scene, obj, surface, baked=None, place=""):
                 ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
             )
         )
-        playback.attach(
-            obj,
-            frames,
+        playing = playback_tree.Playing(
             index,
             count=index.frames,
             world=surface.world,
@@ -52,6 +50,7 @@ def play(scene, obj, surface, baked=None, place=""):
             place=surface.place,
             copy=carrier,
         )
+        playback.attach(obj, frames, playing)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if carrier is not None:
             playback.modifier(obj).node_group[playback.COPIED] = refined.mark(obj)

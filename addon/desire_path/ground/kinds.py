@@ -87,7 +87,6 @@ def _kind(
     break_deg: float,
     strength: float = 0.1,
     *,
-    curl_deg: float = 0.0,
     hours: float | None = None,
     **more: Any,
 ) -> Kind:
@@ -102,7 +101,6 @@ def _kind(
         strength=strength,
         degrade_angle=math.radians(degrade_deg),
         break_angle=math.radians(break_deg),
-        curl=math.radians(curl_deg),
         **more,
     )
 
@@ -160,7 +158,7 @@ _KINDS = {
         0.2,
         form="tuft",
         sheets=3,
-        curl_deg=6,
+        curl=math.radians(6),
         radius=0.004,
         reach=0.18,
         full_density=30.0,
@@ -178,7 +176,7 @@ _KINDS = {
         180,
         0.1,
         form="tuft",
-        curl_deg=1.0,
+        curl=math.radians(1.0),
         radius=0.004,
         across=12.0,
         reach=0.12,
@@ -219,7 +217,7 @@ _KINDS = {
         0.06,
         form="tuft",
         sheets=3,
-        curl_deg=11,
+        curl=math.radians(11),
         radius=0.006,
         across=10.0,
         reach=0.30,

@@ -6,7 +6,7 @@ Skeleton, Motion, Skin ---rigs.detect---> Rig ---gait_from_bones---> Gait
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -202,75 +202,96 @@ def gait_from_bones(
     warnings += jumps.sentences(name, [(*(frame_start + time[[a, b]] * frame_rate), size) for a, b, size in leaps])
     bones.tell = ~jumps.alone(len(time), cut)
     own_leg = stretched_leg(bones, rig, leg)
-    clip = time, com
-    time, com, bones, again, rests = _moving(skeleton, motion, rig, bones, time, com, cut, own_leg / sizes.LEG)
-    ankles = np.array([bones.rest_point(f.foot) for f in rig.feet])
-    person = len(rig.feet) == 2 and bool(rig.hips)
+    moving, moving_com, bones, again, rests = _moving(skeleton, motion, rig, bones, time, com, cut, own_leg / sizes.LEG)
     shapes = soles.shapes or {}
+    person = len(rig.feet) == 2 and bool(rig.hips)
     feet = [Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
     square = _square(bones, feet, up_rest, -1.0 if skeleton.mirrored else 1.0)
-    held = stays.still(com, time, own_leg / sizes.LEG)
+    held = stays.still(moving_com, moving, own_leg / sizes.LEG)
     held &= ~np.all([foot.low(~held) for foot in feet], axis=0)  # who stands on all feet shows them flat
-    held |= rests
     for foot in feet:
-        foot.held, foot.size = held, own_leg / sizes.LEG
+        foot.held, foot.size = held | rests, own_leg / sizes.LEG
         if person and square is not None:
             foot.face(square, up_rest)
     ahead_rest = _ahead(feet, up_rest, square)
-    left_axis = np.cross(up_rest, ahead_rest)
-    middle = ankles.mean(axis=0) @ left_axis
-    to_left = ankles @ left_axis - middle
-    named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right") for f in feet])
-    mirrored = named @ to_left < 0.0  # the object is: what is called left stands on the right
-    sided = -named if mirrored else named
-    lefts = (sided > 0.0) | ((sided == 0.0) & (to_left > 0.0))
+    lefts = _lefts(bones, feet, np.cross(up_rest, ahead_rest))
     at_rest = RestPose(skeleton, up_rest, ahead_rest, soles.skin)
     if soles.tread is not None:
-        laid = lay_tread(soles.tread, feet, lefts, time, at_rest)
+        laid = lay_tread(soles.tread, feet, lefts, moving, at_rest)
         at_rest = replace(at_rest, laid=laid)
         warnings += laid.warnings
     hills: Sequence[slope.Slope | None] = [None] * len(feet)
     if soles.land is not None:
-        hills = slope.below(soles.land, feet, time, up_rest, bool(shapes) or None)
-    poses, sole_of, points = list[np.ndarray](), list[Sole](), list[tuple[float, float, float]]()
-    part_limb, point_part, point_role = list[int](), list[int](), list[int]()
-    for limb, (foot, hill) in enumerate(zip(feet, hills)):
-        if hill is not None:
-            foot = foot.over(hill.flattened(bones, (foot.slots.foot, foot.slots.toe)))
-        pose, pair, marks, odd = parts(foot, foot.bones, time, lefts[limb], at_rest)
-        if hill is not None:
-            pose = [hill.back(each) for each in pose]
-        first = len(poses)
-        warnings += odd
-        poses += pose
-        sole_of += pair
-        part_limb += [limb, limb]
-        for part, role, at in marks:
-            points.append(at)
-            point_part.append(first + part)
-            point_role.append(role)
-    time, com = clip
+        hills = slope.below(soles.land, feet, moving, up_rest, bool(shapes) or None)
+    limbs = _limbs(bones, feet, hills, lefts, moving, at_rest)
     return Gait(
         time=time,
         com=com[None],
         mass=np.array([mass]),
-        pose=np.array(poses)[:, again],
+        pose=np.array(limbs.pose)[:, again],
         limb_walker=np.zeros(len(feet)),
-        part_limb=np.array(part_limb),
-        soles=tuple(sole_of),
-        point=np.array(points),
-        point_part=np.array(point_part),
-        point_role=np.array(point_role),
+        part_limb=np.repeat(np.arange(len(feet)), 2),
+        soles=tuple(limbs.soles),
+        point=np.array(limbs.point),
+        point_part=np.array(limbs.point_part),
+        point_role=np.array(limbs.point_role),
         limb_name=tuple(f.foot for f in rig.feet),
         part_name=("heel", "toe") * len(feet),
         walker_name=(name,),
         frame_rate=frame_rate,
         frame_start=frame_start,
-        warnings=tuple(warnings),
+        warnings=(*warnings, *limbs.warnings),
         cut=np.array(cut),
         jump=np.array([(sample, 0) for sample in cut]),
         leg=np.array([own_leg]),
     ).check()
+
+
+def _lefts(bones: SampledBones, feet: Sequence[Foot], left_axis: np.ndarray) -> list[bool]:
+    """Which feet are left ones: by their names, else by their side of the others."""
+    ankles = np.array([bones.rest_point(foot.slots.foot) for foot in feet])
+    to_left = ankles @ left_axis - ankles.mean(axis=0) @ left_axis
+    named = np.array([f.slots.limb.startswith("left") * 1.0 - f.slots.limb.startswith("right") for f in feet])
+    mirrored = named @ to_left < 0.0  # the object is: what is called left stands on the right
+    sided = -named if mirrored else named
+    return [bool(each) for each in (sided > 0.0) | ((sided == 0.0) & (to_left > 0.0))]
+
+
+@dataclass
+class _Limbs:
+    """The parts of all limbs, two each, with their contact points, as a Gait has them."""
+
+    pose: list[np.ndarray] = field(default_factory=list)
+    soles: list[Sole] = field(default_factory=list)
+    point: list[tuple[float, float, float]] = field(default_factory=list)
+    point_part: list[int] = field(default_factory=list)
+    point_role: list[int] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+
+def _limbs(
+    bones: SampledBones,
+    feet: Sequence[Foot],
+    hills: Sequence[slope.Slope | None],
+    lefts: Sequence[bool],
+    time: np.ndarray,
+    at_rest: RestPose,
+) -> _Limbs:
+    """Parts of feet; who lies on a hill is taken from it to level ground, and what is found there back."""
+    out = _Limbs()
+    for limb, (foot, hill) in enumerate(zip(feet, hills)):
+        if hill is not None:
+            foot = foot.over(hill.flattened(bones, (foot.slots.foot, foot.slots.toe)))
+        pose, pair, marks, odd = parts(foot, foot.bones, time, lefts[limb], at_rest)
+        first = len(out.pose)
+        out.pose += pose if hill is None else [hill.back(each) for each in pose]
+        out.soles += pair
+        out.warnings += odd
+        for part, role, at in marks:
+            out.point.append(at)
+            out.point_part.append(first + part)
+            out.point_role.append(role)
+    return out
 
 
 def _moving(
