@@ -58,8 +58,7 @@ typedef struct Binning
         double bounds[4];
         size_t facing;
         bool   bad;
-        bool   level;  // its points are as high as the first of all
-    } * share;         // what every chunk found
+    } * share;  // what every chunk found
 } Binning;
 
 static int chunks_of(size_t count)
@@ -80,16 +79,15 @@ static void take_points(void* context, int chunk, int worker)
     const size_t  first = 3 * (size_t)chunk * CHUNK;
     const size_t  end = 3 * (size_t)end_of(chunk, binning->ground->vertex_count);
     double        x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
-    bool          bad = false, level = true;
+    bool          bad = false;
     (void)worker;
     for (size_t n = first; n < end; n += 3) {
         const double x = vertex[n], y = vertex[n + 1], z = vertex[n + 2];
-        level &= z == vertex[2];
         bad |= !(fabs(x) < 1e100 && fabs(y) < 1e100 && fabs(z) < 1e100);  // squares are finite
         x0 = x < x0 ? x : x0, x1 = x > x1 ? x : x1;
         y0 = y < y0 ? y : y0, y1 = y > y1 ? y : y1;
     }
-    *share = (struct Share){{x0, y0, x1, y1}, 0, bad, level};
+    *share = (struct Share){{x0, y0, x1, y1}, 0, bad};
     memcpy(binning->mesh->vertex + first, vertex + first, (end - first) * sizeof *vertex);
 }
 
@@ -102,7 +100,7 @@ static void take_triangles(void* context, int chunk, int worker)
     const int      end = end_of(chunk, mesh->triangle_count);
     double         x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     (void)worker;
-    *share = (struct Share){{0.0}, 0, false, false};
+    *share = (struct Share){{0.0}, 0, false};
     for (int t = chunk * CHUNK; t < end; ++t) {
         for (size_t n = 3 * (size_t)t; n < 3 * (size_t)t + 3; ++n) {
             share->bad |= corner[n] < 0 || corner[n] >= mesh->vertex_count;
@@ -146,8 +144,6 @@ static DpStatus take_mesh(Binning* binning, int workers, double bounds[4], size_
     const int       chunks = chunks_of((size_t)ground->triangle_count);
     dp_parallel_for(point_chunks, workers, take_points, binning);
     if (!sum_up(binning->share, point_chunks, bounds, facing)) return DP_BAD_ARGUMENT;
-    binning->mesh->level = true;
-    for (int c = 0; c < point_chunks; ++c) binning->mesh->level &= binning->share[c].level;
     for (bool again = false;; again = true) {
         double box[4];
         memcpy(box, bounds, sizeof box);

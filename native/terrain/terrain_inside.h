@@ -36,7 +36,6 @@ typedef struct MeshGround
     int      grids, bins;  // grids there are; bins of all of them
     int32_t* start;        // (bins + 1)
     int32_t* item;         // triangles, ascending within a bin
-    bool     level;        // all vertices lie equally high
     double   somewhere;    // height of a corner of one that faces up or down [m]
 } MeshGround;
 
@@ -54,7 +53,6 @@ typedef struct Source
     float*       kind_weight;  // (kind_count, weights)
     double       bounds[4];    // {x0, y0, x1, y1} [m]
     double       somewhere;    // height of some point of it [m]
-    bool         level;        // all of it lies equally high, to the bit
 } Source;
 
 DpStatus dp_source_create(Source* source, const DpGround* ground, int workers);

@@ -39,9 +39,6 @@ static DpStatus copy_heights(Source* source, const DpGround* ground)
             source->somewhere += (double)ground->heights[n];
             break;
         }
-    source->level = true;
-    for (size_t n = 1; n < count && source->level; ++n)
-        source->level = ground->heights[n] == ground->heights[0];
     source->nx = ground->nx, source->ny = ground->ny;
     source->x0 = ground->x0, source->y0 = ground->y0;
     source->spacing = ground->spacing;
@@ -62,7 +59,6 @@ DpStatus dp_source_create(Source* source, const DpGround* ground, int workers)
         case DP_GROUND_FLAT:
             if (!isfinite(ground->height)) return DP_BAD_ARGUMENT;
             source->height = source->somewhere = ground->height;
-            source->level = true;
             source->bounds[0] = source->bounds[1] = -INFINITY;
             source->bounds[2] = source->bounds[3] = INFINITY;
             break;
@@ -73,7 +69,6 @@ DpStatus dp_source_create(Source* source, const DpGround* ground, int workers)
         case DP_GROUND_MESH:
             status = dp_mesh_create(&source->mesh, ground, workers, source->bounds);
             weights = (size_t)source->mesh.vertex_count;
-            source->level = source->mesh.level;
             source->somewhere = source->mesh.somewhere;
             break;
         default:
@@ -176,7 +171,6 @@ void dp_terrain_base_height(const DpTerrain* terrain, int count, const double* x
 DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double radius)
 {
     const DpVec3 up = {0.0, 0.0, 1.0};
-    if (terrain->source.level) return up;
     const double step = radius / sqrt(5.0);  // the points (2, 1) lie on the rim
     double       at_u[DISC * DISC], at_v[DISC * DISC], at_z[DISC * DISC];
     double       mean_u = 0.0, mean_v = 0.0, mean_z = 0.0;
@@ -202,5 +196,5 @@ DpVec3 dp_terrain_normal(const DpTerrain* terrain, double x, double y, double ra
     if (!(determinant > 1e-9) || !(step > 0.0)) return up;  // all in one line
     const double slope_x = (uz * vv - vz * uv) / (determinant * step);
     const double slope_y = (vz * uu - uz * uv) / (determinant * step);
-    return dp_unit(dp_vec3(-slope_x, -slope_y, 1.0));
+    return dp_unit(dp_vec3(0.0 - slope_x, 0.0 - slope_y, 1.0));  // 0, not -0, where it is level
 }

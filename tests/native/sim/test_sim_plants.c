@@ -1,6 +1,8 @@
 // What must hold of plants on trodden ground: roots hold the soil, nothing lies in the ground or
 // in a sole, threads and memory do not matter, and cost follows the feet.
+#include "base/vec.h"
 #include "sim/planted.h"
+#include "sim/sim_inside.h"
 
 static DpPlantKind tough(void)
 {
@@ -129,6 +131,33 @@ TEST(feet_that_jump_touch_nothing_between)
     dp_grass_read(dp_sim_grass(world.sim), 500, 0, 1, 1, &lean[0], &lean[1], &lean[2]);
     CHECK(!(lean[2] > 0.0f));  // no plants there
     CHECK(dp_terrain_tile_count(world.terrain) < 30);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
+// a foot that is put elsewhere while it stands in its print rises out of it unfelt: its soles push nothing aside
+TEST(a_sole_that_jumps_does_not_move)
+{
+    const DpPlantKind kind = tough();
+    Stride            s = stride_make(1, 1, 80.0, 60.0);
+    World             world;
+    const int         jump = 16;
+    for (int p = 0; p < s.gait.parts; ++p)
+        for (int t = jump; t < s.gait.times; ++t) {
+            const size_t k = (size_t)(p * s.gait.times + t);
+            s.pose[7 * k] += 0.6, s.touching[k] = 0;
+            memset(s.force + 3 * k, 0, 3 * sizeof(double));
+        }
+    CHECK(world_make(&world, &kind, -0.5, -0.5, 1.8, 0.1, 0.01, 1) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_sim_run(world.sim, jump - 1) == DP_OK);
+    const double was = world.sim->limb[0].lowered;
+    CHECK(was > 1e-3);
+    CHECK(dp_sim_run(world.sim, jump) == DP_OK);
+    CHECK(fabs(world.sim->limb[0].lowered - was) > 1e-4);
+    CHECK(world.sim->stage.soles > 0);
+    for (int k = 0; k < world.sim->stage.soles; ++k)
+        CHECK(dp_length(world.sim->stage.sole[k].velocity) == 0.0);
     world_drop(&world);
     stride_drop(&s);
 }
@@ -318,6 +347,7 @@ int main(void)
     RUN(nothing_lies_in_the_ground_or_in_a_sole);
     RUN(workers_do_not_matter);
     RUN(feet_that_jump_touch_nothing_between);
+    RUN(a_sole_that_jumps_does_not_move);
     RUN(odd_plants_and_long_steps_stay_numbers);
     RUN(cost_follows_the_feet);
     RUN(rims_come_to_rest_under_what_lies_there);

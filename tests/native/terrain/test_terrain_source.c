@@ -58,6 +58,7 @@ TEST(level_heights_are_level_to_the_bit)
               (double)0.1f);
     const DpVec3 normal = dp_terrain_normal(terrain, 0.7, 0.7, 0.1);
     CHECK(normal.x == 0.0 && normal.y == 0.0 && normal.z == 1.0);
+    CHECK(!signbit(normal.x) && !signbit(normal.y));
     dp_terrain_destroy(terrain);
 }
 
