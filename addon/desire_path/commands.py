@@ -401,8 +401,8 @@ def _add_fit(tasks: argparse._SubParsersAction[Parser]) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; 0 when it worked, 1 with one sentence on stderr when it did not."""
-    args = _parser().parse_args(arguments)
     try:
+        args = _parser().parse_args(arguments)
         settled(args)
         for path in (args.out, getattr(args, "contacts", None)):
             if path is not None and args.task is not _bake:

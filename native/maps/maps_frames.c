@@ -21,11 +21,11 @@ typedef struct Tile
 } Tile;
 
 // scratch memory of one worker, lent when it packs its first tile
-typedef struct Bench
+typedef struct PackScratch
 {
     struct libdeflate_compressor* zip;
     unsigned char* byte;  // planes, their differences, the packed tile: 3 of its size
-} Bench;
+} PackScratch;
 
 struct DpFrames
 {
@@ -36,11 +36,11 @@ struct DpFrames
     DpNote*     notes;
     int         note_count;
 
-    Tile    zero;
-    Tile*   tile;  // (tiles_y, tiles_x), ty = 0 lowest
-    Bench   bench[WORKERS];
-    DpBytes file;  // the frame being written
-    DpFile  list;  // of the files, or DP_NO_FILE
+    Tile        zero;
+    Tile*       tile;  // (tiles_y, tiles_x), ty = 0 lowest
+    PackScratch scratch[WORKERS];
+    DpBytes     file;  // the frame being written
+    DpFile      list;  // of the files, or DP_NO_FILE
 };
 
 // ---- packing one tile, OpenEXR's ZIP ------------------------------------------------------------
@@ -87,27 +87,27 @@ static void difference(const unsigned char* byte, size_t size, unsigned char* st
     }
 }
 
-static bool is_set_up(const DpFrames* frames, Bench* bench)
+static bool is_set_up(const DpFrames* frames, PackScratch* scratch)
 {
-    if (!bench->byte) bench->byte = dp_alloc(tile_bytes(frames), 3);
-    if (!bench->zip) {
+    if (!scratch->byte) scratch->byte = dp_alloc(tile_bytes(frames), 3);
+    if (!scratch->zip) {
         const exr_context_initializer_t setup = dp_exr_setup(NULL);
         libdeflate_set_memory_allocator(setup.alloc_fn, setup.free_fn);
-        bench->zip = libdeflate_alloc_compressor(DP_ZIP_LEVEL);
+        scratch->zip = libdeflate_alloc_compressor(DP_ZIP_LEVEL);
     }
-    return bench->byte && bench->zip;
+    return scratch->byte && scratch->zip;
 }
 
-static DpStatus pack(const DpFrames* frames, Bench* bench, const float* value, Tile* into)
+static DpStatus pack(const DpFrames* frames, PackScratch* scratch, const float* value, Tile* into)
 {
-    if (!is_set_up(frames, bench)) return DP_NO_MEMORY;
+    if (!is_set_up(frames, scratch)) return DP_NO_MEMORY;
     const size_t   bytes = tile_bytes(frames);
-    unsigned char* byte = bench->byte;
+    unsigned char* byte = scratch->byte;
     unsigned char* step = byte + bytes;
     unsigned char* packed = step + bytes;
     lay_out(frames, value, byte);
     difference(byte, bytes, step);
-    size_t size = libdeflate_zlib_compress(bench->zip, step, bytes, packed, bytes - 1);
+    size_t size = libdeflate_zlib_compress(scratch->zip, step, bytes, packed, bytes - 1);
     if (size == 0) {  // it would not get smaller: readers know by the size
         packed = byte;
         size = bytes;
@@ -125,7 +125,7 @@ DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* value
         worker < 0 || worker >= WORKERS)
         return DP_BAD_ARGUMENT;
     Tile           fresh = {NULL, 0};
-    const DpStatus status = pack(frames, &frames->bench[worker], value, &fresh);
+    const DpStatus status = pack(frames, &frames->scratch[worker], value, &fresh);
     if (status != DP_OK) return status;
     Tile* tile = &frames->tile[ty * frames->tiles_x + tx];
     dp_free(tile->packed);
@@ -226,7 +226,7 @@ static DpStatus fill(DpFrames* frames, const char* const* channel, int channel_c
 
     float* zeros = dp_alloc(tile_bytes(frames), 1);
     frames->tile = dp_alloc((size_t)(frames->tiles_x * frames->tiles_y), sizeof *frames->tile);
-    status = zeros && frames->tile ? pack(frames, &frames->bench[0], zeros, &frames->zero)
+    status = zeros && frames->tile ? pack(frames, &frames->scratch[0], zeros, &frames->zero)
                                    : DP_NO_MEMORY;
     dp_free(zeros);
     return status;
@@ -261,8 +261,8 @@ void dp_frames_destroy(DpFrames* frames)
 {
     if (!frames) return;
     for (int w = 0; w < WORKERS; ++w) {
-        if (frames->bench[w].zip) libdeflate_free_compressor(frames->bench[w].zip);
-        dp_free(frames->bench[w].byte);
+        if (frames->scratch[w].zip) libdeflate_free_compressor(frames->scratch[w].zip);
+        dp_free(frames->scratch[w].byte);
     }
     for (int k = 0; frames->tile && k < frames->tiles_x * frames->tiles_y; ++k)
         dp_free(frames->tile[k].packed);

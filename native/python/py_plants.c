@@ -215,14 +215,14 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
         goto done;
     }
     if (open_state(&stand, position, velocity, strength) < 0) goto done;
-    DpPlantsReport told = {0};
+    DpPlantsReport report = {0};
     DpStatus       status = DP_OK;
     int            broke = 0;
     Py_BEGIN_ALLOW_THREADS
     for (int k = 0; k < steps && status == DP_OK; ++k) {
         status = dp_plants_step(stand.plants, below, stand.collider, stand.colliders, dt, workers,
-                                &told);
-        broke += told.broke;
+                                &report);
+        broke += report.broke;
     }
     for (int k = 0; k < stand.count; ++k)
         dp_plants_read(stand.plants, 0, k,
@@ -231,7 +231,7 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
                        stand.strength + (size_t)k * (size_t)stand.shape.bends);
     Py_END_ALLOW_THREADS
     answer = status == DP_OK
-                 ? Py_BuildValue("{s:i,s:i}", "awake", told.awake, "broke", broke)
+                 ? Py_BuildValue("{s:i,s:i}", "awake", report.awake, "broke", broke)
                  : dp_py_because(status, "moving plants",
                                  "dt must be above 0 and below 1e6 s, numbers of ground and "
                                  "colliders finite and their cells above 0 m");

@@ -151,13 +151,13 @@ static PyObject* foot_contact(PyObject* self, PyObject* args)
     uint8_t* on = below ? dp_buffers_open(&buffers, touching, "touching", 'B',
                                           DP_SHAPE2(gait.parts, gait.times), true)
                         : NULL;
-    double*  rest =
+    double*  resting =
         on ? dp_buffers_open(&buffers, clearance, "clearance", 'd', DP_SHAPE1(gait.points), true)
             : NULL;
-    if (!rest || read_limits(numbers, &limits) < 0) goto done;
+    if (!resting || read_limits(numbers, &limits) < 0) goto done;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_foot_contact(&gait, below, &limits, on, rest);
+    status = dp_foot_contact(&gait, below, &limits, on, resting);
     Py_END_ALLOW_THREADS
     result = dp_py_because(status, "finding contacts",
                            "the gait must be sampled evenly, with poses that are turns, and parts, "

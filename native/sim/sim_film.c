@@ -60,16 +60,16 @@ static void fill_tile(const DpFilm* film, int index, float* value)
 
 // Planted ground shows before anybody walks on it, and so do trodden ground and its height: films of
 // these begin with every tile.
-typedef struct Rest
+typedef struct Packing
 {
     const DpFilm* film;
     atomic_int    failed;
-} Rest;
+} Packing;
 
-static void pack_rest(void* context, int index, int worker)
+static void pack_start(void* context, int index, int worker)
 {
-    Rest*         rest = context;
-    const DpFilm* film = rest->film;
+    Packing*      packing = context;
+    const DpFilm* film = packing->film;
     const size_t  size = (size_t)TILE_CELLS * (size_t)film->fields;
     float*        value = dp_alloc(size, sizeof *value);
     bool          any = false;
@@ -80,7 +80,7 @@ static void pack_rest(void* context, int index, int worker)
     if (any)
         status = dp_frames_set_tile(film->frames, index % film->tiles_x, index / film->tiles_x,
                                     value, worker);
-    if (status != DP_OK) atomic_store(&rest->failed, (int)status);
+    if (status != DP_OK) atomic_store(&packing->failed, (int)status);
     dp_free(value);
 }
 
@@ -245,9 +245,9 @@ static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
     bool shows = dp_sim_grass(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
     for (int f = 0; f < film->fields; ++f) shows |= film->field[f] == DP_FIELD_BASE_HEIGHT;
     if (shows) {
-        Rest rest = {film, DP_OK};
-        dp_parallel_for(tiles, reel->workers, pack_rest, &rest);
-        status = (DpStatus)atomic_load(&rest.failed);
+        Packing packing = {film, DP_OK};
+        dp_parallel_for(tiles, reel->workers, pack_start, &packing);
+        status = (DpStatus)atomic_load(&packing.failed);
     }
     return status;
 }

@@ -85,8 +85,8 @@ typedef struct PlantStage
 {
     DpPlants*       plants;
     DpGrass*        grass;
-    DpPlantDisplay* display;        // NULL: nobody asked for stems as they are shown
-    double          extent, reach;  // of the largest plant, above and below ground [m]
+    DpPlantDisplay* display;              // NULL: nobody asked for stems as they are shown
+    double          extent, root_radius;  // of the largest plant, above and below ground [m]
 
     int              parts, limbs;  // of the recording
     SweptSole*       swept;         // of this step and the next (2, parts)
@@ -104,7 +104,7 @@ static inline PlantStage dp_stage_empty(const PlantStage* stage)
                         .grass = stage->grass,
                         .display = stage->display,
                         .extent = stage->extent,
-                        .reach = stage->reach};
+                        .root_radius = stage->root_radius};
 }
 
 #define MAX_SPECULATED 4  // limbs; where more press, they keep all cores busy by themselves

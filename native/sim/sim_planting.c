@@ -19,7 +19,7 @@ static DpStemLean lean_at(const void* context, double x, double y)
 static void measure(PlantStage* stage)
 {
     stage->extent = dp_plants_extent(stage->plants);
-    stage->reach = dp_plants_root_radius(stage->plants);
+    stage->root_radius = dp_plants_root_radius(stage->plants);
 }
 
 DpStatus dp_sim_plant(DpSim* sim, DpPlants* plants)
@@ -88,7 +88,7 @@ DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position)
 static void planted(DpSim* sim, const double box[4])
 {
     measure(&sim->stage);
-    const double r = sim->stage.reach;
+    const double r = sim->stage.root_radius;
     dp_sim_cover_anew(sim, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
     dp_grass_grown(sim->stage.grass, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
 }
@@ -157,7 +157,7 @@ DpStatus dp_sim_rest(DpSim* sim, double seconds)
 
 double dp_stage_margin(const DpSim* sim)
 {
-    return fmin(sim->stage.extent + sim->stage.reach, DP_STAGE_MARGIN);
+    return fmin(sim->stage.extent + sim->stage.root_radius, DP_STAGE_MARGIN);
 }
 
 DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs)

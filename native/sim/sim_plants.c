@@ -126,7 +126,7 @@ typedef struct Moving
     const DpPlantGround* ground;
     double               dt;
     int                  ahead;  // limbs
-    DpPlantsReport       told;
+    DpPlantsReport       report;
     DpStatus             status[2];
 } Moving;
 
@@ -137,7 +137,7 @@ static void move(void* context, int index, int worker)
     const PlantStage* m = &sim->stage;
     if (index == 0)
         moving->status[0] = dp_plants_step(m->plants, moving->ground, m->sole, m->soles, moving->dt,
-                                           sim->worker_count, &moving->told);
+                                           sim->worker_count, &moving->report);
     else if (index == 1)
         moving->status[1] = dp_grass_step(m->grass, moving->ground, m->sole, m->soles, moving->dt);
     else if (index < 2 + moving->ahead)
@@ -189,11 +189,11 @@ DpStatus dp_stage_step(DpSim* sim, int sample, bool more)
     dp_parallel_for(2 + ahead + soles_ahead, sim->worker_count, move, &moving);
     for (int k = 0; k < 2; ++k)
         if (moving.status[k] != DP_OK) return moving.status[k];
-    const DpPlantsReport told = moving.told;
-    sim->report.awake = told.awake;
-    sim->report.broke += told.broke;
-    for (int k = 0; k < told.changes && status == DP_OK; ++k) {
-        const DpPlantBox box = told.box[k];
+    const DpPlantsReport report = moving.report;
+    sim->report.awake = report.awake;
+    sim->report.broke += report.broke;
+    for (int k = 0; k < report.changes && status == DP_OK; ++k) {
+        const DpPlantBox box = report.box[k];
         dp_sim_cover_anew(sim, box.x0, box.y0, box.x1, box.y1);  // TRAIL (9), in the next step
         dp_speculate_worn(sim, box.x0, box.y0, box.x1, box.y1);
         status = dp_grass_worn(m->grass, box.x0, box.y0, box.x1, box.y1);

@@ -19,9 +19,9 @@ static inline float at_most_one(float x)
 
 // How much higher firm ground stands over a neighbour's surface than it may: than its wall, or than
 // the ground before any walker. A wall of soil that stands may be as high as it likes.
-static inline float over(float firm, float base, float steep, float surface, float rest)
+static inline float over(float firm, float base, float steep, float surface, float base_at)
 {
-    const float drop = base - rest, may = steep > drop ? steep : drop;
+    const float drop = base - base_at, may = steep > drop ? steep : drop;
     return above_zero((firm - surface) - may);
 }
 
@@ -36,15 +36,15 @@ static int decide_walls(const Walls* walls, float* restrict share, float* restri
     int         moves = 0, restless = 0;
     for (int i = 0; i < count; ++i) {
         const float *h = height + i, *z = base + i;
-        const float  at = firm[i], rest = *z, straight = steep[i], diagonal = steep[i] * ROOT2;
-        const float  e = over(at, rest, straight, h[1], z[1]);  // MODEL 6.8
-        const float  w = over(at, rest, straight, h[-1], z[-1]);
-        const float  n = over(at, rest, straight, h[row], z[row]);
-        const float  s = over(at, rest, straight, h[-row], z[-row]);
-        const float  ne = over(at, rest, diagonal, h[row + 1], z[row + 1]);
-        const float  sw = over(at, rest, diagonal, h[-row - 1], z[-row - 1]);
-        const float  nw = over(at, rest, diagonal, h[row - 1], z[row - 1]);
-        const float  se = over(at, rest, diagonal, h[-row + 1], z[-row + 1]);
+        const float  at = firm[i], base_at = *z, straight = steep[i], diagonal = steep[i] * ROOT2;
+        const float  e = over(at, base_at, straight, h[1], z[1]);  // MODEL 6.8
+        const float  w = over(at, base_at, straight, h[-1], z[-1]);
+        const float  n = over(at, base_at, straight, h[row], z[row]);
+        const float  s = over(at, base_at, straight, h[-row], z[-row]);
+        const float  ne = over(at, base_at, diagonal, h[row + 1], z[row + 1]);
+        const float  sw = over(at, base_at, diagonal, h[-row - 1], z[-row - 1]);
+        const float  nw = over(at, base_at, diagonal, h[row - 1], z[row - 1]);
+        const float  se = over(at, base_at, diagonal, h[-row + 1], z[-row + 1]);
         const float  sum = ((e + w) + (n + s)) + ((ne + sw) + (nw + se));
         const float  sides = (at_most_one(e * one) + at_most_one(w * one)) +
                             (at_most_one(n * one) + at_most_one(s * one));
@@ -74,9 +74,9 @@ static void take_walls(const Walls* walls, double* restrict sum, double* restric
     const float* restrict base = walls->base, * restrict steep = walls->steep;
     for (int i = 0; i < count; ++i) {
         const float *F = firm + i, *a = share + i, *t = steep + i, *z = base + i;
-        const float  at = height[i], rest = *z;
-#define COMES(k) (a[k] * over(F[k], z[k], t[k], at, rest))
-#define ACROSS(k) (a[k] * over(F[k], z[k], t[k] * ROOT2, at, rest))
+        const float  at = height[i], base_at = *z;
+#define COMES(k) (a[k] * over(F[k], z[k], t[k], at, base_at))
+#define ACROSS(k) (a[k] * over(F[k], z[k], t[k] * ROOT2, at, base_at))
         const float sides = (COMES(1) + COMES(-1)) + (COMES(row) + COMES(-row));
         const float corners =
             (ACROSS(row + 1) + ACROSS(-row - 1)) + (ACROSS(row - 1) + ACROSS(-row + 1));

@@ -43,9 +43,9 @@ static inline Facet facet_box(const MeshGround* mesh, int32_t triangle)
     }
     const double x_min = min3(facet.x), x_max = max3(facet.x);
     const double y_min = min3(facet.y), y_max = max3(facet.y);
-    const double reach = SLACK * ((x_max - x_min) + (y_max - y_min));
-    facet.x_min = x_min - reach, facet.x_max = x_max + reach;
-    facet.y_min = y_min - reach, facet.y_max = y_max + reach;
+    const double spare = SLACK * ((x_max - x_min) + (y_max - y_min));
+    facet.x_min = x_min - spare, facet.x_max = x_max + spare;
+    facet.y_min = y_min - spare, facet.y_max = y_max + spare;
     facet.sign = facet.slack = 0.0;
     return facet;
 }

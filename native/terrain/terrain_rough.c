@@ -47,8 +47,8 @@ static void rough_kind(const DpTerrain* terrain, const Tile* tile, int kind, con
     const float rho = terrain->soils[kind].roughness;
     for (int n = 0; n < TILE_CELLS; ++n) {
         if (terrain->soil_count > 1 && tile->kind[n] != kind) continue;
-        const float rest = 1.0f + REST_SHARE * rho * rests[n];
-        const float held = rest < FLATTEST ? FLATTEST : rest > STEEPEST ? STEEPEST : rest;
+        const float repose = 1.0f + REST_SHARE * rho * rests[n];
+        const float held = repose < FLATTEST ? FLATTEST : repose > STEEPEST ? STEEPEST : repose;
         const float wall = (float)dp_noise_growth((double)(rho * walls[n]));
         rough[n] = terrain->slope[kind] * held;
         rough[TILE_CELLS + n] = terrain->wall[kind] * wall;

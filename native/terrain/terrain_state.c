@@ -52,8 +52,8 @@ static uint64_t fold_soils(uint64_t sum, const DpTerrain* terrain, const DpSoil*
             float value, usual;
             memcpy(&value, (const char*)&soil[s] + k * sizeof value, sizeof value);
             memcpy(&usual, (const char*)&normal + k * sizeof usual, sizeof usual);
-            const double told[3] = {(double)s, (double)k, (double)value};
-            if (value < usual || value > usual) sum = fold(sum, told, sizeof told);
+            const double chosen[3] = {(double)s, (double)k, (double)value};
+            if (value < usual || value > usual) sum = fold(sum, chosen, sizeof chosen);
         }
     return sum;
 }

@@ -62,14 +62,14 @@ static double resting_height(const DpWatch* w, int k, const double* gate)
 static double lowest_rest(const DpWatch* w, const double* clearance, int walker)
 {
     const DpGait* gait = w->gait;
-    double        rest = INFINITY, low = INFINITY;
+    double        resting = INFINITY, low = INFINITY;
     for (int k = 0; k < gait->points; ++k) {
         if (dp_watch_owner(gait, k) != walker) continue;
-        rest = fmin(rest, clearance[k]);  // fmin passes over NaN
+        resting = fmin(resting, clearance[k]);  // fmin passes over NaN
         const double* height = w->height + (size_t)k * (size_t)gait->times;
         for (int t = 0; t < gait->times; ++t) low = fmin(low, height[t]);
     }
-    return isfinite(rest) ? rest : isfinite(low) ? low : 0.0;
+    return isfinite(resting) ? resting : isfinite(low) ? low : 0.0;
 }
 
 void dp_watch_clearance(const DpWatch* w, double* clearance)

@@ -102,7 +102,7 @@ static bool rests(const DpGait* gait, int limb, const double* speed, double move
 static void leave(const DpGait* gait, int limb, const double* rise, const double* speed,
                   uint8_t* on, double rate, double moves)
 {
-    const int times = gait->times, reach = (int)(EDGE * rate);
+    const int times = gait->times, within = (int)(EDGE * rate);
     for (int t = 1; t <= times; ++t) {
         if (!limb_on(gait, limb, on, t - 1)) continue;
         // a clip that ends while the ball is pulled up ends after the contact
@@ -112,7 +112,7 @@ static void leave(const DpGait* gait, int limb, const double* rise, const double
         int    hardest = t;
         double most = 0.0;
         for (int k = t < times ? t : times - 1;
-             k > 0 && t - k < reach && limb_on(gait, limb, on, k - 1); --k) {
+             k > 0 && t - k < within && limb_on(gait, limb, on, k - 1); --k) {
             const double now = of_balls(gait, limb, rise, k, rate, true) +
                                of_balls(gait, limb, speed, k, rate, true);
             if (now > most) most = now, hardest = k;

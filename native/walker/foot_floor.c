@@ -16,11 +16,11 @@
 #define MIN_RISE 0.01       // over the whole path, less than this is not worth it       [m]
 #define MAX_OFF 0.01        // rests lie this close to the line, in the middle of all   [m]
 
-typedef struct Rest
+typedef struct Footing
 {
     int    point;
     double along, height;  // mean place on the path and mean height  [m]
-} Rest;
+} Footing;
 
 static DpVec3 place(const DpGait* gait, int k, int t)
 {
@@ -36,8 +36,8 @@ static DpVec3 direction_of(const DpGait* gait, int walker)
     return dp_length(direction) > APART ? dp_unit(direction) : dp_vec3(0.0, 0.0, 0.0);
 }
 
-static int find_rests(const DpGait* gait, int walker, const double* height, const double* speed,
-                      double slow, double rate, DpVec3 direction, Rest* rest, int room)
+static int find_footings(const DpGait* gait, int walker, const double* height, const double* speed,
+                         double slow, double rate, DpVec3 direction, Footing* footing, int room)
 {
     const int shortest = (int)ceil(MIN_REST_TIME * rate);
     int       count = 0;
@@ -55,7 +55,7 @@ static int find_rests(const DpGait* gait, int walker, const double* height, cons
             }
             const double n = (double)(end - t);
             if (end - t >= shortest && count < room)
-                rest[count++] = (Rest){.point = k, .along = along / n, .height = high / n};
+                footing[count++] = (Footing){.point = k, .along = along / n, .height = high / n};
             t = end > t ? end : t + 1;
         }
     }
@@ -63,15 +63,16 @@ static int find_rests(const DpGait* gait, int walker, const double* height, cons
 }
 
 // median slope between rests of the same point, Theil and Sen; 0 where they lie on no line
-static double slope_of(const Rest* rest, int count, double* scratch)
+static double slope_of(const Footing* footing, int count, double* scratch)
 {
     int    pairs = 0;
     double low = INFINITY, high = -INFINITY;
     for (int i = 0; i < count; ++i) {
-        low = fmin(low, rest[i].along), high = fmax(high, rest[i].along);
-        for (int j = i + 1; j < count && j <= i + PARTNERS && rest[j].point == rest[i].point; ++j) {
-            const double run = rest[j].along - rest[i].along;
-            if (fabs(run) > APART) scratch[pairs++] = (rest[j].height - rest[i].height) / run;
+        low = fmin(low, footing[i].along), high = fmax(high, footing[i].along);
+        for (int j = i + 1; j < count && j <= i + PARTNERS && footing[j].point == footing[i].point;
+             ++j) {
+            const double run = footing[j].along - footing[i].along;
+            if (fabs(run) > APART) scratch[pairs++] = (footing[j].height - footing[i].height) / run;
         }
     }
     if (pairs < 3) return 0.0;
@@ -81,8 +82,8 @@ static double slope_of(const Rest* rest, int count, double* scratch)
     int left = 0;
     for (int i = 0; i < count;) {
         int n = 0, end = i;
-        for (; end < count && rest[end].point == rest[i].point; ++end)
-            scratch[left + n++] = rest[end].height - slope * rest[end].along;
+        for (; end < count && footing[end].point == footing[i].point; ++end)
+            scratch[left + n++] = footing[end].height - slope * footing[end].along;
         const double own = dp_walker_median(scratch + left, (size_t)n);
         for (int m = 0; m < n; ++m) scratch[left + m] = fabs(scratch[left + m] - own);
         left += n;
@@ -99,16 +100,16 @@ DpStatus dp_walker_level_floor(const DpGait* gait, int walker, double* height, c
     if (dp_length(direction) < 0.5) return DP_OK;
     const size_t room =
         (size_t)gait->points * ((size_t)((double)gait->times / (MIN_REST_TIME * rate)) + 2);
-    Rest*   rest = dp_alloc(room, sizeof(Rest));
-    double* scratch = dp_alloc(room * PARTNERS, sizeof(double));
-    if (!rest || !scratch) {
-        dp_free(rest), dp_free(scratch);
+    Footing* footing = dp_alloc(room, sizeof(Footing));
+    double*  scratch = dp_alloc(room * PARTNERS, sizeof(double));
+    if (!footing || !scratch) {
+        dp_free(footing), dp_free(scratch);
         return DP_NO_MEMORY;
     }
-    const int    count = find_rests(gait, walker, height, speed, slow, rate, direction, rest,
-                                 room < 1000000 ? (int)room : 1000000);
-    const double slope = slope_of(rest, count, scratch);
-    dp_free(rest), dp_free(scratch);
+    const int    count = find_footings(gait, walker, height, speed, slow, rate, direction, footing,
+                                    room < 1000000 ? (int)room : 1000000);
+    const double slope = slope_of(footing, count, scratch);
+    dp_free(footing), dp_free(scratch);
     if (slope == 0.0) return DP_OK;
     const double middle = dp_dot(dp_walker_com(gait, walker, gait->times / 2), direction);
     for (int k = 0; k < gait->points; ++k) {

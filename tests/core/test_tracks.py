@@ -160,8 +160,9 @@ def test_memory_over_several_grounds_is_that_of_who_is_there(walk, tmp_path):
         """(samples, bytes that are held, most that are, bytes of the core) of 16 passes by so many walkers in turn."""
         gait = passes.in_turn([walk.along([(0, 0.3 * n), (2, 0.3 * n)], 16 // count, seed=n) for n in range(count)])
         bake = Bake(gait, places(tmp_path / str(count)), cell_size=0.02)
-        core = bake.stepped.pose.nbytes and _native.bytes_live()
-        gc.collect()
+        assert bake.stepped.pose.nbytes > 0  # it is made now
+        gc.collect()  # what others left
+        core = _native.bytes_live()
         tracemalloc.start()
         try:
             sims, loads, _ = grounds.simulations(bake)

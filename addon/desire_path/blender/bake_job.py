@@ -119,7 +119,7 @@ class Job:
         ]  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
             self.warnings += each.warnings
-        self.warnings += [*company.warnings, *inputs.told(company), *paths.warnings(company.walkers)]
+        self.warnings += [*company.warnings, *inputs.warnings_of(company), *paths.warnings(company.walkers)]
         for each in company.grounds:
             self.warnings += replant.refresh(scene, each)
         yield

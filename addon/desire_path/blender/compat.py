@@ -139,18 +139,18 @@ def vectors(mesh, name):
 def geometry_tree(name, new_tree):
     """A node tree with one geometry going in and one coming out."""
     tree = new_tree(name, "GeometryNodeTree")
-    for way in ("INPUT", "OUTPUT"):
-        group_socket(tree, way, "NodeSocketGeometry", "Geometry")
+    for side in ("INPUT", "OUTPUT"):
+        group_socket(tree, side, "NodeSocketGeometry", "Geometry")
     if hasattr(tree, "is_modifier"):
         tree.is_modifier = True
     return tree
 
 
-def group_socket(tree, way, kind, name):
-    """A new socket of a node group, way "INPUT" or "OUTPUT"."""
+def group_socket(tree, side, kind, name):
+    """A new socket of a node group, side "INPUT" or "OUTPUT"."""
     if hasattr(tree, "interface"):
-        return tree.interface.new_socket(name, in_out=way, socket_type=kind)
-    return (tree.inputs if way == "INPUT" else tree.outputs).new(kind, name)
+        return tree.interface.new_socket(name, in_out=side, socket_type=kind)
+    return (tree.inputs if side == "INPUT" else tree.outputs).new(kind, name)
 
 
 def tree_input(tree, name, kind):

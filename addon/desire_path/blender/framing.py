@@ -12,7 +12,7 @@ from . import axes
 
 FAR = 12.0  # prints seen from so far off are too small, in leg lengths
 NEAR = 4.0  # the view comes as near as this
-WAY = 3.0  # so much of the walk is to be seen
+PATH = 3.0  # so much of the walk is to be seen
 UP = 0.6  # this far above the ground the view is centred: who walks is seen, too
 
 
@@ -33,11 +33,11 @@ def steps(scene, obj, gait):
     leg = float(size.legs(gait).max())
     corners = axes.points(axes.matrix(obj.matrix_world, obj.name), np.array(obj.bound_box), scale)
     low, high = corners.min(axis=0), corners.max(axis=0)
-    way = gait.com[0, :, :2]
-    there = way[((way >= low[:2]) & (way <= high[:2])).all(axis=1)]
-    way = there if len(there) else way
-    way = way[np.linalg.norm(way - way[0], axis=1) <= WAY * leg]
-    return np.array((*(0.5 * (way[0] + way[-1])), high[2] + UP * leg)) / scale, leg / scale
+    path = gait.com[0, :, :2]
+    there = path[((path >= low[:2]) & (path <= high[:2])).all(axis=1)]
+    path = there if len(there) else path
+    path = path[np.linalg.norm(path - path[0], axis=1) <= PATH * leg]
+    return np.array((*(0.5 * (path[0] + path[-1])), high[2] + UP * leg)) / scale, leg / scale
 
 
 def _views(context):

@@ -199,7 +199,7 @@ def check(grounds, walkers):
                 )
 
 
-def told(company):
+def warnings_of(company):
     """Sentences about what grounds that are baked together do not keep of their own."""
     cells = {each.name: axes.typed(each.desire_path.cell_size) for each in company.grounds}
     finest = min(cells, key=cells.get)

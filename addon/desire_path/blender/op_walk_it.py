@@ -58,7 +58,7 @@ def chosen_meshes(objects, who):
     ]
 
 
-def chosen_way(objects):
+def chosen_path(objects):
     """The curve to go along among objects, or None; refuses several."""
     found = [each for each in objects if each.type == "CURVE"]
     if len(found) > 1:
@@ -104,8 +104,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         there = list(context.selected_objects) or [context.object]
         who = characters(there)
         meshes = chosen_meshes(there, who) or list(filter(None, [self.known(scene, who)]))
-        way = chosen_way(there)
-        line = paths.waypoints(scene, way) if way is not None else None
+        curve = chosen_path(there)
+        line = paths.waypoints(scene, curve) if curve is not None else None
         for each in (*who, *meshes):
             if each.library is not None:
                 raise DesirePathError(

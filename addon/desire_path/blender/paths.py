@@ -65,8 +65,8 @@ def waypoints(scene, obj, frame=None):
     order = _chain(len(local), edges)
     if len(order) < 2:
         raise DesirePathError(f"The path '{obj.name}' has no length: give it two or more points.")
-    ways = np.bincount(np.array(edges, int).ravel(), minlength=1)  # from each vertex
-    if len(set(order)) < np.count_nonzero(ways) or ways.max() > 2:
+    edges_of = np.bincount(np.array(edges, int).ravel(), minlength=1)  # from each vertex
+    if len(set(order)) < np.count_nonzero(edges_of) or edges_of.max() > 2:
         raise DesirePathError(f"The path '{obj.name}' is not one line: join its pieces, or take off branches.")
     return axes.points(world, local[order], scale)
 

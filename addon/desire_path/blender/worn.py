@@ -382,9 +382,9 @@ def _carried(points, far, bones, heads, tails, owner, same):
     near = np.full(len(points), np.inf)
     which = np.full(len(points), -1)
     for k in range(len(bones)):
-        way = tails[k] - heads[k]
-        along = np.clip((points - heads[k]) @ way / max(way @ way, 1e-30), 0.0, 1.0)
-        off = np.linalg.norm(points - heads[k] - along[:, None] * way, axis=1)
+        bone = tails[k] - heads[k]
+        along = np.clip((points - heads[k]) @ bone / max(bone @ bone, 1e-30), 0.0, 1.0)
+        off = np.linalg.norm(points - heads[k] - along[:, None] * bone, axis=1)
         better = np.isfinite(best) & (far[k] <= best + same) & (off < near)
         near[better], which[better] = off[better], k
     share = {}

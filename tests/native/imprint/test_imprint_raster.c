@@ -53,8 +53,8 @@ TEST(a_triangle_lowers_what_lies_under_it)
     CHECK(under > 10000);
 }
 
-// two corners that are alike low, two that are alike high: whichever a plane starts from, no order of the corners
-// changes a bit; heights are where large numbers cancel
+// Two corners of height 0 on a line through samples, (3 k, k), where large numbers cancel and every rounding shows;
+// the third is far above, or below, and so near the line that a row has one sample. Whichever corner a plane starts from, no order of them changes a bit.
 TEST(no_order_of_corners_changes_a_bit)
 {
     static float        first[SIDE * ROW];
@@ -62,14 +62,18 @@ TEST(no_order_of_corners_changes_a_bit)
                                        {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     const int32_t       triangle[3] = {0, 1, 2};
     unsigned            seed = 9;
-    int                 alone = 0;
+    int                 rounded = 0;
     for (int turn = 0; turn < 400; ++turn) {
-        double    corner[9];
-        const int tie = turn % 3;  // none, the lower two, the upper two
-        for (int k = 0; k < 9; ++k)
-            corner[k] = k % 3 == 2 ? 1e4 * check_random(&seed) : 60.0 * (check_random(&seed) - 0.5);
-        if (tie == 1) corner[2] = corner[5] = 0.0;
-        if (tie == 2) corner[2] = corner[5] = 1e4, corner[8] = 0.0;
+        const double high = 1e4 * check_random(&seed);
+        const double corner[9] = {-30.0,
+                                  -10.0,
+                                  0.0,
+                                  30.0,
+                                  10.0,
+                                  0.0,
+                                  0.1 + 1.5 * check_random(&seed),
+                                  0.5 * check_random(&seed) - 0.4,
+                                  turn % 2 ? high : -high};
         for (int n = 0; n < 6; ++n) {
             double turned[9];
             for (int k = 0; k < 9; ++k) turned[k] = corner[3 * order[n][k / 3] + k % 3];
@@ -77,9 +81,31 @@ TEST(no_order_of_corners_changes_a_bit)
             if (n == 0) memcpy(first, low, sizeof low);
             CHECK(memcmp(first, low, sizeof low) == 0);
         }
-        for (int k = 0; k < SIDE * ROW; ++k) alone += !isinf(first[k]);
+        for (int k = -8; k <= 8; k += 2) {
+            const float on_line = first[(k + PAST) / 2 * ROW + (3 * k + PAST) / 2];
+            rounded += fabsf(on_line) > 0.0f && fabsf(on_line) < 1e-9f;
+        }
     }
-    CHECK(alone > 20000);
+    CHECK(rounded > 100);
+}
+
+// What lies a little lower than what is there already is not hidden by it, whichever side is thought to be below: a
+// third triangle, high up and aside, tells so.
+TEST(a_little_lower_is_seen)
+{
+    const double corner[27] = {-200, -100, 0.1,    200, -100, 0.1,    0,  400, 0.1,
+                               -200, -100, 0.0995, 200, -100, 0.0995, 0,  400, 0.0995,
+                               36,   36,   1e5,    39,  36,   1e5,    38, 39,  1e5};
+    for (int turn = 0; turn < 8; ++turn) {
+        int32_t triangle[9];
+        for (int t = 0; t < 3; ++t) {
+            const int turned = turn >> t & 1;
+            triangle[3 * t] = 3 * t;
+            triangle[3 * t + 1] = 3 * t + 1 + turned, triangle[3 * t + 2] = 3 * t + 2 - turned;
+        }
+        lower(corner, triangle, 3);
+        CHECK(low[(SIDE / 2) * ROW + SIDE / 2] == 0.0995f);
+    }
 }
 
 // the lowest of many, whichever side is up and in whatever order they come; what is hidden changes nothing
@@ -141,6 +167,7 @@ int main(void)
 {
     RUN(a_triangle_lowers_what_lies_under_it);
     RUN(no_order_of_corners_changes_a_bit);
+    RUN(a_little_lower_is_seen);
     RUN(the_lowest_of_many_is_kept);
     RUN(samples_are_found_at_both_ends);
     RUN(a_window_is_all_that_is_touched);

@@ -102,6 +102,12 @@ TEST(a_row_gives_what_the_model_says)
             }
             want_moves |= give[k] > 0.0f;
             want_restless |= heap[k] > FILM && worst > (double)slack[k];
+            float     its_share, its_give;  // a row of this cell alone says what it does to the row
+            const int alone = dp_slide_decide(&its_share, &its_give, height + k, heap + k, fall + k,
+                                              slack + k, ROW, 1, FILM);
+            if (fabs(worst - (double)slack[k]) > 1e-6 && firm[k] < BARRIER)
+                CHECK(((alone & ROW_RESTLESS) != 0) ==
+                      (heap[k] > FILM && worst > (double)slack[k]));
             close |= heap[k] > FILM && fabs(worst - (double)slack[k]) < 1e-6;
         }
         if (!close) {
@@ -197,6 +203,12 @@ TEST(walls_fall_as_the_model_says)
             }
             want_moves |= give[k] > 0.0f;
             want_restless |= worst > (double)slack[k];
+            float       its_share, its_give;
+            const Walls its = {base + k, steep + k, slack + k};
+            const int   alone = dp_walls_decide(&its, &its_share, &its_give, firm + k, height + k,
+                                                ROW, 1, FILM, (float)most);
+            if (fabs(worst - (double)slack[k]) > 1e-6 && firm[k] < BARRIER)
+                CHECK(((alone & ROW_RESTLESS) != 0) == (worst > (double)slack[k]));
             close |= fabs(worst - (double)slack[k]) < 1e-6;
         }
         if (!close) {
