@@ -9,6 +9,7 @@ from test_solid import box
 from desire_path import Bake, BakeOptions, DesirePathError, Gait, Ground, Simulation, SimulationOptions
 from desire_path.loads import walker
 from desire_path.rig import solid
+from tests.scenes.plain import plain
 
 AT = (0.0137, 0.0081)  # nothing lies on the cells by chance
 
@@ -41,7 +42,7 @@ def moved(mesh, way, *, seconds=1.0, rate=120.0, mass=10.0, turn=None, law="carv
     return replace(gait, contact_law=(law,))
 
 
-def pressed(gait, soil="dry-sand", cell=0.01, **options):
+def pressed(gait, soil=plain("dry-sand"), cell=0.01, **options):
     sim = Simulation(Ground.flat(), soil, cell, options=SimulationOptions(**options))
     loads = walker.loads(gait, ground=sim)
     sim.load(gait, loads)
@@ -192,10 +193,10 @@ def test_a_bake_carves_and_says_what_stays_over_the_ground(tmp_path):
 
 def test_stopped_and_resumed_is_the_same(tmp_path):
     gait = dragged()
-    whole, first = pressed(gait), Simulation(Ground.flat())
+    whole, first = pressed(gait), Simulation(Ground.flat(), plain("dry-sand"))
     first.load(gait, walker.loads(gait))
     first.run(60)
-    second = Simulation(Ground.flat())
+    second = Simulation(Ground.flat(), plain("dry-sand"))
     second.load(gait, walker.loads(gait))
     second.restore(first.state())
     second.run(len(gait.time) - 1)

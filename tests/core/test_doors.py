@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from desire_path import _native
+from desire_path.ground.kinds import Kind
 from desire_path.ground.sim import Ground, Simulation
 from tests.scenes import gaits
 
@@ -165,7 +166,7 @@ def test_laws_that_there_are_not_are_refused():
 
 
 def test_steps_without_end_are_refused():
-    kind = np.array(_native.plants_default())
+    kind = Kind().numbers()
     _, _, _, particles, bends = _native.plants_shape(kind)
     root, at = np.zeros((1, 3), "f4"), np.zeros((1, particles, 3), "f4")
     for steps in (-1, 2**31 - 1):
