@@ -237,7 +237,6 @@ def refine_detail(
     shown: _Array,  # (n, 6) f4
     /,
 ) -> None: ...
-
 def detail_numbers() -> _Numbers: ...
 
 # ---- types ----
