@@ -8,7 +8,10 @@
 #define PROBED 512    // vertices looked at to tell how fast it moves
 #define LOW_PART 0.5  // of a body's height: what is lower may be in the ground
 #define STILL 1e-6    // what moves by less along the ground in a step pushes nothing ahead [m]
-#define ALL_DOWN 1e6  // as if a body had come down from there: what it meets is pressed [m]
+#define BEHIND \
+    160000L  // cells of a way, after which what lies behind comes to rest: 4 x 4 m in cells of 1 cm
+#define BEHIND_MARGIN 32  // cells around it onto which soil may slide
+#define ALL_DOWN 1e6      // as if a body had come down from there: what it meets is pressed [m]
 
 static DpBox joined(DpBox a, DpBox b)
 {
@@ -164,4 +167,35 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
                               dp_vec3(carved.x, carved.y, box.z0),
                               {0.0, 0.0, 1.0}};
     return dp_limb_lay(sim, limb, patch, scratch, &foot, volume, 1.0);
+}
+
+static long count_cells(DpCellRect at)
+{
+    return dp_cells_empty(at) ? 0 : (at.i1 - at.i0) * (at.j1 - at.j0);
+}
+
+DpStatus dp_carve_behind(DpSim* sim, Limb* limb)
+{
+    if (count_cells(limb->trodden) < BEHIND ||
+        count_cells(limb->trodden) < 4 * count_cells(limb->patch))
+        return DP_OK;
+    WorkerScratch*   scratch = &sim->scratch[0];
+    const DpCellRect at = dp_cells_grown(limb->trodden, BEHIND_MARGIN);
+    DpSoilPatch*     patch = NULL;
+    DpStatus         status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
+    if (status == DP_OK) status = dp_limb_fit(scratch, patch);
+    if (status != DP_OK) return status;
+    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
+    for (size_t k = 0; k < cells; ++k) scratch->imprint.ring[k] = DP_RING_FAR;
+    for (long j = limb->patch.j0; j < limb->patch.j1; ++j)  // where it is now nothing moves
+        for (long i = limb->patch.i0; i < limb->patch.i1; ++i)
+            scratch->imprint.ring[(j - at.j0) * patch->row + (i - at.i0)] = 0;
+    DpSettled settled;
+    status = dp_soil_stabilize(patch, &scratch->imprint, NULL, sim->options.tolerance,
+                               sim->options.max_sweeps, scratch->soil_scratch, &settled);
+    if (status != DP_OK) return status;
+    dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
+    limb->loosened += settled.loosened;
+    limb->trodden = limb->patch;
+    return DP_OK;
 }

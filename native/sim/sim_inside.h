@@ -212,8 +212,9 @@ bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still t
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
 void     dp_pressing_clear(DpSim* sim);
 
-// sim_lay.c: what its sole has displaced, and what still waits, is laid around the imprint in the scratch; threshold: of
-// TRAIL (13) [N]
+// sim_lay.c: room for the imprint of a patch in the scratch's grids; what its sole has displaced, and what still waits, is
+// laid around it, threshold of TRAIL (13) [N]
+DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                      const DpFootForce* foot, double volume, double threshold);
 
@@ -225,13 +226,14 @@ double   dp_carve_depth(const DpSim* sim, const Limb* limb, int sample);
 DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                        int sample);
 
+DpStatus dp_carve_behind(DpSim* sim,
+                         Limb*  limb);  // after a long way what lies behind comes to rest
+
 // sim_release.c: what no sole stands on any more comes back, on the cells of limbs that are active, or of one
 DpStatus dp_release_step(DpSim* sim, int sample);
 DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample);
 
-// sim_press.c: room for the imprint of a patch in the scratch's grids; one limb's step on its patch, and
-// its settling
-DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
+// sim_press.c: one limb's step on its patch, and its settling
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch);
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch);

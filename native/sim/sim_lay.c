@@ -1,7 +1,19 @@
-// sim/sim_lay.c - what a limb has displaced is laid around it.
+// sim/sim_lay.c - room for a limb's imprint, and what it has displaced laid around it.
+#include "base/alloc.h"
 #include "sim/sim_inside.h"
 
 #define BORDER_RINGS 1
+
+DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
+{
+    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
+    DpImprint*   imprint = &scratch->imprint;
+    const bool   fits = dp_make_room(&imprint->bottom, cells, sizeof *imprint->bottom) &&
+                      dp_make_room(&imprint->cover, cells, sizeof *imprint->cover) &&
+                      dp_make_room(&imprint->ring, cells, sizeof *imprint->ring) &&
+                      dp_make_room(&scratch->met, cells, sizeof *scratch->met);
+    return fits ? DP_OK : DP_NO_MEMORY;
+}
 
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                      const DpFootForce* foot, double volume, double threshold)

@@ -1,7 +1,6 @@
 // sim/sim_press.c - one limb's step in the paper's order: imprint, compress, accumulate, stabilize.
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/assert.h"
 #include "base/vec.h"
 #include "sim/sim_inside.h"
@@ -12,17 +11,6 @@
 #define FLOW_ENDS 0.02    // .. until it is so near to its rest angle, and then at once [rad]
 #define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
 #define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
-
-DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
-{
-    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
-    DpImprint*   imprint = &scratch->imprint;
-    const bool   fits = dp_make_room(&imprint->bottom, cells, sizeof *imprint->bottom) &&
-                      dp_make_room(&imprint->cover, cells, sizeof *imprint->cover) &&
-                      dp_make_room(&imprint->ring, cells, sizeof *imprint->ring) &&
-                      dp_make_room(&scratch->met, cells, sizeof *scratch->met);
-    return fits ? DP_OK : DP_NO_MEMORY;
-}
 
 // the ground as the limb's stance met it, in the patch's rows
 static const float* met_on(const DpSoilPatch* patch, const Limb* limb, WorkerScratch* scratch)

@@ -41,6 +41,10 @@ static DpStatus settle_limbs(DpSim* sim, int sample)
 {
     for (int l = 0; l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
+        if (limb->active && !limb->lifts && limb->law == DP_CONTACT_CARVE) {
+            const DpStatus status = dp_carve_behind(sim, limb);
+            if (status != DP_OK) return status;
+        }
         if (!limb->active || !(limb->lifts || limb->spills)) continue;
         if (limb->spills && !limb->lifts) continue;  // its sole holds part of it: at lift-off
         const DpStatus status = dp_limb_settle(sim, limb, sample, &sim->scratch[0]);

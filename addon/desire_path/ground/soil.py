@@ -123,6 +123,24 @@ _SOILS |= {
     "packed-snow": _soil(5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05),
     "packed-earth": _soil(8.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01, rebound=0.12),
 }
+# Sumner, O'Brien and Hodgins 1999, Table 1, read at second hand (in the review arXiv 2302.08683): inside slope as the
+# wall angle, outside slope as the rest angle, roughness, and compression alpha = 2 nu. Their ground has no stiffness:
+# those are of the presets above. Their liquidity, the slope at which sliding may stop, is not used: soil rests.
+_SOILS |= {
+    f"sumner-{kind}": Soil(
+        young_modulus=_SOILS[stiff].young_modulus,
+        settle_time=_SOILS[stiff].settle_time,
+        wall_angle=inside,
+        rest_angle=min(outside, NUMBERS["rest_angle"].high),
+        roughness=0.2,
+        poisson_ratio=alpha / 2.0,
+    )
+    for kind, stiff, inside, outside, alpha in (
+        ("sand", "dry-sand", 0.8, 0.436, 0.3),
+        ("mud", "mud", 1.57, 1.1, 0.41),
+        ("snow", "fresh-snow", 1.57, 1.57, 0.0),
+    )
+}
 BY_DEPTH = tuple(
     sorted(
         _SOILS, key=lambda name: _SOILS[name].young_modulus / _SOILS[name].layer_depth / (1.0 - _SOILS[name].rebound)
