@@ -1,5 +1,7 @@
 """Auto Update bakes what was changed, and only that; what plays keeps its datablocks, so that undo finds them."""
 
+import os
+
 import bpy
 import numpy as np
 from scenes import meshes, people
@@ -193,3 +195,36 @@ def test_the_bar_of_a_stopped_bake_ends_where_it_was_stopped(folder):
     kind, first, last = timeline.spans(ground)[1]
     assert (kind, first) == ("FRESH", 1) and 7 <= last <= 10
     assert last == read_index(str(folder)).frames
+
+
+def test_what_takes_long_is_shown_coarse_first_and_never_kept_so(folder):
+    ground, _ = scene(folder)
+    own, before, shallow = read_index(folder), datablocks(), deepest(ground)
+    inputs, hidden = dict(own.inputs), []
+    ground.desire_path.soil = "snow"
+    live.SEEN = live.LONG = -1.0  # whatever it takes is long
+    try:
+        for stopped in (True, False):
+            work = live._Work(bpy.context.scene, ground, previews=True)
+            for _ in work.steps:
+                if work.coarse and work.coarse.shown:
+                    assert not playback.modifier(ground).show_viewport and deepest(ground) < 2.0 * shallow
+                    assert read_index(folder).inputs == inputs, "what plays is another one"
+                    hidden.append(work.coarse.folder)
+                    assert work.coarse.cell > 0.03 and "Until then shown in cells of" in work.told()
+                    if stopped:
+                        break
+            assert hidden
+            if stopped:
+                live._work = work
+                live.drop()
+                assert datablocks() == before and playback.modifier(ground).show_viewport
+                assert abs(deepest(ground) - shallow) < 1e-6 and read_index(folder).inputs == inputs
+            else:
+                live._show(work)
+    finally:
+        live.SEEN, live.LONG = 0.25, 1.0
+    assert not any(map(playback.is_by_hand, ground.modifiers)) and playback.modifier(ground).show_viewport
+    assert ground.desire_path.bake_state == "FRESH" and read_index(folder).cell == own.cell
+    assert datablocks() == before and deepest(ground) < 2.0 * shallow
+    assert not any(map(os.path.exists, hidden))

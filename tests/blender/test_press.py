@@ -168,9 +168,10 @@ def test_a_walk_goes_on_from_what_was_pressed(folder):
     assert abs(there[:, 2].min() + 0.04) < 0.005, there[:, 2].min()
     trail = Ground.read(folder / "bake" / "maps_final.exr").trail
     assert trail.compression.max() > 0.03
-    marks = inputs.now(bpy.context.scene, ground)
+    marks, _ = inputs.now(bpy.context.scene, ground)
     ground.desire_path.pressed = ""
-    assert inputs.now(bpy.context.scene, ground)["ground"] != marks["ground"]
+    assert inputs.now(bpy.context.scene, ground)[0]["ground"] != marks["ground"]
+    assert ground.desire_path.missing.startswith("The ground has changed since the bake")
 
 
 def test_objects_of_a_weight_sink_as_far_as_they_are_carried(folder):

@@ -200,6 +200,27 @@ def story():
     sim.Film.write_frame = write_frame
     yield from settled(before)
 
+    # what takes longer is shown coarse first, which is in no file
+    sim.Film.write_frame, live.LONG = slowly, 0.2
+    before = made()
+    ground().desire_path.soil = "snow"
+    push("Snow")
+    yield from until(lambda: live._work is not None and live._work.coarse and live._work.coarse.shown)
+    assert any(map(playback.is_by_hand, ground().modifiers)) and made() == before
+    assert state.last(ground()).state == "BAKING" and not playback.modifier(ground()).show_viewport
+    shot("coarse")
+    bpy.ops.wm.save_as_mainfile(filepath=str(FOLDER / "saved.blend"), copy=True)
+    assert live._work is None and not any(map(playback.is_by_hand, ground().modifiers))
+    assert playback.modifier(ground()).show_viewport
+    yield from until(lambda: live._work is not None and live._work.coarse and live._work.coarse.shown)
+    ground().desire_path.soil = "wet-soil"
+    push("Wet Soil")
+    yield from until(lambda: not any(map(playback.is_by_hand, ground().modifiers)))
+    assert made() == before and playback.modifier(ground()).show_viewport
+    sim.Film.write_frame, live.LONG = write_frame, 1.0
+    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    assert not any(map(playback.is_by_hand, ground().modifiers))
+
     # a bake that was asked for has the right of way, one that is freed is not made again
     sim.Film.write_frame = slowly
     ground().desire_path.soil = "snow"

@@ -3,6 +3,7 @@
     a change --state.changes()--> REST without another --Job, in slices of a timer--> the same: nothing is to be done
                      ^                                   |                      \\--> outdated: bake, play
                      '------- another change ------------'
+A bake that takes long is shown in larger cells first, see coarse.py, until it is made or dropped.
 The timer takes SLICE of each turn of Blender's main loop and no key or mouse button. It waits while something is
 dragged, edited or rendered, and while a bake runs that the user has started; whatever goes before undo, redo,
 save and load stops it, and what it was at begins anew. There is a handler and a timer only while a ground wants it.
@@ -10,16 +11,20 @@ save and load stops it, and what it was at begins anew. There is a handler and a
 
 import atexit
 import time
+from contextlib import closing
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..errors import DesirePathError
-from . import bake_job, messages, ops, physics, state, timeline, undo_step
+from . import bake_job, coarse, messages, ops, physics, state, timeline, undo_step
 from .chosen import grounds, walkers
 
 REST = 0.2  # without a change before anything is done [s]
 SLICE = 0.03  # of work in one turn of Blender's main loop [s]
+SEEN = 0.25  # of baking tell how long it will take [s]
+LONG = 1.0  # what takes longer from then on is shown coarse first [s] ..
+COARSER, COARSEST = 2.0, 4.0  # .. in cells so many times larger
 DRAWN = 0.3  # between two pictures of how far it is [s]
 FAILED = (DesirePathError, OSError, MemoryError, ReferenceError)
 
@@ -30,13 +35,54 @@ _calm = False  # whether all is as wanted as it is now
 
 
 class _Work:
-    """One Job on its way."""
+    """One Job on its way. previews: one that takes long is shown coarse first"""
 
-    def __init__(self, scene, obj):
-        self.name = obj.name_full
+    def __init__(self, scene, obj, *, previews=False):
+        self.name, self.scene_name = obj.name_full, scene.name
         self.job = bake_job.Job(scene, obj, unless_fresh=True)
-        self.steps = self.job.run()
+        self.coarse = None
+        self.steps = self._coarse_first() if previews else self.job.run()
         self.changes = state.changes()
+
+    def _coarse_first(self):
+        """The steps of the job, and once it is seen that they will take long those of a coarse one in between."""
+        steps, spent = self.job.run(), 0.0
+        with closing(steps):
+            while True:
+                begun = time.perf_counter()
+                try:
+                    next(steps)
+                except StopIteration:
+                    return
+                if self.job.bake is not None and self.coarse is None and self.job.fraction > 0.0:
+                    spent += time.perf_counter() - begun
+                    left = spent * (1.0 / self.job.fraction - 1.0)
+                    if spent > SEEN and left > LONG:
+                        yield from self._preview(COARSEST if left > COARSEST * LONG else COARSER)
+                yield
+
+    def _preview(self, times):
+        self.coarse = False  # it is tried once
+        try:
+            self.coarse = coarse.Coarse(self.job, times)
+            yield from self.coarse.run(bpy.data.scenes[self.scene_name])
+        except FAILED:  # as feet that are lost between such cells: what is wanted will be shown, or say why not
+            self.clear()
+
+    def clear(self):
+        """Nothing coarse is shown any more."""
+        if self.coarse:
+            self.coarse.remove()
+        self.coarse = False
+
+    def told(self):
+        """How far it is, in words."""
+        if self.job.bake is None:
+            return ""
+        text = f"{self.job.text} ({100 * self.job.fraction:.0f} %)"
+        if self.coarse and self.coarse.shown:
+            text += f". Until then shown in cells of {1000 * self.coarse.cell:.3g} mm"
+        return text
 
 
 # ---- for others ---------------------------------------------------------------------------------------------
@@ -64,6 +110,7 @@ def drop():
         work, _work = _work, None
         bake_job.again(None)
         work.steps.close()
+        work.clear()
         state.baking.pop(work.name, None)
 
 
@@ -159,7 +206,7 @@ def _begin(scene, obj):
     global _work
     try:
         with state.unseen():
-            _work = _Work(scene, obj)
+            _work = _Work(scene, obj, previews=True)
         bake_job.again(_work.job)
         timeline.show()
         state.baking[obj.name_full] = ""
@@ -181,8 +228,7 @@ def _go_on():
                     _show(work)
                     break
         if _work is not None:
-            made = work.job.bake is not None
-            state.baking[work.name] = f"{work.job.text} ({100 * work.job.fraction:.0f} %)" if made else ""
+            state.baking[work.name] = work.told()
     except FAILED as problem:
         drop()
         _fail(work.name, problem)
@@ -192,6 +238,7 @@ def _show(work):
     """Play what was baked, and remember that it is as wanted."""
     bake_job.again(None)
     state.baking.pop(work.name, None)
+    work.clear()
     if not work.job.fresh:
         with undo_step.where_needed("Auto Update"):
             told = work.job.finish()

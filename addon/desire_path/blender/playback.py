@@ -65,7 +65,7 @@ def attach(obj, frames, playing):
     place = playing.place
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
-    shown = {name: _image(frames, name) for name in ("trail", "lean")[: 1 + has_lean(playing.index)]}
+    shown = {name: sequence(frames, name) for name in ("trail", "lean")[: 1 + has_lean(playing.index)]}
     tree = playback_tree.create(obj, shown, playing)
     if _taken_over(obj, tree):
         discard(tree)
@@ -254,7 +254,7 @@ def mark(frames, index, count):
     )
 
 
-def _image(frames, name):
+def sequence(frames, name):
     """A fresh datablock for the sequence: an old one would show frames out of its cache."""
     path = join(frames, f"{name}_0001.exr")
     image = bpy.data.images.new(f"desire_path {name}", 1, 1, float_buffer=True)

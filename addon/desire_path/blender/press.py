@@ -14,7 +14,7 @@ from ..bake.press import LivePress, PressBody
 from ..errors import DesirePathError
 from ..ground.options import SimulationOptions
 from ..motion import rotation
-from . import axes, compat, ground, home, op_ground, playback, press_view, pressed, sample, show
+from . import axes, compat, ground, home, op_ground, physics, playback, press_view, pressed, show
 from .chosen import walkers
 
 SHAPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -116,7 +116,8 @@ class Press:
         if playback.modifier(obj) is not None and not pressed.plays(obj):
             self.told.append(f"'{obj.name}' is pressed as it is before its walk: bake again to see both.")
         self.before = None  # where the objects were in the last step
-        self.view.show()
+        plays = playback.modifier(obj) is not None
+        self.view.show(self._boxes([each.turn[:2, 3] * self.scale for each in self.held]) if plays else ())
 
     # ---- the objects -----------------------------------------------------------------------------
 
@@ -202,15 +203,17 @@ class Press:
     def step(self, matrices, seconds=0.04):
         """Press with the objects where these matrices are; returns whether they touch the ground."""
         poses = self.poses(np.asarray(matrices, np.float64))
-        boxes = [
-            (x - each.reach, y - each.reach, x + each.reach, y + each.reach)
-            for each, (x, y) in zip(self.held, poses[:, :2])
-        ]
         touches = self.live.move(poses, seconds)
         self.before = np.array(matrices)
         if touches:
-            self.view.show(boxes)
+            self.view.show(self._boxes(poses[:, :2]))
         return touches
+
+    def _boxes(self, places):
+        """Rectangles (x0, y0, x1, y1) that the objects reach into from places (x, y) [m]."""
+        return [
+            (x - each.reach, y - each.reach, x + each.reach, y + each.reach) for each, (x, y) in zip(self.held, places)
+        ]
 
     def follow(self, seconds=0.04):
         """Press with the objects where they are, if they were moved since; returns whether they were."""
@@ -310,6 +313,6 @@ def _mass(obj):
     """What an object says it weighs [kg]; None: nothing that is to be believed."""
     if obj.desire_path.is_walker and obj.desire_path.mass > 0.0:
         return axes.typed(obj.desire_path.mass)
-    if sample.simulated(obj) and obj.rigid_body is not None:
+    if physics.simulated(obj) and obj.rigid_body is not None:
         return axes.typed(obj.rigid_body.mass)
     return None

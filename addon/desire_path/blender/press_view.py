@@ -12,12 +12,13 @@ import numpy as np
 
 from ..ground import refine
 from ..ground.sim import TILE
-from . import axes, compat, cover, ground, playback, playback_tree, refined
+from . import axes, compat, cover, playback, playback_tree, refined, show
 
 MOST = 1 << 20  # cells of the image; larger ground is shown around what was pressed
 MARGIN = 4  # tiles around that
 NEAR = 0.12  # the copy has to be fine so far around a body [m]
 SQUARE = 0.5  # and is made so at least that far [m]
+HIDES, SHOWS = 2, 1  # whether something plays behind what is shown for a while
 SHADES = 1e-7  # where less was pressed or heaped nothing is to be seen [m]
 
 
@@ -28,10 +29,6 @@ class View:
         self.scene, self.name, self.surface, self.press = scene, obj.name, surface, press
         self.warnings, self.copy, self.fine, self.tiles = [], None, None, None
         self.modifier_name = ""
-        ours = playback.modifier(obj)
-        self.hidden = ours is not None and ours.show_viewport
-        if self.hidden:
-            ours.show_viewport = False
         why = refined.held(scene, obj, surface.place)
         self.refines = obj.desire_path.refine and not why
         if obj.desire_path.refine and why:
@@ -98,7 +95,13 @@ class View:
         x, y, nx, ny = self.tiles
         (ox, oy), side = self.press.options.origin, TILE * self.press.cell_size
         return SimpleNamespace(
-            cell=self.press.cell_size, x0=ox + x * side, y0=oy + y * side, nx=nx * TILE, ny=ny * TILE, frame_start=1
+            cell=self.press.cell_size,
+            x0=ox + x * side,
+            y0=oy + y * side,
+            nx=nx * TILE,
+            ny=ny * TILE,
+            frame_start=1,
+            frames=1,
         )
 
     def _open(self, tiles):
@@ -114,37 +117,14 @@ class View:
 
     def _tree(self):
         """Show the image by a new tree, in place of the one before."""
-        obj, surface, index = self.object(), self.surface, self._index()
-        smooth = (
-            self.copy is not None
-            or surface.between
-            or any(
-                ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
-            )
-        )
-        tree = playback_tree.create(
-            obj,
-            {"trail": self.image},
-            index,
-            1,
-            surface.world,
-            surface.scale,
-            smooth,
-            surface.corners,
-            0.0,
-            (),
-            surface.place,
-            self.copy,
-        )
-        tree[playback.BY_HAND] = True
+        obj, surface = self.object(), self.surface
+        tree = playback_tree.create(obj, {"trail": self.image}, show.as_read(surface, self._index(), self.copy))
         modifier = obj.modifiers.get(self.modifier_name) if self.modifier_name else None
         if modifier is None:
-            modifier = compat.nodes_modifier(obj, "Desire Path Press", tree)
-            modifier.show_expanded = False
-            self.modifier_name = modifier.name
-            compat.move_modifier(obj, modifier, surface.place.before)
+            self.modifier_name = put(obj, tree, surface.place).name
         else:
             old, modifier.node_group = modifier.node_group, tree
+            tree[playback.BY_HAND] = old[playback.BY_HAND]
             playback.discard(old)
         self.tree = tree
 
@@ -190,20 +170,34 @@ class View:
         obj = self.object()
         if obj is not None:
             clear(obj)
-            ours = playback.modifier(obj)
-            if self.hidden and ours is not None:
-                ours.show_viewport = True
         self.tiles = self.fine = self.copy = None
         self.modifier_name = ""
 
 
+def put(obj, tree, place):
+    """A modifier that shows a tree for a while, where ours goes, in place of what ours plays; clear() takes it off."""
+    ours = playback.modifier(obj)
+    tree[playback.BY_HAND] = HIDES if ours is not None and ours.show_viewport else SHOWS
+    if tree[playback.BY_HAND] == HIDES:
+        ours.show_viewport = False
+    modifier = compat.nodes_modifier(obj, "Desire Path Preview", tree)
+    modifier.show_expanded = False
+    compat.move_modifier(obj, modifier, place.before)
+    return modifier
+
+
 def clear(obj):
-    """Take what shows pressed ground off an object, wherever it comes from: undo may have brought it back."""
+    """Take what shows ground for a while off an object, wherever it comes from: undo may have brought it back. What
+    was hidden for it plays again."""
     for each in list(obj.modifiers):
         if playback.is_by_hand(each):
             tree = each.node_group
+            hides = tree[playback.BY_HAND] == HIDES
             obj.modifiers.remove(each)
             playback.discard(tree)
+            ours = playback.modifier(obj)
+            if hides and ours is not None:
+                ours.show_viewport = True
 
 
 def _around(cells, margin):

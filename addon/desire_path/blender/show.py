@@ -31,25 +31,7 @@ def play(scene, obj, surface, baked=None, place=""):
         planes = baked or cover.planes(index)
         copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj))
         carrier = copy and copy.object
-        smooth = (
-            carrier is not None
-            or surface.between
-            or any(
-                ground.smooth(points, index.cell, (index.x0, index.y0)) for points in (surface.vertices, surface.drawn)
-            )
-        )
-        playing = playback_tree.Playing(
-            index,
-            count=index.frames,
-            world=surface.world,
-            scale=surface.scale,
-            smooth=smooth,
-            corners=surface.corners,
-            layer_depth=depth,
-            standing=standing,
-            place=surface.place,
-            copy=carrier,
-        )
+        playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing)
         playback.attach(obj, frames, playing)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if carrier is not None:
@@ -65,6 +47,27 @@ def play(scene, obj, surface, baked=None, place=""):
     stems.remove(plants.grass.of(settings.plant_object, obj))
     settings.plant_object = stems.show(obj, place, path, index.frame_start, surface.scale) if index.complete else None
     return index, warnings
+
+
+def as_read(surface, index, carrier, **more):
+    """How the frames of an index are played on a ground that was read; carrier: the object of its copy, or None."""
+    points = (surface.vertices, surface.drawn)
+    smooth = (
+        carrier is not None
+        or surface.between
+        or any(ground.smooth(each, index.cell, (index.x0, index.y0)) for each in points)
+    )
+    return playback_tree.Playing(
+        index,
+        count=index.frames,
+        world=surface.world,
+        scale=surface.scale,
+        smooth=smooth,
+        corners=surface.corners,
+        place=surface.place,
+        copy=carrier,
+        **more,
+    )
 
 
 def _copy(obj):
