@@ -77,9 +77,8 @@ DpStatus dp_motion_push(DpMotion* motion, double time, const uint8_t* present,
         motion->present[at * walkers + w] = !present || present[w] != 0;
     for (size_t p = 0; p < (size_t)motion->cast.parts; ++p) {
         dp_block_take(&motion->window, p * room + at, poses, p, 1);
-        if (!motion->present[at * walkers + (size_t)motion->walker_of[p]])
-            motion->window.touching[p * room + at] = 0;
-        else if (isnan(motion->first_touch) && poses->touching[p])
+        if (motion->present[at * walkers + (size_t)motion->walker_of[p]] &&
+            isnan(motion->first_touch) && poses->touching[p])
             motion->first_touch = poses->pose[7 * p + 2];
     }
     ++motion->samples;

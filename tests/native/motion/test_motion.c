@@ -106,6 +106,25 @@ TEST(who_is_not_there_takes_no_memory)
     CHECK(dp_bytes_live() == 0);
 }
 
+// a walker's tracks that follow each other without a gap, given in any order, are one motion
+TEST(tracks_that_meet_are_one_motion)
+{
+    Recording r;
+    DpMotion* motion = NULL;
+    fill(&r);
+    const DpTrack  tracks[] = {{1, 6, 3, r.poses}, {1, 0, 2, r.poses}, {1, 2, 4, r.poses}};
+    const DpStatus status = dp_motion_tracks(&motion, &r.gait, tracks, 3);
+    CHECK(status == DP_OK);
+    for (int t = 0; status == DP_OK && t < 9; ++t) {
+        const int own = t < 2 ? t : t < 6 ? t - 2 : t - 6;  // sample of its track
+        CHECK(dp_motion_there(motion, 1, t));
+        CHECK(dp_motion_pose(motion, 1, t).at.y == r.pose[7 * own + 1]);
+    }
+    CHECK(status != DP_OK || !dp_motion_there(motion, 1, 9));
+    dp_motion_destroy(motion);
+    CHECK(dp_bytes_live() == 0);
+}
+
 TEST(what_cannot_be_followed_is_refused)
 {
     Recording r;
@@ -203,6 +222,7 @@ int main(void)
 {
     RUN(a_recording_is_given_back);
     RUN(who_is_not_there_takes_no_memory);
+    RUN(tracks_that_meet_are_one_motion);
     RUN(what_cannot_be_followed_is_refused);
     RUN(a_live_motion_keeps_what_is_needed);
     RUN(absent_walkers_are_not_looked_at_and_the_last_sample_stays);
