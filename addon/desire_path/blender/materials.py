@@ -49,8 +49,9 @@ def look_of(name):
 
 def detail_of(settings):
     """What a soil is like below a cell, a Detail."""
-    look, wet = look_of(_soil_name(settings))
-    return DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
+    name = _soil_name(settings)
+    look, wet = look_of(name)
+    return DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
 
 
 def _soil_name(settings):

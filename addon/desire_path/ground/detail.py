@@ -46,10 +46,11 @@ class Detail:
 DETAILS: Mapping[str, Detail] = MappingProxyType(
     {
         "sand": Detail(0.00035, 0.006, 0.02, 0.0015, 0.0025, fray=0.0016, fray_size=0.020),
-        "wet-sand": Detail(0.0003, 0.008, 0.10, 0.0015, 0.004, fray=0.0018, fray_size=0.012),
+        "wet-sand": Detail(0.0003, 0.008, 0.08, 0.0015, 0.003, fray=0.0011, fray_size=0.014),
         "earth": Detail(0.0006, 0.007, 0.24, 0.002, 0.007, fray=0.0026, fray_size=0.018),
         "mud": Detail(0.0, 0.010, 0.0, vein_height=0.0035, vein_size=0.030, fray=0.0030, fray_size=0.050),
-        "snow": Detail(0.0006, 0.010, 0.22, 0.003, 0.009, fray=0.0030, fray_size=0.022),
+        "snow": Detail(0.0006, 0.010, 0.22, 0.003, 0.009, fray=0.0030, fray_size=0.060),
+        "packed-earth": Detail(0.0004, 0.006, 0.10, 0.0015, 0.003, fray=0.0012, fray_size=0.016),
     }
 )
 

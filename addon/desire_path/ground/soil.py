@@ -110,18 +110,18 @@ _SOILS |= {
         38.0,
         0.1,
         layer_depth=0.4,
-        wall_angle=85.0,
-        roughness=0.3,
-        grain_size=0.016,
+        wall_angle=78.0,
+        roughness=0.2,
+        grain_size=0.03,
         rebound=0.02,
         flow_time=0.3,
     ),
     "fresh-snow": _soil(
-        0.17, 0.03, 38.0, 0.1, wall_angle=82.0, roughness=0.35, grain_size=0.012, rebound=0.03, flow_time=0.3
+        0.17, 0.03, 38.0, 0.1, wall_angle=78.0, roughness=0.25, grain_size=0.025, rebound=0.03, flow_time=0.3
     ),
-    "wet-sand": _soil(3.5, 0.25, 42.0, 0.05, 0.005, wall_angle=72.0, roughness=0.5, grain_size=0.006, rebound=0.08),
+    "wet-sand": _soil(3.5, 0.25, 42.0, 0.05, 0.002, wall_angle=76.0, roughness=0.3, grain_size=0.008, rebound=0.08),
     "packed-snow": _soil(5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05),
-    "packed-earth": _soil(8.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01, rebound=0.12),
+    "packed-earth": _soil(8.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.35, grain_size=0.015, rebound=0.12),
 }
 # Sumner, O'Brien and Hodgins 1999, Table 1, read at second hand (in the review arXiv 2302.08683): inside slope as the
 # wall angle, outside slope as the rest angle, roughness, and compression alpha = 2 nu. Their ground has no stiffness:
