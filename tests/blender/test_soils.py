@@ -90,6 +90,11 @@ def test_files_of_before_show_their_preset(folder):
     bpy.ops.wm.open_mainfile(filepath=str(folder / "a.blend"))
     settings = bpy.data.objects[name].desire_path
     assert settings.soil_numbers.young_modulus == SOILS["mud"].young_modulus and not settings.soil_numbers.changed
+    settings.soil_numbers.heave, settings.soil_numbers.changed = 0.0, False  # as the preset was once
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "a.blend"))
+    settings = bpy.data.objects[name].desire_path
+    assert settings.soil_numbers.heave == np.float32(SOILS["mud"].heave) and not settings.soil_numbers.changed
 
 
 def test_the_words_name_every_number():

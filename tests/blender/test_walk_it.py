@@ -65,8 +65,24 @@ def test_a_mesh_it_wears_stands_for_it_and_a_plane_is_walked_on():
     assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
     assert rig.desire_path.ground == ground and ground.desire_path.is_ground and not skin(rig).desire_path.is_ground
     assert len(ground.data.vertices) == 4 and summary(ground)["contacts"] >= 5
+    assert rig.desire_path.tread == "plain"  # it has feet of its own
     bpy.context.scene.frame_set(250)
     assert deepest(ground) > 0.005
+
+
+def test_who_wears_nothing_has_boots_on():
+    rig = character()
+    for each in list(rig.children_recursive):
+        bpy.data.objects.remove(each)
+    select(rig)
+    assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    assert rig.desire_path.tread == "lugs" and summary(rig.desire_path.ground)["contacts"] >= 15
+    deep = summary(rig.desire_path.ground)["deepest_m"]
+    rig.desire_path.tread = "plain"
+    meshes.activate(rig.desire_path.ground)
+    assert rig.desire_path.ground.desire_path.bake_state == "OUTDATED"
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert summary(rig.desire_path.ground)["deepest_m"] < 0.9 * deep  # less of lugs bears
 
 
 def test_carried_is_switched_off_and_on():

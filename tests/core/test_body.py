@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from desire_path.errors import DesirePathError
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import Soil
 from desire_path.loads import walker
 from desire_path.motion import rotation
 from desire_path.motion.gait import BALL, HEEL, TIP, Sole
@@ -190,6 +192,40 @@ def test_built_in_sole_is_a_shoe():
         assert np.array_equal(a.vertices * [1, -1, 1], b.vertices)
         corner = b.vertices[b.triangles]
         assert (np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2] < 0).all()
+
+
+@pytest.mark.parametrize("tread, deep", [("lugs", 0.016), ("waves", 0.009)])
+def test_a_built_in_sole_has_the_tread_it_is_given(tread, deep):
+    plain, soles = (sole.built_in(-0.05, 0.15, 0.22, True, each) for each in ("plain", tread))
+    other = sole.built_in(-0.05, 0.15, 0.22, False, tread)
+    for smooth, part, mirrored in zip(plain, soles, other):
+        assert np.allclose(part.vertices.min(axis=0), smooth.vertices.min(axis=0), atol=1e-3)
+        assert np.allclose(part.vertices[:, :2].max(axis=0), smooth.vertices[:, :2].max(axis=0), atol=1e-3)
+        assert np.array_equal(part.vertices * [1, -1, 1], mirrored.vertices)
+        corner = part.vertices[part.triangles]
+        assert (np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2] < 0).all()
+    heel = soles[0].vertices
+    inside = heel[(abs(heel[:, 1]) < 0.02) & (heel[:, 0] > -0.02) & (heel[:, 0] < 0.14)]
+    assert inside[:, 2].min() < 0.001 and abs(np.quantile(inside[:, 2], 0.9) - 0.27 * deep) < 0.002
+    assert 500 < len(soles[0].triangles) + len(soles[1].triangles) < 8000
+
+
+def test_a_tread_prints_and_one_that_nobody_knows_is_refused():
+    bones = person()
+    smooth, lugs = (gait(bones, walk(bones), tread=each) for each in ("plain", "lugs"))
+    assert smooth == gait(bones, walk(bones)) != lugs
+    assert np.array_equal(smooth.pose, lugs.pose)
+    deep = {}
+    for name, each in (("plain", smooth), ("lugs", lugs)):
+        sim = Simulation(Ground.flat(), Soil(young_modulus=4e7), 0.005)
+        sim.load(each, walker.loads(each))
+        sim.run(len(each.time) - 1)
+        deep[name] = sim.read("compression", -400, -400, 800, 800)
+    there = deep["plain"] > 5e-5
+    assert there.sum() > 1000
+    assert 0.15 < (deep["lugs"][there] == 0.0).mean() < 0.8  # between the lugs nothing was pressed
+    with pytest.raises(DesirePathError, match="There is no tread 'spikes': choose one of plain, lugs, waves"):
+        gait(bones, walk(bones), tread="spikes")
 
 
 def test_toe_parts_stay_level_while_the_heel_rises():

@@ -11,7 +11,7 @@ from ..bounds import Limits
 from ..errors import DesirePathError
 from ..motion import size
 from ..placement import place
-from . import axes, forward, ground, moves, op_ground, op_place, op_walkers, paths, reach, sample, underfoot
+from . import axes, forward, ground, moves, op_ground, op_place, op_walkers, paths, reach, sample, underfoot, worn
 from .chosen import grounds
 from .ops import Refusal
 
@@ -142,6 +142,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             each.desire_path.cell_size = cell_for(gaits)
         for each, land in zip(who, homes):
             each.desire_path.ground = land
+            if each.type == "ARMATURE" and not each.desire_path.is_walker and not worn.hanging(scene, each):
+                each.desire_path.tread = "lugs"  # who wears nothing has boots on
             told += op_walkers.add(context, each)
         for each, land in zip(who, homes):
             told += self.place(scene, each, land)
@@ -212,16 +214,17 @@ class _Before:
         self.active, self.objects = context.object, set(bpy.data.objects)
         self.carried = [forward.is_carried(each) for each in who]
         self.walkers = [
-            (each.desire_path.is_walker, each.desire_path.ground, each.desire_path.place_feet) for each in who
+            (each.desire_path.is_walker, each.desire_path.ground, each.desire_path.place_feet, each.desire_path.tread)
+            for each in who
         ]
         self.grounds = [(each, each.desire_path.is_ground, each.desire_path.cell_size) for each in meshes]
 
     def come_back(self):
-        for each, carried, (walks, trodden, placed) in zip(self.who, self.carried, self.walkers):
+        for each, carried, (walks, trodden, placed, tread) in zip(self.who, self.carried, self.walkers):
             if forward.is_carried(each) and not carried:
                 forward.switch(each, False)
             each.desire_path.is_walker, each.desire_path.ground = walks, trodden
-            each.desire_path.place_feet = placed
+            each.desire_path.place_feet, each.desire_path.tread = placed, tread
         for each, is_ground, cell in self.grounds:
             each.desire_path.is_ground, each.desire_path.cell_size = is_ground, cell
         for each in set(bpy.data.objects) - self.objects:

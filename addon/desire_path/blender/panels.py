@@ -225,6 +225,8 @@ def draw_walker(layout, context, obj):
     legged = obj.type == "ARMATURE"
     if legged:
         column.prop(settings, "sole")
+        if settings.sole is None:
+            column.prop(settings, "tread")
         column.prop(settings, "path")
         if settings.path is None:
             column.prop(settings, "carried")

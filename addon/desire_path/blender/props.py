@@ -247,6 +247,15 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="A mesh whose underside is the sole of every foot, mirrored for the other side; "
         "place it at a foot of the rest pose. Empty = the walker's own feet or shoes",
     )
+    tread: EnumProperty(
+        name="Tread",
+        items=(
+            ("plain", "Plain", "A smooth sole"),
+            ("lugs", "Lugs", "Bars and blocks, as under a boot"),
+            ("waves", "Waves", "Low ridges, as under a running shoe"),
+        ),
+        description="What built-in soles have below: those of a walker without feet or shoes of its own, or a sole",
+    )
     carried: BoolProperty(
         name="Carried",
         get=_is_carried,

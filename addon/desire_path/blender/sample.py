@@ -272,7 +272,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         frame_start=frame_start,
         soles=body.SoleSource(
             skin=worn,
-            tread=tread(scene, armature, found.feet, world, scale, frames),
+            tread=tread(scene, armature, found.feet, world, scale, frames) or settings.tread,
             land=land,
             shapes=placed(armature),
         ),

@@ -15,7 +15,7 @@ from ..keywords import fields_of
 from ..motion import freeze, jumps, rotation, stays
 from ..motion import size as sizes
 from ..motion.gait import Gait, Sole
-from . import rigs, slope
+from . import rigs, slope, tread
 from .foot import GUESS, Foot, FootShape
 from .foot_parts import RestPose, lay_tread, parts
 from .rigs import Rig, Segment
@@ -166,7 +166,8 @@ class SoleSource:
     """Where a walker's soles come from, and by what they lie."""
 
     skin: Skin | None = None  # its underside; None: soles are built in
-    tread: Tread | None = None  # a mesh under every foot, in the place of the skin
+    # a mesh under every foot, in the place of the skin; or what built-in soles have: "plain", "lugs" or "waves"
+    tread: Tread | str | None = None
     land: slope.Hills | None = None  # a Simulation: feet that lie on its slopes have soles that do; None: level ground
     shapes: Mapping[str, FootShape] | None = None  # by foot bone, of feet that were placed on the ground and tell no
     # more how they lie flat
@@ -216,7 +217,9 @@ def gait_from_bones(
     ahead_rest = _ahead(feet, up_rest, square)
     lefts = _lefts(bones, feet, np.cross(up_rest, ahead_rest))
     at_rest = RestPose(skeleton, up_rest, ahead_rest, soles.skin)
-    if soles.tread is not None:
+    if isinstance(soles.tread, str):
+        at_rest = replace(at_rest, tread=tread.check(soles.tread))
+    elif soles.tread is not None:
         laid = lay_tread(soles.tread, feet, lefts, moving, at_rest)
         at_rest = replace(at_rest, laid=laid)
         warnings += laid.warnings

@@ -31,6 +31,7 @@ class RestPose:
     ahead: np.ndarray  # the way it faces there (3,)
     skin: Skin | None = None  # what soles are cut from
     laid: treads.Laid | None = None  # else what is laid under them
+    tread: str = "plain"  # of soles that are built in, one of TREADS
 
 
 def _level_toe(turn: np.ndarray, ball: np.ndarray, low: float) -> np.ndarray:
@@ -88,7 +89,7 @@ def parts(
         toe_at = under
     heel_x, tip_x = shape.heel, shape.tip
     if soles is None:
-        soles = sole.built_in(shape.heel, shape.ball, shape.tip, left)
+        soles = sole.built_in(shape.heel, shape.ball, shape.tip, left, at_rest.tread)
     else:
         heel_x = float(soles[0].vertices[:, 0].min())
         tip_x = shape.ball + float(soles[1].vertices[:, 0].max())

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..motion.gait import Gait, Sole
 from ..motion.rotation import turned
+from . import tread as treads
 from .skeleton import Skin
 
 # Half widths of a left shoe in shares of its length, seen from above: (from heel 0 to tip 1, inner, outer).
@@ -65,28 +66,37 @@ def _edge_rise(inset: np.ndarray | float, radius: float) -> np.ndarray:
     return np.asarray(radius * (1.0 - np.sqrt(np.maximum(1.0 - (1.0 - s) ** 2, 0.0))))
 
 
-def built_in(heel: float, ball: float, tip: float, left: bool) -> tuple[Sole, Sole]:
-    """Soles of the heel part and the toe part from x positions [m] in the foot's frame."""
+def built_in(heel: float, ball: float, tip: float, left: bool, tread: str = "plain") -> tuple[Sole, Sole]:
+    """Soles of the heel part and the toe part from x positions [m] in the foot's frame; tread: one of TREADS."""
     length = tip - heel
     split = (ball - heel) / length
     u_heel = np.unique(np.r_[OUTLINE[OUTLINE[:, 0] < split - 0.02, 0], split])
     back = max(split - OVERLAP / length, 0.05)
     u_toe = np.unique(np.r_[back, back + 0.3 * (split - back), split, OUTLINE[OUTLINE[:, 0] > split + 0.02, 0]])
-    heel_part = _strip(u_heel, heel, length, left, 0.0, None)
-    toe_part = _strip(u_toe, heel, length, left, ball, back)
+    if tread != "plain":
+        fine = np.arange(0.5 * treads.STEP, 1.0, treads.STEP)
+        u_heel = np.unique(np.r_[u_heel, fine[fine < split]])
+        u_toe = np.unique(np.r_[u_toe, fine[fine > back]])
+    heel_part = _strip(u_heel, heel, length, left, 0.0, None, tread)
+    toe_part = _strip(u_toe, heel, length, left, ball, back, tread)
     return heel_part, toe_part
 
 
-def _strip(stations: np.ndarray, heel: float, length: float, left: bool, origin: float, back: float | None) -> Sole:
-    """A band of the sole as quads cut in two, nine columns wide. `origin` becomes x = 0."""
+def _strip(
+    stations: np.ndarray, heel: float, length: float, left: bool, origin: float, back: float | None, tread: str
+) -> Sole:
+    """A band of the sole as quads cut in two, nine columns wide, or more for a tread. `origin` becomes x = 0."""
     radius = min(ROUND, 0.04 * length)
     sign = 1.0 if left else -1.0
+    between = 1 if tread == "plain" else int(np.ceil(2.0 * OUTLINE[:, 1:].max() / treads.STEP))
+    shares = np.arange(1, between + 1) / (between + 1.0)
     rows = []
     for u in stations:
         inner, outer = _half_widths(u)
         width = inner + outer
         inset = np.minimum(np.array(INSETS) * radius / length, np.array(INSETS) * 0.4 * width)
-        across = np.r_[-inner + inset, (outer - inner) / 2, (outer - inset)[::-1]]
+        middle = inset[-1] - inner + shares * (width - 2.0 * inset[-1]) if between > 1 else (outer - inner) / 2
+        across = np.r_[-inner + inset, middle, (outer - inset)[::-1]]
         from_end = min(u, 1.0 - u) * length
         from_side = np.minimum(across + inner, outer - across) * length
         rise = _edge_rise(np.minimum(from_side, from_end), radius)
@@ -95,6 +105,8 @@ def _strip(stations: np.ndarray, heel: float, length: float, left: bool, origin:
         waist = np.clip(1.0 - abs(u - 0.40) / 0.20, 0.0, 1.0)
         side = np.clip(-across / max(inner, 1e-9), 0.0, 1.0)  # the inner side only
         rise = np.maximum(rise, ARCH * (waist * waist * (3 - 2 * waist)) * side)
+        if tread != "plain":
+            rise = rise + length * treads.grooves(tread, u, across, np.minimum(from_side, from_end) / length)
         rows.append(np.stack([np.full(len(across), heel + u * length - origin), sign * across * length, rise], axis=1))
     columns = len(rows[0])
     vertices = np.concatenate(rows)
