@@ -7,9 +7,10 @@
 // file has: Clang gives those of shared ones a name that other files do not know, and shows those of static
 // ones to all.
 #pragma once
-#include <limits.h>  // tells __GLIBC__, whose loader picks the clone
+#include <limits.h>  // tells __GLIBC__, whose loader picks the clone; elsewhere each call does, by base/os_processor.c
 
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(DP_SCALAR) && !defined(DP_CHECKED)
+#if defined(__x86_64__) && (defined(__GLIBC__) || defined(DP_CPU_MODEL)) && !defined(DP_SCALAR) && \
+    !defined(DP_CHECKED)
 #define DP_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define DP_CLONES

@@ -21,8 +21,8 @@ void     dp_bytes_free(DpBytes* bytes);
 // every byte and the closing have gone well. Else it is gone and the target as it was.
 DpStatus dp_file_save(const char* path, const void* data, size_t size);
 
-// Add a line to a list of files, opened by dp_file_append: name, how many bytes, and their digest in hexadecimal digits.
-DpStatus dp_list_add(DpFile list, const char* path, const void* data, size_t size);
+// Add a line to a list of files, which is there already: name, how many bytes, and their digest in hexadecimal digits.
+DpStatus dp_list_add(const char* list, const char* path, const void* data, size_t size);
 
 // Most pixels an image may have, written or read.
 #define DP_MAPS_PIXELS (1 << 28)

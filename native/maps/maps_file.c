@@ -50,7 +50,7 @@ DpStatus dp_file_save(const char* path, const void* data, size_t size)
 
 #define LONGEST_LINE 1024
 
-DpStatus dp_list_add(DpFile list, const char* path, const void* data, size_t size)
+DpStatus dp_list_add(const char* list, const char* path, const void* data, size_t size)
 {
     const char* name = dp_os_name(path);
     uint64_t    words[DP_DIGEST_WORDS];
@@ -63,5 +63,10 @@ DpStatus dp_list_add(DpFile list, const char* path, const void* data, size_t siz
     for (size_t k = 0; k < sizeof byte; ++k, end += 2)
         snprintf(line + end, sizeof line - (size_t)end, "%02x", byte[k]);
     line[end++] = '\n';
-    return dp_file_write(list, line, (size_t)end);
+    DpFile   file;
+    DpStatus status = dp_file_append(list, &file);
+    if (status != DP_OK) return status;
+    status = dp_file_write(file, line, (size_t)end);
+    const DpStatus closed = dp_file_close(file);
+    return status == DP_OK ? closed : status;
 }

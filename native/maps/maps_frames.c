@@ -40,7 +40,7 @@ struct DpFrames
     Tile*       tile;  // (tiles_y, tiles_x), ty = 0 lowest
     PackScratch scratch[WORKERS];
     DpBytes     file;  // the frame being written
-    DpFile      list;  // of the files, or DP_NO_FILE
+    char*       list;  // path of the list of the files; NULL = none
 };
 
 // ---- packing one tile, OpenEXR's ZIP ------------------------------------------------------------
@@ -153,20 +153,9 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
     }
     if (exr_finish(&context) != EXR_ERR_SUCCESS || done) return DP_NO_MEMORY;
     status = dp_file_save(path, frames->file.at, frames->file.size);
-    if (status == DP_OK && frames->list != DP_NO_FILE)
+    if (status == DP_OK && frames->list)
         status = dp_list_add(frames->list, path, frames->file.at, frames->file.size);
     return status;
-}
-
-DpStatus dp_frames_list(DpFrames* frames, const char* path)
-{
-    if (!frames || !path) return DP_BAD_ARGUMENT;
-    DpFile         list;
-    const DpStatus status = dp_file_append(path, &list);
-    if (status != DP_OK) return status;
-    dp_file_close(frames->list);
-    frames->list = list;
-    return DP_OK;
 }
 
 // ---- a life ------------------------------------------------------------------------------------
@@ -176,6 +165,20 @@ static char* copy_text(const char* text)
     const size_t size = strlen(text) + 1;
     char*        copy = dp_alloc(size, 1);
     return copy ? memcpy(copy, text, size) : NULL;
+}
+
+DpStatus dp_frames_list(DpFrames* frames, const char* path)
+{
+    if (!frames || !path) return DP_BAD_ARGUMENT;
+    DpFile         list;
+    const DpStatus status = dp_file_append(path, &list);
+    if (status != DP_OK) return status;
+    dp_file_close(list);  // opened for each line: Windows lets nobody replace a file that is open
+    char* copy = copy_text(path);
+    if (!copy) return DP_NO_MEMORY;
+    dp_free(frames->list);
+    frames->list = copy;
+    return DP_OK;
 }
 
 static DpStatus copy_notes(DpFrames* frames, const DpNote* notes, int note_count)
@@ -243,7 +246,6 @@ DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const cha
     if (!fresh) return DP_NO_MEMORY;
     fresh->tiles_x = tiles_x;
     fresh->tiles_y = tiles_y;
-    fresh->list = DP_NO_FILE;
     const DpStatus status = fill(fresh, channel, channel_count, notes, note_count);
     if (status == DP_OK)
         *frames = fresh;
@@ -275,6 +277,6 @@ void dp_frames_destroy(DpFrames* frames)
     dp_free(frames->tile);
     dp_free(frames->zero.packed);
     dp_bytes_free(&frames->file);
-    dp_file_close(frames->list);
+    dp_free(frames->list);
     dp_free(frames);
 }

@@ -195,7 +195,9 @@ def baked_files(gait, *, broken=False, **options):
             steps.close()
         for _ in Bake(gait, Ground.flat(), folder=folder, cell_size=0.02, **words).run():
             pass
-        files = {str(file.relative_to(folder)): file for file in sorted(Path(folder).rglob("*")) if file.is_file()}
+        files = {
+            file.relative_to(folder).as_posix(): file for file in sorted(Path(folder).rglob("*")) if file.is_file()
+        }
         found = {
             name: read_file(file)
             for name, file in files.items()

@@ -181,7 +181,7 @@ class Output:
         os.makedirs(os.path.join(self.folder, OLD), exist_ok=True)
         shown = os.path.join(self.folder, SHOWN)
         try:
-            os.symlink(OLD, shown)
+            disk.link(OLD, shown)
         except (OSError, NotImplementedError):  # a disk without links
             atomic_file.write_json(shown, [n for n in NAMES if os.path.lexists(self.path(n))], "The list of files")
 

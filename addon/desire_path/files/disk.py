@@ -6,6 +6,7 @@ disk that cannot. Nothing here knows what a bake is.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import errno
 import os
@@ -15,11 +16,17 @@ from typing import Any
 
 try:
     import fcntl
-except ImportError:  # a system with other locks
+except ImportError:  # Windows has other locks
     fcntl = None  # type: ignore[assignment]
+try:
+    import msvcrt
+except ImportError:
+    msvcrt = None  # type: ignore[assignment]
 
 _HERE = -100  # AT_FDCWD
 _EXCHANGE = 2  # RENAME_EXCHANGE
+_BINARY = getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOINHERIT", 0)
+_LOCKED_BYTE = 1 << 30  # of a lock's file, where Windows locks it: far behind its text, which others read
 _CANNOT = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EXDEV, errno.EPERM)
 
 
@@ -46,6 +53,13 @@ def swap(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
     raise OSError(number, os.strerror(number), os.fspath(one))
 
 
+def link(to: str, path: str) -> None:
+    """Make a link to a name beside it; OSError where there are none, as on Windows, where few may make them."""
+    if os.name == "nt":
+        raise OSError(errno.ENOSYS, "links are not made here", path)
+    os.symlink(to, path)
+
+
 def sync(folder: str | os.PathLike[str]) -> None:
     """Return when everything below a folder is on the disk."""
     if _syncfs is not None:
@@ -64,7 +78,8 @@ def sync(folder: str | os.PathLike[str]) -> None:
 def sync_one(path: str | os.PathLike[str]) -> None:
     """Return when one file's bytes, or one folder's names, are on the disk."""
     try:
-        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+        how = os.O_RDWR if os.name == "nt" else os.O_RDONLY  # Windows syncs what it may write
+        handle = os.open(path, how | getattr(os, "O_NOFOLLOW", 0))
     except OSError:  # a link, or a folder on a system that does not open them
         return
     try:
@@ -86,12 +101,26 @@ def is_plain(path: str | os.PathLike[str]) -> bool:
 
 def memory_free() -> float:
     """Bytes of memory that programs may still have, about; infinite where the system does not say."""
+    if os.name == "nt":
+        return _memory_free_windows()
     try:
         with open("/proc/meminfo", encoding="ascii") as file:
             amounts = dict(line.split(":", 1) for line in file)
         return 1024.0 * sum(int(amounts[name].split()[0]) for name in ("MemAvailable", "SwapFree"))
     except (OSError, KeyError, ValueError, IndexError):
         return float("inf")
+
+
+class _MemoryStatus(ctypes.Structure):  # MEMORYSTATUSEX
+    _fields_ = [(name, ctypes.c_uint32) for name in ("size", "load")] + [
+        (name, ctypes.c_uint64) for name in ("all", "free", "all_paged", "free_paged", "space", "free_space", "more")
+    ]
+
+
+def _memory_free_windows() -> float:
+    status = _MemoryStatus(size=ctypes.sizeof(_MemoryStatus))
+    told = getattr(ctypes, "windll").kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # noqa: B009
+    return float(status.free_paged) if told else float("inf")
 
 
 # ---- locks -------------------------------------------------------------------------------------------------
@@ -108,17 +137,18 @@ def lock(path: str | os.PathLike[str], text: str) -> int:
     without locks the file itself is one, and the process named first in it has to be alive, here or elsewhere.
     """
     while True:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | _BINARY | getattr(os, "O_NOFOLLOW", 0), 0o666)
         try:
             if not stat.S_ISREG(os.fstat(handle).st_mode):
                 raise OSError(errno.EEXIST, "it is no plain file", os.fspath(path))
-            before = os.pread(handle, 4096, 0).decode("utf-8", "replace")
+            before = os.read(handle, 4096).decode("utf-8", "replace")
             if not _locked(handle, before):
                 raise Held(before)
             if _same(handle, path):  # else it was released, and is another file by now
                 mine, handle = handle, -1
                 os.ftruncate(mine, 0)
-                os.pwrite(mine, f"{os.getpid()} {socket.gethostname()} {text}\n".encode(), 0)
+                os.lseek(mine, 0, os.SEEK_SET)
+                os.write(mine, f"{os.getpid()} {socket.gethostname()} {text}\n".encode())
                 return mine
         finally:
             if handle >= 0:
@@ -127,6 +157,13 @@ def lock(path: str | os.PathLike[str], text: str) -> int:
 
 def unlock(handle: int, path: str | os.PathLike[str]) -> None:
     """Give up a lock and its file."""
+    if msvcrt is not None:  # no open file is removed there, nor one that somebody opened since
+        ours = _same(handle, path)
+        os.close(handle)
+        with contextlib.suppress(OSError):
+            if ours:
+                os.unlink(path)
+        return
     if _same(handle, path):
         os.unlink(path)
     os.close(handle)
@@ -138,7 +175,11 @@ def _locked(handle: int, before: str) -> bool:
         if fcntl is not None:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             return True
-    except BlockingIOError:
+        if msvcrt is not None:
+            os.lseek(handle, _LOCKED_BYTE, os.SEEK_SET)
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+            return True
+    except (BlockingIOError, PermissionError):
         return False
     except OSError:
         pass  # no locks on this disk
@@ -147,6 +188,8 @@ def _locked(handle: int, before: str) -> bool:
 
 
 def _alive(process: str) -> bool:
+    if os.name == "nt":  # where to ask is to interrupt
+        return True
     try:
         os.kill(int(process), 0)
     except (ProcessLookupError, ValueError, OverflowError):
