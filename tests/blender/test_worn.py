@@ -219,6 +219,26 @@ def test_what_is_off_in_renders_is_not_worn():
         assert len(said) == told and all(mesh.name in each and obj.name in each for each in said), (first, said)
     mesh.animation_data_clear()
     mesh.hide_render = False
+    led = mesh.driver_add("hide_render").driver  # whatever frame is shown
+    led.expression = "frame < 10"
+    for shown in (1, 20):
+        scene.frame_set(shown)
+        assert skin_of(obj, range(1, 9)) is None and skin_of(obj) is not None, shown
+        (said,) = (each for each in sample.record(scene, obj, 1, 12).warnings if "off in renders" in each)
+    mesh.driver_remove("hide_render")
+    for frame, off in ((1, True), (10, False)):
+        mesh.hide_render = off
+        mesh.keyframe_insert("hide_render", frame=frame)
+    action = mesh.animation_data.action
+    strip = mesh.animation_data.nla_tracks.new().strips.new("on and off", 1, action)
+    if hasattr(strip, "action_slot"):
+        strip.action_slot = mesh.animation_data.action_slot
+    mesh.animation_data.action = None
+    for shown in (1, 20):
+        scene.frame_set(shown)
+        assert skin_of(obj, range(1, 9)) is None and skin_of(obj) is not None, shown
+    mesh.animation_data_clear()
+    mesh.hide_render = False
     layer.children["Outfit"].exclude = True
     other = scene.view_layers.new("Feet")  # rendered beside the first
     assert skin_of(obj) is not None

@@ -4,8 +4,12 @@ import math
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 
 from ..errors import DesirePathError
+from . import clock, compat
+
+MOST_LOOKS = 120  # frames at which one is looked at that something switches on and off
 
 
 @contextmanager
@@ -44,4 +48,25 @@ def evaluated(own, obj, frame):
         raise DesirePathError(
             f"'{obj.name}' is disabled in viewports: enable it (the screen icon in the Outliner) and try again."
         )
+    return found
+
+
+def off_in_renders(scene, obj, frames):
+    """Whether an object is off in renders, at frames (scene's, floats) if that is keyed, in strips or led by a driver;
+    a list, of one where it is the same all the time."""
+    animation = obj.animation_data
+    if animation is None:
+        return [obj.hide_render]
+    if not any(len(track.strips) for track in animation.nla_tracks) and animation.drivers.find("hide_render") is None:
+        keyed = compat.curve(animation, "hide_render")
+        if keyed is None:
+            return [obj.hide_render]
+        return [keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames]
+    pick = np.linspace(0, len(frames) - 1, min(len(frames), MOST_LOOKS)).round().astype(int)
+    found = []
+    with private_scene(scene, obj) as own:
+        for number in pick:
+            whole = math.floor(frames[number])
+            own.frame_set(whole, subframe=frames[number] - whole)
+            found.append(obj.evaluated_get(own.view_layers[0].depsgraph).hide_render)
     return found

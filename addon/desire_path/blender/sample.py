@@ -18,7 +18,7 @@ from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
 from . import axes, clock, compat, physics, playback, ride
-from .private import evaluated, looked_at, private_scene
+from .private import evaluated, looked_at, off_in_renders, private_scene
 from .worn import hanging, owners, skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
@@ -190,10 +190,8 @@ def worn_at_times(scene, armature, feet, frames):
     """Sentences about what moves with the feet and is off in renders at some frames of the walk only."""
     owner, told = owners(armature, feet), []
     for obj in hanging(scene, armature):
-        keyed = compat.curve(obj.animation_data, "hide_render")
-        if keyed is None or not (obj.parent_bone in owner or any(group.name in owner for group in obj.vertex_groups)):
-            continue
-        if len({keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames}) > 1:
+        moves = obj.parent_bone in owner or any(group.name in owner for group in obj.vertex_groups)
+        if moves and len(set(off_in_renders(scene, obj, frames))) > 1:
             told.append(
                 f"'{obj.name}' is off in renders at some of the frames: '{armature.name}' wears it at all of them "
                 "where it walks."

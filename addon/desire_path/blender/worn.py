@@ -17,8 +17,8 @@ import numpy as np
 from ..errors import DesirePathError
 from ..rig import body
 from ..rig.sole_mesh import Tread
-from . import axes, clock, compat, stack, wiring
-from .private import evaluated, private_scene
+from . import axes, compat, stack, wiring
+from .private import evaluated, off_in_renders, private_scene
 
 LOOKS = 5  # frames of the walk at which points are watched
 SAME = 1e-3  # places nearer than this share of the body's size are the same
@@ -98,11 +98,9 @@ def owners(armature, feet):
 
 
 def drawn(scene, obj, frames=None):
-    """Whether renders show an object: it is on, at one of the frames if that is keyed, and in a collection that is
-    on in some view layer that is used."""
-    off, keyed = obj.hide_render, compat.curve(obj.animation_data, "hide_render")
-    if keyed is not None and frames is not None:
-        off = all(keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames)
+    """Whether renders show an object: it is on, at one of the frames if something switches it, and in a collection that
+    is on in some view layer that is used."""
+    off = obj.hide_render if frames is None else all(off_in_renders(scene, obj, frames))
     used = [each for each in scene.view_layers if each.use] or list(scene.view_layers)
     return not off and any(_within(each.layer_collection, obj) for each in used)
 
