@@ -6,7 +6,7 @@ from scenes import meshes, people
 from test_ground import mesh_of, read
 from test_sample import ids
 
-from desire_path.blender import compat, playback_tree, stack, wiring
+from desire_path.blender import compat, ground, playback_tree, stack, wiring
 
 operator = bpy.ops.object
 
@@ -141,6 +141,46 @@ def test_a_modifier_that_is_off_shapes_nothing():
 
 
 # ---- the whole way ------------------------------------------------------------------------------------
+
+
+def test_modifiers_that_are_switched_are_as_renders_have_them_first():
+    """Whatever frame is shown; that they are switched in between is told."""
+    scene = bpy.context.scene
+    for way in ("keys", "driver", "strip", "levels"):
+        obj = meshes.grid(20, 20, 0.1, name=way)
+        if way == "levels":
+            fine = obj.modifiers.new("Fine", "SUBSURF")
+            fine.subdivision_type = "SIMPLE"
+            path, values = 'modifiers["Fine"].render_levels', (1, 0)
+        else:
+            rise = obj.modifiers.new("Rise", "DISPLACE")
+            rise.strength, rise.mid_level, rise.direction = 0.05, 0.0, "Z"
+            path, values = 'modifiers["Rise"].show_render', (True, False)
+        if way == "driver":
+            obj.driver_add(path).driver.expression = "frame < 10"
+        for frame, value in ((1, values[0]), (10, values[1])) if way != "driver" else ():
+            owner, name = obj.modifiers[0], path.rsplit(".", 1)[1]
+            setattr(owner, name, value)
+            obj.keyframe_insert(path, frame=frame)
+            if way == "keys":
+                owner.show_viewport = value
+                obj.keyframe_insert(path.replace("render", "viewport"), frame=frame)
+        if way == "strip":
+            animation = obj.animation_data
+            strip = animation.nla_tracks.new().strips.new("switch", 1, animation.action)
+            if hasattr(strip, "action_slot"):
+                strip.action_slot = animation.action_slot
+            animation.action = None
+        marks = set()
+        for shown_frame in (1, 20):
+            scene.frame_set(shown_frame)
+            surface = ground.read(scene, obj, 0.02, 1, 20)
+            marks.add(surface.mark)
+            assert len(surface.vertices) == (39 * 39 if way == "levels" else 400), (way, shown_frame)
+            assert way == "levels" or np.allclose(surface.vertices[:, 2], 0.05), (way, shown_frame)
+            assert any("changes between the frames" in each for each in surface.warnings), (way, shown_frame)
+            assert scene.frame_current == shown_frame
+        assert len(marks) == 1, way
 
 
 def trodden(ground, folder, cell=0.02, frames=30):

@@ -79,9 +79,11 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         bare = not copy.modifiers and obj.data.shape_keys is None and obj.data.animation_data is None
         if frame_end is not None and not bare:  # a bare mesh keeps its shape
             for frame in (frame_start + round(SOON * (frame_end - frame_start)), frame_end):
+                stack.let_led(scene, own, copy, obj, frame, again=True)
                 found = sample.evaluated(own, copy, frame)
                 later.append(compat.positions(found.data))
         finer = stack.show(scene, copy, obj)
+        stack.let_led(scene, own, copy, obj, frame_start)
         found = sample.evaluated(own, copy, frame_start)
         world = axes.matrix(found.matrix_world, obj.name)
         if not len(found.data.polygons):

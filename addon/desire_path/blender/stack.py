@@ -6,6 +6,7 @@ What a nodes modifier does is seen by what comes out of it: one that leaves the 
 they were and adds something within their bounds scatters, any other shapes.
 """
 
+import math
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -54,7 +55,8 @@ def find(scene, obj, frame):
     last, realise, looked = -1, False, {}
     standing, scatters = set(), set()
     for k, each in enumerate(others(obj)):
-        if not (each.show_render or each.show_viewport) or each.type == "NODES" and each.node_group is None:
+        on = each.show_render or each.show_viewport or _is_led(obj, each)
+        if not on or each.type == "NODES" and each.node_group is None:
             continue
         if each.type in STANDS:
             standing.add(k)
@@ -133,6 +135,40 @@ def show(scene, copy, obj, render=True):
             faces *= 4**level
         setattr(each, LEVELS[each.type][0], level)
     return left_out
+
+
+def let_led(scene, own, copy, obj, frame, again=False):
+    """Let what keys, strips and drivers switch of a copy's modifiers be as renders have it at a frame of its private
+    scene, and not as it is at the frame that is shown. again: it was let for another frame before"""
+    if not _are_led(obj):
+        return
+    if again:
+        show(scene, copy, obj)
+    own.frame_set(math.floor(frame))
+    there = copy.evaluated_get(own.view_layers[0].depsgraph)
+    for each in copy.modifiers:
+        shown, now = obj.modifiers.get(each.name), there.modifiers.get(each.name)
+        if shown is None or now is None or each.type == "PARTICLE_SYSTEM":
+            continue
+        if now.show_render != shown.show_render:
+            each.show_viewport = now.show_render
+        if each.type in LEVELS and fineness(scene, now, True) != fineness(scene, shown, True):
+            setattr(each, LEVELS[each.type][0], fineness(scene, now, True))
+
+
+def _are_led(obj):
+    """Whether something may lead which modifiers of an object are on, or how finely they cut."""
+    animation = obj.animation_data
+    return animation is not None and (
+        any(len(track.strips) for track in animation.nla_tracks) or any(_is_led(obj, each) for each in obj.modifiers)
+    )
+
+
+def _is_led(obj, modifier):
+    """Whether keys or a driver do so with one of them."""
+    path = f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"].'
+    names = ("show_render", "show_viewport", *LEVELS.get(modifier.type, ()))
+    return any(compat.is_keyed(obj.animation_data, path + name) for name in names)
 
 
 def shows(modifier, render):

@@ -208,6 +208,8 @@ def bound(scene, armature, objects, owner, frames=None):
         scene, {each for piece in pieces for each in (piece.holder, piece.source)}, groups, armature
     ) as copies:
         with _resting(armature), private_scene(scene, armature, *copies.values()) as own:
+            for obj, copy in copies.items():
+                stack.let_led(scene, own, copy, obj, frames[0])
             rest = [_seen(own, armature, copies[p.source], _placed(p, copies), frames[0]) for p in pieces]
         shares, watched = [], []
         for k, piece in enumerate(pieces):
