@@ -225,6 +225,21 @@ def test_what_is_off_in_renders_is_not_worn():
         scene.frame_set(shown)
         assert skin_of(obj, range(1, 9)) is None and skin_of(obj) is not None, shown
         (said,) = (each for each in sample.record(scene, obj, 1, 12).warnings if "off in renders" in each)
+    led.expression = "outfit > 0.5"  # of no time, but for keys of what it asks
+    asks = led.variables.new()
+    asks.name, asks.targets[0].id, asks.targets[0].data_path = "outfit", obj, '["outfit"]'
+    for value in (1.0, 0.0):
+        obj["outfit"] = value
+        obj.update_tag()
+        scene.frame_set(2)
+        assert mesh.hide_render == (value > 0.5)
+        assert (skin_of(obj) is None) == (value > 0.5)
+    for frame, value in ((1, 1.0), (10, 0.0)):
+        obj["outfit"] = value
+        obj.keyframe_insert('["outfit"]', frame=frame)
+    for shown in (1, 20):
+        scene.frame_set(shown)
+        assert skin_of(obj, range(1, 3)) is None and skin_of(obj) is not None, shown
     mesh.driver_remove("hide_render")
     for frame, off in ((1, True), (10, False)):
         mesh.hide_render = off

@@ -1,6 +1,7 @@
 """private.py - a scene of our own, in which something is looked at while the user's scene stays as it is."""
 
 import math
+import re
 from contextlib import contextmanager
 
 import bpy
@@ -9,7 +10,7 @@ import numpy as np
 from ..errors import DesirePathError
 from . import clock, compat
 
-MOST_LOOKS = 120  # frames at which one is looked at that something switches on and off
+MOST_LOOKS = 24  # frames at which one is looked at that something switches on and off
 
 
 @contextmanager
@@ -57,16 +58,40 @@ def off_in_renders(scene, obj, frames):
     animation = obj.animation_data
     if animation is None:
         return [obj.hide_render]
-    if not any(len(track.strips) for track in animation.nla_tracks) and animation.drivers.find("hide_render") is None:
+    led = animation.drivers.find("hide_render")
+    if not any(len(track.strips) for track in animation.nla_tracks) and (led is None or _is_timeless(led.driver)):
         keyed = compat.curve(animation, "hide_render")
-        if keyed is None:
+        if keyed is None or led is not None:
             return [obj.hide_render]
         return [keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames]
     pick = np.linspace(0, len(frames) - 1, min(len(frames), MOST_LOOKS)).round().astype(int)
-    found = []
-    with private_scene(scene, obj) as own:
-        for number in pick:
-            whole = math.floor(frames[number])
-            own.frame_set(whole, subframe=frames[number] - whole)
-            found.append(obj.evaluated_get(own.view_layers[0].depsgraph).hide_render)
+    found, copy = [], obj.copy()
+    try:
+        copy.parent = None  # what moves and shapes it costs time and does not matter
+        copy.modifiers.clear()
+        copy.constraints.clear()
+        with private_scene(scene, copy) as own:
+            for number in pick:
+                whole = math.floor(frames[number])
+                own.frame_set(whole, subframe=frames[number] - whole)
+                found.append(copy.evaluated_get(own.view_layers[0].depsgraph).hide_render)
+    finally:
+        bpy.data.objects.remove(copy)
     return found
+
+
+def _is_timeless(driver):
+    """Whether what a driver comes to surely is the same at every frame: it asks for properties that nothing moves."""
+    if driver.type == "SCRIPTED" and re.search(r"\b(frame|self|depsgraph)\b", driver.expression):
+        return False
+    targets = [target for variable in driver.variables for target in variable.targets]
+    return all(variable.type == "SINGLE_PROP" for variable in driver.variables) and not any(
+        isinstance(target.id, bpy.types.Scene) or _may_move(target.id, target.data_path) for target in targets
+    )
+
+
+def _may_move(owner, path):
+    animation = getattr(owner, "animation_data", None)
+    return animation is not None and (
+        any(len(track.strips) for track in animation.nla_tracks) or compat.is_keyed(animation, path)
+    )
