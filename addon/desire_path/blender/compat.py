@@ -27,6 +27,16 @@ def positions(mesh):
     return out
 
 
+def set_numbers(mesh, attribute, of, values, data, name):
+    """Set what elements of a mesh have: by an attribute and its property, which is quick, or else one by one in `data`
+    by the property `name`."""
+    found = mesh.attributes.get(attribute)
+    if found is not None and len(found.data) == len(data):
+        found.data.foreach_set(of, values.ravel())
+    else:
+        data.foreach_set(name, values.ravel())
+
+
 def triangles(mesh):
     """Vertex indices of the faces cut into triangles, int32 (m, 3)."""
     mesh.calc_loop_triangles()

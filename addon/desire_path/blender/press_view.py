@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..ground import refine
+from ..ground.pressing import AROUND
 from ..ground.sim import TILE
 from . import axes, compat, cover, playback, playback_tree, refined, show
 
@@ -19,6 +20,7 @@ MARGIN = 4  # tiles around that
 NEAR = 0.12  # the copy has to be fine so far around a body [m]
 SQUARE = 0.5  # and is made so at least that far [m]
 HIDES, SHOWS = 2, 1  # whether something plays behind what is shown for a while
+EDGE = 3  # cells around what is to be seen that are looked at, too
 SHADES = 1e-7  # where less was pressed or heaped nothing is to be seen [m]
 
 
@@ -27,7 +29,7 @@ class View:
 
     def __init__(self, scene, obj, surface, press):
         self.scene, self.name, self.surface, self.press = scene, obj.name, surface, press
-        self.warnings, self.copy, self.fine, self.tiles = [], None, None, None
+        self.warnings, self.copy, self.fine, self.tiles, self.pixels = [], None, None, None, None
         self.modifier_name = ""
         why = refined.held(scene, obj, surface.place)
         self.refines = obj.desire_path.refine and not why
@@ -50,12 +52,24 @@ class View:
             self._open(tiles)
         if self.refines and not self._is_fine(boxes):
             self._cut(boxes)
-        i0, j0, nx, ny = (TILE * each for each in self.tiles)
-        self.image.pixels.foreach_set(press.picture(i0, j0, nx, ny).ravel())
+        self._look(boxes)
+        self.image.pixels.foreach_set(self.pixels.ravel())
         self.image.update()
         obj = self.object()
         self.tree.update_tag()
         obj.update_tag(refresh={"DATA"})
+
+    def _look(self, boxes):
+        """What the image shows, as far as bodies that press in `boxes` have changed it; else all."""
+        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        if self.pixels is None or not boxes:
+            self.pixels = self.press.picture(i0, j0, nx, ny)
+            return
+        for x0, y0, x1, y1 in boxes:
+            a0, a1, b0, b1 = self.press.sim.cells((x0 - AROUND, y0 - AROUND, x1 + AROUND, y1 + AROUND))
+            a0, a1, b0, b1 = max(a0, i0), min(a1, i0 + nx), max(b0, j0), min(b1, j0 + ny)
+            if a0 < a1 and b0 < b1:
+                self.pixels[b0 - j0 : b1 - j0, a0 - i0 : a1 - i0] = self.press.picture(a0, b0, a1 - a0, b1 - b0)
 
     def _tiles(self, boxes):
         """Tiles (x, y, nx, ny) that are shown: all of the ground, or what was pressed of a large one."""
@@ -106,7 +120,7 @@ class View:
 
     def _open(self, tiles):
         """An image over other tiles, and the tree that shows it."""
-        self.tiles = tiles
+        self.tiles, self.pixels = tiles, None
         index = self._index()
         image = bpy.data.images.new("desire_path press", index.nx, index.ny, alpha=True, float_buffer=True)
         image.colorspace_settings.name = "Non-Color"
@@ -143,7 +157,8 @@ class View:
         """Make the copy fine around bodies, and as fine as what was pressed asks for elsewhere."""
         press, index, obj = self.press, self._index(), self.object()
         i0, j0, nx, ny = (TILE * each for each in self.tiles)
-        seen = press.picture(i0, j0, nx, ny)
+        self._look(())
+        seen = self.pixels
         changed = (seen[..., 2] > SHADES) | (np.abs(seen[..., 0]) > SHADES)
         square, self.fine = np.zeros((ny, nx), bool), (0.0, 0.0, 0.0, 0.0)
         if boxes:
@@ -157,7 +172,12 @@ class View:
             return
         size = axes.typed(obj.desire_path.refine_size)
         finest = max(size, press.cell_size)
-        wanted = refine.wishes(seen[..., 0], changed, index.cell, (index.x0, index.y0), size, (square, finest))
+        j, i = (np.flatnonzero((changed | square).any(axis=axis)) for axis in (1, 0))
+        if not len(i):
+            return
+        near = np.s_[max(j[0] - EDGE, 0) : j[-1] + EDGE, max(i[0] - EDGE, 0) : i[-1] + EDGE]
+        corner = (index.x0 + near[1].start * index.cell, index.y0 + near[0].start * index.cell)
+        wanted = refine.wishes(seen[near][..., 0], changed[near], index.cell, corner, size, (square[near], finest))
         found = refined.cut(self.scene, obj, self.surface, self.scene.frame_current, wanted, self.copy)
         if found is not None and self.copy is None:
             self.copy = found.carrier

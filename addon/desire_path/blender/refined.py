@@ -265,10 +265,10 @@ def _fill(mesh, source, made):
     """Fill an empty mesh as `made` cuts another one; returns the names of attributes that could not be carried over."""
     points = made.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
     mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.ravel())
+    compat.set_numbers(mesh, "position", "vector", points, mesh.vertices, "co")
     corners = made.corner_points(_numbers(source.loops, "vertex_index", 1, np.int32))
     mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", corners)
+    compat.set_numbers(mesh, ".corner_vert", "value", corners, mesh.loops, "vertex_index")
     sizes = made.sizes.astype(np.int32)
     mesh.polygons.add(len(sizes))
     mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
