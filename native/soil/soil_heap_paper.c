@@ -156,14 +156,18 @@ static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShar
     if (!open_reach(&reach, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
     measure(&reach, imprint, patch, rim->bulges);
 
-    double total = 0.0;
+    const double  beyond = rim->bulges ? (double)FAR : ceil((rim->wide + 0.5) * STEPS);
+    const int32_t end = beyond < (double)FAR ? (int32_t)beyond : FAR;  // as far out a rim is level
+    double        total = 0.0;
     for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
         for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
             const size_t p = soil_at(patch, i, j);
             double*      weight = weight_at(&reach, i, j);
             *weight = 0.0;
-            if (imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p])) continue;
-            const double full = height_of(rim, *far_at(&reach, i, j));
+            const int32_t far = *far_at(&reach, i, j);
+            if (far >= end || imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p]))
+                continue;
+            const double full = height_of(rim, far);
             if (!(full > 0.0) || !(patch->compression[p] < hollow)) continue;
             *weight = soil_on_grid(dp_soil_heap_share(shares, patch, i, j) * full, coarse);
             total += *weight;
