@@ -29,9 +29,25 @@ static DpBox box_of(const DpSim* sim, const Limb* limb, int sample, double w)
     return box;
 }
 
-double dp_carve_depth(const DpSim* sim, const Limb* limb, int sample)
+// from where to where the body goes in an interval; most come from the one before
+static DpBox swept_box(const DpSim* sim, Limb* limb, int sample)
 {
-    const DpBox  box = joined(box_of(sim, limb, sample, 0.0), box_of(sim, limb, sample, 1.0));
+    const bool goes_on = limb->boxed == sample - 1 && sample > 0;
+    limb->from = goes_on ? limb->to : box_of(sim, limb, sample, 0.0);
+    limb->to = box_of(sim, limb, sample, 1.0);
+    limb->boxed = sample;
+    return joined(limb->from, limb->to);
+}
+
+DpCellRect dp_carve_cells(const DpSim* sim, const Limb* limb, double margin)
+{
+    const DpBox box = joined(limb->from, limb->to);
+    return dp_box_cells(sim, &box, margin);
+}
+
+double dp_carve_depth(const DpSim* sim, Limb* limb, int sample)
+{
+    const DpBox  box = swept_box(sim, limb, sample);
     const double cell = sim->grid.cell, wide = box.x1 - box.x0, deep = box.y1 - box.y0;
     const int    nx = (int)dp_clamp(ceil(wide / cell), 1.0, PROBES);
     const int    ny = (int)dp_clamp(ceil(deep / cell), 1.0, PROBES);
@@ -49,7 +65,7 @@ double dp_carve_depth(const DpSim* sim, const Limb* limb, int sample)
 // So many poses that nothing low moves by more than half a cell from one to the next.
 static int steps_of(const DpSim* sim, const Limb* limb, int sample)
 {
-    const DpBox box = box_of(sim, limb, sample, 0.0);
+    const DpBox box = limb->from;
     double      farthest = 0.0;
     for (int p = 0; p < limb->part_count; ++p) {
         const DpMesh* sole = &sim->cast.sole[limb->part[p]];
@@ -147,7 +163,7 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
                              sim->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
-    const DpBox     box = box_of(sim, limb, sample, 1.0);
+    const DpBox     box = limb->to;
     const DpVec3    low = dp_vec3(0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), box.z0);
     const DpVec3    way = gone(sim, limb, sample, low);
     const double    far = dp_length(way);

@@ -45,6 +45,7 @@ static DpStatus make_limbs(DpSim* sim)
         Limb* limb = &sim->limb[l];
         limb->walker = cast->limb_walker[l];
         limb->part = next;
+        limb->boxed = -1;
         limb->law = sim->cast.contact_law[limb->walker] == DP_LAW_ANY
                         ? sim->options.law
                         : (DpContactLaw)sim->cast.contact_law[limb->walker];

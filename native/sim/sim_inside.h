@@ -28,6 +28,8 @@ typedef struct Limb
     DpCellRect patch;   // cells this step's patch covers
     bool       active;  // presses or settles in this step
     bool       begins;  // its stance begins
+    int        boxed;   // the sample at which `from` is where it carves from, and `to` where to
+    DpBox      from, to;
     bool       lifts;   // has let go: its rim comes to rest
     bool       left;    // .. before this step, and soil only slides on
     bool       spills;  // loose soil wants to leave the patch: settle again in a larger one
@@ -170,6 +172,7 @@ bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_held(const DpSim* sim, const Limb* limb, int sample);
 DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
+DpCellRect  dp_box_cells(const DpSim* sim, const DpBox* box, double margin);
 DpCellRect  dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
 
@@ -222,9 +225,11 @@ DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScr
 
 // sim_carve.c: how far a body that carves goes into the surface at most in an interval, 0 where it stays over it [m];
 // one's step on its patch
-double   dp_carve_depth(const DpSim* sim, const Limb* limb, int sample);
-DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
-                       int sample);
+double     dp_carve_depth(const DpSim* sim, Limb* limb, int sample);
+DpCellRect dp_carve_cells(const DpSim* sim, const Limb* limb,
+                          double margin);  // as dp_limb_cells, of the same interval
+DpStatus   dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                         int sample);
 
 DpStatus dp_carve_behind(DpSim* sim,
                          Limb*  limb);  // after a long way what lies behind comes to rest

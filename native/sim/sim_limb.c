@@ -81,20 +81,24 @@ static long number_of(double cells)
     return (long)dp_clamp(cells, (double)LONG_MIN / 4.0, (double)LONG_MAX / 4.0);
 }
 
+DpCellRect dp_box_cells(const DpSim* sim, const DpBox* box, double margin)
+{
+    const double cell = sim->grid.cell, ox = sim->grid.x0, oy = sim->grid.y0;
+    return (DpCellRect){number_of(floor((box->x0 - margin - ox) / cell)),
+                        number_of(ceil((box->x1 + margin - ox) / cell)),
+                        number_of(floor((box->y0 - margin - oy) / cell)),
+                        number_of(ceil((box->y1 + margin - oy) / cell))};
+}
+
 // DpCellRect under the limb's soles at sample and sample + 1, with `margin` [m] around.
 DpCellRect dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin)
 {
-    const double cell = sim->grid.cell, ox = sim->grid.x0, oy = sim->grid.y0;
-    DpCellRect   cells = {0, 0, 0, 0};
+    DpCellRect cells = {0, 0, 0, 0};
     for (int p = 0; p < limb->part_count; ++p) {
         for (int end = 0; end < 2; ++end) {
-            const DpBox      box = dp_imprint_box(&sim->cast.sole[limb->part[p]],
-                                                  dp_limb_pose(sim, limb->part[p], sample, end));
-            const DpCellRect under = {number_of(floor((box.x0 - margin - ox) / cell)),
-                                      number_of(ceil((box.x1 + margin - ox) / cell)),
-                                      number_of(floor((box.y0 - margin - oy) / cell)),
-                                      number_of(ceil((box.y1 + margin - oy) / cell))};
-            cells = dp_cells_join(cells, under);
+            const DpBox box = dp_imprint_box(&sim->cast.sole[limb->part[p]],
+                                             dp_limb_pose(sim, limb->part[p], sample, end));
+            cells = dp_cells_join(cells, dp_box_cells(sim, &box, margin));
         }
     }
     return cells;

@@ -73,7 +73,9 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
             fmax(1.25 * limb->heap_height, fmin(HEAP_OF_DEPTH * depth, HIGHEST_HEAP)) / slope;
         const double spread = fmax(heap, fmax(rim, bulges(sim))) + HEAP_SPARE * sim->grid.cell;
         if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
-        limb->patch = dp_limb_cells(sim, limb, sample, fmax(limb->margin, spread) + slips(sim));
+        const double margin = fmax(limb->margin, spread) + slips(sim);
+        limb->patch =
+            carves ? dp_carve_cells(sim, limb, margin) : dp_limb_cells(sim, limb, sample, margin);
     } else {
         limb->patch = limb->trodden;
     }

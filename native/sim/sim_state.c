@@ -243,7 +243,7 @@ static void take_limbs(DpSim* sim, State* state)
         dp_free(was.met);
         *limb = *kept;
         limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
-        limb->law = was.law;
+        limb->law = was.law, limb->boxed = -1;
         dp_free(sim->pressing[l].value);
         sim->pressing[l] = state->pressing[l];
     }
