@@ -158,6 +158,7 @@ class Plan:
             **({"trail": parcel.ground.trail.path} if parcel.ground.trail else {}),
             "walkers": list(self.gait.walker_name),
             "mass_kg": [float(mass) for mass in self.gait.mass],
+            **({"mass_keys": self.gait.mass_keys} if self.gait.mass_keys else {}),
             "law": options.law,
             "heap": options.heap,
             "rim_width": options.rim_width,

@@ -292,6 +292,17 @@ def curves(animation, owner):
     return strip.channelbag(slot, ensure=True).fcurves
 
 
+def strip_curves(strip):
+    """The F-curves of the action that a strip of the NLA editor plays, of all its slots."""
+    action = strip.action
+    if action is None:
+        return []
+    if not hasattr(action, "layers"):
+        return list(action.fcurves)
+    bags = [bag for layer in action.layers for each in layer.strips for bag in each.channelbags]
+    return [found for bag in bags for found in bag.fcurves]
+
+
 def curve(animation, path):
     """The F-curve that keys a property of an object, or None."""
     action = animation.action if animation is not None else None

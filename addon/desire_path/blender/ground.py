@@ -254,6 +254,6 @@ def _kinds(weights, count):
 
 
 def soils(obj):
-    """The soils, as Soil: the ground's own, then the painted ones."""
+    """The soils as they are now, as Soil: the ground's own, then the painted ones."""
     settings = obj.desire_path
     return [soils_of.soil_of(each) for each in (settings, *settings.painted)]

@@ -19,7 +19,7 @@ from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, playback, pressed, reach, sample
+from . import axes, bodies, ground, paths, plants, playback, pressed, reach, sample, soil_keys
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 ROUNDED = 4e-7  # rounding moves points no farther, in shares of their distance from the origin
@@ -37,8 +37,9 @@ def taken(scene, company, folders, **more):
     cells = [axes.typed(each.desire_path.cell_size) for each in grounds]
     for each in cells:
         check_cell(each)
-    cell = min(cells)
-    if paths.goes(walkers):
+    cell, end = min(cells), last
+    on_paths = paths.goes(walkers)
+    if on_paths:
         found = {}
 
         def land(box):
@@ -56,7 +57,8 @@ def taken(scene, company, folders, **more):
         ):
             gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
     gait = bodies.laws(walkers, gait, lambda: _land(found, gait, cell))
-    gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell)))
+    keys = soil_keys.told(grounds, walkers, on_paths)
+    gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell), *keys))
     origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
     if len(found) > 1 and any(ground.smooth(each.vertices, cell, origin) for each in found.values()):
         found = {name: replace(each, between=True) for name, each in found.items()}
@@ -67,7 +69,7 @@ def taken(scene, company, folders, **more):
         parcels.append(
             Parcel(
                 pressed.start(each, found[each.name].ground),
-                ground.soils(each),
+                ground.soils(each) if on_paths else soil_keys.of_ground(scene, each, first, end),
                 path,
                 each.name,
                 grown,
@@ -176,7 +178,9 @@ def marks(obj, company, made, found):
     trails = [parcel.ground.trail for parcel in made.parcels if parcel.ground.trail is not None]
     left = [array for trail in trails for array in trail.arrays()]
     return {
-        "walk": mesh.mark(walk, [*(f"{mass:.9g}" for mass in gait.mass), *filter(None, [laws])]),
+        "walk": mesh.mark(
+            walk, [*(f"{mass:.9g}" for mass in gait.mass), *map(repr, gait.mass_keys), *filter(None, [laws])]
+        ),
         "ground": mesh.mark(left, sorted(found[parcel.name].mark for parcel in made.parcels)),
         "painted": mesh.mark(left, sorted(found[parcel.name].painted for parcel in made.parcels)),
         "placed": mesh.mark((), sorted((each.world * each.scale).tolist() for each in found.values())),

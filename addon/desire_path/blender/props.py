@@ -233,7 +233,13 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="How heavy the walker is, in kilograms; 0 = estimated from its height",
     )
     weight: units.mass(
-        "mass", "Mass", "How heavy the walker is; 0 = estimated from its height", min=0.0, soft_max=1000.0, precision=1
+        "mass",
+        "Mass",
+        "How heavy the walker is; 0 = estimated from its height",
+        keyed=True,
+        min=0.0,
+        soft_max=1000.0,
+        precision=1,
     )
     estimated_mass: FloatProperty(options={"HIDDEN"}, description="What mass 0 came to [kg]")
     mass_center: StringProperty(

@@ -17,7 +17,7 @@ from ..errors import DesirePathError
 from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
-from . import axes, clock, compat, physics, playback, ride
+from . import axes, clock, compat, physics, playback, ride, soil_keys
 from .private import evaluated, looked_at, off_in_renders, private_scene
 from .worn import hanging, owners, skin, tread
 
@@ -237,7 +237,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     if armature.type == "MESH":
-        return _solid(scene, armature, frames, samples, rate, scale)
+        return soil_keys.weighed(scene, _solid(scene, armature, frames, samples, rate, scale), armature, frame_end)
     with (
         looked_at(armature),
         still(armature),
@@ -247,7 +247,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
         shape = skeleton(armature, world, scale)
         if settings.limbs == "ALL":
-            return _limbs(scene, armature, shape, own, carry, frames)
+            return soil_keys.weighed(scene, _limbs(scene, armature, shape, own, carry, frames), armature, frame_end)
         found, volume = rig(armature, shape), None
         size = believed(armature, shape, found)
         if len(found.feet) > 2:  # no table knows this body: its mesh does
@@ -277,7 +277,8 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     )
     rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
     law = (settings.contact_law.lower(),)
-    return replace(gait, warnings=size + gait.warnings + told + rode, contact_law=law)
+    gait = replace(gait, warnings=size + gait.warnings + told + rode, contact_law=law)
+    return soil_keys.weighed(scene, gait, armature, frame_end)
 
 
 def _limbs(scene, armature, shape, own, carry, frames):

@@ -7,6 +7,7 @@ numbers themselves with their units.
 """
 
 import math
+from dataclasses import replace
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
@@ -103,6 +104,8 @@ EASY = {
         precision=4,
     ),
 }
+for _word in filter(None, EASY.values()):
+    _word.keywords["options"] = {"ANIMATABLE"}  # keys: soil_keys.py
 _filling = False
 
 
@@ -160,7 +163,6 @@ def _number(name):
         precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave"} else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",
-        options=set(),  # no keys: a bake has one soil
         update=_by_hand,
     )
 
@@ -211,10 +213,17 @@ def soil_of(settings):
     usual = SOILS[settings.soil]
     if not settings.soil_numbers.changed:
         return usual
+    return with_numbers(settings, usual, {name: getattr(settings.soil_numbers, name) for name in WORDS})
+
+
+def with_numbers(settings, soil, numbers):
+    """A Soil with some numbers, by name, as properties hold them."""
     # what was set to the preset's own number is that, to the last bit: library overrides set all of them on reading
-    numbers = {name: axes.typed(getattr(settings.soil_numbers, name)) for name in WORDS}
-    kept = {name: getattr(usual, name) for name in WORDS}
-    return Soil(**{name: kept[name] if axes.typed(kept[name]) == each else each for name, each in numbers.items()})
+    usual = SOILS[settings.soil]
+    kept = {name: getattr(usual, name) for name in numbers}
+    numbers = {name: axes.typed(each) for name, each in numbers.items()}
+    numbers = {name: kept[name] if axes.typed(kept[name]) == each else each for name, each in numbers.items()}
+    return replace(soil, **numbers)
 
 
 class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):

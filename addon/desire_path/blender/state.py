@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..bake.bake import read_index
 from ..errors import DesirePathError
-from . import compat, home, inputs, playback, pressed, show
+from . import compat, home, inputs, playback, pressed, show, soil_keys
 from .chosen import walkers
 from .private import looked_at
 
@@ -213,19 +213,20 @@ def _glance(obj):
             ages.append(os.stat(os.path.join(path, *place)).st_mtime_ns)
         except OSError:
             ages.append(0)
-    return path, ages, [_numbers(each.desire_path) for each in (obj, *there)]
+    keyed = soil_keys.names(obj) | set(soil_keys.MASSES)  # those are another number in every frame
+    return path, ages, [_numbers(each.desire_path, keyed if soil_keys.keyed(each) else ()) for each in (obj, *there)]
 
 
-def _numbers(group):
-    """The plain properties of a property group, and of those in its lists."""
+def _numbers(group, but=()):
+    """The plain properties of a property group, and of those in its lists, but some."""
     out = []
     for name, each in type(group).__annotations__.items():
-        if "get" in each.keywords:
+        if "get" in each.keywords or name in but:
             continue  # found out each time it is asked for, from what is looked at anyway
         if each.function is bpy.props.CollectionProperty:
-            out += [_numbers(one) for one in getattr(group, name)]
+            out += [_numbers(one, but) for one in getattr(group, name)]
         elif compat.is_group(each):
-            out.append(_numbers(getattr(group, name)))
+            out.append(_numbers(getattr(group, name), but))
         else:
             out.append(getattr(group, name))
     return out

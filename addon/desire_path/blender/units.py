@@ -38,11 +38,12 @@ def share(get: Callable, put: Callable, label: str, description: str) -> Any:
     )
 
 
-def _shown(name: str, power: int, label: str, description: str, **options: Any) -> Any:
+def _shown(name: str, power: int, label: str, description: str, *, keyed: bool = False, **options: Any) -> Any:
     def get(self: Any) -> float:
         return float(getattr(self, name)) / axes.unit_scale(bpy.context.scene) ** power
 
     def put(self: Any, value: float) -> None:
         setattr(self, name, axes.typed(value * axes.unit_scale(bpy.context.scene) ** power))
 
-    return FloatProperty(name=label, description=description, options=set(), get=get, set=put, **options)
+    flags = {"ANIMATABLE"} if keyed else set()
+    return FloatProperty(name=label, description=description, options=flags, get=get, set=put, **options)

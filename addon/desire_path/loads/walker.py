@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core import _native
 from ..errors import DesirePathError
-from ..motion import jumps
+from ..motion import jumps, mass_keys
 from ..motion import size as sizes
 from ..motion.gait import Gait
 from ..motion.points import point_places
@@ -156,7 +156,11 @@ def loads(
                 return problem
             raise
 
-    found = carved(gait, ground, together(gait, each_found(turns_of(gait, ground), find, ground)))
+    found = together(gait, each_found(turns_of(gait, ground), find, ground))
+    heavier = mass_keys.heavier(gait.mass_keys, gait.mass, gait.time)
+    if heavier is not None:  # all forces of a walker are as its mass
+        found = replace(found, force=found.force * heavier[gait.limb_walker[gait.part_limb]][..., None])
+    found = carved(gait, ground, found)
     return replace(found, warnings=gait.warnings[before:] + found.warnings)
 
 

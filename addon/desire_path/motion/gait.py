@@ -20,6 +20,7 @@ from ..errors import DesirePathError
 from ..files import atomic_file, npz
 from ..keywords import fields_of
 from . import freeze, size, tracks
+from . import mass_keys as masses
 from .recording import AUTO, BALL, CONTACT_LAWS, HEEL, NAMES, NUMBERS, TIP, Recording, Sole
 from .scatter import Scatter
 from .tracks import TrackArray
@@ -53,6 +54,8 @@ class Gait(Recording):
         arrays["cut"], arrays["jump"], arrays["leg"] = self.cut, self.jump, self.leg
         if self.contact_law:
             arrays["contact_law"] = np.array(self.contact_law, dtype="U")
+        if self.mass_keys:
+            arrays["mass_keys"] = np.array([(w, *key) for w, keys in enumerate(self.mass_keys) for key in keys])
         arrays["version"] = np.array(_VERSION)
         if isinstance(self.com, TrackArray):  # only those who are there
             arrays["version"] = np.array(_TRACKS)
@@ -102,6 +105,7 @@ class Gait(Recording):
                 jump=arrays.get("jump", none),
                 leg=arrays.get("leg", none),
                 contact_law=tuple(arrays["contact_law"].tolist()) if "contact_law" in arrays else (),
+                mass_keys=_mass_keys(arrays),
                 **wanted,
             )
         except DesirePathError:
@@ -155,6 +159,7 @@ class Gait(Recording):
             frame_rate=first.frame_rate,
             frame_start=first.frame_start,
             warnings=tuple(dict.fromkeys(chain("warnings"))),
+            mass_keys=tuple(keys for g in gaits for keys in g.mass_keys or [()] * len(g.mass)),
             cut=np.unique(np.concatenate([g.cut for g in gaits])),
             jump=np.concatenate([g.jump + (0, before) for g, before in zip(gaits, walkers)]),
             contact_law=tuple(law for g in gaits for law in g.contact_law or (AUTO,) * len(g.mass)),
@@ -263,6 +268,13 @@ def _let_in(gait: Gait) -> Gait:
         return gait
     times = len(gait.time)
     return replace(gait, com=TrackArray(len(gait.mass), times, coms), pose=TrackArray(len(owner), times, poses))
+
+
+def _mass_keys(arrays: Mapping[str, np.ndarray]) -> masses.Keys:
+    """The keys on masses that save() wrote, of each walker."""
+    rows = np.asarray(arrays.get("mass_keys", np.empty((0, 3))), float).reshape(-1, 3).tolist()
+    walkers = range(len(arrays["mass"])) if rows else ()
+    return tuple(tuple((time, kg) for at, time, kg in rows if at == w) for w in walkers)
 
 
 def _stack(blocks: Sequence[np.ndarray], kind: str) -> np.ndarray:

@@ -17,6 +17,7 @@ from ..arrays import Record, read_only
 from ..bounds import Limits
 from ..core import _native
 from ..errors import DesirePathError
+from . import mass_keys as masses
 from . import tracks
 from .tracks import Array, TrackArray
 
@@ -90,6 +91,7 @@ class Recording(Record):
     jump: np.ndarray = field(default_factory=_nothing)  # those at which one walker only jumps: sample, walker (J, 2)
     leg: np.ndarray = field(default_factory=_nothing)  # hips to ankles (W,) [m] > 0; empty: size.legs() finds it
     contact_law: tuple[str, ...] = ()  # how each walker presses: AUTO or one of CONTACT_LAWS (W); empty: AUTO for all
+    mass_keys: masses.Keys = ()  # of each walker (time [s], mass [kg]) .., rising (W); empty: all keep their mass
 
     def __post_init__(self) -> None:
         for name, kind, _ in NUMBERS:
@@ -103,6 +105,7 @@ class Recording(Record):
         object.__setattr__(self, "soles", tuple(self.soles))
         laws = tuple(str(law) for law in self.contact_law)
         object.__setattr__(self, "contact_law", laws if set(laws) - {AUTO} else ())
+        object.__setattr__(self, "mass_keys", masses.taken(self.mass_keys))
         object.__setattr__(self, "warnings", tuple(str(w) for w in self.warnings))
         for name, letter in NAMES:
             names = tuple(str(n) for n in getattr(self, name))
@@ -226,6 +229,7 @@ class Recording(Record):
         if not len(self.part_limb) or not len(self.mass):
             raise DesirePathError("The recording has no feet: choose the foot bones and record again.")
         self._check_numbers()
+        masses.check(self.mass_keys, self.walker_name, isinstance(self.com, TrackArray), MAX_MASS)
         self._check_owners()
         return self
 
@@ -334,6 +338,7 @@ class Recording(Record):
             jump=jump,
             com=tracks.some(self.com, walkers),
             mass=self.mass[walkers],
+            mass_keys=tuple(self.mass_keys[w] for w in walkers) if self.mass_keys else (),
             pose=tracks.some(self.pose, parts),
             leg=self.leg[walkers] if len(self.leg) else _nothing(),
             contact_law=tuple(self.contact_law[w] for w in walkers) if self.contact_law else (),

@@ -82,6 +82,9 @@ def along(
     if not (math.isfinite(pause) and 0.0 <= pause <= MAX_PAUSE):
         raise DesirePathError(f"A pause of {pause:g} s cannot be used: choose one from 0 to {MAX_PAUSE:g}.")
     rate = gait.frame_rate * math.ceil(RATE / gait.frame_rate - 1e-6)
+    if gait.mass_keys:
+        told = "The keys on the mass of walkers do not count along a path: they weigh what they do at first."
+        gait = replace(gait, mass_keys=(), warnings=(told, *gait.warnings))
     cycles = [find(gait.only([w])) for w in range(len(gait.mass))]
     samples = sum(passes * (line.length / cycle.speed * rate + 2) for cycle in cycles) * len(gait.pose)
     if samples > MAX_SAMPLES:
