@@ -222,3 +222,30 @@ void dp_noise_pieces(const DpGrid* grid, DpCellRect cells, double size, uint32_t
         some_pieces(out + (i - cells.i0), nx, grid, some, size, seed);
     }
 }
+
+// chance of the piece in which (u, v) lies, lattice squares being 1 wide
+static uint32_t piece_bits(double u, double v, uint32_t seed)
+{
+    const int64_t m = (int64_t)floor(u), n = (int64_t)floor(v);
+    double        nearest = INFINITY;
+    uint32_t      found = 0;
+    for (int64_t j = n - 1; j <= n + 1; ++j)
+        for (int64_t i = m - 1; i <= m + 1; ++i) {
+            const uint32_t bits = dp_noise_bits(i, j, seed);
+            const double   x = (double)i + 0.5 + STRAYS * (dp_noise_unit(bits) - 0.5) - u;
+            const double   y = (double)j + 0.5 + STRAYS * (dp_noise_unit(bits >> 16) - 0.5) - v;
+            const double   away = x * x + y * y;
+            if (!(away < nearest)) continue;
+            nearest = away;
+            found = dp_noise_bits(i, j, seed + 1);
+        }
+    return found;
+}
+
+void dp_noise_plates(const DpGrid* grid, DpCellRect cells, double size, uint32_t seed,
+                     uint32_t* out)
+{
+    for (long j = cells.j0; j < cells.j1; ++j)
+        for (long i = cells.i0; i < cells.i1; ++i)
+            *out++ = piece_bits(dp_grid_x(grid, i) / size, dp_grid_y(grid, j) / size, seed) | 1u;
+}

@@ -27,3 +27,7 @@ void dp_noise_waves(const DpGrid* grid, DpCellRect cells, double longest, double
 // One number for each piece of a ground that is broken into pieces about `size` [m] wide (Voronoi's, of a lattice
 // whose points stray), evenly spread with mean 0 and variance 1; 0 where cells cannot hold them.
 void dp_noise_pieces(const DpGrid* grid, DpCellRect cells, double size, uint32_t seed, float* out);
+
+// A name of the piece in which each cell's middle lies, never 0; whatever the cells.
+void dp_noise_plates(const DpGrid* grid, DpCellRect cells, double size, uint32_t seed,
+                     uint32_t* out);

@@ -22,4 +22,6 @@
     X(grain_size, "m", 1e-4, 10.0, 0.012, "how far apart such places are")                         \
     X(rebound, "-", 0.0, 0.9, 0.0, "share of the depth that comes back when a sole lifts")         \
     X(heave, "m", 0.0, 10.0, 0.0, "w, how wide it bulges around a print; 0 = loose soil in cones") \
-    X(flow_time, "s", 0.0, 1e4, 0.0, "T, in which what slides goes 0.1 m; 0 = at once")
+    X(flow_time, "s", 0.0, 1e4, 0.0, "T, in which what slides goes 0.1 m; 0 = at once")            \
+    X(crust_depth, "m", 0.0, 1.0, 0.0, "h, plate on top that carries until it breaks; 0 = none")   \
+    X(crust_strength, "Pa", 0.0, 1e9, 0.0, "bending stress at which the plate breaks")

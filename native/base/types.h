@@ -82,6 +82,11 @@ typedef struct DpSoil
     DP_SOIL_NUMBERS(DP_FLOAT_MEMBER)
 } DpSoil;
 
+static inline bool dp_has_crust(const DpSoil* soil)
+{
+    return soil->crust_depth > 0.0f && soil->crust_strength > 0.0f;
+}
+
 // A dense window of ground, acquired from the terrain by a lease and committed when kernels have changed it.
 // All grids are (ny, nx) with `row` cells from one row to the next.
 typedef struct DpSoilPatch
@@ -107,6 +112,9 @@ typedef struct DpSoilPatch
     const float* wall_slope;  // tan(gamma_w), +inf = walls stand; NULL = all do [-] > 0
     const float* uneven;      // rho n, MODEL 6.7; NULL = 0                       [-]
     float*       spring;      // how it was pressed, soil_rebound.c; NULL = nothing comes back [m]
+
+    const uint32_t*
+        plate;  // piece of a crust in which a cell lies, 0 = none; NULL = no crust, MODEL 6.12
 } DpSoilPatch;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

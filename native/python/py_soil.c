@@ -9,7 +9,7 @@
 //   soil_anisotropy((x, y, z), threshold) -> beta;   soil_numbers() -> the table of base/soil_numbers.h
 //
 // patch   = (cell, x0, y0, rest, compression, heap, pressure_time, modulus, rest_slope, kind,
-// soils[, wall_slope[, uneven[, spring]]])
+// soils[, wall_slope[, uneven[, spring[, plate]]]])
 // imprint = (bottom, cover, ring); foot = (3, 3) float64: force, point, normal. Grids are
 // float32 (ny, nx), kind uint8, ring int32, soils a list of dicts of numbers by name.
 #include <math.h>
@@ -75,14 +75,14 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
     DpSoilPatch* patch = &call->patch;
     DpBuffers*   buffers = &call->buffers;
     PyObject *   rest, *compression, *heap, *pressure_time, *modulus, *rest_slope, *kind, *soils;
-    PyObject *   walls = NULL, *uneven = NULL, *spring = NULL;
+    PyObject *   walls = NULL, *uneven = NULL, *spring = NULL, *plate = NULL;
     if (!PyTuple_Check(object)) {
         PyErr_SetString(PyExc_TypeError, "patch: expected a tuple");
         return -1;
     }
-    if (!PyArg_ParseTuple(object, "dddOOOOOOOO|OOO:patch", &patch->cell, &patch->x0, &patch->y0,
+    if (!PyArg_ParseTuple(object, "dddOOOOOOOO|OOOO:patch", &patch->cell, &patch->x0, &patch->y0,
                           &rest, &compression, &heap, &pressure_time, &modulus, &rest_slope, &kind,
-                          &soils, &walls, &uneven, &spring))
+                          &soils, &walls, &uneven, &spring, &plate))
         return -1;
     if (!(patch->cell > 0.0) || !isfinite(patch->cell) || !isfinite(patch->x0) ||
         !isfinite(patch->y0)) {
@@ -103,7 +103,9 @@ static int open_patch(Call* call, PyObject* object, DpShape* shape)
          !(patch->wall_slope = dp_buffers_open(buffers, walls, "wall_slope", 'f', shape, false))) ||
         (uneven &&
          !(patch->uneven = dp_buffers_open(buffers, uneven, "uneven", 'f', shape, false))) ||
-        (spring && !(patch->spring = dp_buffers_open(buffers, spring, "spring", 'f', shape, true))))
+        (spring &&
+         !(patch->spring = dp_buffers_open(buffers, spring, "spring", 'f', shape, true))) ||
+        (plate && !(patch->plate = dp_buffers_open(buffers, plate, "plate", 'i', shape, false))))
         return -1;
     if (shape->n[0] < 1 || shape->n[1] < 1 || shape->n[0] > 32768 || shape->n[1] > 32768) {
         PyErr_SetString(PyExc_ValueError, "rest: expected 1 to 32768 cells a side");

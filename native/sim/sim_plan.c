@@ -32,6 +32,15 @@ static double bulges(const DpSim* sim)
     return fmin(BULGE_REACH * widest, 1.0);
 }
 
+// how far pieces of a crust reach that a sole breaks, on any of the soils [m]
+static double breaks(const DpSim* sim)
+{
+    double widest = 0.0;
+    for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
+        widest = fmax(widest, dp_soil_crust_reach(&dp_terrain_soils(sim->terrain)[s]));
+    return widest;
+}
+
 // Who is there at both ends of an interval presses all the way if it touches at either.
 static bool presses_from(const DpSim* sim, const Limb* limb, int sample)
 {
@@ -71,7 +80,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         const double rim = paper ? sim->options.rim_width : 0.0;
         const double heap =
             fmax(1.25 * limb->heap_height, fmin(HEAP_OF_DEPTH * depth, HIGHEST_HEAP)) / slope;
-        const double spread = fmax(heap, fmax(rim, bulges(sim))) + HEAP_SPARE * sim->grid.cell;
+        const double spread =
+            fmax(heap, fmax(rim, fmax(bulges(sim), breaks(sim)))) + HEAP_SPARE * sim->grid.cell;
         if (spilled && paper) limb->margin *= SPILL_GROWTH;  // laid at rest it waits for lift-off
         const double margin = fmax(limb->margin, spread) + slips(sim);
         limb->patch =
@@ -188,8 +198,8 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
 {
     DpCellRect   cells = {0, 0, 0, 0};
     const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
-    const double margin =
-        3 * fmax(HEAP_MARGIN, fmax(rim, bulges(sim))) + slips(sim) + dp_stage_margin(sim);
+    const double margin = 3 * fmax(HEAP_MARGIN, fmax(rim, fmax(bulges(sim), breaks(sim)))) +
+                          slips(sim) + dp_stage_margin(sim);
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         const Limb*  limb = &sim->limb[l];
         const double more = limb->law == DP_CONTACT_CARVE ? CARVED_MARGIN : 0.0;

@@ -82,6 +82,14 @@ DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* 
 // Changes compression and spring. @return the volume that has come back [m^3] >= 0
 double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint);
 
+// How far from a sole a piece of a crust that it breaks can reach; 0 without a crust [m]
+double dp_soil_crust_reach(const DpSoil* soil);
+
+// The bending stress of a soil's crust under a load, or at its edge if it stands on one, Westergaard 1926; MODEL 6.12
+// @param load  [N] on an area [m^2] > 0; stiffness  E/L0 of what lies below [Pa/m] > 0
+double dp_soil_crust_stress(const DpSoil* soil, double load, double area, double stiffness,
+                            bool edge);
+
 // ---- slip ---------------------------------------------------------------------------------------
 
 #define DP_MAX_SLIP 0.05  // a sole slips no farther in a stance [m]

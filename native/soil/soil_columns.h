@@ -42,6 +42,21 @@ typedef struct Sole
     Columns            chunk[CHUNKS];
 } Sole;
 
+// soil_crust.c: whether the crust carries the load; then the cells on which the sole stands are told as pressed. And
+// what the sole has broken tilts into its print.
+bool dp_crust_carries(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double load, double dt,
+                      DpPressed* pressed);
+void dp_crust_tilt(DpSoilPatch* patch, const DpImprint* imprint, DpPressed* pressed);
+
+// soil_press.c: the target of one cell and the stress on it; lower it towards that for dt seconds, SOFT22 (11)
+typedef struct Target
+{
+    double depth;   // t, below h0 under the sole [m]
+    double stress;  // sigma [Pa]
+    double share;   // a [-]
+} Target;
+void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed);
+
 // Begin with a sole: the ground as it would go on where there is none, level with the plane of `normal`.
 void dp_columns_begin(Sole* sole, const DpSoilPatch* patch, const DpImprint* imprint,
                       DpVec3 normal);

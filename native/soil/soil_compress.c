@@ -29,8 +29,6 @@
 #define MAX_ROUNDS 100
 #define FLOOR_CELLS 4.0   // least contact area: so many cells
 #define FLOOR_SHARE 0.05  // .. or this share of the sole
-#define PRESS_GRID \
-    ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
 // What the sole can be balanced on.
 typedef struct Balance
@@ -190,44 +188,6 @@ static double sink_of(Sole* sole, Balance* balance, Answer* found)
     return s;
 }
 
-// the target of one cell and the stress on it
-typedef struct Target
-{
-    double depth;   // t, below h0 under the sole [m]
-    double stress;  // sigma [Pa]
-    double share;   // a [-]
-} Target;
-
-// lower one cell towards its target for dt seconds, SOFT22 (11)
-static void press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed)
-{
-    const DpSoil* soil = &patch->soils[patch->kind[p]];
-    const float   c = patch->compression[p], b = patch->heap[p];
-    const double  goal = target.share * target.depth;                           // TRAIL (10)
-    const double  rate = goal * soil_min(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
-    const double  press =
-        soil_max(soil_min(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
-    const double loose = soil_min(press, (double)b);
-    patch->heap[p] = (float)((double)b - loose);
-    patch->compression[p] = (float)((double)c + (press - loose));
-    if (patch->pressure_time)
-        patch->pressure_time[p] += (float)(target.stress * target.share * dt);  // TRAIL (17)
-    if (patch->pressure) patch->pressure[p] = (float)(target.stress * target.share);
-
-    // the ledger counts what the float grids really hold
-    const double out_of_heap = (double)b - (double)patch->heap[p];
-    const double out_of_firm = (double)patch->compression[p] - (double)c;
-    const double elastic = patch->spring ? dp_soil_spring_press(patch, p, (double)c) : 0.0;
-    const double lasting = out_of_firm - elastic;
-    const double moved = out_of_heap + lasting;
-    pressed->loose += soil_on_grid(out_of_heap, PRESS_GRID);
-    pressed->firm += soil_on_grid(lasting, PRESS_GRID);
-    if (elastic > 0.0) pressed->elastic += soil_on_grid(elastic, PRESS_GRID);
-    pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
-                                       PRESS_GRID);
-    pressed->deepest = soil_max(pressed->deepest, (double)patch->compression[p]);
-}
-
 // least contact area, so that a first touch is not a needle
 static double min_area(const Sole* sole, const Balance* balance)
 {
@@ -259,8 +219,8 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
                 if (p == NOWHERE) continue;
                 const double stress = columns->spring[k] * x / (columns->share[k] * area);
                 imprint->ring[p] = 0;
-                press_cell(patch, p, (Target){soil_min(t, rigid), stress, columns->share[k]}, dt,
-                           pressed);
+                dp_press_cell(patch, p, (Target){soil_min(t, rigid), stress, columns->share[k]}, dt,
+                              pressed);
             }
         }
 }
@@ -302,9 +262,9 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 if (p == NOWHERE || imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
                 const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
-                press_cell(patch, p, (Target){soil_min(depth, rigid), stress, columns->share[k]},
-                           dt,
-                           pressed);  // SOFT22 (10)
+                dp_press_cell(patch, p, (Target){soil_min(depth, rigid), stress, columns->share[k]},
+                              dt,
+                              pressed);  // SOFT22 (10)
             }
     pressed->sink = -highest;
     pressed->area = area;
@@ -329,10 +289,12 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     Balance balance = {0};
     if (load <= 0.0 || !sole.beyond.is_there || !weigh(&balance, &sole, load)) return DP_OK;
 
+    if (patch->plate && dp_crust_carries(patch, imprint, &sole, load, dt, pressed)) return DP_OK;
     if (law == DP_CONTACT_UNIFORM)
         press_uniform(patch, imprint, &sole, &balance, dt, pressed);
     else
         press_sole(patch, imprint, &sole, &balance, dt, pressed);
+    if (patch->plate) dp_crust_tilt(patch, imprint, pressed);
     const double area = patch->cell * patch->cell;
     pressed->firm *= area;
     pressed->elastic *= area;

@@ -101,7 +101,7 @@ typedef struct Tile
     int        revision;  // of the soils that its rough grids are of
     atomic_int changed;
     float      plant
-        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves
+        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves, _plates
 } Tile;
 
 struct DpTerrain
@@ -119,6 +119,7 @@ struct DpTerrain
     bool    walls;     // those of some soil do not stand
     bool    rough;     // some soil differs from place to place
     bool    springs;   // some soil comes back when a sole lifts
+    bool    crusts;    // some soil has a crust
     Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
@@ -164,6 +165,16 @@ static inline float* tile_waves(const DpTerrain* terrain, Tile* tile)
 {
     return tile_spring(terrain, tile) + (terrain->springs ? TILE_CELLS : 0);
 }
+
+// where some soil has a crust: the pieces in which it breaks (TILE_CELLS)
+static inline uint32_t* tile_plates(const DpTerrain* terrain, Tile* tile)
+{
+    return (uint32_t*)(void*)(tile_waves(terrain, tile) +
+                              (terrain->rough && terrain->row ? 2 * TILE_CELLS : 0));
+}
+
+// terrain_rough.c: the pieces of a crust, of a tile whose kinds are known
+void dp_plate_tile(const DpTerrain* terrain, Tile* tile);
 
 // terrain_rough.c: what soils are like at rest, at all times and now; and from place to place, of a tile whose kinds
 // are known; the same once more, where soils have changed since

@@ -12,7 +12,8 @@
 #define WALLS (KEPT_FIELDS + 3)  // after base height, those that are kept, modulus, rest slope
 #define UNEVEN (KEPT_FIELDS + 4)
 #define SPRING (KEPT_FIELDS + 5)
-#define FLOAT_GRIDS (KEPT_FIELDS + 6)
+#define PLATES (KEPT_FIELDS + 6)  // .. of names, as large as floats
+#define FLOAT_GRIDS (KEPT_FIELDS + 7)
 
 struct DpLease
 {
@@ -88,6 +89,8 @@ static void copy_in(const DpTerrain* terrain, Tile* tile, const TilePart* part, 
         if (terrain->walls || terrain->rough) copy_rough(terrain, tile, at, to, wide, grid);
         if (terrain->springs)
             memcpy(grid[SPRING] + to, tile_spring(terrain, tile) + at, wide * sizeof(float));
+        if (terrain->crusts)
+            memcpy(grid[PLATES] + to, tile_plates(terrain, tile) + at, wide * sizeof(float));
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;
         for (size_t i = 0; i < wide; ++i) modulus[to + i] += roots[i];  // TRAIL (9), E_v
@@ -127,6 +130,7 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
                                   .wall_slope = terrain->walls ? grid[WALLS] : NULL,
                                   .uneven = terrain->rough ? grid[UNEVEN] : NULL,
                                   .spring = terrain->springs ? grid[SPRING] : NULL,
+                                  .plate = terrain->crusts ? (uint32_t*)(void*)grid[PLATES] : NULL,
                                   DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};
     lease->patch = acquired;
     lease->i0 = cells.i0;

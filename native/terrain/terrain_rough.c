@@ -5,8 +5,10 @@
 #include "base/noise.h"
 #include "terrain/terrain_inside.h"
 
-#define STANDS 1.57    // walls of soils with a larger wall angle all stand [rad]
-#define WALL_SEED 11u  // of what differs: walls ..
+#define PLATE_SEED 61u
+#define PIECE_WIDTH 3.0  // of a crust, in its thickness
+#define STANDS 1.57      // walls of soils with a larger wall angle all stand [rad]
+#define WALL_SEED 11u    // of what differs: walls ..
 #define PIECE_SEED 31u
 #define REST_SEED 47u     // .. rest angle, rims and rebound
 #define EACH 0.70710678f  // waves and pieces count alike: 1/sqrt(2)
@@ -25,6 +27,7 @@ bool dp_rough_soils(DpTerrain* terrain)
         terrain->walls = terrain->walls || (double)all[s].wall_angle <= STANDS;
         terrain->rough = terrain->rough || all[s].roughness > 0.0f;
         terrain->springs = terrain->springs || all[s].rebound > 0.0f;
+        terrain->crusts = terrain->crusts || dp_has_crust(&all[s]);
     }
     dp_rest_soils(terrain);
     return true;
@@ -105,5 +108,22 @@ void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
         }
         rough_kind(terrain, tile, kind, walls, rests, tile_rough(terrain, tile));
         if (terrain->row) keep_waves(terrain, tile, kind, walls, rests);
+    }
+}
+
+void dp_plate_tile(const DpTerrain* terrain, Tile* tile)
+{
+    const DpCellRect cells = dp_cells(tile->tx * DP_TILE, tile->ty * DP_TILE, DP_TILE, DP_TILE);
+    uint32_t         pieces[TILE_CELLS], *plates = tile_plates(terrain, tile);
+    for (int kind = 0; kind < terrain->soil_count; ++kind) {
+        float thickest = terrain->soils[kind].crust_depth;
+        for (int t = 0; t < terrain->times; ++t)
+            thickest = fmaxf(thickest, terrain->row[t * terrain->soil_count + kind].crust_depth);
+        if (thickest > 0.0f)
+            dp_noise_plates(&terrain->grid, cells, PIECE_WIDTH * (double)thickest, PLATE_SEED,
+                            pieces);
+        for (int n = 0; n < TILE_CELLS; ++n)
+            if (terrain->soil_count == 1 || tile->kind[n] == kind)
+                plates[n] = thickest > 0.0f ? pieces[n] : 0;
     }
 }

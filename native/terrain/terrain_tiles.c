@@ -113,13 +113,15 @@ static void fill_tile(void* context, int index, int worker)
     dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
     tile->revision = terrain->revision;
     if (terrain->rough) dp_rough_tile(terrain, tile);
+    if (terrain->crusts) dp_plate_tile(terrain, tile);
     if (filling->covered) dp_tile_cover(terrain, tile->tx, tile->ty, tile->plant);
 }
 
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 {
     const size_t grids = (terrain->cover ? 2u : 0u) + (terrain->rough ? ROUGH_GRIDS : 0u) +
-                         (terrain->springs ? 1u : 0u) + (terrain->rough && terrain->row ? 2u : 0u);
+                         (terrain->springs ? 1u : 0u) + (terrain->rough && terrain->row ? 2u : 0u) +
+                         (terrain->crusts ? 1u : 0u);
     Tile* tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
     if (tile) tile->tx = tx, tile->ty = ty;
     return tile;

@@ -22,7 +22,7 @@ sys.path[:0] = [str(HERE.parents[1] / "addon"), str(HERE.parent)]
 
 from scenes import demo, mannequin, materials, meshes, noise, people  # noqa: E402
 
-SOILS = ("deep-snow", "fresh-snow", "dry-sand", "wet-sand", "mud", "wet-soil", "packed-earth", "soil")
+SOILS = ("deep-snow", "fresh-snow", "crust-snow", "dry-sand", "wet-sand", "mud", "wet-soil", "packed-earth", "soil")
 CELL, DETAIL = 0.005, 0.002  # [m]
 LUG = 0.008  # how high the lugs of the sole stand [m]
 LENGTH = 0.31  # of the sole [m]

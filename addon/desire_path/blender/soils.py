@@ -35,8 +35,14 @@ WORDS = {
     "rebound": ("Spring Back", "Share of a print's depth that comes back when the foot lifts"),
     "heave": ("Bulge [m]", "How wide it bulges around a print, in metres; 0 = loose soil in a heap"),
     "flow_time": ("Slides In [s]", "How long what slides takes for 10 cm, in seconds; 0 = it comes to rest at once"),
+    "crust_depth": ("Crust [m]", "How thick a crust lies on top, in metres; 0 = none"),
+    "crust_strength": (
+        "Breaks At [Pa]",
+        "What bending the crust bears before it breaks into pieces, in pascal; 0 = none",
+    ),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
+WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
 LOOSE = math.pi / 2  # walls that stand at this angle do not crumble [rad]
 
 
@@ -50,6 +56,10 @@ def _raise_rim(self, value):
 
 def _crumble(self, value):
     self.wall_angle = max(LOOSE * (1.0 - value), NUMBERS["wall_angle"].low)
+
+
+def _strengthen(self, value):
+    self.crust_strength = axes.typed(WEAK * (STRONG / WEAK) ** value) if value > 0.0 else 0.0
 
 
 # numbers as people say them, each a property of its own or one of WORDS, in the order of the panel
@@ -89,6 +99,20 @@ EASY = {
         min=0.0,
         soft_max=0.5,
         precision=3,
+    ),
+    "crust": units.length(
+        "crust_depth",
+        "Crust",
+        "How thick a crust lies on top, which carries until it breaks into pieces; 0 = none",
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+    ),
+    "crust_bears": units.share(
+        lambda self: math.log10(max(self.crust_strength, WEAK) / WEAK) / math.log10(STRONG / WEAK),
+        _strengthen,
+        "Crust Bears",
+        "0 = it breaks under anything, 0.4 = under a person where it is 2 cm thick, 1 = like ice",
     ),
     "roughness": None,
     "lump_size": units.length(
@@ -160,7 +184,9 @@ def _number(name):
         default=getattr(SOILS[USUAL], name),
         min=of.low,
         max=of.high,
-        precision=4 if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave"} else 2,
+        precision=4
+        if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave", "crust_depth"}
+        else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",
         update=_by_hand,

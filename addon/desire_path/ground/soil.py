@@ -141,6 +141,20 @@ _SOILS |= {
         ("snow", "fresh-snow", 1.57, 1.57, 0.0),
     )
 }
+_SOILS |= {
+    "crust-snow": _soil(
+        0.2,
+        0.02,
+        38.0,
+        0.1,
+        wall_angle=85.0,
+        roughness=0.25,
+        grain_size=0.012,
+        flow_time=0.3,
+        crust_depth=0.02,
+        crust_strength=3e5,
+    )
+}  # it bears a fox, not a person
 BY_DEPTH = tuple(
     sorted(
         _SOILS, key=lambda name: _SOILS[name].young_modulus / _SOILS[name].layer_depth / (1.0 - _SOILS[name].rebound)

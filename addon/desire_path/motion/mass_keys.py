@@ -1,4 +1,4 @@
-"""Keys on the masses of walkers, who get heavier or lighter while they walk: the forces on the ground are as their mass."""
+"""Keys on the masses of walkers, who get heavier or lighter while they walk: forces are as their mass."""
 
 from __future__ import annotations
 
