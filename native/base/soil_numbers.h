@@ -24,4 +24,5 @@
     X(heave, "m", 0.0, 10.0, 0.0, "w, how wide it bulges around a print; 0 = loose soil in cones") \
     X(flow_time, "s", 0.0, 1e4, 0.0, "T, in which what slides goes 0.1 m; 0 = at once")            \
     X(crust_depth, "m", 0.0, 1.0, 0.0, "h, plate on top that carries until it breaks; 0 = none")   \
-    X(crust_strength, "Pa", 0.0, 1e9, 0.0, "bending stress at which the plate breaks")
+    X(crust_strength, "Pa", 0.0, 1e9, 0.0, "bending stress at which the plate breaks")             \
+    X(wetness, "-", 0.0, 1.0, 0.0, "S, share of the pores full of water; 0 = dry, 1 = it flows")

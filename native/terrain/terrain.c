@@ -45,7 +45,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
     DpStatus status = created->soils ? dp_source_create(&created->source, ground, created->workers)
                                      : DP_NO_MEMORY;
     if (status == DP_OK) {
-        memcpy(created->soils, options->soils, soils * sizeof *created->soils);
+        for (size_t s = 0; s < soils; ++s) created->soils[s] = dp_wet_soil(&options->soils[s]);
         status = dp_times_keep(created, options);
         if (status == DP_OK && !dp_rough_soils(created)) status = DP_NO_MEMORY;
     }

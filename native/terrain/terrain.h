@@ -58,7 +58,8 @@ void     dp_terrain_destroy(DpTerrain* terrain);
 
 DpGrid        dp_terrain_grid(const DpTerrain* terrain);
 int           dp_terrain_soil_count(const DpTerrain* terrain);
-const DpSoil* dp_terrain_soils(const DpTerrain* terrain);  // as they are at the time at hand
+const DpSoil* dp_terrain_soils(
+    const DpTerrain* terrain);  // as they are at the time at hand, and as wet, MODEL 6.13
 // From now on soils are as they are at a time [s], MODEL 6.10; before the first row and after the last they stay. What
 // is pressed stays as it is. No patch may be out.
 void dp_terrain_set_time(DpTerrain* terrain, double time);

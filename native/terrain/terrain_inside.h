@@ -183,6 +183,9 @@ void dp_rest_soils(DpTerrain* terrain);
 void dp_rough_tile(const DpTerrain* terrain, Tile* tile);
 void dp_rough_again(const DpTerrain* terrain, Tile* tile);
 
+// terrain_wet.c: a soil with what its wetness makes of its numbers; a dry one as it is
+DpSoil dp_wet_soil(const DpSoil* soil);
+
 // terrain_times.c: keep rows of soils, checked; DP_OK where there are none
 DpStatus dp_times_keep(DpTerrain* terrain, const DpTerrainOptions* options);
 

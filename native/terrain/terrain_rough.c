@@ -22,9 +22,10 @@ bool dp_rough_soils(DpTerrain* terrain)
     terrain->slope = dp_alloc(soils, sizeof *terrain->slope);
     terrain->wall = dp_alloc(soils, sizeof *terrain->wall);
     if (!terrain->slope || !terrain->wall) return false;
-    const DpSoil* all = terrain->row ? terrain->row : terrain->soils;
+    const DpSoil* all = terrain->row ? terrain->row : terrain->soils;  // rows as they were given
     for (size_t s = 0; s < soils * (terrain->row ? (size_t)terrain->times : 1); ++s) {
-        terrain->walls = terrain->walls || (double)all[s].wall_angle <= STANDS;
+        const DpSoil now = terrain->row ? dp_wet_soil(&all[s]) : all[s];
+        terrain->walls = terrain->walls || (double)now.wall_angle <= STANDS;
         terrain->rough = terrain->rough || all[s].roughness > 0.0f;
         terrain->springs = terrain->springs || all[s].rebound > 0.0f;
         terrain->crusts = terrain->crusts || dp_has_crust(&all[s]);

@@ -64,7 +64,7 @@ void dp_terrain_set_time(DpTerrain* terrain, double time)
                  *next = terrain->row + (size_t)to * soils;
     bool differs = false;
     for (size_t s = 0; s < soils; ++s) {
-        const DpSoil soil = between(&before[s], &next[s], w);
+        const DpSoil given = between(&before[s], &next[s], w), soil = dp_wet_soil(&given);
         differs = differs || memcmp(&soil, &terrain->soils[s], sizeof soil) != 0;
         terrain->soils[s] = soil;
     }

@@ -40,6 +40,7 @@ WORDS = {
         "Breaks At [Pa]",
         "What bending the crust bears before it breaks into pieces, in pascal; 0 = none",
     ),
+    "wetness": ("Wetness", "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows"),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
@@ -84,6 +85,7 @@ EASY = {
         "Rim",
         "How much of what is pressed is pushed aside: 0 nothing, 1 all of it",
     ),
+    "wetness": None,
     "rest_angle": None,
     "crumble": units.share(
         lambda self: 1.0 - self.wall_angle / LOOSE,

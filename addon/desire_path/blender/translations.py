@@ -119,6 +119,7 @@ GERMAN = {
         "Mass": "Masse",
         "Centre": "Schwerpunkt",
         "Crust": "Kruste",
+        "Wetness": "Nässe",
         "Crust Bears": "Kruste trägt",
         "Crust [m]": "Kruste [m]",
         "Crust snow": "Harschschnee",
