@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 from . import lazy
 
 _native = lazy.module("._native", __package__)
+_futures = lazy.module("concurrent.futures")
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -19,5 +19,5 @@ def side_by_side(work: Callable[[Item], Result], items: Iterable[Item], threads:
 
     For work of the core, which lets go of Python while it computes.
     """
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as workers:
+    with _futures.ThreadPoolExecutor(threads or os.cpu_count() or 1) as workers:
         yield from workers.map(work, items)

@@ -42,6 +42,9 @@ class module:
             raise AttributeError(name)  # who looks at the door, as makers of pages do, does not open it
         return getattr(load(self), name)
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        setattr(load(self), name, value)
+
 
 def load(door: module) -> ModuleType:
     """The module behind a door, imported now; ImportError where it is not there."""

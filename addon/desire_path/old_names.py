@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Callable, Sequence
-from importlib import abc, import_module
+from importlib import import_module
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 
@@ -35,7 +35,7 @@ MODULES = {
 }
 
 
-class Loader(abc.Loader):
+class Loader:
     """Gives the module that is there already, under one more name."""
 
     def __init__(self, name: str) -> None:
@@ -69,7 +69,7 @@ class Finder:
     ) -> ModuleSpec | None:
         package, _, last = name.rpartition(".")
         if package == self.package and last in MODULES:
-            return ModuleSpec(name, Loader(self.asked(last, 2)))
+            return ModuleSpec(name, Loader(self.asked(last, 2)))  # type: ignore[arg-type]
         return None
 
     def attribute(self, name: str) -> ModuleType | None:

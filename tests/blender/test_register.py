@@ -36,7 +36,7 @@ def there():
 
 def test_comes_and_goes():
     first = there()
-    assert first[1] and first[2] == 8
+    assert first[1] and first[2] == 1 + hasattr(bpy.app.handlers, "blend_import_post")
     for name in OPERATORS:
         getattr(bpy.ops.object, f"desire_path_{name}").get_rna_type()
     for _ in range(3):
@@ -44,6 +44,52 @@ def test_comes_and_goes():
         assert there() == ([], False, 0), there()
         desire_path.register()
         assert there() == first
+
+
+def test_handlers_come_with_a_ground_and_go_with_its_file(folder):
+    idle = there()[2]
+    obj = bpy.data.objects.new("a", bpy.data.meshes.new("a"))
+    bpy.context.scene.collection.objects.link(obj)
+    obj.desire_path.mass = 80.0
+    assert there()[2] == idle
+    obj.desire_path.is_ground = True
+    needed = there()[2]
+    assert needed >= idle + 7
+    path = str(folder / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert there()[2] == idle
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert there()[2] == needed
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path) as (held, wanted):
+        wanted.objects = held.objects
+    assert there()[2] == (needed if hasattr(bpy.app.handlers, "blend_import_post") else idle)
+    desire_path.unregister()
+    assert there()[2] == 0
+    desire_path.register()
+    assert there()[2] == needed  # a ground is there
+
+
+def test_enabling_loads_neither_numpy_nor_the_core():
+    import pathlib
+
+    place = pathlib.Path(desire_path.__file__).parent.parent
+    script = (
+        f"import sys, bpy; sys.path.insert(0, {str(place)!r}); before = set(sys.modules); import desire_path; "
+        "desire_path.register(); new = set(sys.modules) - before; print('loaded', *sorted(new)); "
+        "desire_path.unregister()"
+    )
+    run = [sys.executable, "-c", script]
+    if bpy.app.binary_path:
+        run = [bpy.app.binary_path, "-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", script]
+    done = subprocess.run(run, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    loaded = next(line for line in done.stdout.splitlines() if line.startswith("loaded")).split()
+    heavy = ("numpy", "json", "concurrent", "tempfile", "ctypes", "desire_path.bake", "desire_path.motion")
+    heavy += ("desire_path.loads", "desire_path.placement", "desire_path.rig", "desire_path.blender.handlers")
+    missed = [each for each in loaded if each.startswith(heavy)]
+    assert not missed and len([each for each in loaded if each.startswith("desire_path")]) < 45, missed
 
 
 def test_descriptions_are_sentences():

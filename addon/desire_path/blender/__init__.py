@@ -5,7 +5,7 @@ import atexit
 import bpy
 
 from . import (
-    handlers,
+    arrival,
     messages,
     op_bake,
     op_forces,
@@ -49,7 +49,7 @@ def register():
     op_walk_it.register()
     op_press.register()
     translations.register()
-    handlers.register()
+    arrival.register()
     if not bpy.app.binary_path:
         # bpy as a module: 4.5 never ends while an operator or handler of Python is registered
         atexit.register(unregister)
@@ -57,7 +57,7 @@ def register():
 
 def unregister():
     atexit.unregister(unregister)
-    handlers.unregister()
+    arrival.unregister()
     op_forces.hide()
     op_press.unregister()
     op_walk_it.unregister()

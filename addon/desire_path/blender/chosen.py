@@ -1,6 +1,6 @@
 """chosen.py - which objects are grounds, and who walks on them."""
 
-from . import worn
+from .late import worn
 
 WALKERS = {"ARMATURE", "MESH"}
 

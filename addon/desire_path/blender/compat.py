@@ -1,10 +1,9 @@
 """compat.py - what differs between Blender 3.4 and 5.2, asked for by feature, never by version."""
 
 import bpy
-import numpy as np
 
-from ..ground import mesh as meshes
 from .drawing import gpu
+from .late import meshes, np
 
 # a path property takes Blender's `//` only when it says so, where it can say so
 RELATIVE = (

@@ -1,7 +1,8 @@
 """handlers.py - after loading, undoing and the first save, grounds play what is whole of their bake.
 
 A Blender that was killed in the middle of a bake leaves files that its .blend knows nothing of, and
-undo brings back a playback whose files were baked anew. Playing and rendering need no handler.
+undo brings back a playback whose files were baked anew. Playing and rendering need no handler, and files without a
+ground have none, see arrival.py.
 """
 
 import atexit
@@ -65,8 +66,7 @@ def before_load(*_):
     trash.empty()
 
 
-@persistent
-def after_load(*_):
+def after_load():
     op_forces.hide()  # of the file before
     home.forget()
     watch.forget()
@@ -145,14 +145,11 @@ def after_save(*_):
 def register():
     watch.register()
     bpy.app.handlers.load_pre.append(before_load)
-    bpy.app.handlers.load_post.append(after_load)
     atexit.register(trash.empty)
     bpy.app.handlers.save_pre.append(before_save)
     bpy.app.handlers.save_post.append(after_save)
     bpy.app.handlers.undo_post.append(after_undo)
     bpy.app.handlers.redo_post.append(after_undo)
-    if hasattr(bpy.data, "scenes"):  # not while Blender itself starts
-        after_load()
 
 
 def unregister():
@@ -164,7 +161,6 @@ def unregister():
     bpy.app.handlers.undo_post.remove(after_undo)
     bpy.app.handlers.save_post.remove(after_save)
     bpy.app.handlers.save_pre.remove(before_save)
-    bpy.app.handlers.load_post.remove(after_load)
     bpy.app.handlers.load_pre.remove(before_load)
     atexit.unregister(trash.empty)
     trash.empty()

@@ -27,14 +27,6 @@ SOILS = {  # soil -> (look, how wet)
 WORDS = (("snow", "SNOW"), ("sand", "SAND"), ("mud", "MUD"), ("clay", "MUD"))  # in other names; else it is earth
 WET = 0.7  # what has that word in its name
 AS_MADE = "desire_path_as_made"  # custom property of a material of ours: its name and nodes as we left them
-KINDS = (
-    ("AUTO", "Of Its Soils", "What the ground's soils look like, the painted ones where they lie"),
-    ("SAND", "Sand", "Grains, a little damp below the surface"),
-    ("SNOW", "Snow", "White and a little translucent, bluer where it was pressed"),
-    ("MUD", "Mud", "Damp lumps that shine where they were pressed"),
-    ("EARTH", "Earth", "Dark crumbs, darker and flat where feet went"),
-    ("GRASS", "Grass Floor", "Moss and dead leaves between plants, bare earth where the cover is gone"),
-)
 FLOORED = {"EARTH", "MUD"}  # what has a grass floor where plants grow
 
 
@@ -62,7 +54,7 @@ def _soil_name(settings):
 
 
 def recipe(scene, obj, kind):
-    """The looks.Recipe of a ground; kind: one of KINDS."""
+    """The looks.Recipe of a ground; kind: one of op_material.KINDS."""
     settings = obj.desire_path
     base, painted = look_of(_soil_name(settings)), ()
     if kind == "AUTO":
@@ -106,7 +98,7 @@ def _called(made):
 def add(scene, obj, kind="AUTO", replace=False):
     """Give a ground its material; returns a sentence that tells what was done.
 
-    kind: one of KINDS; replace: in place of the user's own materials
+    kind: one of op_material.KINDS; replace: in place of the user's own materials
     Raises DesirePathError where nothing can be done; then nothing has changed.
     """
     made = recipe(scene, obj, kind)

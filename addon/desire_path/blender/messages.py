@@ -1,12 +1,12 @@
 """messages.py - what was told in this session, kept to be copied: a report is gone from the screen in seconds."""
 
-import platform
 import time
 from collections import deque
 
 import bpy
 
 from ..version import VERSION
+from .late import platform
 
 MOST = 500  # messages that are kept
 NAME = "Desire Path Messages"  # of the text that holds them

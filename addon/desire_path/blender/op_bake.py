@@ -11,12 +11,10 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import bake_job, framing, home, live, messages, timeline
-from .bake_all import AllJobs
-from .bake_job import Job, idle_ground
+from . import messages
 from .chosen import grounds
+from .late import bake_all, bake_job, framing, home, live, show, timeline
 from .ops import AsksFirst, Refusal, active, begins, sentence
-from .show import free
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
@@ -155,10 +153,10 @@ class OBJECT_OT_desire_path_bake(_Bakes, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return idle_ground(cls, context)
+        return bake_job.idle_ground(cls, context)
 
     def make(self, context):
-        return Job(context.scene, context.object)
+        return bake_job.Job(context.scene, context.object)
 
 
 class WM_OT_desire_path_bake_all(_Bakes, bpy.types.Operator):
@@ -179,7 +177,7 @@ class WM_OT_desire_path_bake_all(_Bakes, bpy.types.Operator):
         return True
 
     def make(self, context):
-        return AllJobs(context.scene)
+        return bake_all.AllJobs(context.scene)
 
 
 class OBJECT_OT_desire_path_show_files(Refusal, bpy.types.Operator):
@@ -229,13 +227,13 @@ class OBJECT_OT_desire_path_free(AsksFirst, Refusal, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return idle_ground(cls, context)
+        return bake_job.idle_ground(cls, context)
 
     def work(self, context):
         obj = context.object
         if not obj.desire_path.is_ground:
             raise DesirePathError(f"'{obj.name}' is no ground, so there is nothing to free.")
-        free(obj)
+        show.free(obj)
         obj.desire_path.auto_update = False  # else it would be baked again
         return {"FINISHED"}
 

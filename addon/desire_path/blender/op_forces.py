@@ -7,18 +7,18 @@ An arrow begins where the foot presses and points the way the ground pushes back
 a plumb line down to the ground; a cross tells where all feet press together.
 """
 
-import json
+from __future__ import annotations
+
 import os
 from dataclasses import dataclass, replace
 
 import bpy
-import numpy as np
 from bpy.props import StringProperty
 
-from ..loads import report, walker
-from . import axes, force_graph, ground, moves, reach, ride, sample, soils
+from . import soils
 from .chosen import WALKERS, walkers
 from .drawing import batch, gpu
+from .late import axes, force_graph, ground, json, moves, np, reach, report, ride, sample, walker
 from .ops import Refusal, active
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}

@@ -3,7 +3,8 @@
 import bpy
 
 from ..errors import DesirePathError
-from . import auto, home
+from . import auto
+from .late import home
 from .ops import Refusal, active
 
 

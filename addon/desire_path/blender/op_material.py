@@ -4,8 +4,17 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..errors import DesirePathError
-from . import materials, watch
+from .late import materials, watch
 from .ops import Refusal, active
+
+KINDS = (
+    ("AUTO", "Of Its Soils", "What the ground's soils look like, the painted ones where they lie"),
+    ("SAND", "Sand", "Grains, a little damp below the surface"),
+    ("SNOW", "Snow", "White and a little translucent, bluer where it was pressed"),
+    ("MUD", "Mud", "Damp lumps that shine where they were pressed"),
+    ("EARTH", "Earth", "Dark crumbs, darker and flat where feet went"),
+    ("GRASS", "Grass Floor", "Moss and dead leaves between plants, bare earth where the cover is gone"),
+)
 
 
 class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
@@ -16,7 +25,7 @@ class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
     bl_label = "Make Material"
     bl_options = {"REGISTER", "UNDO"}
 
-    kind: EnumProperty(name="Kind", description="What the ground looks like", items=materials.KINDS)
+    kind: EnumProperty(name="Kind", description="What the ground looks like", items=KINDS)
     replace: BoolProperty(name="Replace", description="Use it in place of materials of your own, too")
 
     @classmethod

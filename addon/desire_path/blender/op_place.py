@@ -8,23 +8,36 @@ their feet, feet that hang on no leg are moved, and legs that follow an IK targe
 constraints hold are led by the control bones found for them.
 """
 
-import json
+import math
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty
 
-from ..bake import bake as baking
 from ..errors import DesirePathError
-from ..loads import walker
-from ..placement import place, settle_feet
-from ..rig import slope
-from . import axes, compat, controls, footing, home, moves, playback, posing, reach, sample
+from . import compat
+from .late import (
+    axes,
+    baking,
+    controls,
+    footing,
+    home,
+    json,
+    moves,
+    np,
+    place,
+    playback,
+    posing,
+    reach,
+    sample,
+    settle_feet,
+    slope,
+    walker,
+)
 from .ops import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
 OFF = 0.02  # a foot this far from its place was held back, in leg lengths
-OFF_TURN = np.radians(3.0)  # or a led one turned away from it by this [rad]
+OFF_TURN = math.radians(3.0)  # or a led one turned away from it by this [rad]
 
 
 def frames_of(scene, armature, land):

@@ -4,16 +4,15 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 
 from ..errors import DesirePathError
-from . import picture, plants, props_parts, show
-from .bake_job import idle_ground
+from . import props_parts
+from .late import bake_job, picture, plants, replant, show
 from .ops import Refusal
-from .replant import quietly
 
 
 class _OfGround(Refusal):
     @classmethod
     def poll(cls, context):
-        if not idle_ground(cls, context):
+        if not bake_job.idle_ground(cls, context):
             return False
         if not context.object.desire_path.is_ground:
             cls.poll_message_set("Press Add Ground first")
@@ -35,7 +34,7 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
     kind: StringProperty(
         name="Kind",
         default="carex",
-        search=props_parts.kinds,
+        search=props_parts.plant_kinds,
         search_options={"SUGGESTION"},
         description="A kind of plant, or a .json file in which a kind was saved",
     )
@@ -64,7 +63,7 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
         settings = obj.desire_path
         each = settings.plants.add()
         try:
-            with quietly():
+            with replant.quietly():
                 each.kind, each.density_group, each.density_image = self.kind, self.density_group, image
                 each.density, each.seed = self.density or its.density, len(settings.plants) - 1
             if self.grass:

@@ -4,20 +4,22 @@
 With a window it is a tool; `execute` presses the objects once where they stand, and keeps that.
 """
 
+import math
+
 import bpy
-import numpy as np
 from bpy.app.handlers import persistent
 from bpy.props import EnumProperty, FloatProperty
 from bpy_extras import view3d_utils
 
 from ..errors import DesirePathError
-from . import bake_job, live, messages, press, state, timeline
+from . import messages
+from .late import bake_job, live, np, press, state, timeline
 from .ops import Refusal, begins, sentence
 
 TICK = 0.04  # between two looks at what moves by itself [s]
 DEEPER = 1.15  # a notch of the wheel
 DEEPER_BY = {"WHEELDOWNMOUSE": 1, "PAGE_DOWN": 1, "WHEELUPMOUSE": -1, "PAGE_UP": -1}
-TURN = np.radians(15.0)
+TURN = math.radians(15.0)
 ALONG = 512  # places looked at along the mouse's ray
 KEYS = (
     "LMB: press    Wheel, PageUp/Down: {}    Shift Wheel: turn    F: follow the animation    Ctrl Z: undo stroke    "

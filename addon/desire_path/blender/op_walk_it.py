@@ -5,14 +5,11 @@ the meshes they tread are grounds, or one is made --op_place.py--> on a hill the
 """
 
 import bpy
-import numpy as np
 
-from ..bounds import Limits
 from ..errors import DesirePathError
-from ..motion import size
-from ..placement import place
-from . import axes, forward, ground, moves, op_ground, op_place, op_walkers, paths, reach, sample, underfoot, worn
+from . import op_ground, op_place, op_walkers
 from .chosen import grounds
+from .late import axes, bounds, forward, ground, moves, np, paths, place, reach, sample, size, underfoot, worn
 from .ops import Refusal
 
 MARGIN = 1.0  # a ground that is made reaches this far beyond the feet, in leg lengths
@@ -130,7 +127,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         for each in who:
             text = forward.carry(scene, each, line)
             first, last = moves.frame_range(scene, each)
-            Limits().check("frames", last - first + 1)
+            bounds.Limits().check("frames", last - first + 1)
             told += [("INFO", text)] if text else []
         gaits, homes, made = [], meshes * len(who), []
         if len(meshes) != 1 or not meshes[0].desire_path.is_ground:

@@ -4,12 +4,9 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ..errors import DesirePathError
-from ..ground.sim import Ground, Simulation
-from ..rig import rigs
-from . import axes, bodies, ground, moves, plants, sample
 from .chosen import WALKERS, grounds, walkers
+from .late import axes, bodies, ground, moves, plants, rigs, sample, show, sim
 from .ops import AsksFirst, Refusal, active
-from .show import free
 
 
 def detect(scene, obj, keep=False):
@@ -194,7 +191,7 @@ class OBJECT_OT_desire_path_remove(AsksFirst, Refusal, bpy.types.Operator):
         obj = context.object
         settings = obj.desire_path
         if settings.is_ground:
-            free(obj)
+            show.free(obj)
             for each in settings.plants:
                 plants.forget(each)
             settings.plants.clear()
@@ -208,7 +205,7 @@ def _land(scene, obj, gait, first):
     """The ground of a walker as it is to be asked for heights; without one: flat at 0."""
     on = obj.desire_path.ground
     if on is None:
-        return Simulation(Ground.flat())
+        return sim.Simulation(sim.Ground.flat())
     cell = axes.typed(on.desire_path.cell_size)
     return ground.land(ground.read(scene, on, cell, first, box=ground.under(gait)), cell)
 

@@ -3,13 +3,15 @@
 import bpy
 
 from ..errors import DesirePathError
-from . import messages, playback
+from . import arrival, messages
+from .late import playback
 
 before = []  # called before an operator of ours does its work
 
 
 def begins():
     """An operator of ours begins its work."""
+    arrival.begin()
     for each in before:
         each()
 

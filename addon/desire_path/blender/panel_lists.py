@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import plants, tufts
+from .late import plants, tufts
 
 
 class OBJECT_UL_desire_path_paint(bpy.types.UIList):

@@ -1,12 +1,11 @@
 """panels.py - Properties > Physics > Desire Path, and the same in the sidebar."""
 
-import json
-
 import bpy
 
 from ..errors import DesirePathError
-from . import bake_job, forward, panel_lists, plants, soil_presets, soils, state
+from . import arrival, panel_lists, soil_presets, soils
 from .chosen import grounds, walkers
+from .late import bake_job, forward, json, plants, state
 
 
 def _column(layout):
@@ -22,6 +21,8 @@ def draw(layout, context):
         row.scale_y = 1.4
         row.operator("object.desire_path_walk_it", icon="MOD_DYNAMICPAINT")
         layout.operator("object.desire_path_press", icon="BRUSH_DATA")
+    if obj is not None and (obj.desire_path.is_ground or obj.desire_path.is_walker):
+        arrival.begin()  # it may have come from another file
     if obj is None or obj.type not in {"MESH", "ARMATURE"}:
         layout.label(text="Select a ground mesh or a walker", icon="INFO")
     elif obj.type == "MESH" and not obj.desire_path.is_walker:

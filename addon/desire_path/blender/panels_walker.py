@@ -1,11 +1,9 @@
 """panels_walker.py - what an armature is taken for, bone by bone, and what its forces are."""
 
-import json
-
 import bpy
 
-from ..loads.report import sentences
 from . import op_forces
+from .late import json, report
 from .panels import _column, _letters, _lines, _Physics, _Sidebar
 
 
@@ -49,7 +47,7 @@ def draw_forces(layout, context, obj):
         return
     told, width = json.loads(settings.forces), _letters(context)
     column = layout.column(align=True)
-    for each in sentences(told):
+    for each in report.sentences(told):
         _lines(column, each, "DOT", width)
     for each in told["warnings"]:
         _lines(column, each, "ERROR", width)

@@ -11,7 +11,8 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import compat, forward, live, props_parts, soils, state, units, watch
+from . import arrival, compat, props_parts, soils, units
+from .late import forward, live, state, watch
 
 
 def is_ground(_self, obj):
@@ -24,6 +25,11 @@ def is_sole(_self, obj):
 
 def is_path(_self, obj):
     return obj.type in {"CURVE", "EMPTY"} or obj.type == "MESH" and not obj.desire_path.is_ground
+
+
+def _arrives(self, context):
+    arrival.begin()
+    props_parts.changed(self, context)
 
 
 def _frames_by_hand(self, _context):
@@ -54,7 +60,7 @@ def _switched(self, _context):
 @props_parts.overridable
 class DesirePathSettings(bpy.types.PropertyGroup):
     # ---- a ground
-    is_ground: BoolProperty(name="Ground", description="Walkers leave prints in this mesh")
+    is_ground: BoolProperty(name="Ground", update=_arrives, description="Walkers leave prints in this mesh")
     soil: soils.preset("What the ground is made of where nothing else is painted")
     soil_numbers: PointerProperty(
         type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
@@ -220,7 +226,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         return state.ask(self.id_data).text
 
     # ---- a walker
-    is_walker: BoolProperty(name="Walker", description="This armature, or rigid body, leaves prints")
+    is_walker: BoolProperty(name="Walker", update=_arrives, description="This armature, or rigid body, leaves prints")
     ground: PointerProperty(
         name="Ground", type=bpy.types.Object, poll=is_ground, description="The mesh this walker leaves prints in"
     )

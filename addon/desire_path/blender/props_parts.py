@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from ..ground.plants import KINDS
-from . import compat, picture, replant, soils, state
+from . import compat, soils
+from .late import kinds, picture, replant, state
 
 
 def _foot_by_hand(self, _context):
@@ -46,8 +46,12 @@ class DesirePathPaint(bpy.types.PropertyGroup):
     soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
 
 
-def kinds(_self, _context, _text):
-    return list(KINDS)
+def plant_kinds(_self, _context, _text):
+    return list(kinds.KINDS)
+
+
+def _is_still(_self, image):
+    return picture.is_still(_self, image)
 
 
 def _replant(self, context):
@@ -62,7 +66,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
     kind: StringProperty(
         name="Kind",
         default="carex",
-        search=kinds,
+        search=plant_kinds,
         search_options={"SUGGESTION"},
         update=_replant,
         description="A kind of plant, or a .json file in which a kind was saved",
@@ -87,7 +91,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
     density_image: PointerProperty(
         name="Density Image",
         type=bpy.types.Image,
-        poll=picture.is_still,
+        poll=_is_still,
         update=_replant,
         description="An image that thins the plants out, times the group if both are set: white = all of them, black = "
         "none, by the brightness of its pixels as they are stored. It lies on the ground by the active UV map; where "

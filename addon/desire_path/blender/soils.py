@@ -15,7 +15,8 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..errors import DesirePathError
 from ..ground.soil import BY_DEPTH, NUMBERS, SOILS, Soil
-from . import axes, compat, units
+from . import compat, units
+from .late import axes
 
 # what people call a number, and what it is
 WORDS = {

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 from bpy.props import FloatProperty
 
-from . import axes
+from .late import axes
 
 
 def length(name: str, label: str, description: str, **options: Any) -> Any:

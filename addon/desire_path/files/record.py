@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import asdict, fields
 from typing import Any, ClassVar, Protocol, TypeVar
 
+from .. import lazy
 from ..errors import DesirePathError
-from . import atomic_file
+
+json = lazy.module("json")  # Blender registers with the soils there are, before one is read or written
+atomic_file = lazy.module(".atomic_file", __package__)
 
 MAX_TEXT = 1 << 16  # bytes of a file
 

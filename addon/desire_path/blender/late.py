@@ -1,0 +1,57 @@
+"""late.py - what operators, panels and properties name and use only once somebody presses, shows or sets them.
+
+Blender registers the add-on at every start, also for who has no ground: classes, properties and words are read then,
+neither NumPy nor what does the work.
+"""
+
+from .. import lazy
+
+json = lazy.module("json")
+np = lazy.module("numpy")
+platform = lazy.module("platform")
+
+baking = lazy.module("..bake.bake", __package__)
+bounds = lazy.module("..bounds", __package__)
+kinds = lazy.module("..ground.plants", __package__)
+meshes = lazy.module("..ground.mesh", __package__)
+place = lazy.module("..placement.place", __package__)
+report = lazy.module("..loads.report", __package__)
+rigs = lazy.module("..rig.rigs", __package__)
+settle_feet = lazy.module("..placement.settle_feet", __package__)
+sim = lazy.module("..ground.sim", __package__)
+size = lazy.module("..motion.size", __package__)
+slope = lazy.module("..rig.slope", __package__)
+walker = lazy.module("..loads.walker", __package__)
+
+axes = lazy.module(".axes", __package__)
+bake_all = lazy.module(".bake_all", __package__)
+bake_job = lazy.module(".bake_job", __package__)
+bodies = lazy.module(".bodies", __package__)
+controls = lazy.module(".controls", __package__)
+footing = lazy.module(".footing", __package__)
+force_graph = lazy.module(".force_graph", __package__)
+forward = lazy.module(".forward", __package__)
+framing = lazy.module(".framing", __package__)
+ground = lazy.module(".ground", __package__)
+handlers = lazy.module(".handlers", __package__)
+home = lazy.module(".home", __package__)
+live = lazy.module(".live", __package__)
+materials = lazy.module(".materials", __package__)
+moves = lazy.module(".moves", __package__)
+paths = lazy.module(".paths", __package__)
+picture = lazy.module(".picture", __package__)
+plants = lazy.module(".plants", __package__)
+playback = lazy.module(".playback", __package__)
+posing = lazy.module(".posing", __package__)
+reach = lazy.module(".reach", __package__)
+replant = lazy.module(".replant", __package__)
+press = lazy.module(".press", __package__)
+ride = lazy.module(".ride", __package__)
+sample = lazy.module(".sample", __package__)
+show = lazy.module(".show", __package__)
+state = lazy.module(".state", __package__)
+timeline = lazy.module(".timeline", __package__)
+tufts = lazy.module(".tufts", __package__)
+underfoot = lazy.module(".underfoot", __package__)
+watch = lazy.module(".watch", __package__)
+worn = lazy.module(".worn", __package__)
