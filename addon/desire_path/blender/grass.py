@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from ..ground import tuft
-from . import clock, compat, grass_nodes, playback, playback_tree, tufts, wiring
+from . import clock, compat, grass_nodes, playback, playback_tree, tree_numbers, tufts, wiring
 from .tufts import ARCH, AT, LOOK, ROOT, STRENGTH, TILT, TONE
 
 TAG = playback_tree.TAG
@@ -129,11 +129,12 @@ def scattered(tree):
     return None
 
 
-def show(obj, name, kind, index=None, images=None, count=0):
-    """Let an object's roots grow: standing, or as a bake's images say.
+def show(obj, name, kind, index=None, images=None, count=0, anew=True):
+    """Let an object's roots grow: standing, or as a bake's images say. A tree that differs by numbers alone stays.
 
     kind: None where it cannot be known any more, for grass to stand as it is
     index, images, count: of the bake, see playback; images: {"trail": .., "lean": ..}
+    anew: False where no datablock may come or go: what is there stays as it is then, if numbers are not enough
     """
     old = _tree_of(obj)
     chosen = scattered(old) if old is not None else None
@@ -144,9 +145,24 @@ def show(obj, name, kind, index=None, images=None, count=0):
     else:
         mark, height = f"{name} {kind!r}", kind.height
     if chosen is None or kind is not None and TAG in chosen and chosen[TAG] != mark:  # the user's own stay
+        if not anew:
+            return
         chosen = tufts.collection(name, kind)
     tree = _tree(obj, chosen, height, index, images, count)
     tree[TAG] = mark
+    alike = (
+        old is not None
+        and old.users == 1
+        and tree_numbers.form(old) == tree_numbers.form(tree)
+        and tree_numbers.held(old) == tree_numbers.held(tree)
+    )
+    if alike:
+        tree_numbers.copy(tree, old)
+        old[TAG] = mark
+        old.update_tag()
+    if alike or not anew:
+        _discard_tree(tree)
+        return
     for each in obj.modifiers:
         if each.type == "NODES" and (each.node_group is None or each.node_group == old):
             use_tree(each, tree)

@@ -35,7 +35,7 @@ from . import (
 _unsaved = False  # whether the file that is being saved never was before
 
 
-def refresh(scene, obj):
+def refresh(scene, obj, play=show.play):
     """Let a ground play its bake folder as it is now; nothing to do when it already does."""
     settings = obj.desire_path
     if obj.library is not None:  # its own file looks after it
@@ -58,7 +58,7 @@ def refresh(scene, obj):
         return
     box = (index.x0, index.y0, index.x0 + index.nx * index.cell, index.y0 + index.ny * index.cell)
     with suppress(DesirePathError):  # its state says what is wrong
-        show.play(scene, obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
+        play(scene, obj, ground.read(scene, obj, index.cell, index.frame_start, box=box))
 
 
 @persistent
@@ -94,13 +94,12 @@ def after_undo(*_):
             if not obj.desire_path.is_ground:
                 continue
             if playback.modifier(obj) is not None:
-                refresh(scene, obj)
+                refresh(scene, obj, show.again)
             elif home.may_free(obj):
                 with suppress(DesirePathError):  # it stays, and nothing shows it
                     trash.again(home.folder(obj), obj.desire_path.bake_id)
-            with suppress(DesirePathError):  # the next bake says what is wrong
-                replant.refresh(scene, obj)
-        watch.all_of(scene)
+            replant.changed(obj)
+            watch.mark(obj)
 
 
 @persistent

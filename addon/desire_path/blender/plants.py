@@ -193,8 +193,8 @@ def stale(obj):
     return [each for each in obj.desire_path.plants if each.mark != mark(each)]
 
 
-def show(obj, index=None):
-    """Let the grass of a ground follow what its playback modifier plays, or stand."""
+def show(obj, index=None, anew=True):
+    """Let the grass of a ground follow what its playback modifier plays, or stand. anew: see grass.show"""
     ours = playback.modifier(obj)
     images = playback.images(ours.node_group) if ours is not None and index is not None else None
     for each in obj.desire_path.plants:
@@ -205,7 +205,7 @@ def show(obj, index=None):
                 if index is not None:
                     raise
                 its = None  # its file is gone: what was baked is let go all the same
-            grass.show(each.grass, each.kind, its, index, images, index.frames if index is not None else 0)
+            grass.show(each.grass, each.kind, its, index, images, index.frames if index is not None else 0, anew)
 
 
 def standing(obj):

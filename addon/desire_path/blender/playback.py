@@ -24,6 +24,7 @@ BY_HAND = "desire_path_by_hand"  # on a tree that shows ground while it is press
 STACK, LIE = "desire_path_stack", "desire_path_lie"  # and what a tree was made for, see keep
 STACKED = ("show_viewport", "show_render", "levels", "render_levels", "subdivision_type")  # of modifiers
 MOVED = 1e-5  # points this near to where they were have not moved, in shares of their distance from the origin
+HIDDEN = "desire_path_hidden"  # on a tree: the files it plays are others now, and it is not shown
 SAMPLES = 24  # points of the mesh that tell whether it was changed
 ALIGNED = 0.02  # points this near to cell centres need no interpolation [cell]
 
@@ -57,19 +58,24 @@ def images(tree):
     return found
 
 
-def attach(obj, frames, playing):
+def attach(obj, frames, playing, anew=True):
     """Play the frames of a bake on the object; replaces what it played before.
 
     frames: the folder of the images as Blender writes paths (`//` for beside the .blend file); playing: Playing, how.
+    anew: False where no datablock may come or go: None then, unless what is there can play the frames
     """
     place = playing.place
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
-    shown = {name: sequence(frames, name) for name in ("trail", "lean")[: 1 + has_lean(playing.index)]}
+    lean = has_lean(playing.index) and (anew or "lean" in images(old.node_group))
+    shown = {name: sequence(frames, name) for name in ("trail", "lean")[: 1 + lean]}
     tree = playback_tree.create(obj, shown, playing)
-    if _taken_over(obj, tree):
+    if _taken_over(obj, tree) or not anew and _made_anew(obj, tree, playing):
         discard(tree)
         ours, tree = old, old.node_group
+    elif not anew:
+        discard(tree)
+        return None
     else:
         kept = strengths.values(old) if old is not None else {}
         detach(obj)
@@ -80,36 +86,70 @@ def attach(obj, frames, playing):
         ours.show_expanded = False
         strengths.give(ours, kept)
     tree[playback_tree.TAG] = mark(frames, playing.index, playing.count)
+    show(ours, True)
     compat.move_modifier(obj, ours, place.before if place is not None else before)
     keep(obj, tree, playing.world)
     return ours
 
 
-def _taken_over(obj, tree):
-    """Let the tree an object plays show what another one would, where they differ by numbers alone; returns whether it
-    does. Undo steps know the datablocks that were there before, and none that came between two of them."""
+def show(ours, on):
+    """Hide our modifier, or show it again if it was hidden so."""
+    tree = ours.node_group
+    if on == (HIDDEN in tree):
+        ours.show_viewport = ours.show_render = on
+        if on:
+            del tree[HIDDEN]
+        else:
+            tree[HIDDEN] = True
+
+
+def _holds(obj, tree):
+    """The tree an object plays, where it alone plays it and it holds the datablocks that another one does; or None."""
     there = [
         each
         for each in obj.modifiers
         if each.type == "NODES" and each.node_group and playback_tree.TAG in each.node_group
     ]
     if len(there) != 1 or there[0].node_group.users != 1:
-        return False
+        return None
     old, played, wanted = there[0].node_group, images(there[0].node_group), images(tree)
     if (
         played.keys() != wanted.keys()
         or "grown" in wanted
         or any(each.filepath != wanted[name].filepath for name, each in played.items())
         or playback_tree.copy_of(old) != playback_tree.copy_of(tree)
-        or tree_numbers.form(old) != tree_numbers.form(tree)
     ):
+        return None
+    return old
+
+
+def _taken_over(obj, tree):
+    """Let the tree an object plays show what another one would, where they differ by numbers alone; returns whether it
+    does. Undo steps know the datablocks that were there before, and none that came between two of them."""
+    old = _holds(obj, tree)
+    if old is None or tree_numbers.form(old) != tree_numbers.form(tree):
         return False
     tree_numbers.copy(tree, old)
-    for each in played.values():
-        each.reload()
-    old.update_tag()
-    obj.update_tag(refresh={"DATA"})
+    _look_again(obj, old)
     return True
+
+
+def _made_anew(obj, tree, playing):
+    """The same by other nodes in the tree that is there."""
+    old = _holds(obj, tree)
+    if old is None or not strengths.declared(old):
+        return False
+    playback_tree.create(obj, images(old), playing, into=old)
+    _look_again(obj, old)
+    return True
+
+
+def _look_again(obj, tree):
+    """The files that a tree plays are others now."""
+    for each in images(tree).values():
+        each.reload()
+    tree.update_tag()
+    obj.update_tag(refresh={"DATA"})
 
 
 def animates_ours(obj, path):

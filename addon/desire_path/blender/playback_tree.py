@@ -60,13 +60,17 @@ class Playing:
     copy: Any = None  # whose mesh is shown in place of the ground's own (refined.py); None: the ground's own is
 
 
-def create(obj, shown, playing):
-    """The tree that plays the images `shown` on an object."""
+def create(obj, shown, playing, into=None):
+    """The tree that plays the images `shown` on an object. into: a tree of ours whose nodes are made anew, or None"""
     index, place, copy = playing.index, playing.place, playing.copy
     smooth, standing = playing.smooth, playing.standing
     world, scale = playing.world, playing.scale
-    tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
-    strengths.declare(tree)
+    if into is None:
+        tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
+        strengths.declare(tree)
+    else:
+        tree = into
+        tree.nodes.clear()
     wire = wiring.Wiring(tree)
     entry = given = wire.add("NodeGroupInput")
     if place is not None and place.realise:  # the ground is made of instances, which cannot be pressed

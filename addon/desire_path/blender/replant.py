@@ -6,7 +6,7 @@ from contextlib import contextmanager, suppress
 import bpy
 
 from ..errors import DesirePathError
-from . import plants, show
+from . import plants, show, undo_step
 
 DELAY = 0.25  # of the grass behind a number that is dragged [s]
 _waiting = {}  # ground's name -> what the timer calls
@@ -42,7 +42,8 @@ def _replant(name):
     obj = bpy.data.objects.get(name)
     if obj is None or not obj.desire_path.is_ground or obj.mode == "EDIT":
         return
-    with suppress(DesirePathError):  # half typed; the next bake or Update says what is wrong
+    # half typed: the next bake or Update says what is wrong
+    with suppress(DesirePathError), undo_step.where_needed("Plants Put Anew"):
         refresh(bpy.context.scene, obj)
 
 

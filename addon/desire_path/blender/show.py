@@ -70,6 +70,28 @@ def as_read(surface, index, carrier, **more):
     )
 
 
+def again(scene, obj, surface):
+    """Let the tree that undo has brought back play the files that are there now, with the datablocks that are there;
+    where it cannot, it is hidden. Undo steps know no datablock that comes between two of them."""
+    settings, ours = obj.desire_path, playback.modifier(obj)
+    index = read_index(folder(obj))
+    had = playback_tree.copy_of(ours.node_group) is not None
+    if not index.frames or had and _copy(obj) is None:
+        playback.show(ours, False)
+        return
+    frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
+    planes, standing = cover.planes(index), plants.standing(obj)
+    copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj)) if had else None
+    carrier = copy and copy.object
+    depth = cover.make_groups(obj) if settings.vertex_group else 0.0
+    playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing)
+    if had == (carrier is not None) and playback.attach(obj, frames, playing, anew=False):
+        cover.fill(obj, surface, index, depth, planes, standing)
+        plants.show(obj, index, anew=False)
+    else:
+        playback.show(ours, False)
+
+
 def _copy(obj):
     """The refined copy a ground shows that nothing else does, or None."""
     ours = playback.modifier(obj)

@@ -51,6 +51,11 @@ def declare(tree):
             socket.description = each.words
 
 
+def declared(tree):
+    """Whether a tree has the inputs; those of earlier versions lack them."""
+    return all(compat.input_identifier(tree, each.name) for each in INPUTS)
+
+
 def rise(wire, entry, change, compression):
     """The field of how far the ground is shown above its first height: exactly its change where all inputs are 1.
 

@@ -33,6 +33,16 @@ def form(tree):
     return nodes, links
 
 
+def held(tree):
+    """The datablocks that the nodes of a tree hold, in their order."""
+    return [
+        socket.default_value
+        for node in tree.nodes
+        for socket in node.inputs
+        if socket.type in FOREIGN and hasattr(socket, "default_value")
+    ]
+
+
 def copy(source, target):
     """Give a tree the numbers and words of another one of the same form; datablocks stay as they are."""
     for node, other in zip(target.nodes, source.nodes):
