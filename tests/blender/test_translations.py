@@ -1,4 +1,4 @@
-"""Every label of the add-on is in every language there is, and Blender finds it there."""
+"""Every label, description and reason of the add-on is in every language there is, and Blender finds it there."""
 
 import ast
 import pathlib
@@ -6,7 +6,7 @@ import pathlib
 import bpy
 
 import desire_path.blender as addon
-from desire_path.blender import props, state, translations
+from desire_path.blender import props, soils, state, translations, translations_told
 
 FOLDER = pathlib.Path(addon.__file__).parent
 DRAWS = {"label": "*", "prop": "*", "prop_search": "*", "menu": "*", "operator": "Operator"}
@@ -37,17 +37,67 @@ def of_panels():
                         yield DRAWS[call.func.attr], text.value
 
 
+def descriptions():
+    """What Blender tells beside the pointer of operators, of their numbers, and of what objects remember."""
+    for each in addon._CLASSES:
+        if issubclass(each, bpy.types.Operator):
+            room, name = each.bl_idname.split(".")
+            told = getattr(getattr(bpy.ops, room), name).get_rna_type()
+            own = {name for base in each.__mro__ for name in getattr(base, "__annotations__", ()) if ours(base)}
+            yield told.description
+            yield from of_numbers(told.properties, own)
+    for group in props.CLASSES:
+        yield from of_numbers(group.bl_rna.properties, group.__annotations__)
+
+
+def ours(base):
+    return base.__module__.startswith(addon.__name__)
+
+
+def of_numbers(properties, own):
+    for each in properties:
+        if each.identifier in own and not each.is_hidden:
+            yield each.description
+            for item in each.enum_items if each.type == "ENUM" else ():
+                yield item.description
+
+
+def reasons():
+    """Why buttons cannot be pressed, and what else is said in the user's language."""
+    for path in sorted(FOLDER.glob("*.py")):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(call, ast.Call):
+                continue
+            name = getattr(call.func, "attr", None) or f"a call of {getattr(call.func, 'id', '')}"
+            if name in {"poll_message_set", "a call of say"} and isinstance(call.args[0], ast.Constant):
+                yield call.args[0].value
+            if name == "poll_message_set":
+                said = ast.unparse(call.args[0])
+                assert not said.startswith("f") or said == "f'Select {words} first'", f"{path.name}: {said}"
+            if name == "a call of active" and len(call.args) == 4:
+                yield f"Select {call.args[3].value} first"
+
+
 def labels():
     return {*of_classes(), *of_panels(), *(("*", word) for word, _ in state.LOOKS.values())}
 
 
-def test_every_label_is_in_every_language():
-    wanted = labels()
-    assert len(wanted) > 100
+def test_every_word_is_in_every_language():
+    told, said = set(filter(None, descriptions())), set(reasons())
+    assert len(labels()) > 100 and len(told) > 120 and len(said) > 15
+    wanted = {*labels(), *(("*", text) for text in told | said)}
     for language, table in translations.TABLE.items():
         missing = sorted(wanted - set(table))
         assert not missing, f"{language} lacks {missing}"
         assert all(text.strip() == text and text for text in table.values())
+        same = [text for (_, label), text in table.items() if text == label and len(label) > 20]
+        assert not same and all(text.count("{") == label.count("{") for (_, label), text in table.items()), same
+
+
+def test_no_word_is_told_that_nobody_says():
+    """Of the descriptions; labels may be Blender's, too."""
+    known = set(descriptions()) | set(reasons()) | {soils.DESCRIBED}
+    assert set(translations_told.GERMAN) <= known, sorted(set(translations_told.GERMAN) - known)
 
 
 def test_blender_finds_them():
@@ -60,5 +110,7 @@ def test_blender_finds_them():
         view.use_translate_interface = True
         assert bpy.app.translations.pgettext_iface("Walk It", "Operator") == "Loslaufen"
         assert bpy.app.translations.pgettext_iface("Loose Layer") == "Lockere Schicht"
+        assert bpy.app.translations.pgettext_tip("First frame that is baked") == "Erstes Bild, das gebacken wird"
+        assert translations.say("Free the bake of '{}'?", "Weg") == "Gebackenes von 'Weg' löschen?"
     finally:
         view.language = before

@@ -22,6 +22,7 @@ from .chosen import absent, walkers
 from .home import folder
 from .ops import active
 from .show import lost, play, plays_on
+from .translations import say
 
 TOLD = 0.4  # between two looks at how far it is [s]
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
@@ -178,7 +179,7 @@ class Job:
         self._told_at = now
         left = (now - self._bakes_since) * (1.0 - self.fraction) / max(self.fraction, 1e-6)
         size = sum(disk_size(share.out.new) for share in self.bake.shares)
-        self.text = f"Frame {self.frame}, {duration(left)} left, {size / 1e6:.1f} MB"
+        self.text = say("Frame {}, {} left, {:.1f} MB", self.frame, duration(left), size / 1e6)
 
     def play(self):
         """Play what a bake that was not whole has left, on all its grounds that play no whole one."""

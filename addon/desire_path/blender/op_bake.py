@@ -15,6 +15,7 @@ from . import messages
 from .chosen import grounds
 from .late import bake_all, bake_job, framing, home, live, show, timeline
 from .ops import AsksFirst, Refusal, active, begins, sentence
+from .translations import say
 
 SLICE = 0.05  # of work between two looks at the keyboard [s]
 
@@ -107,7 +108,8 @@ class _Bakes(Refusal):
             self.say("ERROR", sentence(problem))
             return {"CANCELLED"}
         context.window_manager.progress_update(int(1000 * job.fraction))
-        context.workspace.status_text_set(f"{job.text} ({100 * job.fraction:.0f} %)    ESC: stop")
+        done = f"{job.text} ({100 * job.fraction:.0f} %)"
+        context.workspace.status_text_set(f"{done}    {say('ESC: stop')}")
         timeline.redraw()
         return {"RUNNING_MODAL"}
 

@@ -6,6 +6,7 @@ from ..errors import DesirePathError
 from . import auto
 from .late import home
 from .ops import Refusal, active
+from .translations import say
 
 
 def add(scene, obj):
@@ -35,8 +36,11 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
         obj = context.object
         if obj is not None and obj.type == "EMPTY" and obj.instance_collection is not None:
             cls.poll_message_set(
-                f"'{obj.name}' shows instances of a collection: make them real (Object > Apply > Make "
-                "Instances Real) and select the mesh that is walked on"
+                say(
+                    "'{}' shows instances of a collection: make them real (Object > Apply > Make Instances Real) and "
+                    "select the mesh that is walked on",
+                    obj.name,
+                )
             )
             return False
         return active(cls, context, {"MESH"}, "the mesh that is walked on")

@@ -18,8 +18,7 @@ KINDS = (
 
 
 class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
-    """Give the selected grounds a material of what they are made of: darker, wetter or bare where feet went. Materials
-    of your own stay as they are, and get a node group to plug in"""
+    """Give the selected grounds a material of what they are made of. Your own materials stay, and get a node group"""
 
     bl_idname = "object.desire_path_material_add"
     bl_label = "Make Material"

@@ -5,6 +5,7 @@ import bpy
 from ..errors import DesirePathError
 from . import arrival, messages
 from .late import playback
+from .translations import say
 
 before = []  # called before an operator of ours does its work
 
@@ -38,9 +39,9 @@ class AsksFirst:
             return self.execute(context)
         ask = context.window_manager.invoke_confirm
         words = {
-            "title": f"Free the bake of '{obj.name}'?",
-            "confirm_text": "Free",
-            "message": "Undo brings it back until the file is saved or closed.",
+            "title": say("Free the bake of '{}'?", obj.name),
+            "confirm_text": say("Free"),
+            "message": say("Undo brings it back until the file is saved or closed."),
         }
         known = bpy.types.WindowManager.bl_rna.functions["invoke_confirm"].parameters
         return ask(self, event, **{name: text for name, text in words.items() if name in known})
@@ -64,8 +65,11 @@ def active(cls, context, kind, words, *, changed=True):
         return False
     if changed and obj.library is not None:
         cls.poll_message_set(
-            f"'{obj.name}' is linked from another file: make a library override of it "
-            "(Object > Library Override > Make), or open that file"
+            say(
+                "'{}' is linked from another file: make a library override of it (Object > Library Override > Make), "
+                "or open that file",
+                obj.name,
+            )
         )
         return False
     return True

@@ -136,16 +136,20 @@ for _word in filter(None, EASY.values()):
 _filling = False
 
 
+DESCRIBED = "{} MPa, stays at slopes up to {} degrees, yields in {} s"
+
+
+def described(soil, words):
+    """A soil in a sentence. words: DESCRIBED, in any language"""
+    return words.format(
+        f"{soil.young_modulus / 1e6:.3g}", f"{math.degrees(soil.rest_angle):.0f}", f"{soil.settle_time:.2g}"
+    )
+
+
 def items():
     """The presets for an EnumProperty, the softest first; their numbers, which files keep, are those of SOILS."""
     return tuple(
-        (
-            name,
-            name.replace("-", " ").capitalize(),
-            f"{soil.young_modulus / 1e6:.3g} MPa, stays at slopes up to "
-            f"{math.degrees(soil.rest_angle):.0f} degrees, yields in {soil.settle_time:.2g} s",
-            list(SOILS).index(name),
-        )
+        (name, name.replace("-", " ").capitalize(), described(soil, DESCRIBED), list(SOILS).index(name))
         for name, soil in ((name, SOILS[name]) for name in BY_DEPTH)
     )
 

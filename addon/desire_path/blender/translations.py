@@ -1,10 +1,14 @@
-"""translations.py - the labels of the add-on in other languages, for Blender's own interface.
+"""translations.py - the words of the add-on in other languages, for Blender's own interface.
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
-Blender asks here for what its own catalogue does not have. A language is complete when it has every label.
+Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
+description (translations_told.py) and every reason why a button cannot be pressed.
 """
 
 import bpy
+
+from ..ground.soil import SOILS
+from . import soils, translations_told
 
 GERMAN = {
     "Operator": {
@@ -199,13 +203,22 @@ GERMAN = {
 }
 
 
-def catalogue(language):
-    """A language's labels as Blender takes them: {(context, label): text}."""
-    return {(context, label): text for context, labels in language.items() for label, text in labels.items()}
+def catalogue(language, told):
+    """A language's words as Blender takes them: {(context, English): text}. told: its descriptions"""
+    presets = {
+        soils.described(each, soils.DESCRIBED): soils.described(each, told[soils.DESCRIBED]) for each in SOILS.values()
+    }
+    words = {**language, "*": {**language["*"], **told, **presets}}
+    return {(context, label): text for context, labels in words.items() for label, text in labels.items()}
 
 
 # newer Blenders name a language without its country
-TABLE = {"de_DE": catalogue(GERMAN), "de": catalogue(GERMAN)}
+TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, translations_told.GERMAN))
+
+
+def say(text, *values):
+    """A text in the language of the interface, with values in place of its {}."""
+    return bpy.app.translations.pgettext_tip(text).format(*values)
 
 
 def register():
