@@ -2,13 +2,13 @@
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
 Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_told.py) and every reason why a button cannot be pressed.
+description (translations_told.py) and every question and reason why a button cannot be pressed (translations_said.py).
 """
 
 import bpy
 
 from ..ground.soil import SOILS
-from . import soils, translations_told
+from . import soils, translations_said, translations_told
 
 GERMAN = {
     "Operator": {
@@ -204,7 +204,7 @@ GERMAN = {
 
 
 def catalogue(language, told):
-    """A language's words as Blender takes them: {(context, English): text}. told: its descriptions"""
+    """A language's words as Blender takes them: {(context, English): text}. told: its descriptions and sentences"""
     presets = {
         soils.described(each, soils.DESCRIBED): soils.described(each, told[soils.DESCRIBED]) for each in SOILS.values()
     }
@@ -213,7 +213,7 @@ def catalogue(language, told):
 
 
 # newer Blenders name a language without its country
-TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, translations_told.GERMAN))
+TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, {**translations_told.GERMAN, **translations_said.GERMAN}))
 
 
 def say(text, *values):

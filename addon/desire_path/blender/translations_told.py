@@ -143,40 +143,20 @@ GERMAN = {
     "Remove this soil of your own; grounds that have its numbers keep them": (
         "Diese eigene Bodenart entfernen; Böden, die ihre Werte haben, behalten sie"
     ),
-    # ---- questions, and why a button cannot be pressed
-    "Free the bake of '{}'?": "Gebackenes von '{}' löschen?",
-    "Free": "Löschen",
-    "Undo brings it back until the file is saved or closed.": (
-        "Rückgängig bringt es wieder, bis die Datei gespeichert oder geschlossen wird."
+    "Keep or drop what is pressed by hand, or take its last stroke back": (
+        "Von Hand Gepresstes behalten oder verwerfen, oder den letzten Strich zurücknehmen"
     ),
-    "Frame {}, {} left, {:.1f} MB": "Bild {}, noch {}, {:.1f} MB",
-    "ESC: stop": "ESC: anhalten",
-    "A bake is running": "Es wird gerade gebacken",
-    "Leave Edit Mode first": "Erst den Bearbeitungsmodus verlassen",
-    "Press Add Ground first": "Erst Boden hinzufügen",
-    "Select a ground first": "Erst einen Boden wählen",
-    "Select the ground first": "Erst den Boden wählen",
-    "Select the mesh that is walked on first": "Erst das Netz wählen, auf dem gegangen wird",
-    "Select the armature that walks first": "Erst das Skelett wählen, das geht",
-    "Select the armature that walks, or a mesh that moves first": (
-        "Erst das Skelett wählen, das geht, oder ein Netz, das sich bewegt"
+    "It stays, as a bake of its own": "Es bleibt, als eigenes Gebackenes",
+    "The ground is as it was before": "Der Boden ist, wie er zuvor war",
+    "Take the last stroke back": "Den letzten Strich zurücknehmen",
+    "Take the selected objects in hand and press them into the selected ground, or into the widest selected mesh": (
+        "Die gewählten Objekte in die Hand nehmen und in den gewählten Boden drücken, oder ins breiteste gewählte Netz"
     ),
-    "Select a character, its armature or a mesh it wears, and a ground if there is one": (
-        "Eine Figur wählen, ihr Skelett oder ein Netz, das sie trägt, und einen Boden, wenn es einen gibt"
-    ),
-    "There is no ground in this scene": "In dieser Szene gibt es keinen Boden",
-    "This is a ground: select the armature that walks on it, or a mesh that moves": (
-        "Das ist ein Boden: das Skelett wählen, das darauf geht, oder ein Netz, das sich bewegt"
-    ),
-    "'{}' is linked from another file: make a library override of it (Object > Library Override > Make), or open "
-    "that file": (
-        "'{}' ist aus einer anderen Datei verknüpft: ein Library Override davon machen (Objekt > Library Override > "
-        "Make), oder jene Datei öffnen"
-    ),
-    "'{}' shows instances of a collection: make them real (Object > Apply > Make Instances Real) and select the "
-    "mesh that is walked on": (
-        "'{}' zeigt Instanzen einer Sammlung: sie eigenständig machen (Objekt > Anwenden > Make Instances Real) und "
-        "das Netz wählen, auf dem gegangen wird"
+    "How deep they are pressed; 0 = a fifth of their height": "Wie tief sie gedrückt werden; 0 = ein Fünftel der Höhe",
+    "What each weighs, in kilograms: it sinks until the ground carries it. 0 = the ground gives way to its shape; "
+    "-1 = what a rigid body or walker weighs, else 0": (
+        "Was jedes wiegt, in Kilogramm: es sinkt, bis der Boden es trägt. 0 = der Boden weicht seiner Form; -1 = was "
+        "ein starrer Körper oder Läufer wiegt, sonst 0"
     ),
     # ---- numbers of a soil
     "How thick the soft soil lies over rigid ground, in metres": (
@@ -344,6 +324,20 @@ GERMAN = {
     # ---- a walker
     "This armature, or rigid body, leaves prints": "Dieses Skelett, oder dieser starre Körper, hinterlässt Abdrücke",
     "The mesh this walker leaves prints in": "Das Netz, in dem dieser Läufer Abdrücke hinterlässt",
+    "How the walker presses the ground": "Wie der Läufer den Boden presst",
+    "As the ground says; a mesh that is moved into the ground goes where it is moved to": (
+        "Wie es der Boden sagt; ein Netz, das in den Boden bewegt wird, geht, wohin es bewegt wird"
+    ),
+    "As a rigid sole that its weight presses": "Als starre Sohle, die sein Gewicht presst",
+    "The same pressure everywhere under it": "Überall darunter derselbe Druck",
+    "Down to where it is, whatever it weighs, and what is in its way is pushed ahead": (
+        "Bis dorthin, wo er ist, was er auch wiegt; was im Weg ist, wird vorangeschoben"
+    ),
+    "Which limbs of an armature press the ground": "Welche Glieder eines Skeletts den Boden pressen",
+    "The feet that were found": "Die Füße, die gefunden wurden",
+    "Every bone that a mesh hangs on, as of who falls; it carves, unless told otherwise": (
+        "Jeder Knochen, an dem ein Netz hängt, wie bei Stürzenden; er schneidet ein, wenn nichts anderes gesagt ist"
+    ),
     "How heavy the walker is, in kilograms; 0 = estimated from its height": (
         "Wie schwer der Läufer ist, in Kilogramm; 0 = aus seiner Größe geschätzt"
     ),
