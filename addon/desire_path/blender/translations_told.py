@@ -338,6 +338,12 @@ GERMAN = {
     "Every bone that a mesh hangs on, as of who falls; it carves, unless told otherwise": (
         "Jeder Knochen, an dem ein Netz hängt, wie bei Stürzenden; er schneidet ein, wenn nichts anderes gesagt ist"
     ),
+    "What built-in soles have below: those of a walker without feet or shoes of its own, or a sole": (
+        "Was eingebaute Sohlen unten haben: die eines Läufers ohne eigene Füße, Schuhe oder Sohle"
+    ),
+    "A smooth sole": "Eine glatte Sohle",
+    "Bars and blocks, as under a boot": "Stege und Blöcke, wie unter einem Stiefel",
+    "Low ridges, as under a running shoe": "Niedrige Rippen, wie unter einem Laufschuh",
     "How heavy the walker is, in kilograms; 0 = estimated from its height": (
         "Wie schwer der Läufer ist, in Kilogramm; 0 = aus seiner Größe geschätzt"
     ),
