@@ -9,6 +9,7 @@ from desire_path.bake.bake import Bake, read_index
 from desire_path.bake.press import LivePress, PressBody
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
+from desire_path.ground.parcels import Parcel
 from desire_path.ground.sim import Ground, SimulationOptions
 from desire_path.ground.soil import SOILS
 from tests.scenes import gaits
@@ -26,6 +27,12 @@ def body(mass=None, size=0.2):
 def ball(mass=None, radius=0.125):
     sphere = gaits.sphere(radius)
     return PressBody(sphere.vertices, sphere.triangles, mass=mass, name="Ball")
+
+
+def square(x):
+    """Points and triangles of flat ground, 2 m wide from x on."""
+    points = [[x, -1.0, 0.0], [x + 2.0, -1.0, 0.0], [x + 2.0, 1.0, 0.0], [x, 1.0, 0.0]]
+    return np.array(points), np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def at(x, y, z):
@@ -140,6 +147,31 @@ def test_what_is_kept_plays_and_another_walk_goes_on_from_it(tmp_path):
     for _ in bake.run():
         pass
     assert bake.report["deepest_m"] >= final["compression"].max() - 1e-6
+
+
+def test_a_walk_over_several_grounds_goes_on_from_what_was_pressed_into_one(tmp_path):
+    press = LivePress(Ground.flat(), body(), FIRM)
+    press.move(at(-1.5, 0.0, -0.03))
+    press.lift()
+    press.keep(tmp_path / "pressed")
+    trail = Ground.read(tmp_path / "pressed" / "maps_final.exr").trail
+    west, east = (Ground.mesh(*square(x)) for x in (-2.0, 0.0))
+    gait, _ = gaits.pressed([gaits.box(0.2, 0.1)], [[0.0, 0.0, 0.0, *STILL]], [[0, 0, -600]], seconds=0.5)
+
+    def baked(*grounds):
+        parcels = [Parcel(each, FIRM, tmp_path / name, name) for each, name in zip(grounds, ("west", "east"))]
+        for _ in Bake(gait, parcels).run():
+            pass
+        return maps.read(tmp_path / "west" / "maps_final.exr").planes["compression"]
+
+    alone = baked(west, east)
+    left = baked(replace(west, trail=trail), east)
+    assert 0.0 < alone.max() < 0.02
+    assert left.sum() == pytest.approx(alone.sum() + press.read("compression").sum(), rel=1e-4), (
+        "far from the walk, too"
+    )
+    with pytest.raises(DesirePathError, match="'west' and 'east' both have a trail"):
+        baked(replace(west, trail=trail), replace(east, trail=trail))
 
 
 def test_a_fault_in_keeping_loses_nothing(tmp_path, monkeypatch):

@@ -100,10 +100,13 @@ def _tiles(plan: Plan, sim: Simulation, parcel: Parcel, gait: Gait, loads: Any) 
             return None
         x0, y0 = max(x0, box[0] - cell), max(y0, box[1] - cell)  # with a cell of its neighbours
         x1, y1 = min(x1, box[2] + cell), min(y1, box[3] + cell)
-    elif parcel.ground.trail is not None:  # what was pressed before is shown, too
+    if parcel.ground.trail is not None:  # what was pressed before is shown, too
         a0, a1, b0, b1 = parcel.ground.trail.cells(cell, sim.origin)
         if a0 < a1 and i0 < i1:
             i0, i1, j0, j1 = min(i0, a0), max(i1, a1), min(j0, b0), max(j1, b1)
+            if len(plan.parcels) > 1:
+                x0, x1 = min(x0, ox + a0 * cell), max(x1, ox + a1 * cell)
+                y0, y1 = min(y0, oy + b0 * cell), max(y1, oy + b1 * cell)
     if math.isfinite(x0):
         i0 = max(i0, math.floor((x0 - ox) / cell))
         i1 = min(i1, math.ceil((x1 - ox) / cell))

@@ -186,9 +186,16 @@ def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> t
 
 
 def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]:
-    """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names."""
+    """(Ground, soils) of parcels that lie beside each other: all triangles, and all soils by their own names; with the
+    trail of the one that has one."""
     if len(parcels) == 1:
         return parcels[0].ground, list(parcels[0].soils)
+    trodden = [parcel for parcel in parcels if parcel.ground.trail is not None]
+    if len(trodden) > 1:
+        raise DesirePathError(
+            f"'{trodden[0].name}' and '{trodden[1].name}' both have a trail already, and a walk over several grounds "
+            "goes on from one: free what was pressed into the others, or bake each ground by itself."
+        )
     for parcel in parcels:
         if parcel.ground.native[0] != "mesh":
             raise DesirePathError(f"'{parcel.name}' is no mesh: only meshes can be baked together.")
@@ -216,6 +223,8 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
         np.concatenate([each + start for each, start in zip(triangles, first)]),
         np.concatenate(kinds, axis=1) if len(soils) > 1 else None,
     )
+    if trodden:
+        ground = replace(ground, trail=trodden[0].ground.trail)
     return ground, as_soils(soils)
 
 
