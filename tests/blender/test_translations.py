@@ -6,7 +6,15 @@ import pathlib
 import bpy
 
 import desire_path.blender as addon
-from desire_path.blender import props, soils, state, translations, translations_said, translations_told
+from desire_path.blender import (
+    props,
+    soils,
+    state,
+    translations,
+    translations_said,
+    translations_soil,
+    translations_told,
+)
 
 FOLDER = pathlib.Path(addon.__file__).parent
 DRAWS = {"label": "*", "prop": "*", "prop_search": "*", "menu": "*", "operator": "Operator"}
@@ -97,7 +105,7 @@ def test_every_word_is_in_every_language():
 def test_no_word_is_told_that_nobody_says():
     """Of the descriptions; labels may be Blender's, too."""
     known = set(descriptions()) | set(reasons()) | {soils.DESCRIBED}
-    told = {*translations_told.GERMAN, *translations_said.GERMAN}
+    told = {*translations_told.GERMAN, *translations_soil.GERMAN, *translations_said.GERMAN}
     assert told <= known, sorted(told - known)
 
 

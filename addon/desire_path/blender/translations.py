@@ -2,13 +2,14 @@
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
 Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_told.py) and every question and reason why a button cannot be pressed (translations_said.py).
+description (translations_told.py, translations_soil.py), and every question and reason why a button cannot be pressed
+(translations_said.py).
 """
 
 import bpy
 
 from ..ground.soil import SOILS
-from . import soils, translations_said, translations_told
+from . import soils, translations_said, translations_soil, translations_told
 
 GERMAN = {
     "Operator": {
@@ -212,8 +213,9 @@ def catalogue(language, told):
     return {(context, label): text for context, labels in words.items() for label, text in labels.items()}
 
 
+_TOLD = {**translations_told.GERMAN, **translations_soil.GERMAN, **translations_said.GERMAN}
 # newer Blenders name a language without its country
-TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, {**translations_told.GERMAN, **translations_said.GERMAN}))
+TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, _TOLD))
 
 
 def say(text, *values):

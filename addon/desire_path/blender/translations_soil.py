@@ -1,0 +1,79 @@
+"""translations_soil.py - the descriptions of a soil's numbers in other languages; see translations_told.py."""
+
+GERMAN = {
+    "How thick the soft soil lies over rigid ground, in metres": (
+        "Wie dick die weiche Schicht über festem Grund liegt, in Metern"
+    ),
+    "How hard it resists, in pascal: half of it, prints twice as deep": (
+        "Wie stark er widersteht, in Pascal: die Hälfte davon, und Abdrücke werden doppelt so tief"
+    ),
+    "How much of what is pressed is pushed aside: 0 nothing, 0.5 all of it": (
+        "Wie viel vom Gepressten beiseitegeschoben wird: 0 nichts, 0.5 alles"
+    ),
+    "How long it takes to give way, in seconds": "Wie lange er braucht, um nachzugeben, in Sekunden",
+    "Loose soil that is steeper slides": "Loser Boden, der steiler ist, rutscht",
+    "A sideways push this strong leaves the rim on one side alone, in newtons; 0 = half the walker's weight": (
+        "Ein so starker seitlicher Schub lässt den Rand nur auf einer Seite, in Newton; 0 = das halbe Gewicht des "
+        "Läufers"
+    ),
+    "How far it shears before it carries sideways, in metres; 0 = no slip": (
+        "Wie weit er geschert wird, bevor er seitlich trägt, in Metern; 0 = kein Rutschen"
+    ),
+    "Firm walls of prints that are steeper come loose and slide; 90 degrees = all stand": (
+        "Feste Wände von Abdrücken, die steiler sind, lösen sich und rutschen; 90 Grad = alle stehen"
+    ),
+    "By how much walls, slopes and rims differ from place to place; 0 = as from a mould": (
+        "Wie sehr sich Wände, Böschungen und Ränder von Ort zu Ort unterscheiden; 0 = wie aus einer Form"
+    ),
+    "How far apart places are that differ, in metres": (
+        "Wie weit Orte auseinanderliegen, die sich unterscheiden, in Metern"
+    ),
+    "Share of a print's depth that comes back when the foot lifts": (
+        "Anteil der Tiefe eines Abdrucks, der zurückkommt, wenn der Fuß abhebt"
+    ),
+    "How wide it bulges around a print, in metres; 0 = loose soil in a heap": (
+        "Wie breit er sich um einen Abdruck aufwölbt, in Metern; 0 = loser Boden als Haufen"
+    ),
+    "How long what slides takes for 10 cm, in seconds; 0 = it comes to rest at once": (
+        "Wie lange Rutschendes für 10 cm braucht, in Sekunden; 0 = es kommt sofort zur Ruhe"
+    ),
+    "0 like a trodden path, 1 like powder: each tenth more, prints half as deep again": (
+        "0 wie ein Trampelpfad, 1 wie Pulver: mit jedem Zehntel mehr werden Abdrücke um die Hälfte tiefer"
+    ),
+    "How thick the soft soil lies over rigid ground": "Wie dick die weiche Schicht über festem Grund liegt",
+    "How much of what is pressed is pushed aside: 0 nothing, 1 all of it": (
+        "Wie viel vom Gepressten beiseitegeschoben wird: 0 nichts, 1 alles"
+    ),
+    "How soon walls of prints come loose and slide: 0 = all stand": (
+        "Wie bald sich Wände von Abdrücken lösen und rutschen: 0 = alle stehen"
+    ),
+    "How wide it bulges around a print; 0 = loose soil in a heap": (
+        "Wie breit er sich um einen Abdruck aufwölbt; 0 = loser Boden als Haufen"
+    ),
+    "How far apart places are that differ": "Wie weit Orte auseinanderliegen, die sich unterscheiden",
+    "How far soles shear it before it carries sideways; 0 = they do not slip": (
+        "Wie weit Sohlen ihn scheren, bevor er seitlich trägt; 0 = sie rutschen nicht"
+    ),
+    "0 = it breaks under anything, 0.4 = under a person where it is 2 cm thick, 1 = like ice": (
+        "0 = sie bricht unter allem, 0.4 = unter einem Menschen, wo sie 2 cm dick ist, 1 = wie Eis"
+    ),
+    "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows": (
+        "Wie voll Wasser er ist: feuchte Wände stehen, durchnässte rutschen; 0 = trocken, 1 = er fließt"
+    ),
+    "How thick a crust lies on top, in metres; 0 = none": "Wie dick eine Kruste obenauf liegt, in Metern; 0 = keine",
+    "How thick a crust lies on top, which carries until it breaks into pieces; 0 = none": (
+        "Wie dick eine Kruste obenauf liegt, die trägt, bis sie in Stücke bricht; 0 = keine"
+    ),
+    "What bending the crust bears before it breaks into pieces, in pascal; 0 = none": (
+        "Welche Biegung die Kruste aushält, bevor sie in Stücke bricht, in Pascal; 0 = keine"
+    ),
+    "Where this soil lies: weights above one half": "Wo diese Bodenart liegt: Gewichte über ein halb",
+    "The soil that lies where the group is painted": "Die Bodenart, die liegt, wo die Gruppe gemalt ist",
+    "{} MPa, stays at slopes up to {} degrees, yields in {} s": (
+        "{} MPa, hält an Böschungen bis {} Grad, gibt in {} s nach"
+    ),
+    "The numbers of this soil, by the names of Soil": "Die Werte dieser Bodenart, nach den Namen von Soil",
+    "A .json file in which a soil was saved, in place of the preset and the numbers; empty = none": (
+        "Eine .json-Datei, in der eine Bodenart gespeichert wurde, anstelle von Vorlage und Werten; leer = keine"
+    ),
+}
