@@ -9,11 +9,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def test_modal_bake(folder):
-    windowed.story(HERE / "window.py", folder, seconds=180)
+    windowed.story(HERE / "window.py", folder)
 
 
 def test_auto_update(folder):
-    windowed.story(HERE / "window_live.py", folder, seconds=180)
+    windowed.story(HERE / "window_live.py", folder)
 
 
 def test_first_print(folder):

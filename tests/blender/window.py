@@ -35,9 +35,6 @@ def press_bake():
     assert not bpy.ops.object.desire_path_free.poll()
 
 
-def until(condition):
-    return hands.until(condition, 40)
-
 
 def shot(name):
     with bpy.context.temp_override(window=window(), screen=window().screen):
@@ -81,13 +78,13 @@ def story():
     # ESC: what was baked stays and plays
     sim.Film.write_frame = slowly
     press_bake()
-    yield from until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.3)
+    yield from hands.until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.3)
     job = bake_job.running()
     assert job is not None and job.fraction < 0.9, "it ran in one go"
     shot("baking")
     for value in ("PRESS", "RELEASE"):
         window().event_simulate(type="ESC", value=value, x=10, y=10)
-    yield from until(lambda: bake_job.running() is None)
+    yield from hands.until(lambda: bake_job.running() is None)
     ground = bpy.data.objects["Ground"]
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 18
@@ -97,29 +94,29 @@ def story():
 
     # the Cancel button, then once more to the end
     press_bake()
-    yield from until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.6)
+    yield from hands.until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.6)
     assert bpy.ops.object.desire_path_cancel() == {"FINISHED"}
-    yield from until(lambda: bake_job.running() is None)
+    yield from hands.until(lambda: bake_job.running() is None)
     index = bake.read_index(str(FOLDER / "bake"))
     assert not index.complete and index.frames >= 36, index
     sim.Film.write_frame = write_frame
     yield 0.3
     press_bake()
-    yield from until(lambda: bake_job.running() is None)
+    yield from hands.until(lambda: bake_job.running() is None)
     ground = bpy.data.objects["Ground"]
     assert bake.read_index(str(FOLDER / "bake")).complete
     assert not ground.desire_path.missing and "contacts" in ground.desire_path.summary
-    yield from until(lambda: state.last(ground) == state.Told("FRESH"))
+    yield from hands.until(lambda: state.last(ground) == state.Told("FRESH"))
     shot("done")
 
     # a change is seen without anybody asking; Free asks, and nothing is lost before the answer
     walker = bpy.data.objects["Walker"]
     walker.location.x = 0.1
-    yield from until(lambda: (state.last(ground) or state.Told("")).state == "OUTDATED")
+    yield from hands.until(lambda: (state.last(ground) or state.Told("")).state == "OUTDATED")
     yield 0.5
     shot("outdated")
     walker.location.x = 0.0
-    yield from until(lambda: state.last(ground) == state.Told("FRESH"))
+    yield from hands.until(lambda: state.last(ground) == state.Told("FRESH"))
     with bpy.context.temp_override(window=window(), area=window().screen.areas[0]):
         bpy.ops.object.desire_path_free("INVOKE_DEFAULT")
     yield 0.5

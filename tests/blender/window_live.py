@@ -32,7 +32,7 @@ def ground():
     return bpy.data.objects["Ground"]
 
 
-def until(condition, seconds=60):
+def until(condition, seconds=180):
     return hands.until(condition, seconds, 0.02, told)
 
 

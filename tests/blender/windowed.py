@@ -9,7 +9,7 @@ import bpy
 from run import Skip
 
 
-def story(script, folder, width=900, height=900, seconds=240):
+def story(script, folder, width=900, height=900, seconds=600):
     """Let Blender run a script (a path) to its end, with a folder for its pictures; raises with what it printed unless
     it says `all seen`; returns that."""
     if not bpy.app.binary_path:
