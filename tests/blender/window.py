@@ -35,7 +35,6 @@ def press_bake():
     assert not bpy.ops.object.desire_path_free.poll()
 
 
-
 def shot(name):
     with bpy.context.temp_override(window=window(), screen=window().screen):
         bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))

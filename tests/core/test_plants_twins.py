@@ -235,7 +235,7 @@ def test_the_door_checks_what_comes_in():
         row = _native.plants_shape(_native.plants_default())
     assert _native.plants_shape({}) == row
     for row in (_native.plants_default()[1:], 7, None, ()):
-        with pytest.raises(TypeError, match="kind: neither a dict"):
+        with pytest.raises(TypeError, match="kind: not a dict by name"):
             _native.plants_shape(row)
     with pytest.raises(ValueError, match="strength"):
         stand.strength *= 2

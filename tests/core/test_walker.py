@@ -519,7 +519,7 @@ def test_native_door_checks():
             _native.foot_contact(bad, ground, on, clear)
     with pytest.raises((TypeError, ValueError)):
         _native.foot_contact(good, ground[:1], on, clear)
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError), pytest.warns(DeprecationWarning, match="numbers in a row are an old way"):
         _native.foot_contact(good, ground, on, clear, np.full(12, -1.0))
     broken = gait.pose.copy()
     broken[1, 7, 2] = np.nan

@@ -40,7 +40,7 @@ def walk_it(hands):
     at = region.x + 0.3 * region.width, region.y + 60.0  # low, so that the menu ends above the lower edge
     yield from hands.click(at, "RIGHTMOUSE")
     hands.shot("minute_1")
-    yield from hands.click((at[0], 26.0))
+    yield from hands.click((at[0], 46.0))  # above Press, which is the lowest
 
 
 def pressed(hands):

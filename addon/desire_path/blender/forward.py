@@ -137,7 +137,7 @@ def switch(armature, on):
     if on or not is_carried(armature):
         return ""
     animation, ours = rig.animation_data, rig.animation_data.action
-    first, before, turned = ours.get(SOURCE), list(ours[BEFORE]), ours.get(TURNED)
+    first, before, turned = ours.get(SOURCE), list(ours[BEFORE]), list(ours.get(TURNED, ()))  # it may be removed below
     slot = getattr(animation, "action_slot", None)
     _leave(animation, rig, ours)
     if first is not None:
@@ -145,8 +145,8 @@ def switch(armature, on):
     else:
         animation.action = None
     rig.delta_location = before
-    if turned is not None:
-        rig.delta_rotation_euler, rig.delta_rotation_quaternion = list(turned)[:3], list(turned)[3:]
+    if turned:
+        rig.delta_rotation_euler, rig.delta_rotation_quaternion = turned[:3], turned[3:]
     return ""
 
 

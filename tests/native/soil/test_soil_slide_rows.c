@@ -78,10 +78,12 @@ TEST(a_row_gives_what_the_model_says)
                 height[k] = firm[k] = 0.0f,
                 heap[k] = (float)(turn % 2 ? 4.5e-3 * check_random(&seed) : 0.4 * (double)FILM),
                 height[k] = heap[k], slack[k] = 1e-3f;
-        int       want_moves = 0, want_restless = 0, close = 0;
-        const int told = dp_slide_decide(
-            share + cell_at(0, 1), give + cell_at(0, 1), height + cell_at(0, 1),
-            heap + cell_at(0, 1), fall + cell_at(0, 1), slack + cell_at(0, 1), ROW, WIDE, FILM);
+        const float most = turn % 4 == 3 ? 2e-3f : BARRIER;
+        int         want_moves = 0, want_restless = 0, close = 0;
+        const int   told =
+            dp_slide_decide(share + cell_at(0, 1), give + cell_at(0, 1), height + cell_at(0, 1),
+                            heap + cell_at(0, 1), fall + cell_at(0, 1), slack + cell_at(0, 1), ROW,
+                            WIDE, FILM, most);
         for (int i = 0; i < WIDE; ++i) {
             const size_t k = cell_at(i, 1);
             double       all = 0.0, counted = 0.0, worst = 0.0;
@@ -90,7 +92,8 @@ TEST(a_row_gives_what_the_model_says)
                 all += e, counted += least(1.0, e / (double)FILM), worst = fmax(worst, e / FAR[q]);
             }
             const double part = 1.0 / (1.0 + counted),
-                         has = least(1.0, (double)heap[k] / (all * part + 1e-35));
+                         has = least(1.0,
+                                     least((double)heap[k], (double)most) / (all * part + 1e-35));
             const double thin =
                 least(1.0, (double)heap[k] / (double)FILM);  // less of what is hardly there
             const double want =
@@ -98,13 +101,13 @@ TEST(a_row_gives_what_the_model_says)
             if (firm[k] < BARRIER) {
                 CHECK_NEAR(share[k], want, 2e-3 * want + 1e-6);
                 CHECK_NEAR(give[k], (double)share[k] * all, 1e-5 * all + 1e-9);
-                CHECK((double)give[k] <= (double)heap[k] * (1.0 + 1e-6));
+                CHECK((double)give[k] <= least((double)heap[k], (double)most) * (1.0 + 1e-6));
             }
             want_moves |= give[k] > 0.0f;
             want_restless |= heap[k] > FILM && worst > (double)slack[k];
             float     its_share, its_give;  // a row of this cell alone says what it does to the row
             const int alone = dp_slide_decide(&its_share, &its_give, height + k, heap + k, fall + k,
-                                              slack + k, ROW, 1, FILM);
+                                              slack + k, ROW, 1, FILM, most);
             if (fabs(worst - (double)slack[k]) > 1e-6 && firm[k] < BARRIER)
                 CHECK(((alone & ROW_RESTLESS) != 0) ==
                       (heap[k] > FILM && worst > (double)slack[k]));
@@ -134,7 +137,7 @@ TEST(what_is_given_is_taken)
         for (int j = 0; j < HIGH - 2; ++j)
             dp_slide_decide(share + cell_at(0, j), give + cell_at(0, j), height + cell_at(0, j),
                             heap + cell_at(0, j), fall + cell_at(0, j), slack + cell_at(0, j), ROW,
-                            WIDE, FILM);
+                            WIDE, FILM, BARRIER);
         for (int j = 0; j < HIGH - 2; ++j)
             for (int i = 0; i < WIDE; ++i) {
                 const size_t k = cell_at(i, j);

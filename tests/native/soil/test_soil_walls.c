@@ -18,7 +18,6 @@ static Ground pit(double degrees, double deep, double shift)
     for (int j = 25; j < 35; ++j)
         for (int i = 20; i < 40; ++i)
             ground.compression[j * SIDE + i] = (float)(deep + shift * (i - 29.5));
-    ground.patch.soils = ground.soil;
     ground.patch.wall_slope = wall_slope;
     return ground;
 }
@@ -27,6 +26,7 @@ static DpSettled settle(Ground* ground, const DpImprint* imprint, int most)
 {
     DpSoilScratch* scratch = dp_soil_scratch_create();
     DpSettled      settled;
+    ground->patch.soils = ground->soil;
     CHECK(dp_soil_stabilize(&ground->patch, imprint, NULL, TENTH, most, scratch, &settled) ==
           DP_OK);
     dp_soil_scratch_destroy(scratch);
