@@ -23,4 +23,5 @@
 #include "terrain/terrain.h"
 #include "maps/maps.h"
 #include "refine/refine.h"
+#include "paths/paths.h"
 #include "sim/sim.h"

@@ -239,6 +239,26 @@ def refine_detail(
 ) -> None: ...
 def detail_numbers() -> _Numbers: ...
 
+# ---- paths ----
+def arrival(
+    cost: _Array,  # (ny, nx) f4
+    cell: float,
+    goals: _Array,  # (g,) i4
+    starts: _Array,  # (g,) f4
+    time: _Array,  # (ny, nx) f4
+    /,
+) -> None: ...
+def direction(time: _Array, cell: float, way: _Array, /) -> None: ...  # (ny, nx) f4, (ny, nx, 2) f4
+def way(
+    time: _Array,  # (ny, nx) f4
+    cell: float,
+    pull: _Array | None,  # (ny, nx, 2) f4
+    x: float,
+    y: float,
+    step: float,
+    /,
+) -> Block: ...
+
 # ---- types ----
 @final
 class Block:

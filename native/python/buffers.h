@@ -62,6 +62,7 @@ extern PyMethodDef dp_py_plants_methods[];
 extern PyMethodDef dp_py_terrain_methods[];
 extern PyMethodDef dp_py_maps_methods[];
 extern PyMethodDef dp_py_refine_methods[];
+extern PyMethodDef dp_py_paths_methods[];
 extern PyMethodDef dp_py_base_methods[];
 
 // py_sim.c, py_frames.c: add a type to the module; 0 or -1 with an exception.

@@ -1,0 +1,120 @@
+// python/py_paths.c - when walkers arrive from where, and the ways they go.
+#include "base/alloc.h"
+#include "paths/paths.h"
+#include "python/buffers.h"
+
+// a field of float32 (ny, nx); false with an exception
+static bool open_field(DpBuffers* buffers, PyObject* object, const char* name, double cell,
+                       DpField* field)
+{
+    DpShape      shape = {2, {-1, -1}};
+    const float* value = dp_buffers_open(buffers, object, name, 'f', &shape, false);
+    if (!value) return false;
+    if (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX) {
+        PyErr_Format(PyExc_ValueError, "%s: too many rows or columns", name);
+        return false;
+    }
+    *field = (DpField){(int)shape.n[1], (int)shape.n[0], cell, value};
+    return true;
+}
+
+static PyObject* arrival(PyObject* module, PyObject* arguments)
+{
+    PyObject *costs, *goals, *starts, *times;
+    double    cell;
+    (void)module;
+    if (!PyArg_ParseTuple(arguments, "OdOOO:arrival", &costs, &cell, &goals, &starts, &times))
+        return NULL;
+    DpBuffers      buffers = {0};
+    PyObject*      answer = NULL;
+    DpField        cost;
+    DpShape        goal_shape = {1, {-1}};
+    const int32_t* goal = NULL;
+    const float*   start = NULL;
+    float*         time = NULL;
+    if (!open_field(&buffers, costs, "cost", cell, &cost)) goto done;
+    goal = dp_buffers_open(&buffers, goals, "goals", 'i', &goal_shape, false);
+    if (goal)
+        start = dp_buffers_open(&buffers, starts, "starts", 'f', DP_SHAPE1(goal_shape.n[0]), false);
+    if (start)
+        time = dp_buffers_open(&buffers, times, "time", 'f', DP_SHAPE2(cost.ny, cost.nx), true);
+    if (time) {
+        DpStatus status = DP_BAD_ARGUMENT;
+        if (goal_shape.n[0] <= INT32_MAX) {
+            const DpGoals to = {(int)goal_shape.n[0], goal, start};
+            Py_BEGIN_ALLOW_THREADS
+            status = dp_paths_arrival(time, &cost, &to);
+            Py_END_ALLOW_THREADS
+        }
+        answer = dp_py_result(status, "arrival times");
+    }
+done:
+    dp_buffers_close(&buffers);
+    return answer;
+}
+
+static PyObject* direction(PyObject* module, PyObject* arguments)
+{
+    PyObject *times, *ways;
+    double    cell;
+    (void)module;
+    if (!PyArg_ParseTuple(arguments, "OdO:direction", &times, &cell, &ways)) return NULL;
+    DpBuffers buffers = {0};
+    PyObject* answer = NULL;
+    DpField   time;
+    float*    way = NULL;
+    if (open_field(&buffers, times, "time", cell, &time))
+        way = dp_buffers_open(&buffers, ways, "way", 'f', DP_SHAPE3(time.ny, time.nx, 2), true);
+    if (way) {
+        DpStatus status;
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_paths_direction(way, &time);
+        Py_END_ALLOW_THREADS
+        answer = dp_py_result(status, "directions of arrival times");
+    }
+    dp_buffers_close(&buffers);
+    return answer;
+}
+
+static PyObject* way(PyObject* module, PyObject* arguments)
+{
+    PyObject *times, *pulls;
+    double    cell, x, y, step;
+    if (!PyArg_ParseTuple(arguments, "OdOddd:way", &times, &cell, &pulls, &x, &y, &step))
+        return NULL;
+    DpBuffers    buffers = {0};
+    PyObject*    answer = NULL;
+    DpField      time;
+    const float* pull = NULL;
+    if (!open_field(&buffers, times, "time", cell, &time)) goto done;
+    if (pulls != Py_None) {
+        pull = dp_buffers_open(&buffers, pulls, "pull", 'f', DP_SHAPE3(time.ny, time.nx, 2), false);
+        if (!pull) goto done;
+    }
+    DpWay    made = {0};
+    DpStatus status;
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_paths_way(&made, &time, pull, x, y, step);
+    Py_END_ALLOW_THREADS
+    answer = status == DP_OK
+                 ? dp_py_block(module, made.point, 2 * (size_t)made.count * sizeof *made.point)
+                 : dp_py_result(status, "a way to a goal");
+done:
+    dp_buffers_close(&buffers);
+    return answer;
+}
+
+PyMethodDef dp_py_paths_methods[] = {
+    {"arrival", arrival, METH_VARARGS,
+     "arrival(cost, cell, goals, starts, time)\n--\n\n"
+     "When a wave arrives that starts at the goals, see paths/paths.h: cost float32 (ny, nx), "
+     "cell\n"
+     "[m], goals int32 (g,) as j nx + i, starts float32 (g,); written to time float32 (ny, nx)."},
+    {"direction", direction, METH_VARARGS,
+     "direction(time, cell, way)\n--\n\n"
+     "Which way times float32 (ny, nx) fall steepest; written to way float32 (ny, nx, 2)."},
+    {"way", way, METH_VARARGS,
+     "way(time, cell, pull, x, y, step)\n--\n\n"
+     "A way from (x, y) [m] down times float32 (ny, nx), pulled by float32 (ny, nx, 2) or None.\n"
+     "Returns a Block of float64 (n, 2) [m]."},
+    {NULL, NULL, 0, NULL}};
