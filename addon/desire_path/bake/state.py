@@ -179,7 +179,7 @@ class States:
         for sim, _ in self.storeys:
             sim.flush()  # what was written up to it is there
         try:
-            for storey, (sim, shares) in enumerate(self.storeys):
+            for storey, (sim, shares) in reversed([*enumerate(self.storeys)]):  # the first says all are there
                 about = {**self._about(frame, storey), "plants": [share.plants_digest() for share in shares]}
                 write(shares[0].out.path("frames", name_of(frame)), about, sim.state())
         except (DesirePathError, OSError, MemoryError) as problem:
