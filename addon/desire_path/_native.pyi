@@ -188,7 +188,7 @@ def plants_cover(
 
 # ---- terrain ----
 def fields() -> tuple[tuple[str, int, str, str, str], ...]: ...  # name, number, unit, equation, meaning
-def terrain_rest(vertices: _Array, triangles: _Array, xy: _Array, height: _Array, /) -> None: ...
+def terrain_base_height(vertices: _Array, triangles: _Array, xy: _Array, height: _Array, /) -> None: ...
 def mesh_cut(
     points: _Array,  # (n, 3) f4
     corners: _Array,  # (c,) i4
@@ -248,8 +248,8 @@ def arrival(
     time: _Array,  # (ny, nx) f4
     /,
 ) -> None: ...
-def direction(time: _Array, cell: float, way: _Array, /) -> None: ...  # (ny, nx) f4, (ny, nx, 2) f4
-def way(
+def direction(time: _Array, cell: float, direction: _Array, /) -> None: ...  # (ny, nx) f4, (ny, nx, 2) f4
+def descend(
     time: _Array,  # (ny, nx) f4
     cell: float,
     pull: _Array | None,  # (ny, nx, 2) f4

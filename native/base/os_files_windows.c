@@ -24,25 +24,25 @@ static wchar_t* wide_path(const char* path)
 {
     static const wchar_t mark[] = L"\\\\?\\", mark_of_share[] = L"\\\\?\\UNC\\";
     wchar_t*             given = dp_alloc(LONGEST_PATH, sizeof *given);
-    wchar_t*             whole = dp_alloc(LONGEST_PATH + 16, sizeof *whole);
+    wchar_t*             full = dp_alloc(LONGEST_PATH + 16, sizeof *full);
     const bool           good =
-        given && whole &&
+        given && full &&
         MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, given, LONGEST_PATH) > 0;
-    wchar_t*    at = whole ? whole + 8 : NULL;  // room for the longer mark
+    wchar_t*    at = full ? full + 8 : NULL;  // room for the longer mark
     const DWORD length = good ? GetFullPathNameW(given, LONGEST_PATH, at, NULL) : 0;
     dp_free(given);
     if (length == 0 || length >= LONGEST_PATH) {
-        dp_free(whole);
+        dp_free(full);
         return NULL;
     }
     const bool     marked = wcsncmp(at, L"\\\\?\\", 4) == 0 || wcsncmp(at, L"\\\\.\\", 4) == 0;
     const bool     share = !marked && at[0] == L'\\' && at[1] == L'\\';
     const wchar_t* front = marked ? L"" : share ? mark_of_share : mark;
-    wchar_t*       rest = share ? at + 2 : at;
-    const size_t   size = wcslen(front), left = wcslen(rest) + 1;
-    memmove(whole + size, rest, left * sizeof *whole);
-    memcpy(whole, front, size * sizeof *whole);
-    return whole;
+    wchar_t*       tail = share ? at + 2 : at;
+    const size_t   size = wcslen(front), left = wcslen(tail) + 1;
+    memmove(full + size, tail, left * sizeof *full);
+    memcpy(full, front, size * sizeof *full);
+    return full;
 }
 
 const char* dp_os_name(const char* path)

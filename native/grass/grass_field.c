@@ -199,7 +199,7 @@ void dp_grass_read(const DpGrass* grass, long i0, long j0, int nx, int ny, float
     }
 }
 
-// Of `deepest`, the share `stays` is that of broken stems, the rest that of whole ones.
+// Of `deepest`, the share `stays` is that of broken stems, what is left that of others.
 DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y)
 {
     const long       i = dp_grid_i(&grass->grid, x), j = dp_grid_j(&grass->grid, y);
@@ -207,10 +207,10 @@ DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y)
     DpStemLean       stem = {0};
     if (!tile) return stem;
     const size_t p = (size_t)(j - tile->ty * DP_TILE) * DP_TILE + (size_t)(i - tile->tx * DP_TILE);
-    const double whole = 1.0 - (double)tile->stays[p];
+    const double unbroken = 1.0 - (double)tile->stays[p];
     const double risen =
         (double)tile->crushed[p] - (double)tile->stays[p] * (double)tile->deepest[p];
-    stem.down = whole > 0.0 ? dp_clamp(risen / whole, 0.0, 1.0) : 0.0;
+    stem.down = unbroken > 0.0 ? dp_clamp(risen / unbroken, 0.0, 1.0) : 0.0;
     stem.lean[0] = (double)tile->lean[0][p], stem.lean[1] = (double)tile->lean[1][p];
     stem.pressed = tile->under[p] == grass->step && grass->step > 0;
     return stem;

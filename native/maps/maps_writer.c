@@ -31,7 +31,7 @@ struct DpWriter
     DpSignal given, written;
     DpTiles *first, *last;  // waiting
     DpTiles* idle;          // their memory is used again
-    int      on_the_way;    // waiting or being written
+    int      pending;       // waiting or being written
     int      workers;
     bool     threaded, leave;
     DpStatus status;  // of the first failure nobody has heard of
@@ -116,7 +116,7 @@ static void fail(DpWriter* writer, DpTiles* tiles, DpStatus status)
     tiles->path = NULL;
     while (writer->first) {
         put_away(writer, take_first(writer));
-        --writer->on_the_way;
+        --writer->pending;
     }
 }
 
@@ -129,7 +129,7 @@ static void write_next(DpWriter* writer)
     dp_lock_take(&writer->lock);
     if (status != DP_OK) fail(writer, tiles, status);
     put_away(writer, tiles);
-    --writer->on_the_way;
+    --writer->pending;
     dp_signal_all(&writer->written);
 }
 
@@ -182,7 +182,7 @@ DpTiles* dp_writer_tiles(DpWriter* writer, DpFrames* frames)
 {
     const size_t size = (size_t)DP_TILE * DP_TILE * (size_t)dp_frames_channels(frames);
     dp_lock_take(&writer->lock);
-    while (writer->on_the_way >= MAX_WAITING) dp_signal_wait(&writer->written, &writer->lock);
+    while (writer->pending >= MAX_WAITING) dp_signal_wait(&writer->written, &writer->lock);
     DpTiles* tiles = writer->idle;
     if (tiles) writer->idle = tiles->next;
     dp_lock_give(&writer->lock);
@@ -211,7 +211,7 @@ DpStatus dp_writer_give(DpWriter* writer, DpTiles* tiles, const char* path, doub
         else
             writer->first = tiles;
         writer->last = tiles;
-        ++writer->on_the_way;
+        ++writer->pending;
         if (!writer->threaded) write_next(writer);
         dp_signal_one(&writer->given);
     }
@@ -229,7 +229,7 @@ void dp_writer_drop(DpWriter* writer, DpTiles* tiles)
 void dp_writer_wait(DpWriter* writer)
 {
     dp_lock_take(&writer->lock);
-    while (writer->on_the_way > 0) dp_signal_wait(&writer->written, &writer->lock);
+    while (writer->pending > 0) dp_signal_wait(&writer->written, &writer->lock);
     dp_lock_give(&writer->lock);
 }
 

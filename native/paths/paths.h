@@ -1,8 +1,8 @@
-// paths/paths.h - where walkers go: how long it takes from each place to a goal, and the way there. MODEL 12
+// paths/paths.h - where walkers go: how long it takes from each place to a goal, and the path there. MODEL 12
 //
-//   cost of each cell, goals ---arrival---> times ---direction---> which way is down
+//   cost of each cell, goals ---arrival---> times ---direction---> where down is
 //                                             |
-//                              pull of what is worn ---way---> one walker's way to the goal
+//                              pull of what is worn ---descend---> one walker's path to the goal
 //
 // Cell (i, j) has its centre at ((i + 0.5) cell, (j + 0.5) cell). Times are in units of cost times metres: where a
 // metre costs 1, they are metres. Results are the same bits for mirrored and turned fields.
@@ -34,29 +34,29 @@ typedef struct DpGoals
 } DpGoals;
 
 // The time at which a wave that starts at the goals arrives at each cell: |grad T| = cost. MODEL 12.1
-// @param time  (ny, nx), +inf in obstacles and where no way leads
+// @param time  (ny, nx), +inf in obstacles and where no path leads
 // DP_BAD_ARGUMENT: a size, a goal outside or in an obstacle, a start or a cost out of range.
 // On failure `time` stays as it is.
 DpStatus dp_paths_arrival(float* time, const DpField* cost, const DpGoals* goals);
 
-// Which way times fall steepest: unit vectors, 0 in obstacles, where no way leads and where it falls nowhere. MODEL 12.2
-// @param way  (ny, nx, 2) [-]
+// Where times fall steepest: unit vectors, 0 in obstacles, where no path leads and where it falls nowhere. MODEL 12.2
+// @param direction  (ny, nx, 2) [-]
 // DP_BAD_ARGUMENT: a size.
-DpStatus dp_paths_direction(float* way, const DpField* time);
+DpStatus dp_paths_direction(float* direction, const DpField* time);
 
-// A way from a place to the goal. Zero it before; dp_free gives its points back.
-typedef struct DpWay
+// A path from a place to the goal. Zero it before; dp_free gives its points back.
+typedef struct DpPath
 {
     double* point;  // [m] (count, 2)
     int     count;
-} DpWay;
+} DpPath;
 
 // Go from a place, step by step, along the direction plus the pull, until a cell is reached from which times do not fall.
 // MODEL 12.3
 // @param pull  what is added to the unit direction, shorter than 1 everywhere; NULL: nothing   [-] (ny, nx, 2)
 // @param x, y  where it begins                                                                  [m]
 // @param step  length of a step, more than cell / 100 and at most a cell                        [m]
-// DP_BAD_ARGUMENT: a size, a step. DP_NO_GROUND: it begins outside, in an obstacle or where no way leads.
-// On failure `way` stays empty.
-DpStatus dp_paths_way(DpWay* way, const DpField* time, const float* pull, double x, double y,
-                      double step);
+// DP_BAD_ARGUMENT: a size, a step. DP_NO_GROUND: it begins outside, in an obstacle or where no path leads.
+// On failure `path` stays empty.
+DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
+                          double step);

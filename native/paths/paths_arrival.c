@@ -11,7 +11,7 @@
 
 #define RIM 2                // cells of nothing around the field, as far as a neighbour's neighbour
 #define NOWHERE 0x7F800000u  // the bits of +inf
-#define TOLD 0x80000000u     // the sign: a time that is told and may change yet
+#define TENTATIVE 0x80000000u  // the sign of a time that may change yet
 
 // Cells lie in blocks of 4 x 4, so that those beside each other are near in memory, too. What is known of a cell is
 // one number, the bits of its time: below NOWHERE it stands, with the sign it is only told.
@@ -127,13 +127,13 @@ static inline bool tell(March* m, size_t at, float now)
     if (time < now) time = now;
     if (time <= least)
         time = nextafterf(least, INFINITY);  // each cell has one before it, however long the way
-    const uint32_t told = bits_of(time) | TOLD;
-    if (told == was) return true;
+    const uint32_t tentative = bits_of(time) | TENTATIVE;
+    if (tentative == was) return true;
     if (cost < 0.0f) {  // a start is more exact than what comes from beside it
-        if ((double)time + f >= (double)as_time(was & ~TOLD)) return true;
+        if ((double)time + f >= (double)as_time(was & ~TENTATIVE)) return true;
         m->cost[at] = -cost;
     }
-    m->time[at] = told;
+    m->time[at] = tentative;
     return dp_queue_push(&m->queue, time, (uint32_t)at);
 }
 
@@ -145,7 +145,7 @@ static DpStatus march(March* m)
         const size_t    at = (size_t)(key & UINT32_MAX);
         const uint32_t  bits = (uint32_t)(key >> 32);
         const ptrdiff_t here = (ptrdiff_t)at, *x = m->beside[at % 4], *y = m->above[at / 4 % 4];
-        if (m->time[at] != (bits | TOLD)) continue;  // it stands, or was told otherwise since
+        if (m->time[at] != (bits | TENTATIVE)) continue;  // it stands, or has changed since
         m->time[at] = bits;
         const float now = as_time(bits);
         if (!tell(m, (size_t)(here + x[0]), now) || !tell(m, (size_t)(here + x[1]), now) ||
@@ -191,9 +191,9 @@ static DpStatus lay_goals(March* m, const DpField* cost, const DpGoals* goals)
         const size_t at = place_of(m, cell % cost->nx, cell / cost->nx);
         if (!(m->cost[at] < INFINITY) || !(start >= 0.0f && start <= 1e30f)) return DP_BAD_ARGUMENT;
         m->cost[at] = -fabsf(m->cost[at]);
-        const uint32_t told = bits_of(start) | TOLD;
-        if (m->time[at] != NOWHERE && m->time[at] <= told) continue;
-        m->time[at] = told;
+        const uint32_t tentative = bits_of(start) | TENTATIVE;
+        if (m->time[at] != NOWHERE && m->time[at] <= tentative) continue;
+        m->time[at] = tentative;
         if (!dp_queue_push(&m->queue, fabsf(start), (uint32_t)at)) return DP_NO_MEMORY;
     }
     return DP_OK;

@@ -16,9 +16,9 @@
 // sums over the plants around a point
 typedef struct Sums
 {
-    double full;   // sum of K / K_ref
-    double whole;  // the same times alpha
-    double root;   // the same times alpha E_v0
+    double full;    // sum of K / K_ref
+    double intact;  // the same times alpha
+    double root;    // the same times alpha E_v0
     double paper, paper_root;
     int    plants;
 } Sums;
@@ -57,7 +57,7 @@ static void add_plants(Sums* sums, const PlantStand* stand, double x, double y, 
                 if (d2 >= radius * radius) continue;
                 const double kernel = 1.0 - sqrt(d2) / radius;  // K = 1 - d/R
                 sums->full += kernel / full;
-                sums->whole += kernel * alpha / full;
+                sums->intact += kernel * alpha / full;
                 sums->root += kernel * alpha * modulus / full;
                 sums->paper += kernel * alpha;
                 sums->paper_root += kernel * alpha * modulus;
@@ -76,7 +76,7 @@ static Sums sums_at(const DpPlants* plants, double x, double y, double wide)
 float dp_plant_cover_around(const DpPlants* plants, float x, float y)
 {
     const Sums sums = sums_at(plants, (double)x, (double)y, RUNNERS);
-    return (float)(sums.whole / fmax(sums.full, 1.0));
+    return (float)(sums.intact / fmax(sums.full, 1.0));
 }
 
 static bool window_ok(const DpPlantWindow* w)
@@ -88,7 +88,7 @@ static bool window_ok(const DpPlantWindow* w)
 // the same over a row of cells, stand by stand; a cell's sums do not know the row's other cells
 typedef struct Row
 {
-    double full[CHUNK], whole[CHUNK], root[CHUNK];
+    double full[CHUNK], intact[CHUNK], root[CHUNK];
 } Row;
 
 // one plant adds to cells a <= i < b, whose centres lie at first + i * cell from it
@@ -96,13 +96,13 @@ DP_CLONES
 static void add_plant(Row* row, int a, int b, double first, double cell, double dy2, double radius,
                       double weight, double alpha, double modulus)
 {
-    const double inverse = 1.0 / radius, whole = weight * alpha, root = whole * modulus;
+    const double inverse = 1.0 / radius, intact = weight * alpha, root = intact * modulus;
     for (int i = a; i < b; ++i) {
         const double dx = first + i * cell;
         const double kernel = 1.0 - sqrt(dx * dx + dy2) * inverse;  // K = 1 - d/R
         const double k = kernel > 0.0 ? kernel : 0.0;
         row->full[i] += k * weight;
-        row->whole[i] += k * whole;
+        row->intact[i] += k * intact;
         row->root[i] += k * root;
     }
 }
@@ -165,8 +165,8 @@ DpStatus dp_plants_cover(const DpPlants* plants, const DpPlantWindow* window, Dp
             for (int i = 0; i < n; ++i) {
                 const size_t at = (size_t)j * (size_t)window->row + (size_t)(i0 + i);
                 const double share = 1.0 / fmax(row.full[i], 1.0);
-                if (strength) strength[at] = (float)fmin(share * row.whole[i], 1.0);  // TRAIL (7)
-                if (modulus) modulus[at] = (float)(share * row.root[i]);              // TRAIL (8)
+                if (strength) strength[at] = (float)fmin(share * row.intact[i], 1.0);  // TRAIL (7)
+                if (modulus) modulus[at] = (float)(share * row.root[i]);               // TRAIL (8)
             }
         }
     return DP_OK;
@@ -186,7 +186,7 @@ void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
     for (int j = 0; j < window->ny; ++j)
         for (int i0 = 0; i0 < window->nx; i0 += CHUNK) {
             const int n = window->nx - i0 < CHUNK ? window->nx - i0 : CHUNK;
-            double    full[CHUNK] = {0}, whole[CHUNK] = {0}, high[CHUNK] = {0}, rise[CHUNK] = {0};
+            double    full[CHUNK] = {0}, intact[CHUNK] = {0}, high[CHUNK] = {0}, rise[CHUNK] = {0};
             double    heal[CHUNK] = {0}, limp[CHUNK] = {0};
             for (int s = 0; s < plants->stands; ++s) {
                 const DpPlantKind* kind = &plants->stand[s].kind;
@@ -196,7 +196,7 @@ void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
                 add_stand(&row, &plants->stand[s], window->x0 + i0 * window->cell,
                           window->y0 + j * window->cell, window->cell, n);
                 for (int i = 0; i < n; ++i) {
-                    full[i] += row.full[i], whole[i] += row.whole[i];
+                    full[i] += row.full[i], intact[i] += row.intact[i];
                     high[i] += row.full[i] * (double)kind->height;
                     rise[i] += row.full[i] * swings, heal[i] += row.full[i] * heals;
                     limp[i] += row.full[i] * bears;
@@ -205,7 +205,7 @@ void dp_plants_stature(const DpPlants* plants, const DpPlantWindow* window,
             for (int i = 0; i < n; ++i) {
                 const size_t at = (size_t)j * (size_t)window->row + (size_t)(i0 + i);
                 const double share = full[i] > 0.0 ? 1.0 / full[i] : 0.0;
-                out->broken[at] = (float)(share * (full[i] - whole[i]));
+                out->broken[at] = (float)(share * (full[i] - intact[i]));
                 if (!out->height) continue;
                 out->height[at] = (float)(share * high[i]),
                 out->rate[at] = (float)(share * rise[i]);

@@ -156,8 +156,8 @@ static void prepare(const PlantStand* stand, const PlantBlock* block, float* giv
         float*        to = give + b * DP_LANES;
         LANES
         {
-            const float whole = (float)strength[l] * inverse[l];
-            to[l] = whole / (weight * whole + alpha);
+            const float firmness = (float)strength[l] * inverse[l];
+            to[l] = firmness / (weight * firmness + alpha);
         }
     }
 }

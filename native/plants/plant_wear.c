@@ -79,18 +79,18 @@ void dp_plant_count_broken(const PlantStand* stand, PlantBlock* block)
     const DpPlantShape shape = stand->shape;
     PlantState*        state = block->state;
     for (int l = 0; l < DP_LANES; ++l) {
-        int whole = 0;
+        int intact = 0;
         for (int stem = 0; stem < shape.stems; ++stem) {
             float limp = 0.0f;
             for (int row = 0; row + 2 < shape.rows; ++row) {
                 const int b = stem * (shape.rows - 2) + row;
                 if (!(state->strength[b * DP_LANES + l] > 0.0)) limp = 1.0f;
-                whole += !(limp > 0.0f);
+                intact += !(limp > 0.0f);
                 state->limp[(stem * shape.rows + row + 2) * DP_LANES + l] = limp;
             }
         }
         const float was = block->alpha[l];
-        block->alpha[l] = (float)whole / (float)shape.bends;  // TRAIL (7), N_c / N_c0
+        block->alpha[l] = (float)intact / (float)shape.bends;  // TRAIL (7), N_c / N_c0
         if (l >= block->count || !(was < block->alpha[l] || was > block->alpha[l])) continue;
         block->changed = true;
         block->broke += (int)lround(((double)was - (double)block->alpha[l]) * shape.bends);

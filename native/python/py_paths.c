@@ -55,20 +55,21 @@ done:
 
 static PyObject* direction(PyObject* module, PyObject* arguments)
 {
-    PyObject *times, *ways;
+    PyObject *times, *directions;
     double    cell;
     (void)module;
-    if (!PyArg_ParseTuple(arguments, "OdO:direction", &times, &cell, &ways)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "OdO:direction", &times, &cell, &directions)) return NULL;
     DpBuffers buffers = {0};
     PyObject* answer = NULL;
     DpField   time;
-    float*    way = NULL;
+    float*    out = NULL;
     if (open_field(&buffers, times, "time", cell, &time))
-        way = dp_buffers_open(&buffers, ways, "way", 'f', DP_SHAPE3(time.ny, time.nx, 2), true);
-    if (way) {
+        out = dp_buffers_open(&buffers, directions, "direction", 'f',
+                              DP_SHAPE3(time.ny, time.nx, 2), true);
+    if (out) {
         DpStatus status;
         Py_BEGIN_ALLOW_THREADS
-        status = dp_paths_direction(way, &time);
+        status = dp_paths_direction(out, &time);
         Py_END_ALLOW_THREADS
         answer = dp_py_result(status, "directions of arrival times");
     }
@@ -76,11 +77,11 @@ static PyObject* direction(PyObject* module, PyObject* arguments)
     return answer;
 }
 
-static PyObject* way(PyObject* module, PyObject* arguments)
+static PyObject* descend(PyObject* module, PyObject* arguments)
 {
     PyObject *times, *pulls;
     double    cell, x, y, step;
-    if (!PyArg_ParseTuple(arguments, "OdOddd:way", &times, &cell, &pulls, &x, &y, &step))
+    if (!PyArg_ParseTuple(arguments, "OdOddd:descend", &times, &cell, &pulls, &x, &y, &step))
         return NULL;
     DpBuffers    buffers = {0};
     PyObject*    answer = NULL;
@@ -91,14 +92,14 @@ static PyObject* way(PyObject* module, PyObject* arguments)
         pull = dp_buffers_open(&buffers, pulls, "pull", 'f', DP_SHAPE3(time.ny, time.nx, 2), false);
         if (!pull) goto done;
     }
-    DpWay    made = {0};
+    DpPath   path = {0};
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_paths_way(&made, &time, pull, x, y, step);
+    status = dp_paths_descend(&path, &time, pull, x, y, step);
     Py_END_ALLOW_THREADS
     answer = status == DP_OK
-                 ? dp_py_block(module, made.point, 2 * (size_t)made.count * sizeof *made.point)
-                 : dp_py_result(status, "a way to a goal");
+                 ? dp_py_block(module, path.point, 2 * (size_t)path.count * sizeof *path.point)
+                 : dp_py_result(status, "a path to a goal");
 done:
     dp_buffers_close(&buffers);
     return answer;
@@ -111,10 +112,10 @@ PyMethodDef dp_py_paths_methods[] = {
      "cell\n"
      "[m], goals int32 (g,) as j nx + i, starts float32 (g,); written to time float32 (ny, nx)."},
     {"direction", direction, METH_VARARGS,
-     "direction(time, cell, way)\n--\n\n"
-     "Which way times float32 (ny, nx) fall steepest; written to way float32 (ny, nx, 2)."},
-    {"way", way, METH_VARARGS,
-     "way(time, cell, pull, x, y, step)\n--\n\n"
-     "A way from (x, y) [m] down times float32 (ny, nx), pulled by float32 (ny, nx, 2) or None.\n"
+     "direction(time, cell, direction)\n--\n\n"
+     "Where times float32 (ny, nx) fall steepest; written to direction float32 (ny, nx, 2)."},
+    {"descend", descend, METH_VARARGS,
+     "descend(time, cell, pull, x, y, step)\n--\n\n"
+     "A path from (x, y) [m] down times float32 (ny, nx), pulled by float32 (ny, nx, 2) or None.\n"
      "Returns a Block of float64 (n, 2) [m]."},
     {NULL, NULL, 0, NULL}};

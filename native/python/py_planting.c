@@ -85,7 +85,7 @@ PyObject* dp_py_rest_plants(PyObject* object, PyObject* args)
     if (!PyArg_ParseTuple(args, "d:rest_plants", &seconds) || !enter(self)) return NULL;
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_sim_rest(self->sim, seconds);
+    status = dp_sim_pass_time(self->sim, seconds);
     Py_END_ALLOW_THREADS
     self->busy = false;
     return dp_py_because(status, "letting plants rest", "seconds must be 0 or more and below 1e12");

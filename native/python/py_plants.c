@@ -240,7 +240,7 @@ done:
     return answer;
 }
 
-static PyObject* plants_rest(PyObject* module, PyObject* arguments)
+static PyObject* plants_rest_shape(PyObject* module, PyObject* arguments)
 {
     (void)module;
     PyObject *         kind, *root, *heading, *position, *answer = NULL;
@@ -296,7 +296,7 @@ PyMethodDef dp_py_plants_methods[] = {
      "Poisson-disc: fills root, float32 (most, 2) [m], after the `given` ones it holds; weight "
      "float32 "
      "(wy, wx) thins."},
-    {"plants_rest_shape", plants_rest, METH_VARARGS,
+    {"plants_rest_shape", plants_rest_shape, METH_VARARGS,
      "plants_rest_shape(kind, seed, root, heading | None, position)\n\n"
      "Fill position, float32 (n, particles, 3) [m], with plants nobody walked on."},
     {"plants_step", plants_step, METH_VARARGS,

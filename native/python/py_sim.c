@@ -60,7 +60,7 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpBuffers buffers = {.count = 0};
     DpGround  ground;
     int       soil_count = 0;
-    PyObject* made = NULL;
+    PyObject* result = NULL;
     DpShape   times = {1, {0}};
     DpSoil*   soils = NULL;
     double*   time = NULL;
@@ -81,19 +81,19 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
         if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);
         Py_END_ALLOW_THREADS
-        made = dp_py_result(status, "making the ground");
+        result = dp_py_result(status, "making the ground");
     }
     dp_free(soils);
     dp_buffers_close(&buffers);
-    if (!made) {
+    if (!result) {
         Py_DECREF(self);
         return NULL;
     }
-    Py_DECREF(made);
+    Py_DECREF(result);
     return (PyObject*)self;
 }
 
-static PyObject* simulation_rest(Simulation* self, PyObject* args)
+static PyObject* simulation_base_height(Simulation* self, PyObject* args)
 {
     PyObject *xy_object, *out_object;
     if (!PyArg_ParseTuple(args, "OO:rest", &xy_object, &out_object)) return NULL;
@@ -142,11 +142,11 @@ static PyObject* simulation_bounds(Simulation* self, PyObject* unused)
 static PyObject* simulation_reach(Simulation* self, PyObject* unused)
 {
     (void)unused;
-    long reach[4];
+    long box[4];
     if (!dp_py_enter(self)) return NULL;
-    dp_sim_bounds(self->sim, reach);
+    dp_sim_bounds(self->sim, box);
     self->busy = false;
-    return Py_BuildValue("(llll)", reach[0], reach[1], reach[2], reach[3]);
+    return Py_BuildValue("(llll)", box[0], box[1], box[2], box[3]);
 }
 
 static PyObject* simulation_run(Simulation* self, PyObject* args)
@@ -262,7 +262,7 @@ static PyObject* simulation_lay(Simulation* self, PyObject* args)
 }
 
 static PyMethodDef methods[] = {
-    {"rest", (PyCFunction)simulation_rest, METH_VARARGS,
+    {"rest", (PyCFunction)simulation_base_height, METH_VARARGS,
      "rest(xy (n, 2) f8, out (n,) f8): height of the rest ground [m], NaN where there is none."},
     {"normal", (PyCFunction)simulation_normal, METH_VARARGS,
      "normal(x, y, radius) -> (x, y, z): normal of the rest ground, smoothed over radius [m]."},

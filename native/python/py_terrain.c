@@ -5,11 +5,12 @@
 #include "soil/soil.h"
 #include "terrain/terrain.h"
 
-static PyObject* terrain_rest(PyObject* module, PyObject* arguments)
+static PyObject* terrain_base_height(PyObject* module, PyObject* arguments)
 {
     (void)module;
     PyObject *vertices, *triangles, *xy, *height;
-    if (!PyArg_ParseTuple(arguments, "OOOO:terrain_rest", &vertices, &triangles, &xy, &height))
+    if (!PyArg_ParseTuple(arguments, "OOOO:terrain_base_height", &vertices, &triangles, &xy,
+                          &height))
         return NULL;
     DpBuffers      buffers = {0};
     PyObject*      answer = NULL;
@@ -194,8 +195,8 @@ PyMethodDef dp_py_terrain_methods[] = {
     {"are_centres", are_centres, METH_VARARGS,
      "are_centres(vertices float64 (n, 3), cell, x0, y0, most)\n\n"
      "Whether all points lie within `most` cells of the centres of their cells."},
-    {"terrain_rest", terrain_rest, METH_VARARGS,
-     "terrain_rest(vertices, triangles, xy, height)\n\n"
+    {"terrain_base_height", terrain_base_height, METH_VARARGS,
+     "terrain_base_height(vertices, triangles, xy, height)\n\n"
      "Height of the upper envelope of a mesh at points: vertices float64 (n, 3) [m], triangles\n"
      "int32 (m, 3), xy float64 (k, 2) [m]; fills height float64 (k,) [m], NaN without ground."},
     {NULL, NULL, 0, NULL}};

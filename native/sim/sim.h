@@ -78,7 +78,7 @@ DpStatus dp_sim_shown(const DpSim* sim, int stand, int plant, float* position);
 DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position);
 
 // Time passes without walkers [s]: plants regain strength and grow again.
-DpStatus dp_sim_rest(DpSim* sim, double seconds);
+DpStatus dp_sim_pass_time(DpSim* sim, double seconds);
 
 // Follow a motion (motion/motion.h), which is the simulation's from now on. A limb that is held, as
 // DP_HELD in `touching` says, stays in its print and presses no deeper. Pressed prints stay: motions

@@ -165,8 +165,8 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
 
     const DpBox     box = limb->to;
     const DpVec3    low = dp_vec3(0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), box.z0);
-    const DpVec3    way = gone(sim, limb, sample, low);
-    const double    far = dp_length(way);
+    const DpVec3    displacement = gone(sim, limb, sample, low);
+    const double    far = dp_length(displacement);
     const bool      pushes = far > STILL && !limb->begins;
     const DpDescent straight = {ALL_DOWN, 0.0, 0.0, 0.0};
     const DpDescent descent = pushes ? descent_of(sim, limb, sample, patch) : straight;
@@ -179,9 +179,10 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
     const double      cut = carved.cut_firm + carved.cut_loose;
     const double      volume = carved.pressed.displaced + cut;
     const double      ahead = pushes && volume > 0.0 ? cut / volume : 0.0;  // beta of TRAIL (13)
-    const DpFootForce foot = {ahead > 0.0 ? dp_scale(way, ahead / far) : dp_vec3(0.0, 0.0, 0.0),
-                              dp_vec3(carved.x, carved.y, box.z0),
-                              {0.0, 0.0, 1.0}};
+    const DpFootForce foot = {
+        ahead > 0.0 ? dp_scale(displacement, ahead / far) : dp_vec3(0.0, 0.0, 0.0),
+        dp_vec3(carved.x, carved.y, box.z0),
+        {0.0, 0.0, 1.0}};
     return dp_limb_lay(sim, limb, patch, scratch, &foot, volume, 1.0);
 }
 

@@ -37,7 +37,7 @@ static double breaks(const DpSim* sim)
 {
     double widest = 0.0;
     for (int s = 0; s < dp_terrain_soil_count(sim->terrain); ++s)
-        widest = fmax(widest, dp_soil_crust_reach(&dp_terrain_soils(sim->terrain)[s]));
+        widest = fmax(widest, dp_soil_crust_margin(&dp_terrain_soils(sim->terrain)[s]));
     return widest;
 }
 

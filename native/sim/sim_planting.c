@@ -146,7 +146,7 @@ DpStatus dp_sim_grow(DpSim* sim, const DpPlantKind* kind, const float* xy, int c
     return status;
 }
 
-DpStatus dp_sim_rest(DpSim* sim, double seconds)
+DpStatus dp_sim_pass_time(DpSim* sim, double seconds)
 {
     if (!sim->stage.plants) return DP_OK;
     const DpStatus status = dp_plants_advance_time(sim->stage.plants, seconds);
@@ -170,8 +170,8 @@ DpStatus dp_stage_fit(DpSim* sim, int parts, int limbs)
     m->sole = dp_alloc((size_t)parts, sizeof *m->sole);
     m->ground = dp_alloc((size_t)limbs, sizeof *m->ground);
     m->height = dp_alloc((size_t)limbs, sizeof *m->height);
-    const bool made = m->swept && m->sole && m->ground && m->height;
-    return made ? DP_OK : DP_NO_MEMORY;
+    const bool valid = m->swept && m->sole && m->ground && m->height;
+    return valid ? DP_OK : DP_NO_MEMORY;
 }
 
 void dp_stage_drop(DpSim* sim)

@@ -143,9 +143,10 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
         pressing->at =
             (DpCellRect){pressing->i0 + scratch->imprint.i0, pressing->i0 + scratch->imprint.i1,
                          pressing->j0 + scratch->imprint.j0, pressing->j0 + scratch->imprint.j1};
-    const bool rests = sim->options.heap_law == DP_HEAP_PAPER;
-    const int  sweeps = rests || sim->options.max_sweeps < SLIDING_SWEEPS ? sim->options.max_sweeps
-                                                                          : SLIDING_SWEEPS;
+    const bool paper_heap = sim->options.heap_law == DP_HEAP_PAPER;
+    const int  sweeps = paper_heap || sim->options.max_sweeps < SLIDING_SWEEPS
+                            ? sim->options.max_sweeps
+                            : SLIDING_SWEEPS;
     const int  flow = sweeps_of(sim, middle_soil(patch), sample);
     status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
                                sim->options.tolerance, flow < sweeps ? flow : sweeps,

@@ -83,7 +83,7 @@ DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* 
 double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint);
 
 // How far from a sole a piece of a crust that it breaks can reach; 0 without a crust [m]
-double dp_soil_crust_reach(const DpSoil* soil);
+double dp_soil_crust_margin(const DpSoil* soil);
 
 // The bending stress of a soil's crust under a load, or at its edge if it stands on one, Westergaard 1926; MODEL 6.12
 // @param load  [N] on an area [m^2] > 0; stiffness  E/L0 of what lies below [Pa/m] > 0

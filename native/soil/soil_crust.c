@@ -9,18 +9,18 @@
 
 #define STIFFER \
     1000.0  // elastic modulus of a crust, in its strength: brittle, it breaks at a strain of 1e-3
-#define POISSON 0.3    // of a crust
-#define AT_EDGE 2.0    // beside a free edge the stress is about twice that inside, Westergaard
-#define TOUCH 0.01     // a sole carries on a plate with what is so close to its lowest [m]
-#define PIECES 1024    // that one sole can break and tilt; more lie level
-#define REACH 7.0      // a piece is narrower than so many of its thicknesses
-#define FLATTEST 0.15  // slopes at which pieces come to lie
+#define POISSON 0.3      // of a crust
+#define AT_EDGE 2.0      // beside a free edge the stress is about twice that inside, Westergaard
+#define TOUCH 0.01       // a sole carries on a plate with what is so close to its lowest [m]
+#define PIECES 1024      // that one sole can break and tilt; more lie level
+#define PIECE_WIDTH 7.0  // a piece is narrower than so many of its thicknesses
+#define FLATTEST 0.15    // slopes at which pieces come to lie
 #define STEEPEST 0.75
 #define GRID ldexp(1.5, 20)  // for sums of depths: steps of 3e-10 m
 
-double dp_soil_crust_reach(const DpSoil* soil)
+double dp_soil_crust_margin(const DpSoil* soil)
 {
-    return dp_has_crust(soil) ? REACH * (double)soil->crust_depth : 0.0;
+    return dp_has_crust(soil) ? PIECE_WIDTH * (double)soil->crust_depth : 0.0;
 }
 
 double dp_soil_crust_stress(const DpSoil* soil, double load, double area, double stiffness,
@@ -76,11 +76,11 @@ static Piece* known(const DpSoilPatch* patch, Piece* piece, size_t p)
 // cells around the sole that its pieces can reach
 static DpCellRect around(const DpSoilPatch* patch, const DpImprint* imprint)
 {
-    double reach = 0.0;
+    double margin = 0.0;
     for (int s = 0; s < patch->soil_count; ++s)
-        reach = fmax(reach, dp_soil_crust_reach(&patch->soils[s]));
+        margin = fmax(margin, dp_soil_crust_margin(&patch->soils[s]));
     const DpCellRect under = {imprint->i0, imprint->i1, imprint->j0, imprint->j1};
-    return soil_grown(under, (long)ceil(reach / patch->cell), patch);
+    return soil_grown(under, (long)ceil(margin / patch->cell), patch);
 }
 
 // height of the ground under a column's covered share over the sole's underside
@@ -113,7 +113,7 @@ static bool look_at_pieces(const DpSoilPatch* patch, const DpImprint* imprint, P
     return any;
 }
 
-static bool is_whole(const DpSoilPatch* patch, Piece* piece, size_t p)
+static bool is_intact(const DpSoilPatch* patch, Piece* piece, size_t p)
 {
     const Piece* one = p == NOWHERE ? NULL : known(patch, piece, p);
     return one && !(one->depth > 0.0);
@@ -140,9 +140,9 @@ static Footing stand_on(const DpSoilPatch* patch, Sole* sole, Piece* piece)
             for (int k = 0; k < sole->chunk[c].count; ++k) {
                 const Columns* columns = &sole->chunk[c];
                 const size_t   p = columns->cell[k];
-                const bool     whole = is_whole(patch, piece, p);
-                found.edge = found.edge || !whole;
-                if (!whole || overlap(columns, k) < found.highest - TOUCH) continue;
+                const bool     intact = is_intact(patch, piece, p);
+                found.edge = found.edge || !intact;
+                if (!intact || overlap(columns, k) < found.highest - TOUCH) continue;
                 found.share += soil_on_grid(columns->share[k], ldexp(1.5, 52 - 30));
                 found.stiffness += columns->spring[k];
                 if (found.cell == NOWHERE) found.cell = p;
@@ -169,7 +169,7 @@ bool dp_crust_carries(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double
                 const Columns* columns = &sole->chunk[c];
                 const size_t   p = columns->cell[k];
                 const double   share = columns->share[k];
-                if (!is_whole(patch, piece, p) || overlap(columns, k) < found.highest - TOUCH)
+                if (!is_intact(patch, piece, p) || overlap(columns, k) < found.highest - TOUCH)
                     continue;
                 imprint->ring[p] = 0;
                 if (patch->pressure_time)

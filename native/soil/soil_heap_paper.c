@@ -12,31 +12,32 @@
 #include "base/noise.h"
 #include "soil/soil_heaps.h"
 
-#define STEPS 65536     // of one cell: distances are whole numbers, alike from any side
-#define DIAGONAL 92682  // sqrt(2) cells
-#define FAR (1 << 30)   // farther than any rim reaches
-#define FALLS 0.2       // outer share of the width over which the rim falls to zero
-#define MAX_WIDE 16000  // cells that a rim can be wide
-#define REACHES 4.0     // widths of a bulge, beyond which it is level
-#define TABLE 64        // heights of a bulge that are known
+#define STEPS 65536       // of one cell: distances are whole numbers, alike from any side
+#define DIAGONAL 92682    // sqrt(2) cells
+#define FAR (1 << 30)     // farther than any rim reaches
+#define FALLS 0.2         // outer share of the width over which the rim falls to zero
+#define MAX_WIDE 16000    // cells that a rim can be wide
+#define BULGE_WIDTHS 4.0  // widths of a bulge, beyond which it is level
+#define TABLE 64          // heights of a bulge that are known
 
 // The part of the patch a rim can reach, with a frame of one far cell; distances from where it begins.
-typedef struct Reach
+typedef struct RimWindow
 {
     int      i0, j0, nx, ny;
     size_t   row;
     int32_t* far;     // of a cell's centre [steps] (ny + 2, row)
     double*  weight;  // what a cell asks for (ny, nx)
-} Reach;
+} RimWindow;
 
-static int32_t* far_at(const Reach* reach, int i, int j)
+static int32_t* far_at(const RimWindow* window, int i, int j)
 {
-    return reach->far + (size_t)(j - reach->j0 + 1) * reach->row + (size_t)(i - reach->i0 + 1);
+    return window->far + (size_t)(j - window->j0 + 1) * window->row + (size_t)(i - window->i0 + 1);
 }
 
-static double* weight_at(const Reach* reach, int i, int j)
+static double* weight_at(const RimWindow* window, int i, int j)
 {
-    return reach->weight + (size_t)(j - reach->j0) * (size_t)reach->nx + (size_t)(i - reach->i0);
+    return window->weight + (size_t)(j - window->j0) * (size_t)window->nx +
+           (size_t)(i - window->i0);
 }
 
 static void nearer(int32_t* far, int32_t other, int32_t step)
@@ -45,31 +46,31 @@ static void nearer(int32_t* far, int32_t other, int32_t step)
 }
 
 // from the cells under the sole outward: two passes with straight and slanting steps
-static void measure(const Reach* reach, const DpImprint* imprint, const DpSoilPatch* patch,
+static void measure(const RimWindow* window, const DpImprint* imprint, const DpSoilPatch* patch,
                     bool true_edge)
 {
-    const size_t row = reach->row, cells = row * (size_t)(reach->ny + 2);
-    for (size_t k = 0; k < cells; ++k) reach->far[k] = FAR;
-    for (int j = reach->j0; j < reach->j0 + reach->ny; ++j)
-        for (int i = reach->i0; i < reach->i0 + reach->nx; ++i) {
+    const size_t row = window->row, cells = row * (size_t)(window->ny + 2);
+    for (size_t k = 0; k < cells; ++k) window->far[k] = FAR;
+    for (int j = window->j0; j < window->j0 + window->ny; ++j)
+        for (int i = window->i0; i < window->i0 + window->nx; ++i) {
             const size_t p = soil_at(patch, i, j);
             if (imprint->ring[p] != 0) continue;
             const double cover = (double)imprint->cover[p];
-            *far_at(reach, i, j) =
+            *far_at(window, i, j) =
                 (int32_t)lround((true_edge ? 0.5 - cover : -0.5 * cover) * STEPS);
         }
     for (int pass = 0; pass < 2; ++pass)
-        for (int n = 0; n < reach->ny; ++n) {
-            const int j = reach->j0 + (pass ? reach->ny - 1 - n : n);
-            int32_t*  far = far_at(reach, reach->i0, j);
+        for (int n = 0; n < window->ny; ++n) {
+            const int j = window->j0 + (pass ? window->ny - 1 - n : n);
+            int32_t*  far = far_at(window, window->i0, j);
             int32_t*  past = pass ? far + row : far - row;
-            for (int i = 0; i < reach->nx; ++i) {
+            for (int i = 0; i < window->nx; ++i) {
                 nearer(&far[i], past[i], STEPS);
                 nearer(&far[i], past[i - 1], DIAGONAL);
                 nearer(&far[i], past[i + 1], DIAGONAL);
             }
-            for (int i = 1; i < reach->nx; ++i) nearer(&far[i], far[i - 1], STEPS);
-            for (int i = reach->nx - 2; i >= 0; --i) nearer(&far[i], far[i + 1], STEPS);
+            for (int i = 1; i < window->nx; ++i) nearer(&far[i], far[i - 1], STEPS);
+            for (int i = window->nx - 2; i >= 0; --i) nearer(&far[i], far[i + 1], STEPS);
         }
 }
 
@@ -94,7 +95,7 @@ typedef struct Rim
 {
     double wide;  // [cells]
     bool   bulges;
-    double bulge[TABLE + 2];  // height at k/TABLE of its reach; all of it is REACHES wide
+    double bulge[TABLE + 2];  // height at k/TABLE of its reach; all of it is BULGE_WIDTHS wide
 } Rim;
 
 // x^(1/5) for x >= 0, by own arithmetic
@@ -112,9 +113,9 @@ static double fifth_root(double x)
 // exp(-(e/w)^1.4), less what it is where it ends
 static void make_bulge(Rim* rim)
 {
-    const double end = dp_noise_growth(-REACHES * fifth_root(REACHES * REACHES));
+    const double end = dp_noise_growth(-BULGE_WIDTHS * fifth_root(BULGE_WIDTHS * BULGE_WIDTHS));
     for (int k = 0; k <= TABLE + 1; ++k) {
-        const double x = REACHES * k / TABLE;
+        const double x = BULGE_WIDTHS * k / TABLE;
         rim->bulge[k] = soil_max(dp_noise_growth(-x * fifth_root(x * x)) - end, 0.0);
     }
 }
@@ -122,27 +123,27 @@ static void make_bulge(Rim* rim)
 static double height_of(const Rim* rim, int32_t far)
 {
     if (!rim->bulges) return falloff(far, rim->wide);
-    const double at = soil_max((double)far / STEPS, 0.0) / rim->wide * TABLE / REACHES;
+    const double at = soil_max((double)far / STEPS, 0.0) / rim->wide * TABLE / BULGE_WIDTHS;
     if (!(at < TABLE)) return 0.0;
     const int k = (int)at;
     return rim->bulge[k] + (at - k) * (rim->bulge[k + 1] - rim->bulge[k]);  // MODEL 6.3
 }
 
-static bool open_reach(Reach* reach, const DpSoilPatch* patch, const DpImprint* imprint,
-                       double wide, DpSoilScratch* scratch)
+static bool open_window(RimWindow* window, const DpSoilPatch* patch, const DpImprint* imprint,
+                        double wide, DpSoilScratch* scratch)
 {
     const int more = 2 + (int)ceil(wide);
     const int i0 = imprint->i0 > more ? imprint->i0 - more : 0;
     const int j0 = imprint->j0 > more ? imprint->j0 - more : 0;
     const int i1 = patch->nx - imprint->i1 > more ? imprint->i1 + more : patch->nx;
     const int j1 = patch->ny - imprint->j1 > more ? imprint->j1 + more : patch->ny;
-    *reach = (Reach){i0, j0, i1 - i0, j1 - j0, (size_t)(i1 - i0) + 2, NULL, NULL};
-    const size_t cells = reach->row * ((size_t)reach->ny + 2);
-    const size_t weights = (size_t)reach->nx * (size_t)reach->ny * sizeof *reach->weight;
-    char*        block = dp_soil_scratch_block(scratch, weights + cells * sizeof *reach->far);
+    *window = (RimWindow){i0, j0, i1 - i0, j1 - j0, (size_t)(i1 - i0) + 2, NULL, NULL};
+    const size_t cells = window->row * ((size_t)window->ny + 2);
+    const size_t weights = (size_t)window->nx * (size_t)window->ny * sizeof *window->weight;
+    char*        block = dp_soil_scratch_block(scratch, weights + cells * sizeof *window->far);
     if (!block) return false;
-    reach->weight = (double*)(void*)block;
-    reach->far = (int32_t*)(void*)(block + weights);
+    window->weight = (double*)(void*)block;
+    window->far = (int32_t*)(void*)(block + weights);
     return true;
 }
 
@@ -151,20 +152,20 @@ static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShar
                     double volume, const Rim* rim, float hollow, DpSoilScratch* scratch)
 {
     const double coarse = ldexp(1.5, 52 - 30), area = patch->cell * patch->cell;
-    const double wide = soil_min(rim->bulges ? REACHES * rim->wide : rim->wide, MAX_WIDE);
-    Reach        reach;
-    if (!open_reach(&reach, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
-    measure(&reach, imprint, patch, rim->bulges);
+    const double wide = soil_min(rim->bulges ? BULGE_WIDTHS * rim->wide : rim->wide, MAX_WIDE);
+    RimWindow    window;
+    if (!open_window(&window, patch, imprint, wide, scratch)) return DP_NO_MEMORY;
+    measure(&window, imprint, patch, rim->bulges);
 
     const double  beyond = rim->bulges ? (double)FAR : ceil((rim->wide + 0.5) * STEPS);
     const int32_t end = beyond < (double)FAR ? (int32_t)beyond : FAR;  // as far out a rim is level
     double        total = 0.0;
-    for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)
-        for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
+    for (int j = window.j0; j < window.j0 + window.ny; ++j)
+        for (int i = window.i0; i < window.i0 + window.nx; ++i) {
             const size_t p = soil_at(patch, i, j);
-            double*      weight = weight_at(&reach, i, j);
+            double*      weight = weight_at(&window, i, j);
             *weight = 0.0;
-            const int32_t far = *far_at(&reach, i, j);
+            const int32_t far = *far_at(&window, i, j);
             if (far >= end || imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p]))
                 continue;
             const double full = height_of(rim, far);
@@ -173,9 +174,9 @@ static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShar
             total += *weight;
         }
     if (!(total > 0.0)) return DP_NO_GROUND;
-    for (int j = reach.j0; j < reach.j0 + reach.ny; ++j)  // normalised as a whole
-        for (int i = reach.i0; i < reach.i0 + reach.nx; ++i) {
-            const double weight = *weight_at(&reach, i, j);
+    for (int j = window.j0; j < window.j0 + window.ny; ++j)  // normalised as a whole
+        for (int i = window.i0; i < window.i0 + window.nx; ++i) {
+            const double weight = *weight_at(&window, i, j);
             if (weight > 0.0)
                 patch->heap[soil_at(patch, i, j)] +=
                     (float)(weight / total * volume / area);  // TRAIL (12)

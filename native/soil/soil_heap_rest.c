@@ -172,7 +172,7 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, DpC
 // ---- laying ----------------------------------------------------------------------------------
 
 // does soil lie on a side of the window beyond which the patch goes on?
-static bool reaches_out(const Heap* heap)
+static bool runs_over(const Heap* heap)
 {
     const Window* window = &heap->window;
     const int     nx = window->nx, ny = window->ny;
@@ -218,10 +218,10 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
 
     // how far a heap like the last one, and this volume, goes on level ground; more where it falls
     const double likely = sqrt(*height * *height + 2.0 * slope * volume / width);
-    double       reach = soil_min(likely / (slope * patch->cell) + 3.0, 30000.0);
+    double       margin = soil_min(likely / (slope * patch->cell) + 3.0, 30000.0);
     double       found = *height;
-    for (bool again = true; again; reach = soil_min(2.0 * reach, 30000.0)) {
-        const DpCellRect box = soil_grown(border, (long)reach, patch);
+    for (bool again = true; again; margin = soil_min(2.0 * margin, 30000.0)) {
+        const DpCellRect box = soil_grown(border, (long)margin, patch);
         const size_t     row = even_row(box.i1 - box.i0);
         const size_t     cells = row * ((size_t)(box.j1 - box.j0) + 2);
         heap.window.row = (int)row;
@@ -235,7 +235,7 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
         const double goal = volume / (area * heap.step);
         const double laid = find_height(&heap, goal, width, slope, &found);
         const bool   all = dp_cells_hold(box, dp_cells(0, 0, patch->nx, patch->ny));
-        again = !all && reach < 30000.0 && (laid <= 0.0 || reaches_out(&heap));
+        again = !all && margin < 30000.0 && (laid <= 0.0 || runs_over(&heap));
         if (again) continue;
         if (!(laid > 0.0)) return DP_NO_GROUND;
 

@@ -26,10 +26,10 @@ typedef struct Cutting
     const DpFaces* faces;
     const double*  place;
     const double*  box;
-    uint8_t*       side;     // beyond which sides of the box a point lies, a bit a side
-    atomic_uchar*  used;     // whether a kept face needs the point
-    uint8_t*       reaches;  // whether a face is kept
-    int32_t*       number;   // of a used point among those kept
+    uint8_t*       side;        // beyond which sides of the box a point lies, a bit a side
+    atomic_uchar*  used;        // whether a kept face needs the point
+    uint8_t*       keeps_face;  // whether a face is kept
+    int32_t*       number;      // of a used point among those kept
     Chunk*         point_chunk;
     Chunk*         face_chunk;
     DpCut*         cut;
@@ -143,7 +143,7 @@ static void look_at_faces(void* context, int index, int worker)
         }
         for (int k = 0; k < sides; ++k) beyond &= cutting->side[corner[k]];
         if (beyond) continue;
-        cutting->reaches[f] = 1;
+        cutting->keeps_face[f] = 1;
         count += sides - 2;
         for (int k = 0; k < sides; ++k)
             atomic_store_explicit(&cutting->used[corner[k]], 1, memory_order_relaxed);
@@ -176,7 +176,7 @@ static void take_faces(void* context, int index, int worker)
     int32_t*       out = cutting->cut->triangle + 3 * (size_t)cutting->face_chunk[index].kept_from;
     (void)worker;
     for (int f = index * CHUNK; f < end; ++f) {
-        if (!cutting->reaches[f]) continue;
+        if (!cutting->keeps_face[f]) continue;
         const int32_t* corner;
         const int      sides = face_of(faces, f, &corner);
         const int      turn = sides == 4 && is_dented(faces->point, corner) ? 3 : 0;
@@ -258,14 +258,14 @@ DpStatus dp_mesh_cut(const DpFaces* faces, const double place[12], const double*
                              dp_alloc((size_t)chunks_of(faces->face_count) + 1, sizeof(Chunk)),
                              cut};
     DpStatus      status = DP_NO_MEMORY;
-    if (cutting.side && cutting.used && cutting.reaches && cutting.number && cutting.point_chunk &&
-        cutting.face_chunk)
+    if (cutting.side && cutting.used && cutting.keeps_face && cutting.number &&
+        cutting.point_chunk && cutting.face_chunk)
         status = look(&cutting, workers);
     if (status == DP_OK && cut->bad < 0) status = take(&cutting, workers);
     if (status != DP_OK) dp_cut_free(cut);
     dp_free(cutting.side);
     dp_free(cutting.used);
-    dp_free(cutting.reaches);
+    dp_free(cutting.keeps_face);
     dp_free(cutting.number);
     dp_free(cutting.point_chunk);
     dp_free(cutting.face_chunk);

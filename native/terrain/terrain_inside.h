@@ -179,7 +179,7 @@ void dp_plate_tile(const DpTerrain* terrain, Tile* tile);
 // terrain_rough.c: what soils are like at rest, at all times and now; and from place to place, of a tile whose kinds
 // are known; the same once more, where soils have changed since
 bool dp_rough_soils(DpTerrain* terrain);
-void dp_rest_soils(DpTerrain* terrain);
+void dp_soil_slopes(DpTerrain* terrain);
 void dp_rough_tile(const DpTerrain* terrain, Tile* tile);
 void dp_rough_again(const DpTerrain* terrain, Tile* tile);
 

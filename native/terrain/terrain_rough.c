@@ -10,10 +10,10 @@
 #define STANDS 1.57      // walls of soils with a larger wall angle all stand [rad]
 #define WALL_SEED 11u    // of what differs: walls ..
 #define PIECE_SEED 31u
-#define REST_SEED 47u     // .. rest angle, rims and rebound
-#define EACH 0.70710678f  // waves and pieces count alike: 1/sqrt(2)
-#define REST_SHARE 0.5f   // of rho, by which the rest slope differs
-#define FLATTEST 0.3f     // .. and no further than by these factors
+#define REPOSE_SEED 47u    // .. rest angle, rims and rebound
+#define EACH 0.70710678f   // waves and pieces count alike: 1/sqrt(2)
+#define REPOSE_SHARE 0.5f  // of rho, by which the rest slope differs
+#define FLATTEST 0.3f      // .. and no further than by these factors
 #define STEEPEST 2.0f
 
 bool dp_rough_soils(DpTerrain* terrain)
@@ -30,11 +30,11 @@ bool dp_rough_soils(DpTerrain* terrain)
         terrain->springs = terrain->springs || all[s].rebound > 0.0f;
         terrain->crusts = terrain->crusts || dp_has_crust(&all[s]);
     }
-    dp_rest_soils(terrain);
+    dp_soil_slopes(terrain);
     return true;
 }
 
-void dp_rest_soils(DpTerrain* terrain)
+void dp_soil_slopes(DpTerrain* terrain)
 {
     for (int s = 0; s < terrain->soil_count; ++s) {
         const double wall = (double)terrain->soils[s].wall_angle;
@@ -46,17 +46,17 @@ void dp_rest_soils(DpTerrain* terrain)
 
 // the cells of one kind: as their soil is, times what their place makes of it
 static void rough_kind(const DpTerrain* terrain, const Tile* tile, int kind, const float* walls,
-                       const float* rests, float* rough)
+                       const float* repose_waves, float* rough)
 {
     const float rho = terrain->soils[kind].roughness;
     for (int n = 0; n < TILE_CELLS; ++n) {
         if (terrain->soil_count > 1 && tile->kind[n] != kind) continue;
-        const float repose = 1.0f + REST_SHARE * rho * rests[n];
+        const float repose = 1.0f + REPOSE_SHARE * rho * repose_waves[n];
         const float held = repose < FLATTEST ? FLATTEST : repose > STEEPEST ? STEEPEST : repose;
         const float wall = (float)dp_noise_growth((double)(rho * walls[n]));
         rough[n] = terrain->slope[kind] * held;
         rough[TILE_CELLS + n] = terrain->wall[kind] * wall;
-        rough[2 * TILE_CELLS + n] = rho * rests[n];
+        rough[2 * TILE_CELLS + n] = rho * repose_waves[n];
     }
 }
 
@@ -80,13 +80,13 @@ void dp_rough_again(const DpTerrain* terrain, Tile* tile)
 
 // waves of a soil that the ground shows where it lies, for when the soil has changed
 static void keep_waves(const DpTerrain* terrain, Tile* tile, int kind, const float* walls,
-                       const float* rests)
+                       const float* repose_waves)
 {
     float* waves = tile_waves(terrain, tile);
     for (int n = 0; n < TILE_CELLS; ++n) {
         if (terrain->soil_count > 1 && tile->kind[n] != kind) continue;
         waves[n] = walls[n];
-        waves[TILE_CELLS + n] = rests[n];
+        waves[TILE_CELLS + n] = repose_waves[n];
     }
 }
 
@@ -94,7 +94,7 @@ void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
 {
     const DpCellRect cells = dp_cells(tile->tx * DP_TILE, tile->ty * DP_TILE, DP_TILE, DP_TILE);
     bool             there[256] = {false};
-    float            walls[TILE_CELLS], rests[TILE_CELLS], pieces[TILE_CELLS];
+    float            walls[TILE_CELLS], repose_waves[TILE_CELLS], pieces[TILE_CELLS];
     for (int n = 0; n < TILE_CELLS; ++n) there[terrain->soil_count > 1 ? tile->kind[n] : 0] = true;
     for (int kind = 0; kind < terrain->soil_count; ++kind) {
         if (!there[kind]) continue;
@@ -102,13 +102,14 @@ void dp_rough_tile(const DpTerrain* terrain, Tile* tile)
         if (is_rough(terrain, kind)) {
             dp_noise_waves(&terrain->grid, cells, 4.0 * grain, 0.5 * grain, WALL_SEED, walls);
             dp_noise_pieces(&terrain->grid, cells, 2.0 * grain, PIECE_SEED, pieces);
-            dp_noise_waves(&terrain->grid, cells, 2.0 * grain, 0.5 * grain, REST_SEED, rests);
+            dp_noise_waves(&terrain->grid, cells, 2.0 * grain, 0.5 * grain, REPOSE_SEED,
+                           repose_waves);
             for (int n = 0; n < TILE_CELLS; ++n) walls[n] = EACH * (walls[n] + pieces[n]);
         } else {
-            for (int n = 0; n < TILE_CELLS; ++n) walls[n] = rests[n] = 0.0f;
+            for (int n = 0; n < TILE_CELLS; ++n) walls[n] = repose_waves[n] = 0.0f;
         }
-        rough_kind(terrain, tile, kind, walls, rests, tile_rough(terrain, tile));
-        if (terrain->row) keep_waves(terrain, tile, kind, walls, rests);
+        rough_kind(terrain, tile, kind, walls, repose_waves, tile_rough(terrain, tile));
+        if (terrain->row) keep_waves(terrain, tile, kind, walls, repose_waves);
     }
 }
 

@@ -68,5 +68,5 @@ void dp_terrain_set_time(DpTerrain* terrain, double time)
         differs = differs || memcmp(&soil, &terrain->soils[s], sizeof soil) != 0;
         terrain->soils[s] = soil;
     }
-    if (differs) dp_rest_soils(terrain);
+    if (differs) dp_soil_slopes(terrain);
 }

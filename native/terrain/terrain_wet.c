@@ -40,11 +40,11 @@ DpSoil dp_wet_soil(const DpSoil* soil)
     DpSoil       wet = *soil;
     const double share = (double)soil->wetness;
     if (!(share > 0.0)) return wet;
-    const double rest = (double)soil->rest_angle, wall = (double)soil->wall_angle;
+    const double repose = (double)soil->rest_angle, wall = (double)soil->wall_angle;
     const double lifted = LIFTED * fmax(share - SOAKED, 0.0) / (1.0 - SOAKED);
-    const double slides = atan((1.0 - lifted) * tan(rest));
+    const double slides = atan((1.0 - lifted) * tan(repose));
     const double stands =
-        wall + fmax(steepest(suction(share) * tan(rest), rest) - fmax(wall, rest), 0.0);
+        wall + fmax(steepest(suction(share) * tan(repose), repose) - fmax(wall, repose), 0.0);
     const double flows = lifted / LIFTED;
     wet.rest_angle = (float)slides;
     wet.wall_angle = (float)((1.0 - flows) * fmin(stands, 0.5 * DP_PI) + flows * slides);

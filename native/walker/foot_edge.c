@@ -87,8 +87,8 @@ static bool limb_on(const DpGait* gait, int limb, const uint8_t* on, int t)
     return false;
 }
 
-static bool rests(const DpGait* gait, int limb, const double* speed, double moves,
-                  const uint8_t* on, int t)
+static bool is_slow_contact(const DpGait* gait, int limb, const double* speed, double moves,
+                            const uint8_t* on, int t)
 {
     for (int k = 0; k < gait->points; ++k) {
         const size_t at = (size_t)k * (size_t)gait->times + (size_t)t;
@@ -119,7 +119,7 @@ static void leave(const DpGait* gait, int limb, const double* rise, const double
         }
         // no limb has left while a point of it still rests
         for (int s = hardest; s < t; ++s)
-            if (rests(gait, limb, speed, moves, on, s)) hardest = s + 1;
+            if (is_slow_contact(gait, limb, speed, moves, on, s)) hardest = s + 1;
         for (int k = 0; k < gait->points; ++k) {
             if (gait->part_limb[gait->point_part[k]] != limb) continue;
             uint8_t* row = on + (size_t)k * (size_t)times;

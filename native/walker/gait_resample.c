@@ -117,11 +117,11 @@ static DpQuat cubic_turn(const Between* b, const double* pose)
     if (!spin_at(&spin0, pose, b->i, b->from0, b->n0, b->w0) ||
         !spin_at(&spin1, pose, b->i + 1, b->from1, b->n1, b->w1))
         return dp_slerp(q0, q1, b->u);
-    const DpVec3 whole = turn_to(q0, q1);
+    const DpVec3 total_turn = turn_to(q0, q1);
     const double u = b->u, u2 = u * u, u3 = u2 * u;
-    DpVec3       turn = dp_scale(whole, 3.0 * u2 - 2.0 * u3);
+    DpVec3       turn = dp_scale(total_turn, 3.0 * u2 - 2.0 * u3);
     turn = dp_add(turn, dp_scale(spin0, (u3 - 2.0 * u2 + u) * b->step));
-    turn = dp_add(turn, dp_scale(change_of(whole, spin1), (u3 - u2) * b->step));
+    turn = dp_add(turn, dp_scale(change_of(total_turn, spin1), (u3 - u2) * b->step));
     const double angle = dp_length(turn);
     return angle > 1e-12 ? dp_quat_product(q0, dp_quat_about(dp_unit(turn), angle)) : q0;
 }

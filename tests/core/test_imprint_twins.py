@@ -82,7 +82,7 @@ def test_ground_heights_agree():
         triangles = rng.integers(0, 60, (70, 3)).astype(np.int32)
         xy = rng.normal(0, 2.5, (2000, 2)) + [1000, -500]
         height = np.empty(len(xy))
-        _native.terrain_rest(vertices, triangles, xy, height)
+        _native.terrain_base_height(vertices, triangles, xy, height)
         want = slow.envelope(vertices, triangles, xy[:, 0], xy[:, 1], np.fmax)
         assert np.isfinite(want).sum() > 500
         np.testing.assert_allclose(height, want, atol=1e-9)
@@ -121,4 +121,4 @@ def test_bad_arguments_are_refused():
         _native.imprint_rings(np.zeros((3, 3), np.int32), -1)
     wall = np.array([[0, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     with pytest.raises(ValueError, match="no ground"):
-        _native.terrain_rest(wall, np.array([[0, 1, 2]], np.int32), np.zeros((1, 2)), np.zeros(1))
+        _native.terrain_base_height(wall, np.array([[0, 1, 2]], np.int32), np.zeros((1, 2)), np.zeros(1))

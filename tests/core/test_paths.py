@@ -239,5 +239,5 @@ def test_the_core_checks_its_door():
     with pytest.raises((ValueError, TypeError)):
         _native.arrival(cost, 0.5, goal, start, np.zeros((5, 4), np.float32))
     with pytest.raises((ValueError, TypeError)):
-        _native.way(time, 0.5, np.zeros((4, 5), np.float32), 1.0, 1.0, 0.2)
-    assert len(bytes(_native.way(time, 0.5, None, 1.0, 1.0, 0.2))) == 16  # flat times: there it is
+        _native.descend(time, 0.5, np.zeros((4, 5), np.float32), 1.0, 1.0, 0.2)
+    assert len(bytes(_native.descend(time, 0.5, None, 1.0, 1.0, 0.2))) == 16  # flat times: there it is

@@ -179,4 +179,4 @@ def way(time: Any, start: Sequence[float], cell: float, pull: Any = None, step: 
             f"No way leads from ({x:g}, {y:g}) to the goal, for it lies in an obstacle or on an island: start "
             "elsewhere, or leave a gap."
         )
-    return np.frombuffer(_native.way(times, cell, pulls, x, y, step), np.float64).reshape(-1, 2)
+    return np.frombuffer(_native.descend(times, cell, pulls, x, y, step), np.float64).reshape(-1, 2)

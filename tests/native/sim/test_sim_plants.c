@@ -277,7 +277,7 @@ TEST(rest_grows_what_broke)
     CHECK(walk(&world, &s) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_PLANT_STRENGTH, 16, 9, 1, 1, &worn) == DP_OK);
     dp_grass_read(dp_sim_grass(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[0]);
-    CHECK(dp_sim_rest(world.sim, 50.0 * 365.25 * 86400.0) == DP_OK);
+    CHECK(dp_sim_pass_time(world.sim, 50.0 * 365.25 * 86400.0) == DP_OK);
     CHECK(dp_terrain_read(world.terrain, DP_FIELD_PLANT_STRENGTH, 16, 9, 1, 1, &grown) == DP_OK);
     dp_grass_read(dp_sim_grass(world.sim), 16, 9, 1, 1, NULL, NULL, &crushed[1]);
     printf("  cover %.2f, after 50 years %.2f; crushed %.2f, %.2f\n", (double)worn, (double)grown,

@@ -1,4 +1,4 @@
-// Ways: straight, through mazes, with pulls that would lead elsewhere; where there is none.
+// Paths: straight, through mazes, with pulls that would lead elsewhere; where there is none.
 #include "check.h"
 #include "paths/paths.h"
 
@@ -34,19 +34,19 @@ TEST(directions_are_unit_vectors_to_the_goal)
     }
 }
 
-TEST(a_way_is_straight_on_even_ground)
+TEST(a_path_is_straight_on_even_ground)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
     const DpField field = field_to(40 * N + 50);
-    DpWay         way = {0};
-    CHECK(dp_paths_way(&way, &field, NULL, 2.2, 3.1, 0.25) == DP_OK);
-    CHECK(cell_of(way.point + 2 * (way.count - 1)) == 40 * N + 50);
-    CHECK_NEAR(0.25 * (way.count - 1), hypot(25.25 - 2.2, 20.25 - 3.1), 0.6);
-    dp_free(way.point);
+    DpPath        path = {0};
+    CHECK(dp_paths_descend(&path, &field, NULL, 2.2, 3.1, 0.25) == DP_OK);
+    CHECK(cell_of(path.point + 2 * (path.count - 1)) == 40 * N + 50);
+    CHECK_NEAR(0.25 * (path.count - 1), hypot(25.25 - 2.2, 20.25 - 3.1), 0.6);
+    dp_free(path.point);
 }
 
 // Through a thicket, with a pull that tries anything: it ends at the goal, and never stands in an obstacle.
-TEST(every_way_ends_at_the_goal)
+TEST(every_path_ends_at_the_goal)
 {
     unsigned seed = 11;
     int      gone = 0;
@@ -63,44 +63,45 @@ TEST(every_way_ends_at_the_goal)
         const DpField field = field_to(goal);
         for (int k = 0; k < N * N; k += 7) {
             if (!(time_[k] < INFINITY)) continue;
-            DpWay way = {0};
-            CHECK(dp_paths_way(&way, &field, pull, (k % N + 0.3) * CELL, (k / N + 0.8) * CELL,
-                               0.1 + 0.4 * check_random(&seed)) == DP_OK);
-            CHECK(cell_of(way.point + 2 * (way.count - 1)) == goal);
-            for (int p = 0; p < way.count; ++p) CHECK(time_[cell_of(way.point + 2 * p)] < INFINITY);
-            dp_free(way.point);
+            DpPath path = {0};
+            CHECK(dp_paths_descend(&path, &field, pull, (k % N + 0.3) * CELL, (k / N + 0.8) * CELL,
+                                   0.1 + 0.4 * check_random(&seed)) == DP_OK);
+            CHECK(cell_of(path.point + 2 * (path.count - 1)) == goal);
+            for (int p = 0; p < path.count; ++p)
+                CHECK(time_[cell_of(path.point + 2 * p)] < INFINITY);
+            dp_free(path.point);
             gone += 1;
         }
     }
     CHECK(gone > 1000);
 }
 
-TEST(where_there_is_no_way)
+TEST(where_there_is_no_path)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
     for (int k = 0; k < N; ++k) cost[20 * N + k] = INFINITY;
     const DpField field = field_to(0);
-    DpWay         way = {0};
-    CHECK(dp_paths_way(&way, &field, NULL, 5.0, 25.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_way(&way, &field, NULL, 5.0, 10.2, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_way(&way, &field, NULL, -0.1, 5.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_way(&way, &field, NULL, (double)NAN, 5.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_way(&way, &field, NULL, 5.0, 1e300, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_way(&way, &field, NULL, 5.0, 5.0, 0.0) == DP_BAD_ARGUMENT);
-    CHECK(dp_paths_way(&way, &field, NULL, 5.0, 5.0, 0.6) == DP_BAD_ARGUMENT);
+    DpPath        path = {0};
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 25.0, 0.25) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 10.2, 0.25) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, -0.1, 5.0, 0.25) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, (double)NAN, 5.0, 0.25) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 1e300, 0.25) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.0) == DP_BAD_ARGUMENT);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.6) == DP_BAD_ARGUMENT);
     dp_alloc_fail_after(1);
-    CHECK(dp_paths_way(&way, &field, NULL, 8.0, 8.0, 0.05) == DP_NO_MEMORY);
+    CHECK(dp_paths_descend(&path, &field, NULL, 8.0, 8.0, 0.05) == DP_NO_MEMORY);
     dp_alloc_fail_after(-1);
-    CHECK(way.point == NULL && way.count == 0);
-    CHECK(dp_paths_way(&way, &field, NULL, 0.2, 0.2, 0.25) == DP_OK && way.count == 1);
-    dp_free(way.point);
+    CHECK(path.point == NULL && path.count == 0);
+    CHECK(dp_paths_descend(&path, &field, NULL, 0.2, 0.2, 0.25) == DP_OK && path.count == 1);
+    dp_free(path.point);
 }
 
 int main(void)
 {
     RUN(directions_are_unit_vectors_to_the_goal);
-    RUN(a_way_is_straight_on_even_ground);
-    RUN(every_way_ends_at_the_goal);
-    RUN(where_there_is_no_way);
+    RUN(a_path_is_straight_on_even_ground);
+    RUN(every_path_ends_at_the_goal);
+    RUN(where_there_is_no_path);
     return check_done();
 }

@@ -1,4 +1,4 @@
-// paths/paths_way.c - down a field of times, step by step, pulled aside by what is worn. MODEL 12.2, MODEL 12.3
+// paths/paths_descend.c - down a field of times, step by step, pulled aside by what is worn. MODEL 12.2, MODEL 12.3
 #include <math.h>
 
 #include "base/alloc.h"
@@ -47,20 +47,20 @@ static Place down(const DpField* time, int i, int j)
                 -rise(time_at(time, i, j - 1), here, time_at(time, i, j + 1)));  // MODEL 12.2
 }
 
-DpStatus dp_paths_direction(float* way, const DpField* time)
+DpStatus dp_paths_direction(float* direction, const DpField* time)
 {
     if (!good_size(time)) return DP_BAD_ARGUMENT;
     for (int j = 0; j < time->ny; ++j)
-        for (int i = 0; i < time->nx; ++i, way += 2) {
+        for (int i = 0; i < time->nx; ++i, direction += 2) {
             const Place e = down(time, i, j);
-            way[0] = (float)e.x, way[1] = (float)e.y;
+            direction[0] = (float)e.x, direction[1] = (float)e.y;
         }
     return DP_OK;
 }
 
-// ---- a way ------------------------------------------------------------------------------------------
+// ---- a path -----------------------------------------------------------------------------------------
 
-// What is known at a place, between the middles of four cells; those where no way leads do not count.
+// What is known at a place, between the middles of four cells; those where no path leads do not count.
 typedef struct Here
 {
     double time;
@@ -111,13 +111,13 @@ static double best(const DpField* time, Place at, Place* middle)
     return fall;
 }
 
-static bool add(DpWay* way, Place at)
+static bool add(DpPath* path, Place at)
 {
-    if (way->count == INT32_MAX / 2 ||
-        !dp_make_room(&way->point, 2 * ((size_t)way->count + 1), sizeof *way->point))
+    if (path->count == INT32_MAX / 2 ||
+        !dp_make_room(&path->point, 2 * ((size_t)path->count + 1), sizeof *path->point))
         return false;
-    way->point[2 * way->count] = at.x, way->point[2 * way->count + 1] = at.y;
-    way->count += 1;
+    path->point[2 * path->count] = at.x, path->point[2 * path->count + 1] = at.y;
+    path->count += 1;
     return true;
 }
 
@@ -131,13 +131,13 @@ static bool step_to(Place* at, const DpField* time, Place e, double step, double
     return true;
 }
 
-// Steps fall by a least amount each, or else go from cell to cell until they have fallen below where that began: no way
+// Steps fall by a least amount each, or else go from cell to cell until they have fallen below where that began: no path
 // goes in a circle.
-static DpStatus go(DpWay* way, const DpField* time, const float* pull, Place at, double step)
+static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place at, double step)
 {
     double stuck = INFINITY;  // above it: from cell to cell
     Place  middle = at;
-    if (!add(way, at)) return DP_NO_MEMORY;
+    if (!add(path, at)) return DP_NO_MEMORY;
     for (;;) {
         const double fall = best(time, at, &middle);
         if (!(fall > 0.0)) return DP_OK;
@@ -150,21 +150,21 @@ static DpStatus go(DpWay* way, const DpField* time, const float* pull, Place at,
             if (free) stuck = here.time;
             at = middle;
         }
-        if (!add(way, at)) return DP_NO_MEMORY;
+        if (!add(path, at)) return DP_NO_MEMORY;
     }
 }
 
-DpStatus dp_paths_way(DpWay* way, const DpField* time, const float* pull, double x, double y,
-                      double step)
+DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
+                          double step)
 {
     const Place at = {x, y};
     if (!good_size(time) || !(step > 0.01 * time->cell && step <= time->cell))
         return DP_BAD_ARGUMENT;
     if (!(cell_time(time, at) < (double)INFINITY)) return DP_NO_GROUND;
-    const DpStatus status = go(way, time, pull, at, step);
+    const DpStatus status = go(path, time, pull, at, step);
     if (status != DP_OK) {
-        dp_free(way->point);
-        *way = (DpWay){NULL, 0};
+        dp_free(path->point);
+        *path = (DpPath){NULL, 0};
     }
     return status;
 }
