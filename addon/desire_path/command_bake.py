@@ -59,7 +59,7 @@ def read_ground(text: str, spacing: float | None) -> Ground:
     return Ground.read(text, spacing)
 
 
-def _cells(args: argparse.Namespace, ground: Ground) -> tuple[float, tuple[float, float]]:
+def cells(args: argparse.Namespace, ground: Ground) -> tuple[float, tuple[float, float]]:
     """Side and origin of the cells: as they are told, else those of the trail that goes on, else 1 cm from (0, 0)."""
     left = ground.trail
     cell = args.cell if args.cell is not None else left.cell if left else 0.01
@@ -96,7 +96,7 @@ def _along(args: argparse.Namespace, gait: Gait, ground: Ground) -> Gait:
     """The walk carried along a path over this ground, if it is to be."""
     if not args.along:
         return place_feet(gait, ground) if args.place_feet else gait
-    cell, origin = _cells(args, ground)
+    cell, origin = cells(args, ground)
     below = Simulation(ground, as_soil(args.soil), cell, options=SimulationOptions(origin=origin))
     return gait.along(
         paths.read(args.along)[:, :2],
@@ -125,7 +125,7 @@ def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
     """Bake a motion on a ground as it was asked for, and tell of it."""
     limits = Limits.read(args.limit)
     plants = [_planting(text, args.seed) for text in args.plants]
-    cell, origin = _cells(args, ground)
+    cell, origin = cells(args, ground)
     bake = Bake(
         gait,
         ground,

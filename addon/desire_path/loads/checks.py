@@ -51,6 +51,8 @@ def slides(gait: Gait, places: np.ndarray, touching: np.ndarray, size: float) ->
     if len(gait.time) < 3:
         return warnings
     rush = np.linalg.norm(np.gradient(places[..., :2], gait.time, axis=1), axis=2)
+    for part in np.flatnonzero(np.array(gait.part_name) == "body"):  # what may roll is as fast as where it stands
+        rush[gait.point_part == part] = rush[gait.point_part == part].min(axis=0)
     on, pace = touching[gait.point_part] != 0, np.sqrt(size)
     for w, name in enumerate(gait.walker_name):
         own = gait.limb_walker[gait.part_limb[gait.point_part]] == w
