@@ -10,6 +10,19 @@ double dp_soil_anisotropy(DpVec3 push, double threshold)
     return fmin(dp_length(push) / threshold, 1.0);  // TRAIL (13)
 }
 
+// the sides of the touched cells across the push
+static void find_sides(const DpSoilPatch* patch, const DpImprint* imprint, HeapShares* shares)
+{
+    shares->left = INFINITY, shares->right = -INFINITY;
+    for (int j = imprint->j0; j < imprint->j1; ++j)
+        for (int i = imprint->i0; i < imprint->i1; ++i) {
+            if (imprint->ring[soil_at(patch, i, j)] != 0) continue;
+            const double across = shares->dir_x * j - shares->dir_y * i;
+            shares->left = soil_min(shares->left, across - 0.5);
+            shares->right = soil_max(shares->right, across + 0.5);
+        }
+}
+
 // is there a border cell at all, and one that gets something?
 static bool look_at_border(const DpSoilPatch* patch, const DpImprint* imprint, HeapShares* shares)
 {
@@ -66,6 +79,7 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
         return DP_BAD_ARGUMENT;
     if (!look_at_border(patch, imprint, &shares)) return DP_NO_GROUND;
     if (volume <= 0.0) return DP_OK;
+    if (shares.outward) find_sides(patch, imprint, &shares);
 
     if (options->law == DP_HEAP_PAPER)
         return dp_soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);

@@ -2,6 +2,9 @@
 #include "base/wide.h"  // first: it says how loops may be widened
 #include "soil/soil_heap_inside.h"
 
+#define SIDE \
+    0.5  // of a heap's height is what it loses at its sides; it climbs from there at the rest angle
+
 // What a row got from the row before, as bits.
 #define ROW_RAISED 1  // a cell is higher than it was
 #define ROW_CONES 2   // a cone reaches it
@@ -120,6 +123,13 @@ static void measure_row(const int32_t* restrict fill, const int32_t* restrict su
     laid->cells += cells;
 }
 
+// How high the cone of a border cell is, the highest being `height` [m].
+static double top_of(const Apex* apex, double height)
+{
+    const double lower = soil_max(SIDE * height - apex->climbs, 0.0);
+    return apex->root * (height - apex->spills * lower);
+}
+
 Laid dp_heap_fill(const Heap* heap, double height)
 {
     const Window* window = &heap->window;
@@ -127,7 +137,7 @@ Laid dp_heap_fill(const Heap* heap, double height)
     for (size_t k = 0; k < cells; ++k) window->fill[k] = NOTHING;
     for (int k = 0; k < heap->apex_count; ++k) {
         const Apex*  apex = &heap->apex[k];
-        const double top = (apex->ground - heap->level + height * apex->root) / heap->step -
+        const double top = (apex->ground - heap->level + top_of(apex, height)) / heap->step -
                            apex->away * (double)heap->straight;
         row_of(window, window->fill, apex->j - window->j0)[apex->i - window->i0] =
             (int32_t)floor(top + 0.5);

@@ -25,6 +25,8 @@ typedef struct Apex
     double ground;  // firm ground [m]
     double root;    // sqrt(omega) [-]
     double away;    // from the sole's edge, beyond half a cell [cells]
+    double spills;  // beta where what is pushed ahead flows off at the side of its face, else 0 [-]
+    double climbs;  // from that side to here at the rest angle [m]
 } Apex;
 
 typedef struct Heap
@@ -57,5 +59,5 @@ static inline int32_t* row_of(const Window* window, int32_t* grid, int j)
 // not fit the steps.
 bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box);
 
-// Lay cones of height T sqrt(omega), and measure what lies over the present surface.
+// Lay cones of height T sqrt(omega), lower beside the sides of what is pushed ahead, and measure what lies over the present surface.
 Laid dp_heap_fill(const Heap* heap, double height);

@@ -14,6 +14,11 @@
 // now piles up at its edge, and soil_stabilize.c lets slide in what does not stay. Else every step of the
 // roll would lay a ridge across the print.
 //
+// What is pushed ahead flows off at the sides of the face that pushes it, where nothing holds it, and so is lower
+// there: along the face, too, it is no steeper than it rests. While a body goes on, its heap grows by q a metre and
+// loses e^2 / (2 tan gamma_r) at either side, e its height there; both balance at e = 0.4 to 0.55 of the height in the
+// middle of a wide face, for heaps of 1.5 to 7 times the depth of the cut.
+//
 // Heights are whole numbers of a small step (a power of two, some nanometres), so that neither the order of
 // a sweep nor that of a sum can change a bit: with equal shares, mirrored or turned ground gets exactly
 // mirrored or turned heaps. With a push the shares come from coordinates; they are rounded to 2^-30 and
@@ -145,7 +150,8 @@ static size_t count_border(const DpSoilPatch* patch, const DpImprint* imprint)
 }
 
 // border cells with a share; *width = sum of omega * cell, the border's length; box is theirs
-static void find_apexes(Heap* heap, const HeapShares* shares, double* width, DpCellRect* box)
+static void find_apexes(Heap* heap, const HeapShares* shares, double slope, double* width,
+                        DpCellRect* box)
 {
     const DpSoilPatch* patch = heap->patch;
     const DpImprint*   imprint = heap->imprint;
@@ -161,7 +167,15 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double* width, DpC
             const double share = dp_soil_heap_share(shares, patch, i, j);
             if (!(share > 0.0)) continue;
             const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
-            heap->apex[count++] = (Apex){i, j, firm, sqrt(share), edge_of(patch, imprint, i, j)};
+            const bool   spills = shares->outward && !shares->even;
+            const double within = spills ? dp_soil_heap_within(shares, i, j) : 0.0;
+            heap->apex[count++] = (Apex){.i = i,
+                                         .j = j,
+                                         .ground = firm,
+                                         .root = sqrt(share),
+                                         .away = edge_of(patch, imprint, i, j),
+                                         .spills = spills ? shares->beta : 0.0,
+                                         .climbs = within * patch->cell * slope};
             sum += share;
             *box = dp_cells_with(*box, i, j);
         }
@@ -209,10 +223,10 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     char*        block = block_for(patch, apexes, scratch);
     if (!block) return DP_NO_MEMORY;
     heap.apex = (Apex*)(void*)block;
-    find_apexes(&heap, shares, &width, &border);
+    find_apexes(&heap, shares, slope, &width, &border);
     if (heap.apex_count == 0) {  // all that lies ahead is hollow: then it is filled
         heap.hollow = INFINITY;
-        find_apexes(&heap, shares, &width, &border);
+        find_apexes(&heap, shares, slope, &width, &border);
     }
     if (heap.apex_count == 0) return DP_NO_GROUND;
 

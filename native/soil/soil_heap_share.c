@@ -35,6 +35,13 @@ static double outward_of(const HeapShares* shares, const DpSoilPatch* patch, int
     return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
 }
 
+double dp_soil_heap_within(const HeapShares* shares, int i, int j)
+{
+    const double across = shares->dir_x * j - shares->dir_y * i;
+    const double within = soil_min(across - shares->left, shares->right - across);
+    return soil_on_grid(soil_max(within, 0.0), ldexp(1.5, 52 - 20));
+}
+
 double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
 {
     if (shares->even && !patch->uneven) return 1.0;

@@ -10,11 +10,15 @@ typedef struct HeapShares
     double from_x, from_y;  // centre of pressure, in cells of the patch
     bool   even;            // no border cell lies ahead: all share alike
     const DpImprint*
-        outward;  // u_k is away from its touched cells; NULL: from the centre of pressure
+           outward;      // u_k is away from its touched cells; NULL: from the centre of pressure
+    double left, right;  // sides of its touched cells across the push [cells]
 } HeapShares;
 
 // omega of cell (i, j), not yet normalised, in steps of 2^-30. TRAIL (11), TRAIL (12); MODEL 6.7.
 double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, int i, int j);
+
+// How far a cell lies within the sides of what pushes outward, 0 beside them [cells].
+double dp_soil_heap_within(const HeapShares* shares, int i, int j);
 
 // Lay `volume` [m^3] > 0 in its resting shape; slope = tan(gamma_r).
 DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const HeapShares* shares,

@@ -106,12 +106,21 @@ def test_a_dragged_box_carries_what_it_cut():
     assert told["loosened_m3"] == pytest.approx(track, rel=0.05)
     assert told["pressed_m3"] == pytest.approx(0.03 * 0.3 * 0.3, rel=0.05)
     assert told["heaped_m3"] == pytest.approx(told["loosened_m3"] + 2.0 * 0.5 * told["pressed_m3"], rel=1e-6)
+    assert_heap_ahead(sim)
+
+
+def assert_heap_ahead(sim):
     front = AT[0] + 1.0 + 0.15
     heap = sim.read("heap", (-0.5, -0.6, 2.0, 0.6))
     x = -0.5 + (np.arange(heap.shape[1]) + 0.5) * 0.01
     across = heap.sum(axis=0, dtype=float)  # most lies just ahead of it, the rest beside its way
     assert across[(x > front) & (x < front + 0.1)].mean() > 2.0 * across[(x > 0.3) & (x < 0.9)].mean()
     assert heap[:, x < -0.3].max() == 0.0 and abs(x[heap.max(axis=0).argmax()] - front) < 0.1
+    ahead = heap[:, x > front]
+    assert ahead.sum(dtype=float) > 0.3 * heap.sum(dtype=float)
+    assert ahead.max() > 2.2 * heap[:, (x > 0.3) & (x < 0.8)].max()  # the windrows are lower
+    middle, side = (round((AT[1] + y + 0.6) / 0.01) for y in (0.0, 0.13))
+    assert ahead[middle].max() > 1.3 * ahead[side].max() and ahead[side].max() > 0.03
     furrow = sim.read("compression", (0.3, -0.05, 0.7, 0.05))
     np.testing.assert_allclose(furrow, 0.03, atol=0.001)
 
