@@ -405,6 +405,31 @@ def test_what_is_shown_is_on_the_disk_first(tmp_path, monkeypatch):
     assert len(synced) == sum(1 for _ in tmp_path.rglob("*")) + 1
 
 
+@pytest.mark.parametrize(("winerror", "busy", "tries"), [(32, 3, 4), (5, 3, 4), (32, 99, 50), (None, 99, 1)])
+def test_a_place_that_is_open_in_windows_is_waited_for(tmp_path, monkeypatch, winerror, busy, tries):
+    (tmp_path / "new").write_text("new")
+    (tmp_path / "old").write_text("old")
+    asked, replace = [], os.replace
+
+    def held(one, other):
+        asked.append(other)
+        if len(asked) <= busy:
+            problem = PermissionError(13, "Permission denied", one)
+            problem.winerror = winerror
+            raise problem
+        replace(one, other)
+
+    monkeypatch.setattr(os, "replace", held)
+    monkeypatch.setattr(disk, "_PATIENCE", 0.0)
+    if busy < 50:
+        disk.replace(tmp_path / "new", tmp_path / "old")
+    else:
+        with pytest.raises(PermissionError):
+            disk.replace(tmp_path / "new", tmp_path / "old")
+    assert len(asked) == tries
+    assert (tmp_path / "old").read_text() == ("new" if busy < 50 else "old")
+
+
 # ---- single files ----------------------------------------------------------------------------------------------
 
 

@@ -16,7 +16,7 @@ from collections.abc import Container, Iterable
 from pathlib import Path
 from typing import Any
 
-from ..files import atomic_file
+from ..files import atomic_file, disk
 
 FRAMES = (
     "trail_*.exr",
@@ -103,7 +103,7 @@ def move(folder: str, into: str) -> None:
         while os.path.lexists(os.path.join(into, name)):
             number += 1
             name = f"{path.stem} {number}{path.suffix}"
-        os.rename(path, os.path.join(into, name))
+        disk.replace(path, os.path.join(into, name))
     with contextlib.suppress(OSError):
         os.rmdir(folder)
 

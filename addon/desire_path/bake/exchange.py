@@ -45,7 +45,7 @@ def exchange(folder: str) -> None:
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(turned)
             os.symlink(NEW, turned)
-            os.replace(turned, shown)  # this is the moment
+            disk.replace(turned, shown)  # this is the moment
         for name in NAMES:
             _settle_name(folder, name)
     else:
@@ -71,7 +71,7 @@ def _lead(folder: str, name: str) -> None:
     os.symlink(link, old)
     if not disk.swap(here, old):
         os.unlink(old)
-        os.rename(here, old)
+        disk.replace(here, old)
         os.symlink(link, here)
 
 
@@ -84,7 +84,7 @@ def _settle_name(folder: str, name: str) -> None:
     elif there and (ours or not os.path.lexists(here)):
         if os.path.isdir(new) and ours:
             os.unlink(here)  # a folder cannot be renamed to a link's name
-        os.replace(new, here)
+        disk.replace(new, here)
     elif ours:
         os.unlink(here)
 
@@ -100,6 +100,6 @@ def _one_by_one(folder: str, shown: str) -> None:
         here, old, new = (os.path.join(folder, place, name) for place in ("", OLD, NEW))
         waits = os.path.lexists(new)
         if os.path.lexists(here) and not os.path.lexists(old) and (waits or name not in fresh):
-            os.rename(here, old)
+            disk.replace(here, old)
         if waits:
-            os.rename(new, here)
+            disk.replace(new, here)

@@ -284,6 +284,6 @@ def _shift(folder: str, into: str) -> None:
             os.makedirs(os.path.join(into, name), exist_ok=True)
             for each in os.listdir(source):
                 if any(fnmatch.fnmatchcase(each, pattern) for pattern in patterns):
-                    os.rename(os.path.join(source, each), os.path.join(into, name, each))
+                    disk.replace(os.path.join(source, each), os.path.join(into, name, each))
             with contextlib.suppress(OSError):  # holds somebody else's files
                 os.rmdir(source)

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
+from ..files import disk
 from ..ground.detail import DETAILS
 from . import axes, compat, cover, looks, plants, playback, playback_tree, soils
 
@@ -322,7 +323,7 @@ def _write(path, blocks):
     try:
         os.makedirs(os.path.dirname(path), exist_ok=True)
         bpy.data.libraries.write(new, blocks, fake_user=True, compress=True)
-        os.replace(new, path)  # not there where it could not be written
+        disk.replace(new, path)  # not there where it could not be written
     except (OSError, RuntimeError) as problem:
         raise DesirePathError(f"{path} cannot be written, choose another folder: {problem}.") from None
     finally:

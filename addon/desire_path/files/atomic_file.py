@@ -92,7 +92,7 @@ def file(
                 os.fsync(stream.fileno())
         os.chmod(temporary, 0o666 & ~_umask())
         check(path, what)
-        os.replace(temporary, path)
+        disk.replace(temporary, path)
         temporary = None
         if sync:
             disk.sync_one(folder)

@@ -12,6 +12,7 @@ import errno
 import os
 import socket
 import stat
+import time
 from typing import Any
 
 try:
@@ -27,6 +28,8 @@ _HERE = -100  # AT_FDCWD
 _EXCHANGE = 2  # RENAME_EXCHANGE
 _BINARY = getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOINHERIT", 0)
 _LOCKED_BYTE = 1 << 30  # of a lock's file, where Windows locks it: far behind its text, which others read
+_OPEN = (5, 32, 33)  # Windows: access denied, sharing violation, lock violation
+_TRIES, _PATIENCE = 50, 0.02  # at a place that is open [-], and between two of them [s]
 _CANNOT = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EXDEV, errno.EPERM)
 
 
@@ -51,6 +54,20 @@ def swap(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
     if number in _CANNOT:
         return False
     raise OSError(number, os.strerror(number), os.fspath(one))
+
+
+def replace(path: str | os.PathLike[str], place: str | os.PathLike[str]) -> None:
+    """Give a file or folder the name `place`, where a file may stand, at once.
+
+    Windows refuses while somebody has either open, a search or a scanner for a moment: it is asked again for a second.
+    """
+    for left in reversed(range(_TRIES)):
+        try:
+            return os.replace(path, place)
+        except PermissionError as problem:
+            if left == 0 or getattr(problem, "winerror", None) not in _OPEN or os.path.isdir(place):
+                raise
+        time.sleep(_PATIENCE)
 
 
 def link(to: str, path: str) -> None:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DesirePathError
-from ..files import atomic_file
+from ..files import atomic_file, disk
 from .kinds import KINDS, Kind
 from .planting import Planting
 from .sim import Simulation, Stand
@@ -148,7 +148,7 @@ class Writer:
     def finish(self, sim: Simulation, cache: str | os.PathLike[str], mesh: str | os.PathLike[str]) -> None:
         """Both files are whole now, by the names `cache` and `mesh`."""
         self._file.close()
-        os.replace(self.path, cache)
+        disk.replace(self.path, cache)
         unbroken = [_unbroken(sim, stand, sim.plants_shape(stand)[0]).ravel() for stand, _, _ in self.stands]
         self.mesh["unbroken"] = np.concatenate(unbroken)
         with atomic_file.file(mesh, "The plants") as stream:
