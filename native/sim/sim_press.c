@@ -1,4 +1,5 @@
 // sim/sim_press.c - one limb's step in the paper's order: imprint, compress, accumulate, stabilize.
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -22,13 +23,32 @@ static const float* met_on(const DpSoilPatch* patch, const Limb* limb, WorkerScr
     return scratch->met;
 }
 
-// The soil under a point of the patch; the first soil where the point lies outside.
+// The cell of the patch's ground that is nearest to a point (u, v) [cells]; (0, 0) where it has none.
+static size_t nearest_ground(const DpSoilPatch* patch, double u, double v)
+{
+    size_t found = 0;
+    double least = INFINITY;
+    for (int j = 0; j < patch->ny; ++j)
+        for (int i = 0; i < patch->nx; ++i) {
+            const size_t n = (size_t)j * (size_t)patch->row + (size_t)i;
+            const double away = (i - u) * (i - u) + (j - v) * (j - v);
+            if (!(away < least) || isnan(patch->base_height[n])) continue;
+            found = n;
+            least = away;
+        }
+    return found;
+}
+
+// The soil under a point of the patch, beside an edge that of the nearest ground; the first soil where
+// the point lies outside.
 static const DpSoil* soil_under(const DpSoilPatch* patch, DpVec3 point)
 {
-    const long i = lround((point.x - patch->x0) / patch->cell);
-    const long j = lround((point.y - patch->y0) / patch->cell);
-    const bool inside = i >= 0 && i < patch->nx && j >= 0 && j < patch->ny;
-    return &patch->soils[inside ? patch->kind[j * patch->row + i] : 0];
+    const double u = (point.x - patch->x0) / patch->cell, v = (point.y - patch->y0) / patch->cell;
+    const long   i = lround(u), j = lround(v);
+    if (i < 0 || i >= patch->nx || j < 0 || j >= patch->ny) return &patch->soils[0];
+    size_t at = (size_t)j * (size_t)patch->row + (size_t)i;
+    if (patch->soil_count > 1 && isnan(patch->base_height[at])) at = nearest_ground(patch, u, v);
+    return &patch->soils[patch->kind[at]];
 }
 
 // The sole slips as far as the soil has to shear to carry the push along the ground, in the time it

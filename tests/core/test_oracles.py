@@ -234,6 +234,20 @@ def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
             assert half.sum() == pytest.approx(whole.sum(), rel=0.02, abs=0.01)
 
 
+def test_a_load_beside_an_edge_meets_the_soil_of_the_ground_it_is_nearest_to():
+    corner, faces = [[-2, 0, 0], [2, 0, 0], [2, 2, 0], [-2, 2, 0]], [[0, 1, 2], [0, 2, 3]]
+    slips = replace(FIRM, shear_modulus=0.03, push_threshold=200.0)
+    gait, loads = gaits.pressed([FOOT], [[0, -0.02, 0, 1, 0, 0, 0]], [[150, 0, -75 * G]])
+    found = []
+    for soils, weights in (([slips], None), ([FIRM, slips], [[0] * 4, [1] * 4])):
+        sim = Simulation(Ground.mesh(corner, faces, weights), soils, 0.01)
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        found.append([sim.read(name, -50, 0, 100, 50) for name in ("compression", "heap")])
+    assert found[0][0].max() > 0.01
+    assert all((alone == of_two).all() for alone, of_two in zip(*found))
+
+
 @pytest.mark.parametrize("plants", [(), "carex"])
 @pytest.mark.parametrize("kind", ["flat", "heights", "mesh"])
 def test_a_print_far_up_is_that_of_one_at_sea_level(kind, plants):

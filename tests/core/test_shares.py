@@ -228,3 +228,24 @@ def test_what_cannot_be_is_told(tmp_path):
     with pytest.raises(DesirePathError):
         run(walk(), far)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_foot_half_over_an_edge_prints_the_half_that_is_on_the_ground(tmp_path):
+    """Edges that run along the feet, under their contact points and beside them: alone, and under a bridge."""
+    gait = walk(3.0)
+    run(gait, Ground.flat(), folder=tmp_path / "whole")
+    whole = in_world(tmp_path / "whole")
+    for number, edge in enumerate((0.05, 0.09)):  # left soles reach from 0.03 to 0.13, their points lie at 0.08
+        ledge, bridge = mesh(-1, edge, 4, 1), mesh(-1, edge, 4, 1, shift=2.0)
+        alone, under = tmp_path / f"alone{number}", tmp_path / f"under{number}"
+        run(gait, ledge, folder=alone)
+        run(gait, [Parcel(ledge, folder=under, name="ledge"), Parcel(bridge, folder=tmp_path / "over", name="bridge")])
+        want = {cell: depth for cell, depth in whole.items() if cell[1] * CELL > edge + CELL}
+        for folder in (alone, under):
+            found = in_world(folder)
+            assert all(cell[1] * CELL > edge - CELL for cell in found)
+            found = {cell: depth for cell, depth in found.items() if cell[1] * CELL > edge + CELL}
+            assert sum(want.values()) > 0.01 and max(found.values()) <= max(want.values()) + 1e-4
+            assert sum(found.values()) == pytest.approx(sum(want.values()), rel=0.05)
+            assert report(folder)["contacts"] == 3
+        assert not (tmp_path / "over").exists()

@@ -416,9 +416,9 @@ def test_feet_beside_the_ground_carry_their_own_share():
     gait = two_feet(2)
     whole = walker.loads(gait)
     both = whole.touching.all(axis=0)
-    for gap in (lambda xy: xy[:, 1] < 0.0, lambda xy: xy[:, 0] < 1.2, lambda xy: abs(xy[:, 0] - 1.5) < 0.4):
+    for gap in (lambda xy: xy[:, 1] < 0.02, lambda xy: xy[:, 0] < 1.2, lambda xy: abs(xy[:, 0] - 1.5) < 0.4):
         loads = walker.loads(gait, ground=lambda xy: np.where(gap(xy), np.nan, 0.0))
-        out = np.stack([gap(gait.pose[p, :, :2]) for p in (0, 1)])
+        out = np.stack([[gap(gait.pose[p, :, :2] + at[:2]) for at in SOLE.vertices] for p in (0, 1)]).all(axis=1)
         assert (out & (whole.touching != 0))[:, both].any()
         assert (loads.touching == np.where(out, 0, whole.touching)).all()
         assert (loads.force == np.where(out[..., None], 0.0, whole.force)).all()
@@ -433,6 +433,22 @@ def test_feet_beside_the_ground_carry_their_own_share():
         assert not any("beside the ground" in each for each in whole.warnings)
         on, _ = walker.contacts(gait, lambda xy: np.where(gap(xy), np.nan, 0.0))
         assert (on == loads.touching).all()
+
+
+def test_a_foot_whose_points_lie_beside_an_edge_stands_on_what_its_sole_reaches():
+    gait = replace(two_feet(2), soles=(gaits.box(0.28, 0.10),) * 2)
+    whole = walker.loads(gait)
+    for edge, slope in ((0.13, 0.0), (0.13, 0.02), (0.16, 0.0)):  # the left sole ends at 0.15
+        ground = lambda xy: np.where(xy[:, 1] < edge, np.nan, slope * xy[:, 1])
+        reaches = edge < 0.15
+        below = walker.ground_below(gait, ground)
+        assert np.isnan(below[1]).all() and np.isnan(below[0]).all() != reaches
+        loads = walker.loads(gait, ground=ground)
+        assert not loads.touching[1].any() and loads.touching[0].any() == reaches
+        if reaches:
+            assert below[0] == pytest.approx(slope * 0.15)  # of the nearest place of its sole that is over ground
+            assert (loads.touching[0] == whole.touching[0]).all()
+            assert loads.force[0] == pytest.approx(whole.force[0], rel=0.02, abs=1.0)
 
 
 def test_bad_words_get_a_sentence():

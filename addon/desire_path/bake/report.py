@@ -60,7 +60,7 @@ def of_share(plan: Plan, share: Share, shares: Sequence[Share], in_all: dict[str
         return in_all
     end = plan.sample(plan.frame_end) + 1
     return {
-        "contacts": fields.contacts(share.parcel, plan.stepped, share.loads, end),
+        "contacts": fields.contacts(share.parcel, plan.stepped, share.loads, end, plan.parcels),
         **share.numbers(),
         "with": [each.parcel.name for each in shares if each is not share],
         "in_all": {name: in_all[name] for name in OF_ONE},

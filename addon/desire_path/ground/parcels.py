@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..motion import tracks
-from ..motion.points import moved_points
+from ..motion.points import below_sole, moved_points
 from ..motion.tracks import TrackArray
 from .planting import as_plantings
 from .sim import Ground, Simulation, as_soils
@@ -160,8 +160,8 @@ def storeys(parcels: Sequence[Parcel], gait: Gait) -> list[list[int]]:
 def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> tuple[Array, Array]:
     """(storey of each part (P, T), height of the ground each contact point treads (K, T) [m]) among storeys.
 
-    lands: rest_height of each. Who is over none of them is on the first. Of who is not there nothing is told: storey 0,
-    height NaN.
+    lands: rest_height of each. A part none of whose points is over ground treads what its sole reaches over; who is
+    over none of them is on the first. Of who is not there nothing is told: storey 0, height NaN.
     """
     found, below = [], []
     for (points, first, at), (rows, _, poses) in zip(_points_there(gait), tracks.blocks(gait.pose)):
@@ -171,6 +171,11 @@ def treads(gait: Gait, lands: Sequence[Callable[[np.ndarray], np.ndarray]]) -> t
         own = np.searchsorted(rows, gait.point_part[points])
         for part in np.unique(own):
             mine = np.flatnonzero(own == part)
+            beside = np.flatnonzero(~np.isfinite(height[:, mine]).any(axis=(0, 1)))
+            if len(beside):
+                here = np.ix_(mine, beside)
+                for each, land in zip(height, lands):
+                    each[here] = below_sole(gait.soles[rows[part]], poses[part, beside], at[here], land)
             away = np.abs(height[:, mine] - at[mine, :, 2])
             away = np.where(np.isfinite(away), away, np.inf).min(axis=1)
             parts[part] = away.argmin(axis=0)
@@ -315,19 +320,36 @@ def under(parcel: Parcel, gait: Gait, loads: FootForce, wide: float) -> tuple[fl
     return (*low.min(axis=0), *high.max(axis=0)) if len(low) else None
 
 
-def contacts(parcel: Parcel, gait: Gait, loads: FootForce, end: int) -> int:
-    """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides."""
-    limbs, samples, points = [], [], []
+def contacts(parcel: Parcel, gait: Gait, loads: FootForce, end: int, every: Sequence[Parcel] = ()) -> int:
+    """How many stances, begun before sample `end`, put load on a parcel: one over an edge counts on both sides.
+
+    every: all parcels of the walk; a load that is over none of them is on those its sole reaches over.
+    """
+    limbs, samples, bearing = [], [], []
     for (rows, first, touching), values in zip(tracks.blocks(loads.touching), tracks.values(loads.point)):
         part, sample = np.nonzero(touching[:, : max(end - first, 0)])
+        point = values[part, sample]
+        bears = _over(parcel, point)
+        beside = np.isfinite(point).all(axis=1) & ~np.logical_or.reduce(
+            [bears, *(_over(each, point) for each in every)]
+        )
+        for own in np.unique(part[beside]):
+            mine = np.flatnonzero(beside & (part == own))
+            pose = np.asarray(gait.pose[int(rows[own])])[first + sample[mine]]
+            below = below_sole(gait.soles[rows[own]], pose, point[None, mine], parcel.land.rest_height)
+            bears[mine] = np.isfinite(below[0])
         limbs.append(gait.part_limb[rows[part]])
         samples.append(first + sample)
-        points.append(values[part, sample])
-    limb, sample, point = (np.concatenate(each) for each in (limbs, samples, points))
-    known = np.isfinite(point).all(axis=1)
-    bears = np.zeros(len(point), bool)
-    bears[known] = parcel.has(np.ascontiguousarray(point[known, :2]))
+        bearing.append(bears)
+    limb, sample, bears = (np.concatenate(each) for each in (limbs, samples, bearing))
     order = np.lexsort((sample, limb))
     limb, sample, bears = limb[order], sample[order], bears[order]
     begins = (np.diff(limb, prepend=-1) != 0) | (np.diff(sample, prepend=0) > 2)  # as the core tells stances apart
     return len(np.unique(np.cumsum(begins)[bears]))
+
+
+def _over(parcel: Parcel, point: np.ndarray) -> np.ndarray:
+    """Whether a parcel lies below points (n, 3); not where they are NaN."""
+    found, known = np.zeros(len(point), bool), np.isfinite(point).all(axis=1)
+    found[known] = parcel.has(np.ascontiguousarray(point[known, :2]))
+    return found

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..motion.gait import Gait
-from ..motion.points import point_places
+from ..motion.points import below_sole, point_places
 from ..motion.tracks import Array, TrackArray
 
 Heights: TypeAlias = Callable[[np.ndarray], np.ndarray]  # points (n, 2) -> (n,) [m], NaN where there is no ground
@@ -31,18 +31,19 @@ def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
 
     ground: None = flat at 0; a number; heights (K, T); a function of points (n, 2) -> (n,); or what has one by the
     name of rest_height, as a Simulation. NaN where there is none: feet that step there carry their share and leave it
-    to nobody else.
+    to nobody else. A function is asked for the whole sole of a part none of whose points is over ground.
     """
     heights = heights_of(ground)
     shape = (len(gait.point), len(gait.time))
     if callable(heights):
-        xy = point_places(gait)[..., :2].reshape(-1, 2)
+        places = point_places(gait)
+        xy = places[..., :2].reshape(-1, 2)
         found = np.asarray(heights(np.ascontiguousarray(xy)), float)
         if found.size != len(xy):
             raise DesirePathError(
                 f"The ground gave heights of shape {found.shape} for {len(xy)} places: let it give one for each."
             )
-        found = found.reshape(shape)
+        found = _under_soles(gait, places, found.reshape(shape), heights)
     else:
         found = np.asarray(0.0 if heights is None else heights, float)
         if found.shape not in ((), shape):
@@ -51,6 +52,20 @@ def ground_below(gait: Gait, ground: GroundHeights) -> np.ndarray:
                 "needed: give one height for each contact point and sample."
             )
     return np.ascontiguousarray(np.broadcast_to(found, shape), "f8").copy()
+
+
+def _under_soles(gait: Gait, places: np.ndarray, below: np.ndarray, land: Heights) -> np.ndarray:
+    """Heights below points (K, T), with those of parts whose soles reach over an edge all their points are beside."""
+    if np.isfinite(below).all():
+        return below
+    below = below.copy()
+    for part in np.unique(gait.point_part):
+        rows = np.flatnonzero(gait.point_part == part)
+        beside = np.flatnonzero(~np.isfinite(below[rows]).any(axis=0))
+        if len(beside):
+            at = np.ix_(rows, beside)
+            below[at] = below_sole(gait.soles[part], np.asarray(gait.pose[part])[beside], places[at], land)
+    return below
 
 
 def heights_of(ground: GroundHeights) -> GivenHeights:
