@@ -87,6 +87,17 @@ TEST(a_first_touch_is_no_needle)
     ground_free(&ground);
 }
 
+// .. but on no more than the sole: one of two cells carries all of its load.
+TEST(a_sole_smaller_than_that_carries_its_load)
+{
+    const BoxSole   sole = {.length = 0.02, .width = 0.01};
+    Ground          ground = ground_make(60, 40, 0.01, wet());
+    const DpPressed p = stand(&ground, sole, 5.0, DP_CONTACT_SOLE, 0.3, 0.01);
+    CHECK_CLOSE(p.area, 0.0002, 1e-6);
+    CHECK_CLOSE(p.firm, 5.0 * 0.30 / 0.35e6, 1e-5);
+    ground_free(&ground);
+}
+
 TEST(proportional)
 {
     const BoxSole half = {.length = 0.1375, .width = 0.10};
@@ -452,6 +463,7 @@ int main(void)
     RUN(even_ground_is_exact);
     RUN(rigid_ground_is_a_hundred_times_as_hard);
     RUN(a_first_touch_is_no_needle);
+    RUN(a_sole_smaller_than_that_carries_its_load);
     RUN(proportional);
     RUN(frame_rate_does_not_matter);
     RUN(yields_at_its_rate);
