@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import command_bake, command_track
+from . import command_bake, command_export, command_track
 from .command_bake import SAMPLES, SET_HELP, SOIL_HELP, bar, read_ground, read_kind, walk
 from .errors import DesirePathError
 from .files import atomic_file
@@ -117,8 +117,8 @@ def _load_options(task: Parser) -> None:
 def _parser() -> Parser:
     parser = Parser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
-    tasks = parser.add_subparsers(required=True, metavar="bake | track | loads | plot | lane | fit")
-    for add in (command_bake.add, command_track.add, _add_loads, _add_plot, _add_lane, _add_fit):
+    tasks = parser.add_subparsers(required=True, metavar="bake | track | loads | plot | lane | fit | export")
+    for add in (command_bake.add, command_track.add, _add_loads, _add_plot, _add_lane, _add_fit, command_export.add):
         add(tasks)
     return parser
 
