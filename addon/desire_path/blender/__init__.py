@@ -6,6 +6,7 @@ import bpy
 
 from . import (
     arrival,
+    command_line,
     messages,
     op_bake,
     op_forces,
@@ -50,6 +51,7 @@ def register():
     op_press.register()
     translations.register()
     arrival.register()
+    command_line.register()
     if not bpy.app.binary_path:
         # bpy as a module: 4.5 never ends while an operator or handler of Python is registered
         atexit.register(unregister)
@@ -57,6 +59,7 @@ def register():
 
 def unregister():
     atexit.unregister(unregister)
+    command_line.unregister()
     arrival.unregister()
     op_forces.hide()
     op_press.unregister()

@@ -10,6 +10,7 @@ json = lazy.module("json")
 np = lazy.module("numpy")
 platform = lazy.module("platform")
 
+atomic_file = lazy.module("..files.atomic_file", __package__)
 baking = lazy.module("..bake.bake", __package__)
 bounds = lazy.module("..bounds", __package__)
 kinds = lazy.module("..ground.plants", __package__)
