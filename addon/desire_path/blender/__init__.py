@@ -9,6 +9,7 @@ from . import (
     command_line,
     messages,
     op_bake,
+    op_export,
     op_forces,
     op_ground,
     op_material,
@@ -29,6 +30,7 @@ _CLASSES = (
     op_ground.CLASSES
     + op_walkers.CLASSES
     + op_bake.CLASSES
+    + op_export.CLASSES
     + op_forces.CLASSES
     + op_place.CLASSES
     + op_plants.CLASSES
@@ -49,6 +51,7 @@ def register():
         bpy.utils.register_class(each)
     op_walk_it.register()
     op_press.register()
+    op_export.register()
     translations.register()
     arrival.register()
     command_line.register()
@@ -62,6 +65,7 @@ def unregister():
     command_line.unregister()
     arrival.unregister()
     op_forces.hide()
+    op_export.unregister()
     op_press.unregister()
     op_walk_it.unregister()
     translations.unregister()

@@ -37,6 +37,14 @@ GERMAN = {
         "Was der aktive Läufer tut, in eine Datei schreiben, die sich ohne Blender backen lässt"
     ),
     "Where the recording is written": "Wohin die Aufnahme geschrieben wird",
+    "Write the baked heights of the active ground for game engines and makers of terrain": (
+        "Die gebackenen Höhen des aktiven Bodens für Spiele-Engines und Geländeprogramme schreiben"
+    ),
+    "What is written": "Was geschrieben wird",
+    "Where the heights are written: .png, .raw or .r16": "Wohin die Höhen geschrieben werden: .png, .raw oder .r16",
+    "A grey picture or bare numbers; a .json beside it tells what a value is": (
+        "Ein graues Bild oder bloße Zahlen; eine .json daneben sagt, was ein Wert ist"
+    ),
     "Press the walkers' prints into the active ground, in files that play without this add-on": (
         "Die Abdrücke der Läufer in den aktiven Boden drücken, als Dateien, die ohne diese Erweiterung abgespielt "
         "werden"
