@@ -4,6 +4,7 @@ import json
 import math
 import os
 import shutil
+import struct
 import subprocess
 import sys
 from dataclasses import replace
@@ -237,6 +238,32 @@ def test_damaged_frames_count_as_missing_and_are_written_again(tmp_path):
     assert read_index(stopped).frames == 2
     baked(stopped)
     assert content(stopped) == good
+
+
+def test_a_frame_with_a_tile_that_was_never_written_is_none(tmp_path):
+    """Its last tile ends where the file does, but the place of another is 0, as where a disk kept no more of it."""
+    baked(tmp_path, standing(0.3))
+    frame = tmp_path / "frames" / "trail_0005.exr"
+    data = frame.read_bytes()
+    head = data.index(b"\0", data.index(b"tiles\0tiledesc\0")) - 5
+    for at in range(head, len(data)):  # the table begins behind the header's last zero, with the first tile behind it
+        (first,) = struct.unpack_from("<Q", data, at)
+        if at < first < at + 8 * 4096 and (first - at) % 8 == 0 and data[at - 1] == 0:
+            break
+    frame.write_bytes(data[:at] + bytes(8) + data[at + 8 :])
+    assert (first - at) // 8 > 1, "one tile alone is its last, too"
+    assert read_index(tmp_path).frames == 4
+
+
+def test_an_index_with_numbers_that_cannot_be_is_damaged(tmp_path):
+    baked(tmp_path, standing(0.1))
+    path = tmp_path / "frames" / "index.json"
+    good = json.loads(path.read_text())
+    for name in ("cell", "frame_rate"):
+        for value in (0.0, -1.0, float("nan"), "1", True, None):
+            path.write_text(json.dumps({**good, name: value}))
+            with pytest.raises(DesirePathError, match="damaged: bake again"):
+                read_index(tmp_path)
 
 
 def test_an_index_of_nonsense_is_baked_over(tmp_path):

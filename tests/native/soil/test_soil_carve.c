@@ -53,6 +53,70 @@ TEST(what_comes_from_the_side_is_cut)
     ground_free(&g);
 }
 
+// of what was loose all comes up beside the body, of what was firm 2 nu
+TEST(loose_soil_is_pushed_aside_whole)
+{
+    Ground g = ground_make(40, 40, 0.01, sand());
+    for (int k = 0; k < 40 * 40; ++k) g.heap[k] = 0.02f;
+    const DpCarved c = carve(&g, (BoxSole){.z = -0.05, .length = 0.2, .width = 0.1}, straight);
+    CHECK_CLOSE(c.pressed.loose, 0.02 * 0.02, 1e-6);
+    CHECK_CLOSE(c.pressed.firm, 0.05 * 0.02, 1e-6);
+    CHECK_CLOSE(c.pressed.displaced, c.pressed.loose + 0.7 * c.pressed.firm, 1e-6);
+    ground_free(&g);
+}
+
+// A heap beside the edge of a body, of which it covers a half, 2 cm over the rest ground: MODEL 6.11
+TEST(a_heap_that_is_covered_in_part_is_cut_once)
+{
+    Ground        g = ground_make(40, 40, 0.01, sand());
+    const BoxSole box = {.z = 0.02, .length = 0.21, .width = 0.1};  // half a cell at both ends
+    for (int k = 0; k < 40 * 40; ++k) g.heap[k] = 0.05f;
+    carve(&g, box, level);
+    const int edge = 20 * 40 + g.imprint.i0, middle = 20 * 40 + 20;
+    CHECK_NEAR(g.imprint.cover[edge], 0.5, 1e-6);
+    CHECK_NEAR(g.heap[edge], 0.02 / 0.5, 1e-6);
+    CHECK_NEAR(g.heap[middle], 0.02, 1e-6);
+    const DpCarved again = carve(&g, box, level);
+    CHECK(again.cut_loose <= 0.0 && again.pressed.loose <= 0.0);
+    ground_free(&g);
+}
+
+// what was pressed springs back, what is left after a cut does not
+TEST(what_was_cut_does_not_spring)
+{
+    float spring[40 * 40];
+    for (int cut = 0; cut < 2; ++cut) {
+        DpSoil soil = sand();
+        soil.rebound = 0.2f;
+        Ground g = ground_make(40, 40, 0.01, soil);
+        memset(spring, 0, sizeof spring);
+        g.patch.spring = spring;
+        carve(&g, (BoxSole){.z = -0.05, .length = 0.2, .width = 0.1}, cut ? level : straight);
+        CHECK_NEAR(spring[20 * 40 + 20], cut ? 0.0 : -0.05, 1e-7);
+        const double back = dp_soil_rebound(&g.patch, NULL);
+        CHECK_NEAR(back, cut ? 0.0 : 0.2 * 0.05 * 0.02, 1e-8);
+        ground_free(&g);
+    }
+}
+
+// how far each point has come down is told along x and along y, from the middle of the patch on
+TEST(a_body_that_tips_presses_where_it_came_down)
+{
+    for (int axis = 0; axis < 2; ++axis) {
+        Ground          g = ground_make(41, 41, 0.01, sand());
+        const DpDescent tips = {0.0, axis ? 0.0 : 0.5, axis ? 0.5 : 0.0, 0.0};
+        const DpCarved  c = carve(&g, (BoxSole){.z = -0.03, .length = 0.2, .width = 0.2}, tips);
+        // half of it came down, by 0.5 x, up to the 3 cm that are in its way; the other half has risen
+        double pressed = 0.0;
+        for (int k = 1; k <= 10; ++k) pressed += fmin(0.5 * 0.01 * k, 0.03) * (k < 10 ? 1.0 : 0.5);
+        CHECK_CLOSE(c.pressed.firm, pressed * 0.01 * 0.2, 1e-6);
+        CHECK_CLOSE(c.cut_firm, 0.03 * 0.04 - c.pressed.firm, 1e-6);
+        CHECK_NEAR(c.x, 0.0, 1e-9);
+        CHECK_NEAR(c.y, 0.0, 1e-9);
+        ground_free(&g);
+    }
+}
+
 TEST(cells_do_not_matter)
 {
     for (int k = 1; k <= 8; k *= 2) {
@@ -122,6 +186,10 @@ int main(void)
 {
     RUN(goes_down_to_the_body);
     RUN(what_comes_from_the_side_is_cut);
+    RUN(loose_soil_is_pushed_aside_whole);
+    RUN(a_heap_that_is_covered_in_part_is_cut_once);
+    RUN(what_was_cut_does_not_spring);
+    RUN(a_body_that_tips_presses_where_it_came_down);
     RUN(cells_do_not_matter);
     RUN(no_ground_no_work);
     RUN(mirrored_to_the_bit);

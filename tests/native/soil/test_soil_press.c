@@ -64,6 +64,9 @@ TEST(loose_soil_first_and_it_counts_alike)
     CHECK_CLOSE(pressed.displaced, 0.6 * 0.04, 1e-6);
     CHECK_CLOSE(press(&ground, 0.04, 1.0, 0.5).firm, 0.002, 1e-5);
     CHECK_CLOSE(ground.compression[CELL], 0.04, 1e-6);
+    ground.heap[CELL] = 0.01f;  // what slides into a print lies over its target
+    CHECK_CLOSE(press(&ground, 0.04, 1.0, 0.5).loose, 0.01, 1e-6);
+    CHECK_NEAR(ground.heap[CELL], 0.0, 1e-9);
     ground_free(&ground);
 }
 
