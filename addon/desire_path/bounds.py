@@ -18,6 +18,7 @@ from typing import Any
 from .errors import DesirePathError
 from .files import disk
 
+CELLS = (0.0001, 1.0)  # sides of cells that can be worked with [m]
 MAX_PIXELS = 1 << 27  # of one frame
 SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
 CELL_BYTES = 60  # of memory, for each cell of a frame

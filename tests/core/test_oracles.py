@@ -234,6 +234,20 @@ def test_a_foot_half_over_an_edge_digs_no_deeper_than_a_whole_one():
             assert half.sum() == pytest.approx(whole.sum(), rel=0.02, abs=0.01)
 
 
+def test_a_print_of_millimetres_is_that_of_a_foot_at_its_scale():
+    found = []
+    for scale in (1.0, 0.01):
+        foot, at = gaits.box(0.25 * scale, 0.11 * scale, 0.02 * scale), [0.003 * scale, 0.002 * scale, *AT_ORIGIN[2:]]
+        gait, loads = gaits.pressed([foot], [at], [[0, 0, -75 * G * scale**3]], mass=75 * scale**3, rate=60)
+        sim = Simulation(Ground.flat(), FIRM, 0.02 * scale)  # cells of 2 cm, and of 0.2 mm
+        sim.load(gait, loads)
+        sim.run(len(gait.time) - 1)
+        report = sim.report()
+        found.append([report[name] / scale**3 for name in ("pressed_m3", "heaped_m3")] + [report["deepest_m"] / scale])
+    assert found[1][:2] == pytest.approx(found[0][:2], rel=1e-3)
+    assert found[1][2] == pytest.approx(found[0][2], rel=0.1)  # rims of soles are sampled otherwise
+
+
 def test_a_load_beside_an_edge_meets_the_soil_of_the_ground_it_is_nearest_to():
     corner, faces = [[-2, 0, 0], [2, 0, 0], [2, 2, 0], [-2, 2, 0]], [[0, 1, 2], [0, 2, 3]]
     slips = replace(FIRM, shear_modulus=0.03, push_threshold=200.0)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .. import bounds
-from ..bounds import Limits
+from ..bounds import CELLS, Limits
 from ..errors import DesirePathError
 from ..ground import plant_mesh
 from ..ground.sim import TILE
@@ -45,7 +45,7 @@ def lost_soles(gait: Gait, cell_size: float) -> list[str]:
         ]
         lost = [part for part in largest if area[part] < MIN_SAMPLES * step**2]
         if lost and len(lost) == len(largest):
-            fine = max(math.sqrt(area[lost].max()) / 8, 0.0005)
+            fine = max(math.sqrt(area[lost].max()) / 8, CELLS[0])
             raise DesirePathError(
                 f"The feet of {name} are lost between cells of {cell_size:g} m: choose a cell size of "
                 f"{fine:.1g} m or so, or check the walker's scale."

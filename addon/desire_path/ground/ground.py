@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Record, kept
+from ..bounds import CELLS
 from ..errors import DesirePathError
 from . import trail
 from .soil import Soil, as_soil
@@ -169,7 +170,8 @@ def soil_numbers(soils: Iterable[Soil]) -> list[dict[str, float]]:
 
 def check_cell(cell_size: float) -> None:
     """Refuse sides of a cell that cannot be worked with [m]."""
-    if not (math.isfinite(cell_size) and 0.0005 <= cell_size <= 1.0):
+    if not (math.isfinite(cell_size) and CELLS[0] <= cell_size <= CELLS[1]):
         raise DesirePathError(
-            f"A cell size of {cell_size:g} m cannot be worked with: choose 0.0005 to 1 m (0.01 is usual)."
+            f"A cell size of {cell_size:g} m cannot be worked with: choose {CELLS[0]:g} to {CELLS[1]:g} m "
+            "(0.01 is usual)."
         )

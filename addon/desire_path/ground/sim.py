@@ -62,7 +62,7 @@ class Simulation:
 
     ground: Ground; soils: a preset's name, a Soil, SoilKeys where it changes over time, or a list (painted ground
         counts through it).
-    cell_size: side of a cell [m], 0.0005 to 1.
+    cell_size: side of a cell [m], 0.0001 to 1.
     plants: what grows here: a Planting, a kind's name, or a list of either; see plants.Planting. They stand where
         a loaded walk can reach them and cost nothing elsewhere.
     areas: for each of the plants a function that tells at which places (n, 2) [m] they stand; default: anywhere.

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Record, read_only
+from ..bounds import CELLS
 from ..errors import DesirePathError
 from . import maps
 
 LEFT = ("compression", "heap", "pressure_time")  # of a trail, beside the height before it
 HEIGHTS = ("height", "Z", "V", "Y")  # what a height may be called
-CELLS = (0.0005, 1.0)  # sides of cells that a bake works with [m]
 FAR = 1e9  # ground lies nearer than this [m]
 SAME = 1e-6  # cells nearer to each other than this are the same [cell]
 

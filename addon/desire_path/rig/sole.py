@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..bounds import CELLS
 from ..motion.gait import Gait, Sole
 from ..motion.rotation import turned
 from . import tread as treads
@@ -213,7 +214,7 @@ def coarse_cells(gait: Gait, cell: float) -> list[str]:
         if 0.0 < wide < NARROW * cell:
             warnings.append(
                 f"The soles of {name} are {wide / cell:.1f} cells of {cell:g} m wide, too few for a print to have "
-                f"their shape: choose a cell size of {max(wide / SHAPED, 0.0005):.1g} m or so."
+                f"their shape: choose a cell size of {max(wide / SHAPED, CELLS[0]):.1g} m or so."
             )
     return warnings
 
