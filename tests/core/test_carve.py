@@ -230,3 +230,26 @@ def test_a_long_way_comes_to_rest_behind_the_body():
     drop = np.maximum(surface[:, :-1] - surface[:, 1:], 0.0) > slope + 1e-5
     assert heap.max() > 0.005 and not (drop & (heap[:, :-1] > 1e-5)).any()
     assert balances(sim)
+
+
+def test_a_body_that_was_lost_is_told_of_by_its_frame():
+    """NaN, or farther away than anything is: before anything is pressed."""
+
+    def put(where):
+        return moved(box((0.3, 0.3, 0.2)), lambda t: np.where((t > 0.5)[:, None], where, (AT[0], AT[1], 0.07)))
+
+    for where in ((np.nan, 0.0, 0.0), (1e9, 0.0, 0.0), (0.0, 0.0, -1e9), (0.0, np.inf, 0.0)):
+        with pytest.raises(DesirePathError, match="frame 13"):
+            pressed(put(where))
+    with pytest.raises(DesirePathError, match="Body is 1e.09 m away .* mend it"):
+        pressed(put((0.0, -1e9, 0.0)))
+
+
+def test_a_body_that_is_put_away_far_below_leaves_its_print_and_no_shaft():
+    gait = moved(box((0.3, 0.3, 0.2)), lambda t: np.c_[0 * t + AT[0], 0 * t + AT[1], np.where(t > 0.5, -1e3, 0.07)])
+    loads = walker.loads(gait)
+    assert any(
+        "more than 10 m below the ground at frame 13.2, where it leaves no print" in each for each in loads.warnings
+    )
+    sim = pressed(gait)
+    assert sim.report()["deepest_m"] == pytest.approx(0.03, abs=1e-6) and balances(sim)
