@@ -1,7 +1,6 @@
 // base/os_files_windows.c - files of Windows.
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/os.h"
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
@@ -19,30 +18,31 @@ static DpStatus status_of(DWORD error, DpStatus otherwise)
                : otherwise;
 }
 
-// A path as the system takes it at any length: whole, with its mark for that; NULL when there is no such path.
-static wchar_t* wide_path(const char* path)
+// A path as the system takes it at any length, with its mark for that. On the stack: a file can be closed up and
+// removed when there is no memory left.
+typedef struct WidePath
+{
+    wchar_t text[LONGEST_PATH + 16];
+} WidePath;
+
+// False when there is no such path.
+static bool wide_path(const char* path, WidePath* whole)
 {
     static const wchar_t mark[] = L"\\\\?\\", mark_of_share[] = L"\\\\?\\UNC\\";
-    wchar_t*             given = dp_alloc(LONGEST_PATH, sizeof *given);
-    wchar_t*             full = dp_alloc(LONGEST_PATH + 16, sizeof *full);
-    const bool           good =
-        given && full &&
-        MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, given, LONGEST_PATH) > 0;
-    wchar_t*    at = full ? full + 8 : NULL;  // room for the longer mark
-    const DWORD length = good ? GetFullPathNameW(given, LONGEST_PATH, at, NULL) : 0;
-    dp_free(given);
-    if (length == 0 || length >= LONGEST_PATH) {
-        dp_free(full);
-        return NULL;
-    }
+    wchar_t              given[LONGEST_PATH];
+    if (MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, given, LONGEST_PATH) <= 0)
+        return false;
+    wchar_t*    at = whole->text + 8;  // room for the longer mark
+    const DWORD length = GetFullPathNameW(given, LONGEST_PATH, at, NULL);
+    if (length == 0 || length >= LONGEST_PATH) return false;
     const bool     marked = wcsncmp(at, L"\\\\?\\", 4) == 0 || wcsncmp(at, L"\\\\.\\", 4) == 0;
     const bool     share = !marked && at[0] == L'\\' && at[1] == L'\\';
     const wchar_t* front = marked ? L"" : share ? mark_of_share : mark;
-    wchar_t*       tail = share ? at + 2 : at;
-    const size_t   size = wcslen(front), left = wcslen(tail) + 1;
-    memmove(full + size, tail, left * sizeof *full);
-    memcpy(full, front, size * sizeof *full);
-    return full;
+    wchar_t*       rest = share ? at + 2 : at;
+    const size_t   size = wcslen(front), left = wcslen(rest) + 1;
+    memmove(whole->text + size, rest, left * sizeof *rest);
+    memcpy(whole->text, front, size * sizeof *front);
+    return true;
 }
 
 const char* dp_os_name(const char* path)
@@ -61,14 +61,12 @@ long dp_os_process(void)
 static DpStatus open_as(const char* path, DWORD access, DWORD how, DWORD flags, DpFile* file)
 {
     *file = DP_NO_FILE;
-    wchar_t* name = wide_path(path);
-    if (!name) return DP_CANNOT_OPEN;
-    if (how == CREATE_NEW) DeleteFileW(name);
+    WidePath name;
+    if (!wide_path(path, &name)) return DP_CANNOT_OPEN;
+    if (how == CREATE_NEW) DeleteFileW(name.text);
     const DWORD shared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-    HANDLE      handle = CreateFileW(name, access, shared, NULL, how, flags, NULL);
-    const DWORD error = GetLastError();
-    dp_free(name);
-    if (handle == INVALID_HANDLE_VALUE) return status_of(error, DP_CANNOT_OPEN);
+    HANDLE      handle = CreateFileW(name.text, access, shared, NULL, how, flags, NULL);
+    if (handle == INVALID_HANDLE_VALUE) return status_of(GetLastError(), DP_CANNOT_OPEN);
     *file = (DpFile)handle;
     return DP_OK;
 }
@@ -155,13 +153,12 @@ DpStatus dp_file_close(DpFile file)
 
 DpStatus dp_file_replace(const char* from, const char* to)
 {
-    wchar_t* one = wide_path(from);
-    wchar_t* other = wide_path(to);
-    DpStatus status = one && other ? DP_OK : DP_CANNOT_WRITE;
+    WidePath one, other;
+    DpStatus status = wide_path(from, &one) && wide_path(to, &other) ? DP_OK : DP_CANNOT_WRITE;
     for (int t = 0; status == DP_OK; ++t) {
-        if (MoveFileExW(one, other, MOVEFILE_REPLACE_EXISTING)) break;
+        if (MoveFileExW(one.text, other.text, MOVEFILE_REPLACE_EXISTING)) break;
         const DWORD error = GetLastError();
-        const DWORD about = GetFileAttributesW(other);
+        const DWORD about = GetFileAttributesW(other.text);
         const bool  folder = about != INVALID_FILE_ATTRIBUTES && (about & FILE_ATTRIBUTE_DIRECTORY);
         const bool  held = error == ERROR_ACCESS_DENIED || error == ERROR_SHARING_VIOLATION;
         if (held && !folder && t < TRIES)
@@ -169,14 +166,11 @@ DpStatus dp_file_replace(const char* from, const char* to)
         else
             status = status_of(error, DP_CANNOT_WRITE);
     }
-    dp_free(one);
-    dp_free(other);
     return status;
 }
 
 void dp_file_remove(const char* path)
 {
-    wchar_t* name = wide_path(path);
-    if (name) DeleteFileW(name);
-    dp_free(name);
+    WidePath name;
+    if (wide_path(path, &name)) DeleteFileW(name.text);
 }
