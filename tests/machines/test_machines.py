@@ -1,0 +1,159 @@
+"""What is built for other systems, as far as it runs here: Windows under Wine, Linux on ARM under QEMU.
+
+scripts/test machines runs this, in some ten minutes; it is no part of scripts/test without words.
+DESIRE_PATH_MACHINES names the folder that `scripts/install machines` makes: a Python with NumPy for each system.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+MACHINES = Path(os.environ.get("DESIRE_PATH_MACHINES", ""))
+PACKAGE = [sys.executable, str(ROOT / "scripts" / "package")]
+PLATFORMS = ("linux-x64", "linux-arm64", "windows-x64", "macos-x64", "macos-arm64")
+RUNNERS = {
+    "windows-x64": ["wine"],
+    "linux-arm64": ["qemu-aarch64", "-cpu", "cortex-a72", "-L", str(MACHINES / "arm64" / "root")],
+}
+LONGEST = 2400  # [s] of one program
+
+
+def run(words, **more):
+    """Wine asks for an input, and writes only into pipes."""
+    told = subprocess.run(
+        [str(word) for word in words],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        timeout=LONGEST,
+        **more,
+    )
+    return told.returncode, told.stdout
+
+
+@pytest.fixture(scope="session", autouse=True)
+def at_home(tmp_path_factory):
+    """A Windows of its own, which ends with the tests."""
+    os.environ["WINEPREFIX"] = str(tmp_path_factory.mktemp("wine"))
+    os.environ["WINEDEBUG"] = "-all"
+    yield
+    subprocess.run(["wineserver", "-k"], check=False)
+
+
+@pytest.fixture(scope="session")
+def dist(tmp_path_factory):
+    out = tmp_path_factory.mktemp("dist")
+    code, told = run([*PACKAGE, "--all", "--out", out])
+    assert code == 0, told
+    return out
+
+
+class Machine:
+    """A Python of another system with the add-on of its zip, and the golden worlds beside it."""
+
+    def __init__(self, platform, dist, folder):
+        self.platform, self.folder = platform, folder
+        with zipfile.ZipFile(next(dist.glob(f"*-{platform.replace('-', '_')}.zip"))) as zipped:
+            zipped.extractall(folder / "addon")
+        for name in ("golden", "scenes"):
+            shutil.copytree(ROOT / "tests" / name, folder / "tests" / name)
+        if platform == "windows-x64":
+            shutil.copytree(MACHINES / "windows", folder / "python")
+            places = ["python313.zip", ".", "site", self.path(folder / "addon")]
+            (folder / "python" / "python313._pth").write_text("\n".join(places) + "\n")
+
+    def path(self, path):
+        return "Z:" + str(path).replace("/", "\\") if self.platform == "windows-x64" else str(path)
+
+    def python(self, script):
+        start = RUNNERS[self.platform]
+        if self.platform == "windows-x64":
+            return run([*start, self.folder / "python" / "python.exe", self.path(script)])
+        home = MACHINES / "arm64"
+        places = {**os.environ, "PYTHONPATH": f"{self.folder}/addon:{home}/site", "PYTHONHOME": f"{home}/root/usr"}
+        return run([*start, home / "root/usr/bin/python3.11", script], env=places)
+
+
+@pytest.fixture(scope="session", params=RUNNERS)
+def machine(request, dist, tmp_path_factory):
+    return Machine(request.param, dist, tmp_path_factory.mktemp(request.param))
+
+
+def test_every_system_has_a_zip_and_a_wheel(dist):
+    zips = sorted(path.stem.rsplit("-", 1)[-1] for path in dist.glob("*.zip"))
+    assert zips == sorted(name.replace("-", "_") for name in PLATFORMS)
+    assert len(list(dist.glob("*-cp311-abi3-*.whl"))) == len(PLATFORMS)
+    for path in dist.glob("*.zip"):
+        with zipfile.ZipFile(path) as zipped:
+            names = zipped.namelist()
+            manifest = zipped.read("desire_path/blender_manifest.toml").decode()
+        modules = [name for name in names if "_native" in name and not name.endswith(".pyi")]
+        assert modules == ["desire_path/_native." + ("pyd" if "windows" in path.name else "abi3.so")]
+        assert f'platforms = ["{path.stem.rsplit("-", 1)[-1].replace("_", "-")}"]' in manifest
+    told = json.loads((dist / "index.json").read_text(encoding="utf-8"))
+    assert sorted(each["platforms"][0] for each in told["data"]) == sorted(PLATFORMS)
+    for line in (dist / "SHA256SUMS").read_text(encoding="utf-8").splitlines():
+        digest, name = line.split()
+        assert hashlib.sha256((dist / name).read_bytes()).hexdigest() == digest
+
+
+@pytest.mark.parametrize("platform", RUNNERS)
+def test_the_core_is_the_same_there(platform):
+    code, told = run([*PACKAGE, "--tests", platform])
+    assert code == 0, told
+    folder, suffix = ROOT / "build" / platform, ".exe" if platform.startswith("windows") else ""
+    wanted = {path.stem for path in (ROOT / "tests" / "native").glob("*/test_*.c")}
+    if suffix:
+        wanted -= {"test_maps_file"}  # plays Linux's write() and close()
+    assert len(wanted) > 50
+    wrong = []
+    for name in sorted(wanted):
+        code, told = run([*RUNNERS[platform], folder / f"{name}{suffix}"], cwd=folder)
+        if code or ", 0 failed" not in told:
+            wrong.append(f"{name} ({code}):\n{told[-2000:]}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_bakes_are_the_same_there(machine):
+    code, told = machine.python(machine.folder / "tests" / "golden" / "check.py")
+    assert code == 0 and "all digests are as expected" in told, told
+
+
+OPEN = """
+import os, sys, threading, time
+from desire_path.files import disk
+assert os.name == "nt"
+folder = os.path.dirname(os.path.abspath(__file__))
+for name, text in (("new", "new"), ("old", "old")):
+    with open(os.path.join(folder, name), "w") as file:
+        file.write(text)
+reader = open(os.path.join(folder, "old"))
+try:
+    os.replace(os.path.join(folder, "new"), os.path.join(folder, "old"))
+    sys.exit("an open file was replaced: this test tests nothing")
+except PermissionError:
+    pass
+threading.Timer(0.3, reader.close).start()
+disk.replace(os.path.join(folder, "new"), os.path.join(folder, "old"))
+with open(os.path.join(folder, "old")) as file:
+    print("REPLACED BY", file.read())
+"""
+
+
+def test_what_somebody_has_open_is_replaced_when_it_is_closed(machine):
+    if machine.platform != "windows-x64":
+        pytest.skip("other systems replace what is open")
+    script = machine.folder / "held.py"
+    script.write_text(OPEN)
+    code, told = machine.python(script)
+    assert code == 0 and "REPLACED BY new" in told, told
