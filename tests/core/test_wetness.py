@@ -50,11 +50,13 @@ def test_dry_sand_flows_damp_sand_stands_and_soaked_sand_slides_at_half_the_slop
 
 @pytest.mark.parametrize("wet", [0.0005, 0.005, 0.02])
 def test_walls_stand_as_steeply_as_suction_holds_them(wet):
-    steepest = math.tan(walls(wet))
-    assert math.tan(REST) < steepest < 20.0
-    found = slope(stood(replace(SAND, wetness=wet)))
-    assert found <= math.tan(walls(wet) + math.radians(0.11)) + 1e-3
-    assert found > slope(stood(SAND)) + 0.05
+    """In a print of 8 cm, so that walls are higher than what the steepest falls from cell to cell, 2 cm: what stands
+    over the angle falls, and stops within the tolerance, 0.1 degrees."""
+    steepest = walls(wet)
+    assert math.tan(REST) < math.tan(steepest) < 4.2
+    found = stood(replace(SAND, young_modulus=1e5, wetness=wet))
+    assert found.read("compression", 0, 0, 1, 1)[0, 0] > 0.08
+    assert math.tan(steepest) <= slope(found) <= math.tan(steepest + math.radians(0.1))
 
 
 @pytest.mark.parametrize("wet", [0.0, 0.3, 0.9, 1.0])
