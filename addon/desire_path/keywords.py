@@ -58,13 +58,13 @@ def fields_of(*order: str, **records: type) -> Callable[[Callable[P, R]], Callab
         return taken
 
     def _warn(called: str, single: dict[str, Any]) -> None:
-        ways = []
+        variants = []
         for name, record in records.items():
             inside = ", ".join(f"{field}=.." for field in single if home[field] == name)
             if inside:
-                ways.append(f"{name}={record.__name__}({inside})")
+                variants.append(f"{name}={record.__name__}({inside})")
         warnings.warn(
-            f"{called}({', '.join(f'{field}=..' for field in single)}) is written {called}({', '.join(ways)}).",
+            f"{called}({', '.join(f'{field}=..' for field in single)}) is written {called}({', '.join(variants)}).",
             DeprecationWarning,
             stacklevel=3,
         )

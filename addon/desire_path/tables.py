@@ -10,7 +10,7 @@ from typing import Any, TypeGuard, TypeVar
 
 from .errors import DesirePathError
 
-Made = TypeVar("Made", bound=type)
+Record = TypeVar("Record", bound=type)
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,10 @@ def table(rows: Iterable[tuple[Any, ...]], names: Mapping[str, str] = MappingPro
     return MappingProxyType({names.get(name, name): Number(*of) for name, *of in rows})
 
 
-def with_numbers(known: Mapping[str, Number]) -> Callable[[Made], Made]:
+def with_numbers(known: Mapping[str, Number]) -> Callable[[Record], Record]:
     """For a class that becomes a dataclass: a field for each number, behind its own, and what each means."""
 
-    def make(kind: Made) -> Made:
+    def make(kind: Record) -> Record:
         for name, number in known.items():
             kind.__annotations__[name] = "float"
             setattr(kind, name, number.usual)

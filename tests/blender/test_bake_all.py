@@ -63,9 +63,9 @@ def test_what_a_walk_crosses_is_baked_once(folder):
         jobs.names,
         jobs.done,
         jobs.problems,
-        jobs.told,
+        jobs.reports,
     )
-    assert len(jobs.told) == 1, jobs.told
+    assert len(jobs.reports) == 1, jobs.reports
     assert "on 'Beach' and 'Field'" in jobs.finish()
     assert {each.desire_path.bake_state for each in (beach, field)} == {"FRESH"}
 

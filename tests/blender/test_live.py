@@ -42,7 +42,7 @@ def test_nothing_happens_by_itself_without_a_window(folder):
     ground, _ = scene(folder)
     assert ground.desire_path.bake_state == "FRESH" and not live.begun()
     ground.desire_path.soil = "mud"
-    assert ground.desire_path.bake_state == "OUTDATED" and state.last(ground) != state.Told("FRESH")
+    assert ground.desire_path.bake_state == "OUTDATED" and state.last(ground) != state.Status("FRESH")
     ground.desire_path.auto_update = False
     assert live.update(bpy.context.scene) == [] and ground.desire_path.bake_state == "OUTDATED"
 
@@ -65,7 +65,7 @@ def follows(folder, ground):
         bpy.context.view_layer.update()
         assert settings.bake_state == "OUTDATED"
         assert live.update(bpy.context.scene) == []
-        assert settings.bake_state == "FRESH" and state.last(ground) == state.Told("FRESH"), what
+        assert settings.bake_state == "FRESH" and state.last(ground) == state.Status("FRESH"), what
         assert datablocks() == before, what
     assert deepest(ground) < 3.0 * shallow
     return ground
@@ -211,7 +211,7 @@ def test_what_takes_long_is_shown_coarse_first_and_never_kept_so(folder):
                     assert not playback.modifier(ground).show_viewport and deepest(ground) < 2.0 * shallow
                     assert read_index(folder).inputs == inputs, "what plays is another one"
                     hidden.append(work.coarse.folder)
-                    assert work.coarse.cell > 0.03 and "Until then shown in cells of" in work.told()
+                    assert work.coarse.cell > 0.03 and "Until then shown in cells of" in work.progress()
                     if stopped:
                         break
             assert hidden

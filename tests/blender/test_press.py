@@ -150,7 +150,7 @@ def test_a_walk_goes_on_from_what_was_pressed(folder):
     before = dict(alone.inputs)
 
     hand = press.Press(bpy.context, ground, [one], depth=0.04)
-    assert any("before its walk" in each for each in hand.told)
+    assert any("before its walk" in each for each in hand.sentences)
     assert playback.modifier(ground) is not None and not playback.modifier(ground).show_viewport
     for x in (1.5, 1.9):
         hand.step(hand.at(x, 1.0, down=True))

@@ -93,8 +93,8 @@ def test_what_cannot_change_and_what_does_not_count_is_told(folder):
     ground, armature = scene(folder, frames=16)
     ground.desire_path.soil_numbers.driver_add("rest_angle")
     armature.desire_path.driver_add("mass")
-    told = soil_keys.told([ground], [armature], False)
-    assert len(told) == 2 and all("as it is now" in each for each in told)
+    uncounted = soil_keys.uncounted([ground], [armature], False)
+    assert len(uncounted) == 2 and all("as it is now" in each for each in uncounted)
     key(ground, "desire_path.soil_numbers.grain_size", [(1, 0.01), (16, 0.1)])
     try:
         bpy.ops.object.desire_path_bake()
@@ -102,7 +102,7 @@ def test_what_cannot_change_and_what_does_not_count_is_told(folder):
         assert "grain_size cannot change over time" in str(problem)
     else:
         raise AssertionError("a grain that changes was taken")
-    assert "is a pass" in soil_keys.told([ground], [armature], True)[0]
+    assert "is a pass" in soil_keys.uncounted([ground], [armature], True)[0]
     Soil().save(folder / "mine.json")
     ground.desire_path.soil_file = str(folder / "mine.json")
-    assert any("soil file" in each for each in soil_keys.told([ground], [armature], False))
+    assert any("soil file" in each for each in soil_keys.uncounted([ground], [armature], False))

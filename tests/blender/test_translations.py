@@ -11,9 +11,9 @@ from desire_path.blender import (
     soils,
     state,
     translations,
+    translations_described,
     translations_said,
     translations_soil,
-    translations_told,
 )
 
 FOLDER = pathlib.Path(addon.__file__).parent
@@ -105,8 +105,8 @@ def test_every_word_is_in_every_language():
 def test_no_word_is_told_that_nobody_says():
     """Of the descriptions; labels may be Blender's, too."""
     known = set(descriptions()) | set(reasons()) | {soils.DESCRIBED}
-    told = {*translations_told.GERMAN, *translations_soil.GERMAN, *translations_said.GERMAN}
-    assert told <= known, sorted(told - known)
+    words = {*translations_described.GERMAN, *translations_soil.GERMAN, *translations_said.GERMAN}
+    assert words <= known, sorted(words - known)
 
 
 def test_blender_finds_them():

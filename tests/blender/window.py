@@ -105,17 +105,17 @@ def story():
     ground = bpy.data.objects["Ground"]
     assert bake.read_index(str(FOLDER / "bake")).complete
     assert not ground.desire_path.missing and "contacts" in ground.desire_path.summary
-    yield from hands.until(lambda: state.last(ground) == state.Told("FRESH"))
+    yield from hands.until(lambda: state.last(ground) == state.Status("FRESH"))
     shot("done")
 
     # a change is seen without anybody asking; Free asks, and nothing is lost before the answer
     walker = bpy.data.objects["Walker"]
     walker.location.x = 0.1
-    yield from hands.until(lambda: (state.last(ground) or state.Told("")).state == "OUTDATED")
+    yield from hands.until(lambda: (state.last(ground) or state.Status("")).state == "OUTDATED")
     yield 0.5
     shot("outdated")
     walker.location.x = 0.0
-    yield from hands.until(lambda: state.last(ground) == state.Told("FRESH"))
+    yield from hands.until(lambda: state.last(ground) == state.Status("FRESH"))
     with bpy.context.temp_override(window=window(), area=window().screen.areas[0]):
         bpy.ops.object.desire_path_free("INVOKE_DEFAULT")
     yield 0.5

@@ -100,7 +100,7 @@ def settled(before):
     def done():
         told = state.last(ground())
         seen.add(told and told.state)
-        fresh = told == state.Told("FRESH")
+        fresh = told == state.Status("FRESH")
         assert not fresh or made() != before, "a tick for what is outdated"
         assert playback.modifier(ground()) is not None
         return fresh and made() != before
@@ -132,7 +132,7 @@ def story():
     ground().desire_path.auto_update = True
     push("Auto Update")
     assert live.begun()
-    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    yield from until(lambda: state.last(ground()) == state.Status("FRESH"))
     assert playback.modifier(ground()) is not None
     yield 1.0
     assert not bpy.app.timers.is_registered(live._tick), "it looks for ever"
@@ -142,7 +142,7 @@ def story():
     begun = time.monotonic()
     ground().desire_path.soil = "mud"
     push("Mud")
-    assert state.last(ground()) != state.Told("FRESH")
+    assert state.last(ground()) != state.Status("FRESH")
     seen = yield from settled(before)
     print(f"again after {time.monotonic() - begun:.2f} s", seen, flush=True)
     assert "BAKING" in seen, seen
@@ -218,7 +218,7 @@ def story():
     yield from until(lambda: not any(map(playback.is_by_hand, ground().modifiers)))
     assert made() == before and playback.modifier(ground()).show_viewport
     sim.Film.write_frame, live.LONG = write_frame, 1.0
-    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    yield from until(lambda: state.last(ground()) == state.Status("FRESH"))
     assert not any(map(playback.is_by_hand, ground().modifiers))
 
     # a bake that was asked for has the right of way, one that is freed is not made again
@@ -232,13 +232,13 @@ def story():
     assert live._work is None
     sim.Film.write_frame = write_frame
     yield from until(lambda: bake_job.running() is None)
-    yield from until(lambda: state.last(ground()) == state.Told("FRESH"))
+    yield from until(lambda: state.last(ground()) == state.Status("FRESH"))
     with bpy.context.temp_override(window=window(), area=screen.areas[0]):
         bpy.ops.object.desire_path_free("EXEC_DEFAULT")
     assert not ground().desire_path.auto_update
     ground().location.z = 0.0
     yield 1.0
-    yield from until(lambda: state.last(ground()) == state.Told("NONE"))
+    yield from until(lambda: state.last(ground()) == state.Status("NONE"))
     assert playback.modifier(ground()) is None
 
     # drawing takes less than a millisecond of ours

@@ -53,14 +53,14 @@ def imported(*_):
         begin()
 
 
-def _told():
+def _handlers():
     """(handlers of Blender, ours) of what is told of."""
     pairs = (("load_post", read), ("blend_import_post", imported))
     return [(getattr(bpy.app.handlers, name), ours) for name, ours in pairs if hasattr(bpy.app.handlers, name)]
 
 
 def register():
-    for each, ours in _told():
+    for each, ours in _handlers():
         each.append(ours)
     if hasattr(bpy.data, "objects"):  # not while Blender itself starts
         read()
@@ -68,5 +68,5 @@ def register():
 
 def unregister():
     end()
-    for each, ours in _told():
+    for each, ours in _handlers():
         each.remove(ours)

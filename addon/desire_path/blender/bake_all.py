@@ -24,7 +24,7 @@ class AllJobs:
             raise DesirePathError("Nobody walks on the grounds of this scene: select an armature and press Add Walker.")
         self.job = None
         self.cancelled, self.warnings, self.early = False, [], []
-        self.done, self.told, self.problems = [], [], []
+        self.done, self.reports, self.problems = [], [], []
 
     # ---- what a Job tells, of the one that is baked now -------------------------------------------------
 
@@ -69,7 +69,7 @@ class AllJobs:
                     raise DesirePathError(f"'{name}' is in Edit Mode: leave it and bake again.")
                 self.job = Job(scene, obj)
                 yield from self.job.run()
-                self.told.append(self.job.finish())
+                self.reports.append(self.job.finish())
                 self.warnings += [each for each in self.job.warnings if each not in self.warnings]
             except (DesirePathError, OSError) as problem:
                 self.play()
@@ -81,10 +81,10 @@ class AllJobs:
 
     def finish(self):
         """What became of them, in a sentence; DesirePathError where nothing could be baked."""
-        if self.problems and not self.told:
+        if self.problems and not self.reports:
             raise DesirePathError(" ".join(self.problems))
         self.warnings += self.problems
-        return f"{len(self.told)} bake{'s' if len(self.told) > 1 else ''}. {' '.join(self.told)}"
+        return f"{len(self.reports)} bake{'s' if len(self.reports) > 1 else ''}. {' '.join(self.reports)}"
 
     def play(self):
         """Play what a bake that was not whole has left."""

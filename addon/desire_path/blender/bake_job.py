@@ -24,7 +24,7 @@ from .ops import active
 from .show import lost, play, plays_on
 from .translations import say
 
-TOLD = 0.4  # between two looks at how far it is [s]
+LOOK_EVERY = 0.4  # between two looks at how far it is [s]
 NOBODY = "Nobody walks on '{}': select the armature and press Add Walker."
 _running = None  # the Job that runs in a window, for the panel and its Cancel button
 _again = None  # the one that live.py runs
@@ -41,7 +41,7 @@ def again(job):
     _again = job
 
 
-def on_their_way():
+def in_progress():
     """The Jobs that have something to show of how far they are."""
     return [job for job in (_running, _again) if job is not None and job.bake is not None]
 
@@ -106,17 +106,17 @@ class Job:
         reach.follow(company)
         for each in company.walkers:
             sample.poses(each)
-        made, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
-        for each, parcel in zip(company.grounds, made.parcels):
-            parcel.inputs.update(inputs.marks(each, company, made, self.surfaces))
-        self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, made.parcels))
+        bake, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
+        for each, parcel in zip(company.grounds, bake.parcels):
+            parcel.inputs.update(inputs.marks(each, company, bake, self.surfaces))
+        self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, bake.parcels))
         if self.fresh:
             return
         still = moves.still(company.walkers)
-        self.early += [*still, *made.warnings]
+        self.early += [*still, *bake.warnings]
         self.warnings += [
             *still,
-            *made.warnings,
+            *bake.warnings,
         ]  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():
             self.warnings += each.warnings
@@ -126,8 +126,8 @@ class Job:
         yield
         for path, _ in folders:
             trash.drop(path)  # another bake takes its place
-        self.bake = made
-        self.text, self._bakes_since, self._told_at = "Baking", time.perf_counter(), 0.0
+        self.bake = bake
+        self.text, self._bakes_since, self._looked_at = "Baking", time.perf_counter(), 0.0
         with closing(self.bake.run()) as frames:
             for progress in frames:
                 self._how_far(progress)
@@ -174,9 +174,9 @@ class Job:
         """How far it is, how long it takes from here on, and how large the files are that are there."""
         now = time.perf_counter()
         self.fraction, self.frame = progress.fraction, progress.frame
-        if now < self._told_at + TOLD and self.fraction < 1.0:
+        if now < self._looked_at + LOOK_EVERY and self.fraction < 1.0:
             return
-        self._told_at = now
+        self._looked_at = now
         left = (now - self._bakes_since) * (1.0 - self.fraction) / max(self.fraction, 1e-6)
         size = sum(disk_size(share.out.new) for share in self.bake.shares)
         self.text = say("Frame {}, {} left, {:.1f} MB", self.frame, duration(left), size / 1e6)
@@ -199,15 +199,15 @@ def _is_fresh(obj, parcel):
         index = read_index(folder(obj))
     except DesirePathError:
         return False
-    whole = index.complete and not lost(index)
-    return whole and home.played(obj) == folder(obj) and {**index.inputs, **parcel.inputs} == index.inputs
+    complete = index.complete and not lost(index)
+    return complete and home.played(obj) == folder(obj) and {**index.inputs, **parcel.inputs} == index.inputs
 
 
 def duration(seconds):
     """Seconds in words."""
-    minutes, whole = divmod(int(seconds + 0.5), 60)
+    minutes, seconds = divmod(int(seconds + 0.5), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes} min" if hours else f"{minutes} min {whole} s" if minutes else f"{whole} s"
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
 
 
 def disk_size(path):

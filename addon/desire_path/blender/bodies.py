@@ -17,19 +17,19 @@ def laws(walkers, gait, below):
 
     below: tells of the Simulation of the ground, when it is asked
     """
-    chosen, told = [], []
+    chosen, sentences = [], []
     for number, obj in enumerate(walkers):
         law = gait.contact_law[number] if gait.contact_law else AUTO
         if law == AUTO and obj.type == "MESH" and not physics.simulated(obj):
             deep = _depth(gait.only([number]), below())
             if deep > SUNK:
                 law = "carve"
-                told.append(
+                sentences.append(
                     f"'{obj.name}' is moved {deep:.2f} m deep into the ground: it carves, whatever it weighs. Choose "
                     "what it presses by in its panel to have it otherwise."
                 )
         chosen.append(law)
-    return replace(gait, contact_law=tuple(chosen), warnings=gait.warnings + tuple(told))
+    return replace(gait, contact_law=tuple(chosen), warnings=gait.warnings + tuple(sentences))
 
 
 def _depth(gait, below):

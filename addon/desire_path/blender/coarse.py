@@ -26,20 +26,20 @@ class Coarse:
         self.job, self.shown = job, []
         self.cell = min(times * job.bake.cell_size, MOST)
         self.folder = tempfile.mkdtemp(prefix="coarse_", dir=home.temporary())
-        made = job.bake
+        bake = job.bake
         parcels = [
             replace(
                 each, folder=os.path.join(self.folder, str(number)), plants=(), plant_mesh=False, owner="", inputs={}
             )
-            for number, each in enumerate(made.parcels)
+            for number, each in enumerate(bake.parcels)
         ]
         self.bake = Bake(
-            made.gait,
+            bake.gait,
             parcels,
             cell_size=self.cell,
-            options=made.options,
+            options=bake.options,
             output=BakeOutput(
-                frame_start=made.frame_start, frame_end=made.frame_end, film=made.film, map_seconds=False, resume=False
+                frame_start=bake.frame_start, frame_end=bake.frame_end, film=bake.film, map_seconds=False, resume=False
             ),
         )
 

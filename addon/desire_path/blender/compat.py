@@ -206,10 +206,10 @@ def input_path(modifier, identifier):
 def nodes_modifier(obj, name, tree):
     """A new modifier of an object that runs a tree; older Blenders fill in a tree of their own."""
     modifier = obj.modifiers.new(name, "NODES")
-    made = modifier.node_group
+    own = modifier.node_group
     modifier.node_group = tree
-    if made is not None and made != tree and made.users == 0:
-        bpy.data.node_groups.remove(made)
+    if own is not None and own != tree and own.users == 0:
+        bpy.data.node_groups.remove(own)
     return modifier
 
 

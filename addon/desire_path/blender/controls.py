@@ -79,14 +79,14 @@ def trial(scene, armature):
     """(a scene, the curves of a copy of the action): what is keyed there is gone afterwards."""
     animation = armature.animation_data
     action, slot = animation.action, getattr(animation, "action_slot", None)
-    made = action.copy() if action is not None else bpy.data.actions.new("desire_path trial")
+    copied = action.copy() if action is not None else bpy.data.actions.new("desire_path trial")
     try:
-        compat.use_action(animation, made, None)
+        compat.use_action(animation, copied, None)
         with sample.still(armature), sample.private_scene(scene, armature) as own:
             yield own, compat.curves(animation, armature)
     finally:
         compat.use_action(animation, action, slot)
-        bpy.data.actions.remove(made)
+        bpy.data.actions.remove(copied)
 
 
 class Nudges:
@@ -182,7 +182,7 @@ class Leg:
         wanted = turn[:3, :3] @ line(self.was)
         return np.linalg.norm(line(now) - wanted) < SAME * TURN * max(np.linalg.norm(wanted), 1e-6)
 
-    def whole(self, name, job="whole"):
+    def carries(self, name, job="whole"):
         """Does the foot go along with this bone, and its leg bend for it? job: "place" without turning, "paw" the
         toes alone."""
         foot = self.foot
@@ -254,7 +254,7 @@ def _switches(animation, curves):
 
 def _leads(armature, limb, names):
     movable = [name for name in names if not _locked(armature, name, "location")]
-    jobs = {"whole": [name for name in movable if limb.whole(name)]}
+    jobs = {"whole": [name for name in movable if limb.carries(name)]}
     for name in names:
         job = None if name in jobs["whole"] else limb.joint(name)
         if job is not None:
@@ -265,10 +265,10 @@ def _leads(armature, limb, names):
         wanted = ("thigh", "shank", "turn", "toe")
     elif "roll" in jobs:
         wanted = ("paw", "roll")
-        jobs["paw"] = [name for name in movable if limb.whole(name, "paw")]
+        jobs["paw"] = [name for name in movable if limb.carries(name, "paw")]
     else:
         wanted = ("place", "turn", "toe")
-        jobs["place"] = [name for name in movable if limb.whole(name, "place")]
+        jobs["place"] = [name for name in movable if limb.carries(name, "place")]
     jobs = {job: jobs[job] for job in wanted if job in jobs}
     return [Lead(_first(armature, each), job) for job, each in jobs.items() if each]
 

@@ -21,12 +21,12 @@ COARSE = 4.0  # nor does what is farther apart than this show what was baked [ce
 def make_groups(obj):
     """Make the vertex groups that playback fills; returns the depth that counts as 1 [m]."""
     settings = obj.desire_path
-    made = []
+    names = []
     for name in map(playback_tree.group_name, playback_tree.GROUPS):
         if name not in obj.vertex_groups:
             obj.vertex_groups.new(name=name)
-            made.append(name)
-    settings.made_groups = ",".join(made)
+            names.append(name)
+    settings.made_groups = ",".join(names)
     return float(soils.soil_of(settings).layer_depth)
 
 
@@ -42,15 +42,15 @@ def fill(obj, surface, index, depth, planes, standing=()):
     value = values(obj, surface, index, planes, standing)
     warnings = []
     if settings.attributes:
-        made = []
+        names = []
         for name in planes:
             if name in mesh.attributes:
                 warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left alone.")
                 continue
-            made.append(mesh.attributes.new(name, "FLOAT", "POINT").name)
+            names.append(mesh.attributes.new(name, "FLOAT", "POINT").name)
             if name in value:  # else it is 0 all over, as it is made
                 mesh.attributes[name].data.foreach_set("value", value[name])
-        settings.made_attributes = ",".join(made)
+        settings.made_attributes = ",".join(names)
     if depth > 0.0:
         for name, full in (("plant_strength", 1.0), ("compression", depth)):
             if name in value:

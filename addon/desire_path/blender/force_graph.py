@@ -99,19 +99,19 @@ def _step(span, most):
 
 def draw(context, name, forces, frame, row):
     region, scale = context.region, context.preferences.system.ui_scale
-    made = layout(forces, name, frame, (region.width, region.height), scale, row)
-    if not made.lines:
+    graph = layout(forces, name, frame, (region.width, region.height), scale, row)
+    if not graph.lines:
         return
     flat, room = compat.flat_shader()
     line = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     gpu.state.blend_set("ALPHA")
-    for x, y, width, height, colour in [(*made.paper, PAPER)] + made.bands:
+    for x, y, width, height, colour in [(*graph.paper, PAPER)] + graph.bands:
         corners = [(x, y), (x + width, y), (x, y + height), (x + width, y + height)]
         corners = [(*each, 0.0)[:room] for each in corners]
         flat.bind()
         flat.uniform_float("color", colour)
         batch.batch_for_shader(flat, "TRI_STRIP", {"pos": corners}).draw(flat)
-    for points, colour, width in made.lines:
+    for points, colour, width in graph.lines:
         line.bind()
         line.uniform_float("viewportSize", (region.width, region.height))
         line.uniform_float("lineWidth", width * scale)
@@ -119,7 +119,7 @@ def draw(context, name, forces, frame, row):
         strip = [(float(x), float(y), 0.0) for x, y in points]
         batch.batch_for_shader(line, "LINE_STRIP", {"pos": strip}).draw(line)
     gpu.state.blend_set("NONE")
-    for x, y, text, colour, where in made.labels:
+    for x, y, text, colour, where in graph.labels:
         blf.size(0, LETTERS * scale)
         blf.color(0, *colour)
         blf.position(0, x - where * blf.dimensions(0, text)[0], y, 0.0)

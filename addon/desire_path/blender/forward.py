@@ -67,7 +67,7 @@ def carry(scene, armature, line=None):
     if animation is None:
         raise DesirePathError(f"'{rig.name}' cannot be given keys: make its library override editable first.")
     again = cycle.samples_to_loop(gait)
-    made = _action(rig, animation)
+    copied = _action(rig, animation)
     try:
         curves = compat.curves(animation, rig)
         goes_on = _repeats(curves) or (again is not None and _repeat(curves, again))
@@ -82,7 +82,7 @@ def carry(scene, armature, line=None):
         else:
             wanted = (course.moves([seconds])[0] @ (*gait.com[0, -1], 1.0))[:3]
             _follow(scene, rig, curves, course, first, max(last, scene.frame_end) if goes_on else last, goes_on)
-        made[OURS] = _keys(curves)
+        copied[OURS] = _keys(curves)
         bpy.context.view_layer.update()
         end = first + round(seconds * clock.frame_rate(scene))
         came = sample.record(scene, armature, end - 1, end, samples=1).com[0, -1]
@@ -92,7 +92,7 @@ def carry(scene, armature, line=None):
                 "move what its object or its bones follow, by keys or along a curve."
             )
     except BaseException:
-        made[OURS] = _keys(compat.curves(animation, rig))
+        copied[OURS] = _keys(compat.curves(animation, rig))
         switch(armature, False)
         raise
     text = f"'{armature.name}' walks in place and is carried {'ahead' if course is None else 'along the curve'}"
@@ -101,7 +101,7 @@ def carry(scene, armature, line=None):
         + (f" to its end, its clip repeated up to frame {last}" if ends and last <= until else "")
         + (", past the end of which its clip goes" if ends and last > until else "")
         + (", its clip repeated" if goes_on else "" if ends else ", as far as its clip goes, which does not loop")
-        + f": action '{made.name}'; Carried switches it off."
+        + f": action '{copied.name}'; Carried switches it off."
     )
 
 
@@ -109,12 +109,12 @@ def ask(armature, on):
     """Switch as a user asks for it: why that cannot be is kept, to be shown."""
     _refused.pop(armature.name, None)
     try:
-        told = switch(armature, on)
+        reason = switch(armature, on)
     except DesirePathError as problem:
-        told = str(problem)
+        reason = str(problem)
     if on and not is_carried(armature):
-        _refused[armature.name] = told
-        print(f"Desire Path: {told}")
+        _refused[armature.name] = reason
+        print(f"Desire Path: {reason}")
 
 
 def refused(armature):
@@ -172,22 +172,22 @@ def _action(rig, animation):
     if strip is not None:
         action, slot = strip.action, getattr(strip, "action_slot", None)
         shift = strip.frame_start - strip.action_frame_start
-    made = action.copy() if action is not None else bpy.data.actions.new(rig.name)
-    made.name = f"{action.name if action is not None else rig.name}_carried"
-    made[OURS] = 0
-    made[BEFORE] = list(rig.delta_location)
-    made[TURNED] = [*rig.delta_rotation_euler, *rig.delta_rotation_quaternion]
+    copied = action.copy() if action is not None else bpy.data.actions.new(rig.name)
+    copied.name = f"{action.name if action is not None else rig.name}_carried"
+    copied[OURS] = 0
+    copied[BEFORE] = list(rig.delta_location)
+    copied[TURNED] = [*rig.delta_rotation_euler, *rig.delta_rotation_quaternion]
     if animation.action is not None:
-        made[SOURCE] = action
+        copied[SOURCE] = action
         action.use_fake_user = True  # to go back to, even after saving
-    made.use_fake_user = False
-    compat.use_action(animation, made, _same_slot(made, slot))
+    copied.use_fake_user = False
+    compat.use_action(animation, copied, _same_slot(copied, slot))
     if shift:
         for curve in compat.curves(animation, rig):
             for point in curve.keyframe_points:
                 point.co_ui[0] += shift  # with its handles
             curve.update()
-    return made
+    return copied
 
 
 def _only_strip(animation):
@@ -201,9 +201,9 @@ def _only_strip(animation):
         return None
     strip = strips[0]
     span = (strip.action_frame_start, strip.action_frame_end)
-    whole = np.allclose(span, strip.action.frame_range[:], atol=1e-3)
+    full = np.allclose(span, strip.action.frame_range[:], atol=1e-3)
     plain = strip.scale == strip.repeat == 1.0 and not (strip.use_reverse or strip.use_animated_influence)
-    return strip if whole and plain and strip.blend_type == "REPLACE" else None
+    return strip if full and plain and strip.blend_type == "REPLACE" else None
 
 
 def _stays(gait):

@@ -173,10 +173,10 @@ def show(obj, name, kind, index=None, images=None, count=0, anew=True):
 
 def use_tree(modifier, tree):
     """Let a modifier run a tree; older Blenders fill in a tree of their own."""
-    made = modifier.node_group
+    group = modifier.node_group
     modifier.node_group = tree
-    if made is not None and TAG not in made and made.users == 0:
-        bpy.data.node_groups.remove(made)
+    if group is not None and TAG not in group and group.users == 0:
+        bpy.data.node_groups.remove(group)
 
 
 # ---- the nodes -------------------------------------------------------------------------------------

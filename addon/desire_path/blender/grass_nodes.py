@@ -36,8 +36,8 @@ class Field:
         """Share of the stems that stood at first and are broken, 0..1."""
         wire = self.wire
         now, first = self.lean(place)[1], self.lean(place, at_rest=True)[1]
-        whole = wire.math("DIVIDE", wire.math("ADD", now, 0.01), wire.math("ADD", first, 0.01))
-        return wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, whole), 0.0)
+        shrunk = wire.math("DIVIDE", wire.math("ADD", now, 0.01), wire.math("ADD", first, 0.01))
+        return wire.math("MAXIMUM", wire.math("SUBTRACT", 1.0, shrunk), 0.0)
 
 
 def mix(wire, share, a, b):
@@ -68,9 +68,9 @@ def bent(wire, length, along, across, tilt, arch):
         out = piece if out is None else wire.vector("ADD", out, piece)
     # what lies across the stem is turned with it
     vector, angle, sine, cosine = towards(share)
-    way = wire.vector("SCALE", vector, scale=wire.math("DIVIDE", 1.0, angle))
-    ahead = wire.vector("DOT_PRODUCT", across, way)
+    direction = wire.vector("SCALE", vector, scale=wire.math("DIVIDE", 1.0, angle))
+    ahead = wire.vector("DOT_PRODUCT", across, direction)
     back = wire.math("MULTIPLY", ahead, wire.math("SUBTRACT", cosine, 1.0))
-    turned = wire.vector("ADD", across, wire.vector("SCALE", way, scale=back))
+    turned = wire.vector("ADD", across, wire.vector("SCALE", direction, scale=back))
     turned = wire.vector("SUBTRACT", turned, wire.xyz(z=wire.math("MULTIPLY", ahead, sine)))
     return wire.vector("ADD", out, turned)

@@ -57,7 +57,7 @@ def taken(scene, company, folders, **more):
         ):
             gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
     gait = bodies.laws(walkers, gait, lambda: _land(found, gait, cell))
-    keys = soil_keys.told(grounds, walkers, on_paths)
+    keys = soil_keys.uncounted(grounds, walkers, on_paths)
     gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell), *keys))
     origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
     if len(found) > 1 and any(ground.smooth(each.vertices, cell, origin) for each in found.values()):
@@ -98,8 +98,8 @@ def now(scene, obj):
     company = _all(reach.company(scene, obj))
     if not company.walkers:
         raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
-    made, found = _all(taken(scene, company, [(str(number), "") for number in range(len(company.grounds))]))
-    return marks(obj, company, made, found), found
+    bake, found = _all(taken(scene, company, [(str(number), "") for number in range(len(company.grounds))]))
+    return marks(obj, company, bake, found), found
 
 
 def was_applied(obj, index, now, found):
@@ -119,11 +119,11 @@ def was_applied(obj, index, now, found):
         shape = replace(surface.ground, native=(*surface.ground.native[:3], None))
         land = Simulation(shape, cell_size=index.cell, options=SimulationOptions(origin=(index.x0, index.y0)))
         with land:
-            rest = land.read("rest", 0, 0, index.nx, index.ny)
+            base = land.read("rest", 0, 0, index.nx, index.ny)
     except (DesirePathError, KeyError):
         return False
     far = max(np.abs(surface.vertices).max(initial=1.0), 1.0)
-    return before.shape == rest.shape and bool(np.allclose(before, rest, rtol=0.0, atol=ROUNDED * far, equal_nan=True))
+    return before.shape == base.shape and bool(np.allclose(before, base, rtol=0.0, atol=ROUNDED * far, equal_nan=True))
 
 
 def _all(steps):
@@ -135,12 +135,12 @@ def _all(steps):
             return end.value
 
 
-def marks(obj, company, made, found):
+def marks(obj, company, bake, found):
     """A word for each part a bake is made from, another one when that part is; names do not count.
 
     made, found: the Bake and its Surfaces, as taken() gives them
     """
-    gait, settings = made.gait, obj.desire_path
+    gait, settings = bake.gait, obj.desire_path
     walk = [
         gait.time,
         gait.com,
@@ -156,17 +156,17 @@ def marks(obj, company, made, found):
     for each in gait.soles:
         walk += [each.vertices, each.triangles]
     plantings = sorted(
-        (each for parcel in made.parcels for each in parcel.plants), key=lambda each: repr(each.parameters())
+        (each for parcel in bake.parcels for each in parcel.plants), key=lambda each: repr(each.parameters())
     )
     grown = [each for planting in plantings for each in planting.arrays()]
-    options = {name: getattr(made.options, name) for name in ("law", "heap", "rim_width")}  # the rest does not show
-    soils = sorted(([soil.parameters() for soil in parcel.soils] for parcel in made.parcels), key=repr)
+    options = {name: getattr(bake.options, name) for name in ("law", "heap", "rim_width")}  # the rest does not show
+    soils = sorted(([soil.parameters() for soil in parcel.soils] for parcel in bake.parcels), key=repr)
     chosen = [
-        made.cell_size,
-        made.frame_start,
-        made.frame_end,
-        made.frame_rate,
-        made.film,
+        bake.cell_size,
+        bake.frame_start,
+        bake.frame_end,
+        bake.frame_rate,
+        bake.film,
         options,
         sorted({each.desire_path.load_model for each in company.walkers}),
         soils,
@@ -175,14 +175,14 @@ def marks(obj, company, made, found):
         settings.vertex_group,
         sum(each.desire_path.place_feet for each in company.walkers),
     ]
-    trails = [parcel.ground.trail for parcel in made.parcels if parcel.ground.trail is not None]
+    trails = [parcel.ground.trail for parcel in bake.parcels if parcel.ground.trail is not None]
     left = [array for trail in trails for array in trail.arrays()]
     return {
         "walk": mesh.mark(
             walk, [*(f"{mass:.9g}" for mass in gait.mass), *map(repr, gait.mass_keys), *filter(None, [laws])]
         ),
-        "ground": mesh.mark(left, sorted(found[parcel.name].mark for parcel in made.parcels)),
-        "painted": mesh.mark(left, sorted(found[parcel.name].painted for parcel in made.parcels)),
+        "ground": mesh.mark(left, sorted(found[parcel.name].mark for parcel in bake.parcels)),
+        "painted": mesh.mark(left, sorted(found[parcel.name].painted for parcel in bake.parcels)),
         "placed": mesh.mark((), sorted((each.world * each.scale).tolist() for each in found.values())),
         "plants": mesh.mark(grown, [planting.parameters() for planting in plantings]),
         "settings": mesh.mark((), chosen),

@@ -75,7 +75,7 @@ class _Work:
             self.coarse.remove()
         self.coarse = False
 
-    def told(self):
+    def progress(self):
         """How far it is, in words."""
         if self.job.bake is None:
             return ""
@@ -114,7 +114,7 @@ def drop():
         state.baking.pop(work.name, None)
 
 
-def rest():
+def pause():
     """All is as the user wants it, now: nothing is done before another change."""
     global _calm
     drop()
@@ -228,7 +228,7 @@ def _go_on():
                     _show(work)
                     break
         if _work is not None:
-            state.baking[work.name] = work.told()
+            state.baking[work.name] = work.progress()
     except FAILED as problem:
         drop()
         _fail(work.name, problem)
@@ -241,14 +241,14 @@ def _show(work):
     work.clear()
     if not work.job.fresh:
         with undo_step.where_needed("Auto Update"):
-            told = work.job.finish()
+            report = work.job.finish()
         for each in work.job.warnings:
             messages.add("WARNING", each)
-        messages.add("INFO", told)
+        messages.add("INFO", report)
     obj = bpy.data.objects.get(work.job.name)
     if obj is not None:
         _done[obj.name_full] = work.changes
-        state.note(obj, state.Told(state.FRESH))
+        state.note(obj, state.Status(state.FRESH))
 
 
 def _fail(name, problem):
@@ -321,7 +321,7 @@ def loaded():
     if any(wants(obj) for scene in bpy.data.scenes for obj in scene.objects):
         begin()
         if begun():
-            rest()
+            pause()
     else:
         end()
 

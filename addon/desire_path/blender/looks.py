@@ -196,11 +196,11 @@ def _group(name, mark, inputs, outputs):
     tree = bpy.data.node_groups.new(name, "ShaderNodeTree")
     tree[TAG] = mark
     for socket, (kind, value, low, high) in inputs.items():
-        made = compat.group_socket(tree, "INPUT", kind, socket)
+        item = compat.group_socket(tree, "INPUT", kind, socket)
         if value is not None:
-            made.default_value = value
+            item.default_value = value
         if low is not None:
-            made.min_value, made.max_value = low, high
+            item.min_value, item.max_value = low, high
     for socket, kind in outputs.items():
         compat.group_socket(tree, "OUTPUT", kind, socket)
     n = Shade(tree)
@@ -237,8 +237,8 @@ def look(name):
         "Wetness": (number, 0.0, 0.0, 1.0),
     }
     tree, n, given, leave = _group(f"Desire Path {label}", mark, inputs, OUTPUTS)
-    made = make(n, Spot(*(given[each] for each in inputs)))
-    _leave(n, leave, dict(zip(OUTPUTS, made)))
+    results = make(n, Spot(*(given[each] for each in inputs)))
+    _leave(n, leave, dict(zip(OUTPUTS, results)))
     return tree
 
 

@@ -27,7 +27,7 @@ SOILS = {  # soil -> (look, how wet)
 }
 WORDS = (("snow", "SNOW"), ("sand", "SAND"), ("mud", "MUD"), ("clay", "MUD"))  # in other names; else it is earth
 WET = 0.7  # what has that word in its name
-AS_MADE = "desire_path_as_made"  # custom property of a material of ours: its name and nodes as we left them
+UNTOUCHED = "desire_path_as_made"  # custom property of a material of ours: its name and nodes as we left them
 FLOORED = {"EARTH", "MUD"}  # what has a grass floor where plants grow
 
 
@@ -85,11 +85,11 @@ def is_ours(material):
     return material is not None and looks.TAG in material
 
 
-def _called(made):
-    names = dict.fromkeys(looks.LOOKS[look][0] for look in (made.base[0], *(each[1] for each in made.painted)))
-    if made.floor:
+def _called(plan):
+    names = dict.fromkeys(looks.LOOKS[look][0] for look in (plan.base[0], *(each[1] for each in plan.painted)))
+    if plan.floor:
         names["Grass"] = None
-    wet = "Wet " if made.base[0] in {"SAND", "EARTH"} and made.base[1] > 0.5 else ""
+    wet = "Wet " if plan.base[0] in {"SAND", "EARTH"} and plan.base[1] > 0.5 else ""
     return f"Desire Path {wet}{', '.join(names)}"
 
 
@@ -102,24 +102,24 @@ def add(scene, obj, kind="AUTO", replace=False):
     kind: one of op_material.KINDS; replace: in place of the user's own materials
     Raises DesirePathError where nothing can be done; then nothing has changed.
     """
-    made = recipe(scene, obj, kind)
+    plan = recipe(scene, obj, kind)
     theirs = _of_the_user(obj)
     own = [] if replace else theirs
-    _check(obj, own, made)
+    _check(obj, own, plan)
     _shares(obj)
     _grown(obj)
-    group = looks.ground(made, _called(made))
-    told = []
+    group = looks.ground(plan, _called(plan))
+    sentences = []
     if own:
-        told += [_offer(each, group) for each in own]
+        sentences += [_offer(each, group) for each in own]
     free = [k for k, slot in enumerate(obj.material_slots) if replace or not _is_users(slot.material)]
     if free or not len(obj.material_slots):
-        material = _material(made, group, [slot.material for slot in obj.material_slots])
+        material = _material(plan, group, [slot.material for slot in obj.material_slots])
         _fill(obj, free, material)
-        told.append(f"'{obj.name}' is made of '{material.name}'.{_guessed(obj, kind)}")
+        sentences.append(f"'{obj.name}' is made of '{material.name}'.{_guessed(obj, kind)}")
     if replace:
-        told += [_keep(each) for each in theirs if each.users == 0]
-    return " ".join((*told, *_tidy()))
+        sentences += [_keep(each) for each in theirs if each.users == 0]
+    return " ".join((*sentences, *_tidy()))
 
 
 def _guessed(obj, kind):
@@ -147,7 +147,7 @@ def _of_the_user(obj):
     return list(dict.fromkeys(slot.material for slot in obj.material_slots if _is_users(slot.material)))
 
 
-def _check(obj, own, made):
+def _check(obj, own, plan):
     """Say beforehand what cannot be done."""
     for each in (obj.desire_path, *obj.desire_path.painted):
         if each.soil_file:
@@ -158,7 +158,7 @@ def _check(obj, own, made):
             f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file and has no material slot: make the "
             "mesh local, or give it a material in that file."
         )
-    if mesh.library is not None and any(name not in mesh.attributes for name, *_ in made.painted):
+    if mesh.library is not None and any(name not in mesh.attributes for name, *_ in plan.painted):
         raise DesirePathError(
             f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file, so where its soils are painted "
             "cannot be written into it: make the mesh local, or choose one look for all of it as Kind."
@@ -176,7 +176,7 @@ def _check(obj, own, made):
             )
 
 
-def _material(made, group, shown):
+def _material(plan, group, shown):
     """The material of this file that shows a group, created where there is none.
 
     One that was tuned by hand serves the ground that shows it, and no other.
@@ -184,14 +184,14 @@ def _material(made, group, shown):
     mark = group[looks.TAG]
     for each in bpy.data.materials:
         serves = each.library is None and each.get(looks.TAG) == mark and _shows(each, group)
-        if serves and (each in shown or each.get(AS_MADE) == _print_of(each)):
+        if serves and (each in shown or each.get(UNTOUCHED) == _print_of(each)):
             return each
-    return _new(made, group)
+    return _new(plan, group)
 
 
-def _new(made, group):
+def _new(plan, group):
     """A material of its own that shows a group."""
-    material, mark = bpy.data.materials.new(_called(made)), group[looks.TAG]
+    material, mark = bpy.data.materials.new(_called(plan)), group[looks.TAG]
     if not material.use_nodes:
         material.use_nodes = True
     material[looks.TAG] = mark
@@ -201,9 +201,9 @@ def _new(made, group):
     node = n.add("ShaderNodeGroup", {"node_tree": group, "width": 240.0})
     leave = n.add("ShaderNodeOutputMaterial", Surface=node.outputs["Shader"])
     leave.location = (300.0, 0.0)
-    material[AS_MADE] = _print_of(material)
+    material[UNTOUCHED] = _print_of(material)
     base = {"SAND": (0.45, 0.32, 0.19), "SNOW": (0.85, 0.88, 0.92), "MUD": (0.09, 0.057, 0.035)}
-    material.diffuse_color = (*base.get(made.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
+    material.diffuse_color = (*base.get(plan.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
     return material
 
 
@@ -269,18 +269,18 @@ def _fill(obj, free, material):
 
 def _tidy():
     """Remove what was ours and is used no more, but what was tuned by hand; sentences that tell what was kept."""
-    told = []
+    sentences = []
     for each in list(bpy.data.materials):
         if each.library is None and is_ours(each) and each.users == 0:
-            if each.get(AS_MADE) == _print_of(each):
+            if each.get(UNTOUCHED) == _print_of(each):
                 bpy.data.materials.remove(each)
             else:
-                told.append(_keep(each))
+                sentences.append(_keep(each))
     for _ in range(2):  # grounds, then looks
         for each in list(bpy.data.node_groups):
             if each.library is None and looks.TAG in each and each.users == 0:
                 bpy.data.node_groups.remove(each)
-    return told
+    return sentences
 
 
 # ---- assets ---------------------------------------------------------------------------------------------
@@ -297,17 +297,17 @@ ASSETS = (
 def write_library(folder):
     """Write a file of all looks as assets to a folder and let the Asset Browser know of it; returns its path."""
     path = os.path.join(folder, FILE)
-    made = []
+    written = []
     try:
         for each in ASSETS:
             material = _new(each, looks.ground(each, _called(each)))
-            made.append(material)
+            written.append(material)
             material.asset_mark()
             material.asset_data.description = "Ground that shows what Desire Path baked into it"
             material.asset_data.tags.new("ground")
-        _write(path, set(made))
+        _write(path, set(written))
     finally:
-        for material in made:
+        for material in written:
             bpy.data.materials.remove(material)
         _tidy()
     known = bpy.context.preferences.filepaths.asset_libraries
@@ -358,8 +358,8 @@ def shares(obj):
         weight = cover.group_weights(obj, each.vertex_group)
         name = _share(each)
         found[name] = found.get(name, np.zeros(count, np.float32)) + (0.0 if weight is None else weight)
-    whole = np.maximum(sum(found.values(), np.zeros(count, np.float32)), 1.0)
-    return {name: (weight / whole).astype(np.float32) for name, weight in found.items()}
+    total = np.maximum(sum(found.values(), np.zeros(count, np.float32)), 1.0)
+    return {name: (weight / total).astype(np.float32) for name, weight in found.items()}
 
 
 def _shares(obj):

@@ -11,12 +11,12 @@ from .late import platform
 MOST = 500  # messages that are kept
 NAME = "Desire Path Messages"  # of the text that holds them
 
-_told = deque(maxlen=MOST)  # (time, level, sentence)
+_kept = deque(maxlen=MOST)  # (time, level, sentence)
 
 
 def add(level, sentence):
     """Keep a sentence. level: "ERROR", "WARNING" or "INFO" """
-    _told.append((time.strftime("%Y-%m-%d %H:%M:%S"), level, sentence))
+    _kept.append((time.strftime("%Y-%m-%d %H:%M:%S"), level, sentence))
 
 
 def text(obj=None):
@@ -25,7 +25,7 @@ def text(obj=None):
     if obj is not None and obj.type == "MESH" and obj.desire_path.is_ground:
         settings = obj.desire_path
         lines += [f"'{obj.name}': {settings.bake_state}. {settings.missing}".rstrip(), settings.summary]
-    lines += [f"{when}  {level:7}  {sentence}" for when, level, sentence in _told]
+    lines += [f"{when}  {level:7}  {sentence}" for when, level, sentence in _kept]
     return "\n".join(filter(None, lines)) + "\n"
 
 

@@ -127,7 +127,7 @@ class _Bakes(Refusal):
 
     def leave(self, context):
         bake_job.run(None)
-        live.rest()
+        live.pause()
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)

@@ -200,8 +200,8 @@ def _draw():
     scene = context.scene
     frame = scene.frame_current + scene.frame_subframe
     for name in _seen(scene, _shown):
-        for kind, made in (("mass", mass_marks), ("pressure", pressure_marks), ("force", arrows)):
-            lines = made(_shown[name], frame)
+        for kind, marks_of in (("mass", mass_marks), ("pressure", pressure_marks), ("force", arrows)):
+            lines = marks_of(_shown[name], frame)
             if len(lines):
                 _draw_lines(context, lines, COLOURS[kind])
 
@@ -270,9 +270,9 @@ def _redraw():
 
 def keep(obj, reading):
     """Keep what the forces came to on the walker, for the panel."""
-    (told,) = report.summary(reading.gait, reading.loads)
-    obj.desire_path.forces = json.dumps(told)
-    return told
+    (numbers,) = report.summary(reading.gait, reading.loads)
+    obj.desire_path.forces = json.dumps(numbers)
+    return numbers
 
 
 class _Forces(Refusal):
@@ -359,7 +359,7 @@ class _Report(_Forces):
     def work(self, context):
         obj = context.object
         reading = self.read(context)
-        told = keep(obj, reading)
+        numbers = keep(obj, reading)
         where = ""
         if self.directory:
             folder = bpy.path.abspath(self.directory)
@@ -369,7 +369,7 @@ class _Report(_Forces):
             where = f" Tables in {folder}."
         if shows(obj):
             show(obj, reading.forces, graph=shows_graph(obj))
-        self.report({"INFO"}, f"'{obj.name}': {'; '.join(report.sentences(told))}.{where}")
+        self.report({"INFO"}, f"'{obj.name}': {'; '.join(report.sentences(numbers))}.{where}")
         return {"FINISHED"}
 
 

@@ -44,17 +44,17 @@ class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
             and each.library is None
             and each.desire_path.is_ground
         ]
-        told, wrong = [], []
+        done, wrong = [], []
         for each in (obj, *beside):
             try:
-                told.append(materials.add(context.scene, each, self.kind, self.replace))
+                done.append(materials.add(context.scene, each, self.kind, self.replace))
             except DesirePathError as problem:
                 wrong.append(str(problem))
                 continue
             watch.renew(context.scene, each)
-        if not told:
+        if not done:
             raise DesirePathError(" ".join(wrong))
-        for kind, sentences in (("INFO", told), ("WARNING", wrong)):
+        for kind, sentences in (("INFO", done), ("WARNING", wrong)):
             if sentences:
                 self.report({kind}, " ".join(sentences))
         return {"FINISHED"}

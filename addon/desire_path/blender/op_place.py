@@ -92,7 +92,7 @@ def bake(scene, armature, land, prints=False):
     action, slot = source(armature)
     if action is not None:
         compat.use_action(animation, action, slot)
-    made = None
+    placed_action = None
     try:
         frames = frames_of(scene, armature, land)
         gait, placed, warnings = read(scene, armature, land, frames, prints)
@@ -104,30 +104,30 @@ def bake(scene, armature, land, prints=False):
             world = axes.matrix(sample.evaluated(own, armature, frames[0]).matrix_world, armature.name)
             found = sample.rig(armature, sample.skeleton(armature, world, axes.unit_scale(scene)))
         plan = footing.Plan(scene, armature, found, gait, placed, frames)
-        made = action.copy() if action is not None else bpy.data.actions.new(armature.name)
-        made.name = f"{action.name if action is not None else armature.name}_placed"
-        made[sample.PLACED] = json.dumps(plan.shapes)
+        placed_action = action.copy() if action is not None else bpy.data.actions.new(armature.name)
+        placed_action.name = f"{action.name if action is not None else armature.name}_placed"
+        placed_action[sample.PLACED] = json.dumps(plan.shapes)
         if action is not None:
-            made[SOURCE] = action.name
+            placed_action[SOURCE] = action.name
             action.use_fake_user = True  # to go back to, even after saving
-        compat.use_action(animation, made, None)
+        compat.use_action(animation, placed_action, None)
         curves = compat.curves(animation, armature)
         plan.write_all(scene, curves)
         check(scene, armature, plan, frames)
         if action is not None and action.library is None:
             hold(animation, armature, action, slot, plan.fresh, plan.keyed_at[0])
-            compat.use_action(animation, made, None)
+            compat.use_action(animation, placed_action, None)
     except BaseException:
         if before is not None:
             compat.use_action(animation, before, before_slot)
         else:
             animation.action = None
-        if made is not None:
-            bpy.data.actions.remove(made)
+        if placed_action is not None:
+            bpy.data.actions.remove(placed_action)
         raise
     if before is not None and before != action and before.get(SOURCE) and before.users == 0:
         bpy.data.actions.remove(before)
-    return made, tuple(warnings)
+    return placed_action, tuple(warnings)
 
 
 def hold(animation, armature, action, slot, channels, frame):

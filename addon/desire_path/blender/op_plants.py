@@ -68,13 +68,13 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
                 each.density, each.seed = self.density or its.density, len(settings.plants) - 1
             if self.grass:
                 each.grass = plants.grass.make(obj, self.kind)
-            told = plants.plant(scene, obj, [each])
+            sentences = plants.plant(scene, obj, [each])
         except DesirePathError:
             plants.forget(each)
             settings.plants.remove(len(settings.plants) - 1)
             raise
         settings.plants_index = len(settings.plants) - 1
-        for sentence in told:
+        for sentence in sentences:
             self.report({"WARNING"}, sentence)
         self.report({"INFO"}, f"{each.count} plants of {self.kind} grow on '{obj.name}'.")
         return {"FINISHED"}

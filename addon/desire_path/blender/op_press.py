@@ -91,7 +91,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
         return {"FINISHED"}
 
     def tell(self, hand, text):
-        for each in dict.fromkeys(hand.told):
+        for each in dict.fromkeys(hand.sentences):
             self.say("INFO", each)
         self.say("INFO", text)
 
@@ -267,7 +267,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
             handlers = getattr(bpy.app.handlers, name)
             if _stop in handlers:
                 handlers.remove(_stop)
-        live.rest()
+        live.pause()
         context.window_manager.event_timer_remove(self.timer)
         context.workspace.status_text_set(None)
         for window in context.window_manager.windows:

@@ -86,12 +86,12 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         if posed:
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
-            told = self.begin(context)
+            sentences = self.begin(context)
         except BaseException:
             if posed:
                 bpy.ops.object.mode_set(mode="POSE")
             raise
-        for level, text in told:  # nothing is told of what was taken back
+        for level, text in sentences:  # nothing is told of what was taken back
             self.report({level}, text)
         return {"FINISHED"}
 
@@ -123,47 +123,47 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
 
     def walk(self, context, who, meshes, line):
         """Let characters walk over what they tread of some meshes; returns what is to be told."""
-        scene, told = context.scene, []
+        scene, sentences = context.scene, []
         for each in who:
             text = forward.carry(scene, each, line)
             first, last = moves.frame_range(scene, each)
             bounds.Limits().check("frames", last - first + 1)
-            told += [("INFO", text)] if text else []
-        gaits, homes, made = [], meshes * len(who), []
+            sentences += [("INFO", text)] if text else []
+        gaits, homes, new = [], meshes * len(who), []
         if len(meshes) != 1 or not meshes[0].desire_path.is_ground:
             gaits = [sample.record(scene, each, *moves.frame_range(scene, each)) for each in who]
-            homes, made, more = self.lands(context, who, meshes, gaits)
-            told += more
-        for each in made:
-            told.append(("INFO", op_ground.add(scene, each)))
+            homes, new, more = self.lands(context, who, meshes, gaits)
+            sentences += more
+        for each in new:
+            sentences.append(("INFO", op_ground.add(scene, each)))
             each.desire_path.cell_size = cell_for(gaits)
         for each, land in zip(who, homes):
             each.desire_path.ground = land
             if each.type == "ARMATURE" and not each.desire_path.is_walker and not worn.hanging(scene, each):
                 each.desire_path.tread = "lugs"  # who wears nothing has boots on
-            told += op_walkers.add(context, each)
+            sentences += op_walkers.add(context, each)
         for each, land in zip(who, homes):
-            told += self.place(scene, each, land)
+            sentences += self.place(scene, each, land)
         self.bake(context, homes)
         if not bpy.app.background:
-            for each in set(homes) & set(made):
+            for each in set(homes) & set(new):
                 each.desire_path.auto_update = True  # whoever asks for one button wants no second one
-        return told
+        return sentences
 
     def lands(self, context, who, meshes, gaits):
         """(the ground of each character, meshes that are to be grounds, what is to be told)"""
         scene = context.scene
         frame = min(moves.frame_range(scene, each)[0] for each in who)
         found = underfoot.choose(scene, meshes, gaits, frame, cell_for(gaits))
-        told = [("INFO", each) for each in found.told]
+        sentences = [("INFO", each) for each in found.sentences]
         if found.grounds:
-            return found.homes, [each for each in found.grounds if not each.desire_path.is_ground], told
+            return found.homes, [each for each in found.grounds if not each.desire_path.is_ground], sentences
         known = self.known(scene, who)
         if known is not None:
-            return [known] * len(who), [], told
-        made = make_ground(context, gaits)
-        told += [("INFO", f"'{made.name}' is made to be walked on.")] if told else []
-        return [made] * len(who), [made], told
+            return [known] * len(who), [], sentences
+        new = make_ground(context, gaits)
+        sentences += [("INFO", f"'{new.name}' is made to be walked on.")] if sentences else []
+        return [new] * len(who), [new], sentences
 
     def bake(self, context, homes):
         """Bake what characters walk on: those of one walk together, those of several one after the other."""
@@ -188,13 +188,13 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         if not place.carries(gait, below, 0):
             return []
         try:
-            made, told = op_place.bake(scene, armature, land)
+            new, sentences = op_place.bake(scene, armature, land)
         except DesirePathError as problem:
             armature.desire_path.place_feet = True
             return [("WARNING", f"{problem} Its prints are pressed as if its feet were placed.")]
         forward.placed_anew(armature)
-        text = f"The feet of '{armature.name}' are placed on '{land.name}': action '{made.name}'."
-        return [*(("WARNING", each) for each in told), ("INFO", text)]
+        text = f"The feet of '{armature.name}' are placed on '{land.name}': action '{new.name}'."
+        return [*(("WARNING", each) for each in sentences), ("INFO", text)]
 
     @staticmethod
     def known(scene, who):
@@ -244,12 +244,12 @@ def make_ground(context, gaits):
     corners = [(x * half[0], y * half[1], 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
     mesh.uv_layers.new(name="UVMap")
-    made = bpy.data.objects.new("Ground", mesh)
-    made.location = (*middle, floor / scale)
-    context.collection.objects.link(made)
-    made.select_set(True)
+    new = bpy.data.objects.new("Ground", mesh)
+    new.location = (*middle, floor / scale)
+    context.collection.objects.link(new)
+    new.select_set(True)
     context.view_layer.update()
-    return made
+    return new
 
 
 def cell_for(gaits):

@@ -106,12 +106,12 @@ def add(context, obj):
     """Let an armature or a mesh walk on a ground; returns what is to be told: levels of reports and sentences."""
     scene, settings = context.scene, obj.desire_path
     ground = _ground(context, settings.ground)
-    means, told = _means(scene, obj)
+    means, sentences = _means(scene, obj)
     settings.is_walker = True
     settings.ground = ground
     moves.follow(scene, ground, walkers(scene, ground))
     text = f"'{obj.name}' walks on '{ground.name}' {means}."
-    return [*(("WARNING", each) for each in told), ("INFO", text)]
+    return [*(("WARNING", each) for each in sentences), ("INFO", text)]
 
 
 def _means(scene, obj):

@@ -30,7 +30,7 @@ def at_risk():
 def keep():
     """Before the file is saved."""
     scenes = [scene for scene in bpy.data.scenes if scene.library is None]
-    kept = {obj.name: told(obj.desire_path) for obj in at_risk()}
+    kept = {obj.name: values_of(obj.desire_path) for obj in at_risk()}
     for scene in scenes:
         if KEPT in scene:
             del scene[KEPT]
@@ -49,7 +49,7 @@ def restore():
                         tell(obj.desire_path, kept[obj.name])
 
 
-def told(group):
+def values_of(group):
     """The numbers, words and names of a property group, by name."""
     out = {}
     for name, each in type(group).__annotations__.items():
@@ -57,9 +57,9 @@ def told(group):
             continue  # it is told by something else
         value = getattr(group, name)
         if each.function is bpy.props.CollectionProperty:
-            out[name] = [told(one) | {"name": one.name} for one in value]
+            out[name] = [values_of(one) | {"name": one.name} for one in value]
         elif compat.is_group(each):
-            out[name] = told(value)
+            out[name] = values_of(value)
         elif each.function is bpy.props.PointerProperty:
             out[name] = (
                 [value.bl_rna.identifier, value.name, value.library and value.library.filepath] if value else None

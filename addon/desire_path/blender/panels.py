@@ -87,14 +87,14 @@ def draw_ground(layout, context, obj):
 
 def draw_state(layout, context, obj):
     """What has become of the bake, in a word and a sentence."""
-    told = state.last(obj)
-    if told is None:
+    status = state.last(obj)
+    if status is None:
         layout.label(text="Looking for Changes", icon="TIME")
         return
-    word, icon = state.LOOKS[told.state]
+    word, icon = state.LOOKS[status.state]
     layout.label(text=word, icon=icon)
-    if told.text:
-        _lines(layout, told.text, "BLANK1", _letters(context))
+    if status.text:
+        _lines(layout, status.text, "BLANK1", _letters(context))
 
 
 def draw_result(layout, context, settings):
@@ -176,13 +176,13 @@ def draw_plants(layout, context, obj):
     else:
         column.operator("object.desire_path_grass_add", icon="OUTLINER_OB_CURVES")
     column.operator("object.desire_path_plants_update", icon="FILE_REFRESH")
-    told = f"{each.count:,} plants"
+    text = f"{each.count:,} plants"
     try:
         its = plants.kind(each.kind)
-        told += f", {100 * its.height:.3g} cm high, full cover from {its.full_density:g} /m2 on"
+        text += f", {100 * its.height:.3g} cm high, full cover from {its.full_density:g} /m2 on"
     except DesirePathError as problem:
-        told = str(problem)
-    _lines(layout, told, "INFO", _letters(context))
+        text = str(problem)
+    _lines(layout, text, "INFO", _letters(context))
     _column(layout).prop(settings, "plant_mesh")
 
 
@@ -234,11 +234,11 @@ def draw_walker(layout, context, obj):
             if forward.refused(obj):
                 _lines(column, forward.refused(obj), "ERROR", _letters(context))
     if legged and settings.path is not None:
-        way = column.column(align=True)
-        way.prop(settings, "passes")
-        way.prop(settings, "scatter")
-        way.prop(settings, "path_seed")
-        way.prop(settings, "back_and_forth")
+        walked = column.column(align=True)
+        walked.prop(settings, "passes")
+        walked.prop(settings, "scatter")
+        walked.prop(settings, "path_seed")
+        walked.prop(settings, "back_and_forth")
     if legged:
         column.prop(settings, "limbs")
     column.prop(settings, "contact_law")

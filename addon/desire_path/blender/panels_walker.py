@@ -45,11 +45,11 @@ def draw_forces(layout, context, obj):
     row.operator("object.desire_path_forces_write", text="Tables", icon="EXPORT")
     if not settings.forces:
         return
-    told, width = json.loads(settings.forces), _letters(context)
+    numbers, width = json.loads(settings.forces), _letters(context)
     column = layout.column(align=True)
-    for each in report.sentences(told):
+    for each in report.sentences(numbers):
         _lines(column, each, "DOT", width)
-    for each in told["warnings"]:
+    for each in numbers["warnings"]:
         _lines(column, each, "ERROR", width)
 
 

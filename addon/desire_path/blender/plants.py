@@ -164,19 +164,19 @@ def plant(scene, obj, chosen=None):
         return []
     kinds = [kind(each.kind) for each in chosen]
     bed = Bed(scene, obj, chosen, settings.frame_start)
-    told = []
+    sentences = []
     for each, its in zip(chosen, kinds):
         planting, wanted = bed.planting(each, its, MOST)
         root = bed.roots(planting)
         each.count = len(root)
         each.mark = mark(each)
         if wanted > MOST:
-            told.append(
+            sentences.append(
                 f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
                 f"{MOST / 1e6:.0f} million: paint a density group or image where they are seen."
             )
         elif not len(root):
-            told.append(
+            sentences.append(
                 f"No {each.kind} grows on '{obj.name}': check its density, and the group and the image "
                 "that thin it out."
             )
@@ -185,7 +185,7 @@ def plant(scene, obj, chosen=None):
             grass.fill(each.grass, obj, root, bed.slope(root), look.sizes, look.tufts, bed.scale)
             if grass.stale(each.grass, each.kind, its):
                 grass.show(each.grass, each.kind, its)
-    return told
+    return sentences
 
 
 def stale(obj):

@@ -70,7 +70,7 @@ def attach(obj, frames, playing, anew=True):
     lean = has_lean(playing.index) and (anew or "lean" in images(old.node_group))
     shown = {name: sequence(frames, name) for name in ("trail", "lean")[: 1 + lean]}
     tree = playback_tree.create(obj, shown, playing)
-    if _taken_over(obj, tree) or not anew and _made_anew(obj, tree, playing):
+    if _taken_over(obj, tree) or not anew and _rebuilt(obj, tree, playing):
         discard(tree)
         ours, tree = old, old.node_group
     elif not anew:
@@ -134,7 +134,7 @@ def _taken_over(obj, tree):
     return True
 
 
-def _made_anew(obj, tree, playing):
+def _rebuilt(obj, tree, playing):
     """The same by other nodes in the tree that is there."""
     old = _holds(obj, tree)
     if old is None or not strengths.declared(old):
@@ -177,7 +177,7 @@ def wishes(obj):
     return str([settings.refine, settings.refine_size, settings.refine_pixels, *fine])
 
 
-def made_for(tree):
+def lay_of(tree):
     """(the object's matrix (4, 4), the samples of its points (n, 3)) a tree was made for."""
     numbers = np.array(tree[LIE], np.float64)
     return numbers[:16].reshape(4, 4), numbers[16:].reshape(-1, 3)
@@ -188,7 +188,7 @@ def is_moved(obj):
     ours = modifier(obj)
     if ours is None or LIE not in ours.node_group:
         return False
-    world, was = made_for(ours.node_group)
+    world, was = lay_of(ours.node_group)
     now = samples(obj)
     if len(was) != len(now):
         return True

@@ -67,7 +67,7 @@ class Press:
     """Objects in hand, over a ground that answers.
 
     depth: how deep they are pressed [m], None = a share of their height; mass: of each [kg], 0 = the ground gives way
-    to their shape, None = as they say themselves. told: sentences for the user
+    to their shape, None = as they say themselves. sentences: sentences for the user
     """
 
     def __init__(self, context, obj, bodies, *, depth=None, mass=None):
@@ -82,7 +82,7 @@ class Press:
             raise DesirePathError(
                 f"Plants grow on '{obj.name}', which a hand does not bend: press before they are sown."
             )
-        self.scale, self.told = axes.unit_scale(self.scene), []
+        self.scale, self.sentences = axes.unit_scale(self.scene), []
         depsgraph = context.evaluated_depsgraph_get()
         self.held = [_taken(each, depsgraph, self.scale, mass) for each in bodies]
         self.weighs = any(each.shape.mass is not None for each in self.held)
@@ -100,11 +100,11 @@ class Press:
     def _begin(self, obj):
         settings = obj.desire_path
         if not settings.is_ground:
-            self.told.append(op_ground.add(self.scene, obj))
+            self.sentences.append(op_ground.add(self.scene, obj))
             settings.cell_size = cell_for(min(np.ptp(each.shape.vertices, axis=0).max() for each in self.held))
         cell = axes.typed(settings.cell_size)
         self.surface = ground.read(self.scene, obj, cell, self.scene.frame_current)
-        self.told += self.surface.warnings
+        self.sentences += self.surface.warnings
         base = pressed.start(obj, self.surface.ground)
         options = SimulationOptions(
             law=settings.law, heap=settings.heap, origin=self.surface.origin, threads=settings.threads
@@ -112,9 +112,9 @@ class Press:
         bodies = [each.shape for each in self.held]
         self.live = LivePress(base, bodies, ground.soils(obj), cell, options=options)
         self.view = press_view.View(self.scene, obj, self.surface, self.live)
-        self.told += [*self.live.warnings, *self.view.warnings]
+        self.sentences += [*self.live.warnings, *self.view.warnings]
         if playback.modifier(obj) is not None and not pressed.plays(obj):
-            self.told.append(f"'{obj.name}' is pressed as it is before its walk: bake again to see both.")
+            self.sentences.append(f"'{obj.name}' is pressed as it is before its walk: bake again to see both.")
         self.before = None  # where the objects were in the last step
         plays = playback.modifier(obj) is not None
         self.view.show(self._boxes([each.turn[:2, 3] * self.scale for each in self.held]) if plays else ())
@@ -179,13 +179,13 @@ class Press:
         for _ in range(3):  # finer and finer around where it goes below
             if not begin < end:
                 return None
-            way = np.linspace(begin, end, places)
-            at = origin + way[:, None] * along
+            distances = np.linspace(begin, end, places)
+            at = origin + distances[:, None] * along
             below = at[:, 2] - self.live.sim.rest_height(at[:, :2])
             under = np.flatnonzero((below[1:] <= 0.0) & (below[:-1] > 0.0))
             if not len(under):
                 return None
-            begin, end = way[under[0]], way[under[0] + 1]
+            begin, end = distances[under[0]], distances[under[0] + 1]
         return float(at[under[0] + 1, 0]), float(at[under[0] + 1, 1])
 
     def masses(self):
@@ -264,7 +264,7 @@ class Press:
         if not walked:
             settings.summary = ""
             _, warnings = show.play(self.scene, obj, self.surface, place=place)
-            self.told += warnings
+            self.sentences += warnings
         text = f"'{obj.name}' stays as it was pressed, {1000 * deepest:.0f} mm deep at most; files in {index.folder}."
         if walkers(self.scene, obj):
             text += " Bake it again to walk over that."
@@ -298,12 +298,12 @@ def _taken(obj, depsgraph, scale, mass):
     if shown is None or not len(shown.polygons):
         found.to_mesh_clear()
         raise DesirePathError(f"'{obj.name}' has no faces to press the ground with: give it some, or select another.")
-    rest, faces = compat.positions(shown), compat.triangles(shown)
+    points, faces = compat.positions(shown), compat.triangles(shown)
     found.to_mesh_clear()
     turned = axes.rigid(world[None], scale)[0]
     shape = np.eye(4)
     shape[:3, :3] = turned[:3, :3].T @ world[:3, :3]  # scale, mirror and shear
-    vertices = axes.points(shape, rest, scale)
+    vertices = axes.points(shape, points, scale)
     body = PressBody(vertices, faces, mass=_mass(obj) if mass is None else mass or None, name=obj.name)
     low = -float((vertices @ turned[:3, :3].T)[:, 2].min())
     return _Held(obj.name, world, body, low, float(np.linalg.norm(vertices, axis=1).max()))

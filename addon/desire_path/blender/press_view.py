@@ -78,9 +78,9 @@ class View:
             return self.tiles
         bounds = press.sim.bounds()
         if np.isfinite(bounds).all():
-            whole = _around(press.sim.cells(bounds), 0)
-            if whole[2] * whole[3] * TILE * TILE <= MOST:
-                return whole
+            tiles = _around(press.sim.cells(bounds), 0)
+            if tiles[2] * tiles[3] * TILE * TILE <= MOST:
+                return tiles
         there = [press.sim.cells(each) for each in boxes] + ([press.window] if press.window is not None else [])
         low, high = np.array(there)[:, 0::2].min(axis=0), np.array(there)[:, 1::2].max(axis=0)
         return _around((low[0], high[0], low[1], high[1]), MARGIN)

@@ -42,8 +42,8 @@ def looked_at(*objects):
 
 def evaluated(own, obj, frame):
     """The object as it is at a frame (a float: sub-frames are evaluated) of a private scene."""
-    whole = math.floor(frame)
-    own.frame_set(whole, subframe=frame - whole)
+    integer = math.floor(frame)
+    own.frame_set(integer, subframe=frame - integer)
     found = obj.evaluated_get(own.view_layers[0].depsgraph)
     if not found.is_evaluated:
         raise DesirePathError(
@@ -72,8 +72,8 @@ def off_in_renders(scene, obj, frames):
         copy.constraints.clear()
         with private_scene(scene, copy) as own:
             for number in pick:
-                whole = math.floor(frames[number])
-                own.frame_set(whole, subframe=frames[number] - whole)
+                integer = math.floor(frames[number])
+                own.frame_set(integer, subframe=frames[number] - integer)
                 found.append(copy.evaluated_get(own.view_layers[0].depsgraph).hide_render)
     finally:
         bpy.data.objects.remove(copy)

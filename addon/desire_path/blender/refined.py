@@ -80,7 +80,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         return None
     carrier, copied = found.carrier, found.carrier.data
     if settings.detail_size:
-        _detail(carrier, surface, obj, found.weights, found.made)
+        _detail(carrier, surface, obj, found.weights, found.refined)
     if settings.attributes:
         value = cover.values(carrier, surface, index, planes, standing)
         for name in planes:
@@ -92,7 +92,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         f"The refined copy of '{obj.name}' lacks its attribute '{name}', which is of a kind that is not known here."
         for name in found.left
     ]
-    if not found.made.valid:
+    if not found.refined.valid:
         warnings.append(
             f"Prints on '{obj.name}' are shown coarser than asked for: finer, they would take more than "
             f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
@@ -105,7 +105,7 @@ class Cut:
     """A copy of a ground's mesh, cut."""
 
     carrier: bpy.types.Object  # in no collection
-    made: refine.Refined
+    refined: refine.Refined
     weights: dict  # of the vertex groups by name, None where nothing is
     left: list  # names of attributes that could not be carried over
 
@@ -121,8 +121,8 @@ def cut(scene, obj, surface, frame, wanted, into=None):
     with stack.shaped(scene, obj, surface.place.before, trees) as (own, copy):
         stack.show(scene, copy, obj)
         mesh = private.evaluated(own, copy, frame).data
-        made = refine.refine(_triangles(mesh, surface), wanted)
-        if not len(made.triangles):
+        refined = refine.refine(_triangles(mesh, surface), wanted)
+        if not len(refined.triangles):
             return None
         weights = [compat.float_attribute(mesh, ground.WEIGHT.format(k)) for k in range(len(groups))]
         if into is not None:
@@ -132,24 +132,24 @@ def cut(scene, obj, surface, frame, wanted, into=None):
         carrier = into or bpy.data.objects.new(
             f"Desire Path {obj.name}", bpy.data.meshes.new(f"Desire Path {obj.name}")
         )
-        left = _fill(carrier.data, mesh, made)
+        left = _fill(carrier.data, mesh, refined)
     for name, weight in zip(groups, weights):
         group = carrier.vertex_groups.new(name=name)
         if weight is not None and weight.any():
-            cover.weigh(group, made.on_points(weight))
-    return Cut(carrier, made, dict(zip(groups, weights)), left)
+            cover.weigh(group, refined.on_points(weight))
+    return Cut(carrier, refined, dict(zip(groups, weights)), left)
 
 
-def _detail(carrier, surface, obj, weights, made):
+def _detail(carrier, surface, obj, weights, refined):
     """Write what a copy is like below a cell, by its soils."""
     settings, mesh = obj.desire_path, carrier.data
     at = axes.points(surface.world, compat.positions(mesh), surface.scale)
     painted = [weights.get(each.vertex_group) for each in settings.painted]
-    painted = [np.zeros(len(at), np.float32) if each is None else made.on_points(each) for each in painted]
+    painted = [np.zeros(len(at), np.float32) if each is None else refined.on_points(each) for each in painted]
     shares = [np.maximum(1.0 - sum(painted, np.zeros(len(at), np.float32)), 0.0), *painted]
-    whole = np.maximum(sum(shares), 1e-6)
+    total = np.maximum(sum(shares), 1e-6)
     shown = sum(
-        (share / whole)[:, None] * details(at, materials.detail_of(each))
+        (share / total)[:, None] * details(at, materials.detail_of(each))
         for share, each in zip(shares, (settings, *settings.painted))
         if share.any()
     )
@@ -261,29 +261,33 @@ def _triangles(mesh, surface):
     )
 
 
-def _fill(mesh, source, made):
+def _fill(mesh, source, refined):
     """Fill an empty mesh as `made` cuts another one; returns the names of attributes that could not be carried over."""
-    points = made.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
+    points = refined.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
     mesh.vertices.add(len(points))
     compat.set_numbers(mesh, "position", "vector", points, mesh.vertices, "co")
-    corners = made.corner_points(_numbers(source.loops, "vertex_index", 1, np.int32))
+    corners = refined.corner_points(_numbers(source.loops, "vertex_index", 1, np.int32))
     mesh.loops.add(len(corners))
     compat.set_numbers(mesh, ".corner_vert", "value", corners, mesh.loops, "vertex_index")
-    sizes = made.sizes.astype(np.int32)
+    sizes = refined.sizes.astype(np.int32)
     mesh.polygons.add(len(sizes))
     mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
     if not mesh.polygons[0].bl_rna.properties["loop_total"].is_readonly:  # later Blenders read it off loop_start
         mesh.polygons.foreach_set("loop_total", sizes)
-    mesh.polygons.foreach_set("material_index", made.on_faces(_numbers(source.polygons, "material_index", 1, np.int32)))
+    mesh.polygons.foreach_set(
+        "material_index", refined.on_faces(_numbers(source.polygons, "material_index", 1, np.int32))
+    )
     smooth = _numbers(source.polygons, "use_smooth", 1, bool)
-    mesh.polygons.foreach_set("use_smooth", np.concatenate((smooth[made.kept], np.ones(len(made.triangles), bool))))
+    mesh.polygons.foreach_set(
+        "use_smooth", np.concatenate((smooth[refined.kept], np.ones(len(refined.triangles), bool)))
+    )
     mesh.update(calc_edges=True)
     edges = [_numbers(each.edges, "vertices", 2, np.int32) for each in (source, mesh)]
     along = {
-        "POINT": made.on_points,
-        "CORNER": made.on_corners,
-        "FACE": made.on_faces,
-        "EDGE": lambda values: made.on_edges(values, *edges),
+        "POINT": refined.on_points,
+        "CORNER": refined.on_corners,
+        "FACE": refined.on_faces,
+        "EDGE": lambda values: refined.on_edges(values, *edges),
     }
     left = _attributes(mesh, source, along)
     sharp = _numbers(source.edges, "use_edge_sharp", 1, bool) | _creased(source, smooth)
@@ -296,7 +300,7 @@ def _fill(mesh, source, made):
         mesh.use_auto_smooth = True
         mesh.auto_smooth_angle = source.auto_smooth_angle if source.use_auto_smooth else np.pi
     if source.has_custom_normals:
-        mesh.normals_split_custom_set(made.on_corners(_corner_normals(source)))
+        mesh.normals_split_custom_set(refined.on_corners(_corner_normals(source)))
     return left
 
 

@@ -52,6 +52,6 @@ def refresh(scene, obj):
     late = plants.stale(obj)
     if not late:
         return []
-    told = plants.plant(scene, obj, late)
+    sentences = plants.plant(scene, obj, late)
     show.show_plants(obj)
-    return told
+    return sentences

@@ -31,7 +31,7 @@ class Ride:
         self.back.append(back)
         return back
 
-    def told(self, centre, frames, rate, scale):
+    def notes(self, centre, frames, rate, scale):
         """Sentences about what riding leaves out. centre: of the walker as seen from the ground (T, 3) [m]; frames
         (T,), even, of which there are `rate` in a second; scale: metres in a unit [m]."""
         back = np.array(self.back)

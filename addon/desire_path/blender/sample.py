@@ -103,8 +103,8 @@ def rig(armature, shape):
     found = _chosen(armature, shape) if settings.feet else rigs.detect(shape)
     if settings.mass_center:
         _known(armature, shape, settings.mass_center)
-        whole = rigs.Segment("body", 1.0, 0.0, ((settings.mass_center, 0.0),))
-        found = replace(found, segments=(whole,))
+        one_part = rigs.Segment("body", 1.0, 0.0, ((settings.mass_center, 0.0),))
+        found = replace(found, segments=(one_part,))
     return found
 
 
@@ -188,15 +188,15 @@ def weight(armature, shape, found, volume=None):
 
 def worn_at_times(scene, armature, feet, frames):
     """Sentences about what moves with the feet and is off in renders at some frames of the walk only."""
-    owner, told = owners(armature, feet), []
+    owner, notes = owners(armature, feet), []
     for obj in hanging(scene, armature):
         moves = obj.parent_bone in owner or any(group.name in owner for group in obj.vertex_groups)
         if moves and len(set(off_in_renders(scene, obj, frames))) > 1:
-            told.append(
+            notes.append(
                 f"'{obj.name}' is off in renders at some of the frames: '{armature.name}' wears it at all of them "
                 "where it walks."
             )
-    return tuple(told)
+    return tuple(notes)
 
 
 # ---- all of it --------------------------------------------------------------------------------------
@@ -256,10 +256,10 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
             if full:
                 found = found if settings.mass_center else replace(found, segments=full[0])
                 volume = full[1]
-        kilograms, told = weight(armature, shape, found, volume)
+        kilograms, notes = weight(armature, shape, found, volume)
         moved = motion(own, armature, found.bones, frames, rate, scale, carry)
     worn = skin(scene, armature, found.feet, world, scale, frames)
-    told += worn_at_times(scene, armature, found.feet, frames)
+    notes += worn_at_times(scene, armature, found.feet, frames)
     gait = body.gait_from_bones(
         shape,
         moved,
@@ -275,9 +275,9 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
             shapes=placed(armature),
         ),
     )
-    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    rode = carry.notes(gait.com[0], frames, rate, scale) if carry is not None else ()
     law = (settings.contact_law.lower(),)
-    gait = replace(gait, warnings=size + gait.warnings + told + rode, contact_law=law)
+    gait = replace(gait, warnings=size + gait.warnings + notes + rode, contact_law=law)
     return soil_keys.weighed(scene, gait, armature, frame_end)
 
 
@@ -300,7 +300,7 @@ def _limbs(scene, armature, shape, own, carry, frames):
         frame_rate=rate,
         options=solid.SolidOptions(armature.name, round(frames[0])),
     )
-    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    rode = carry.notes(gait.com[0], frames, rate, scale) if carry is not None else ()
     law = "carve" if settings.contact_law == "AUTO" else settings.contact_law.lower()
     return replace(gait, warnings=gait.warnings + tuple(rode), contact_law=(law,))
 
@@ -313,7 +313,7 @@ def _solid(scene, obj, frames, samples, rate, scale):
         private_scene(scene, obj) as own,
         ride.on(own, obj.desire_path.ground, frames[0]) as carry,
     ):
-        (rest, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
+        (first, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
         placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
     if physics.simulated(obj):
         placed = physics.fallen(scene, obj, frames, samples)
@@ -334,11 +334,11 @@ def _solid(scene, obj, frames, samples, rate, scale):
     size = np.swapaxes(turned[:, :3, :3], 1, 2) @ placed[:, :3, :3]  # what the turn leaves: scale, mirror, shear
     shape = np.eye(4)
     shape[:3, :3] = size[0]
-    vertices = axes.points(shape, rest, scale)
+    vertices = axes.points(shape, first, scale)
     faces = faces[:, ::-1] if np.linalg.det(size[0]) < 0.0 else faces
-    told, apart = [], np.abs(size - size[0]).max() / np.abs(size[0]).max()
-    if apart > STIFF or len(last) != len(rest) or (len(rest) and np.abs(last - rest).max() > STIFF * np.ptp(rest)):
-        told.append(
+    notes, apart = [], np.abs(size - size[0]).max() / np.abs(size[0]).max()
+    if apart > STIFF or len(last) != len(first) or (len(first) and np.abs(last - first).max() > STIFF * np.ptp(first)):
+        notes.append(
             f"'{obj.name}' changes its shape or size between the frames: it presses as it is at frame {frames[0]:g}."
         )
     kilograms, estimated, law = _solid_weight(obj, vertices, faces)
@@ -350,9 +350,9 @@ def _solid(scene, obj, frames, samples, rate, scale):
         faces,
         mass=kilograms,
         frame_rate=rate,
-        options=solid.SolidOptions(obj.name, round(frames[0]), told + estimated),
+        options=solid.SolidOptions(obj.name, round(frames[0]), notes + estimated),
     )
-    rode = carry.told(gait.com[0], frames, rate, scale) if carry is not None else ()
+    rode = carry.notes(gait.com[0], frames, rate, scale) if carry is not None else ()
     return replace(gait, warnings=gait.warnings + rode, contact_law=(law,))
 
 

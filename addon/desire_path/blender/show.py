@@ -140,7 +140,7 @@ def lost(index):
     )
 
 
-def was_whole(index):
+def was_complete(index):
     """Whether a bake came to its end, whatever has become of its files."""
     return is_complete(index.folder)
 

@@ -2,8 +2,8 @@
 
     F-curves of the object's action --every frame--> SoilKeys, or a Soil where nothing changes; keys of a mass
 
-Drivers and strips of the NLA editor are not looked at: what they lead counts as it is when the bake begins, and told()
-says so.
+Drivers and strips of the NLA editor are not looked at: what they lead counts as it is when the bake begins, and
+uncounted() says so.
 """
 
 from dataclasses import replace
@@ -107,7 +107,7 @@ def weighed(scene, gait, obj, last):
     return gait
 
 
-def told(grounds, walkers, on_paths):
+def uncounted(grounds, walkers, on_paths):
     """Sentences about keys that do not count. on_paths: whether a frame is a pass"""
     sentences = []
     if on_paths:

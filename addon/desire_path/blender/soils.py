@@ -297,8 +297,8 @@ def draw(layout, settings, save=True):
         column.prop(settings.soil_numbers, name)
     if settings.soil_numbers.changed:
         word = settings.soil.replace("-", " ").capitalize()
-        told = bpy.app.translations.pgettext_iface
-        column.label(text=told("Changed from {}").format(told(word)), icon="GREASEPENCIL")
+        translate = bpy.app.translations.pgettext_iface
+        column.label(text=translate("Changed from {}").format(translate(word)), icon="GREASEPENCIL")
     if save:
         column.operator("object.desire_path_soil_save", icon="EXPORT")
 

@@ -218,7 +218,7 @@ def _tree(name, *kinds):
 
 
 @dataclass(frozen=True)
-class _Made:
+class _Evaluated:
     points: np.ndarray  # of the mesh (n, 3)
     corners: np.ndarray  # the point of every corner of its faces (c,)
     instances: np.ndarray  # where instances are (m, 3)
@@ -247,7 +247,7 @@ def _look(scene, obj, count, frame):
     )
     with shaped(scene, obj, count, [tail]) as (own, copy):
         instances = compat.positions(evaluated(own, copy, frame).data)
-    return _Made(points, corners, instances, world)
+    return _Evaluated(points, corners, instances, world)
 
 
 def _kind(was, now):

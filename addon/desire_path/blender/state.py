@@ -36,7 +36,7 @@ SHARE = 4.0  # looking takes a fifth of the time at most
 
 
 @dataclass(frozen=True)
-class Told:
+class Status:
     """A state and a sentence about it, empty where nothing is to be done."""
 
     state: str
@@ -51,20 +51,20 @@ def found(obj):
     settings = obj.desire_path
     plays = playback.modifier(obj) is not None
     if not settings.is_ground or not plays and (not settings.folder or home.lost(obj)):
-        return Told(NONE)
+        return Status(NONE)
     try:
         index = read_index(plays and home.played(obj) or home.folder(obj))
     except DesirePathError as problem:
-        return Told(MISSING, str(problem)) if plays else Told(NONE)
+        return Status(MISSING, str(problem)) if plays else Status(NONE)
     if not plays and (index.frames > 0 or index.owner != settings.bake_id):
-        return Told(NONE)
+        return Status(NONE)
     if not index.complete:
-        return Told(MISSING if show.was_whole(index) else PARTIAL, show.missing(index))
+        return Status(MISSING if show.was_complete(index) else PARTIAL, show.missing(index))
     gone = show.lost(index)
     if gone:
-        return Told(MISSING, gone)
+        return Status(MISSING, gone)
     text = _changed(obj, index)
-    return Told(OUTDATED if text else FRESH, text)
+    return Status(OUTDATED if text else FRESH, text)
 
 
 def _changed(obj, index):
@@ -105,13 +105,13 @@ def _changed(obj, index):
 def ask(obj):
     """The same; an evaluated copy, as drivers have it, is told what was found last."""
     if obj.is_evaluated:
-        return _last.get(obj.name_full, (Told(NONE),))[0]
-    told = found(obj)
+        return _last.get(obj.name_full, (Status(NONE),))[0]
+    status = found(obj)
     changes, sentence = refused.get(obj.name_full, (-1, ""))
-    if changes == _changes and not told.text and told.state != FRESH:
-        told = Told(told.state, sentence)
-    note(obj, told)
-    return told
+    if changes == _changes and not status.text and status.state != FRESH:
+        status = Status(status.state, sentence)
+    note(obj, status)
+    return status
 
 
 # ---- for panels -------------------------------------------------------------------------------------
@@ -131,10 +131,10 @@ at_hand = False  # while ground is pressed by hand
 def last(obj):
     """What was found last, or None where the timer has to look first. Quick, and changes nothing."""
     if obj.name_full in baking:
-        return Told(BAKING, baking[obj.name_full])
-    told, changes, glance = _last.get(obj.name_full, (None, -1, None))
+        return Status(BAKING, baking[obj.name_full])
+    status, changes, glance = _last.get(obj.name_full, (None, -1, None))
     if changes == _changes and glance == _glance(obj):
-        return told
+        return status
     _waiting.add(obj.name_full)
     hear()
     _wake()
@@ -143,13 +143,13 @@ def last(obj):
 
 def seen(obj):
     """What was found last, or None where something was changed since. For those who draw often: nobody looks for it."""
-    told, changes, _ = _last.get(obj.name_full, (None, -1, None))
-    return told if changes == _changes else None
+    status, changes, _ = _last.get(obj.name_full, (None, -1, None))
+    return status if changes == _changes else None
 
 
-def note(obj, told):
+def note(obj, status):
     """Somebody else has looked."""
-    _last[obj.name_full] = told, _changes, _glance(obj)
+    _last[obj.name_full] = status, _changes, _glance(obj)
 
 
 def hear():

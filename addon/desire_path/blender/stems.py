@@ -80,8 +80,8 @@ def _blades(name, kinds):
         its = wire.add(
             "FunctionNodeCompare", {"data_type": "INT", "operation": "EQUAL"}, A=wire.named(KIND, "INT"), B=number
         ).outputs[0]
-        made = tufts.material(str(kind), tuft.LOOKS.get(str(kind), tuft.LOOKS["meadow"]))
-        blades = wire.add("GeometryNodeSetMaterial", Geometry=blades, Selection=its, Material=made).outputs[0]
+        material = tufts.material(str(kind), tuft.LOOKS.get(str(kind), tuft.LOOKS["meadow"]))
+        blades = wire.add("GeometryNodeSetMaterial", Geometry=blades, Selection=its, Material=material).outputs[0]
     leave = tree.nodes.new("NodeGroupOutput")
     tree.links.new(blades, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
@@ -102,9 +102,9 @@ def remove(obj):
     if mesh.users == 0:
         bpy.data.meshes.remove(mesh)
     for tree in trees:
-        made = {
+        used = {
             node.inputs["Material"].default_value for node in tree.nodes if node.bl_idname == "GeometryNodeSetMaterial"
         }
         playback.discard(tree)
-        for each in made - {None}:
+        for each in used - {None}:
             tufts.discard_material(each)

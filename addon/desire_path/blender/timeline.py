@@ -40,8 +40,8 @@ def spans(obj):
         first, last = min(first, there[0]), max(last, there[1])
     found.append((RANGE, first, last))
     if there is not None and there[1] >= there[0]:
-        told = state.seen(obj)
-        kind = UNSURE if told is None else FRESH if told.state in {state.FRESH, state.PARTIAL} else OUTDATED
+        status = state.seen(obj)
+        kind = UNSURE if status is None else FRESH if status.state in {state.FRESH, state.PARTIAL} else OUTDATED
         found.append((OUTDATED if job else kind, *there))
     if job is not None and job.frame is not None:
         found.append((MAKING, job.bake.frame_start, job.frame))
@@ -59,7 +59,7 @@ def ground_of(obj):
 
 def _job(obj):
     """The bake that is on its way for a ground, or None."""
-    return next((job for job in bake_job.on_their_way() if obj.name in job.grounds), None)
+    return next((job for job in bake_job.in_progress() if obj.name in job.grounds), None)
 
 
 def _frames(folder):

@@ -2,14 +2,14 @@
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
 Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_told.py, translations_soil.py), and every question and reason why a button cannot be pressed
-(translations_said.py).
+description (translations_described.py, translations_soil.py), and every question and reason why a button cannot be
+pressed (translations_said.py).
 """
 
 import bpy
 
 from ..ground.soil import SOILS
-from . import soils, translations_said, translations_soil, translations_told
+from . import soils, translations_described, translations_said, translations_soil
 
 GERMAN = {
     "Operator": {
@@ -208,18 +208,19 @@ GERMAN = {
 }
 
 
-def catalogue(language, told):
+def catalogue(language, messages):
     """A language's words as Blender takes them: {(context, English): text}. told: its descriptions and sentences"""
     presets = {
-        soils.described(each, soils.DESCRIBED): soils.described(each, told[soils.DESCRIBED]) for each in SOILS.values()
+        soils.described(each, soils.DESCRIBED): soils.described(each, messages[soils.DESCRIBED])
+        for each in SOILS.values()
     }
-    words = {**language, "*": {**language["*"], **told, **presets}}
+    words = {**language, "*": {**language["*"], **messages, **presets}}
     return {(context, label): text for context, labels in words.items() for label, text in labels.items()}
 
 
-_TOLD = {**translations_told.GERMAN, **translations_soil.GERMAN, **translations_said.GERMAN}
+_MESSAGES = {**translations_described.GERMAN, **translations_soil.GERMAN, **translations_said.GERMAN}
 # newer Blenders name a language without its country
-TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, _TOLD))
+TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, _MESSAGES))
 
 
 def say(text, *values):

@@ -1,4 +1,4 @@
-"""translations_soil.py - the descriptions of a soil's numbers in other languages; see translations_told.py."""
+"""translations_soil.py - the descriptions of a soil's numbers in other languages; see translations_described.py."""
 
 GERMAN = {
     "How thick the soft soil lies over rigid ground, in metres": (

@@ -25,7 +25,7 @@ def collection(name, kind):
     look = tuft.look_of(name, kind)
     found = bpy.data.collections.new(f"{label(name)} Tufts")
     found[TAG] = mark
-    made = material(name, look)
+    new = material(name, look)
     for number in range(look.tufts):
         shape = tuft.tuft(kind, look, number)
         mesh = bpy.data.meshes.new(f"{label(name)} {number + 1}")
@@ -39,7 +39,7 @@ def collection(name, kind):
             (LOOK, shape.look),
         ):
             store(mesh, key, "FLOAT_VECTOR", value)
-        mesh.materials.append(made)
+        mesh.materials.append(new)
         mesh.update()
         found.objects.link(bpy.data.objects.new(mesh.name, mesh))
     return found
@@ -103,11 +103,11 @@ def discard_material(material):
 def material(name, look):
     """Leaves that let light through, dark at the root, each plant and stem of its own tone; straw
     where `plant_strength` is low. Native nodes, to be changed at will."""
-    made = bpy.data.materials.new(label(name))
-    made[TAG] = 1
-    made.diffuse_color = (*(2.2 * each**0.8 for each in look.high), 1.0)
-    made.use_nodes = True
-    tree = made.node_tree
+    new = bpy.data.materials.new(label(name))
+    new[TAG] = 1
+    new.diffuse_color = (*(2.2 * each**0.8 for each in look.high), 1.0)
+    new.use_nodes = True
+    tree = new.node_tree
     tree.nodes.clear()
     wire = wiring.Wiring(tree)
 
@@ -140,4 +140,4 @@ def material(name, look):
     through = wire.add("ShaderNodeBsdfTranslucent", Color=mix(0.35, colour, (0.55, 0.60, 0.05)))
     both = wire.add("ShaderNodeMixShader", _0=0.3, _1=leaf.outputs[0], _2=through.outputs[0])
     wire.add("ShaderNodeOutputMaterial", Surface=both.outputs[0])
-    return made
+    return new

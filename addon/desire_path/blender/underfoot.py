@@ -25,7 +25,7 @@ class Found:
 
     grounds: tuple  # objects
     homes: tuple  # the one of them that each walker treads most
-    told: tuple  # sentences about meshes that are not walked on
+    sentences: tuple  # sentences about meshes that are not walked on
 
 
 def choose(scene, meshes, gaits, frame, cell):
@@ -37,7 +37,7 @@ def choose(scene, meshes, gaits, frame, cell):
     box = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
     feet = [_lowest(each) for each in gaits]
     legs = [float(size.legs(each).max()) for each in gaits]
-    found, told, problem = {}, [], None
+    found, sentences, problem = {}, [], None
     for obj in meshes:
         try:
             why, below = _look(scene, obj, (feet, legs), frame, (cell, box))
@@ -45,17 +45,17 @@ def choose(scene, meshes, gaits, frame, cell):
             why, below = "the walk passes beside it", [np.full(len(each), np.nan) for each in feet]
         except DesirePathError as fault:
             problem = problem or fault
-            told.append(f"'{obj.name}' is not walked on: {fault}")
+            sentences.append(f"'{obj.name}' is not walked on: {fault}")
             continue
         if why and not obj.desire_path.is_ground:
-            told.append(f"'{obj.name}' is not walked on: {why}.")
+            sentences.append(f"'{obj.name}' is not walked on: {why}.")
         else:
             found[obj] = below
     if not found and problem is not None:
         raise problem
     there = tuple(found)
     homes = tuple(_home(there, [found[each][k] for each in there], feet[k]) for k in range(len(gaits)))
-    return Found(there, homes, tuple(told))
+    return Found(there, homes, tuple(sentences))
 
 
 def _lowest(gait):

@@ -37,8 +37,8 @@ def look(scene, obj):
         return
     tree, now = ours.node_group, np.array(obj.matrix_world, np.float64)
     before, _lay[obj.name_full] = _lay.get(obj.name_full), now
-    made_for, was = playback.made_for(tree)
-    world = _applied(obj, made_for, was, before, now)
+    baked_at, was = playback.lay_of(tree)
+    world = _applied(obj, baked_at, was, before, now)
     _working = True
     try:
         if (
@@ -47,9 +47,9 @@ def look(scene, obj):
             or tree.get(playback.WISHES, playback.wishes(obj)) != playback.wishes(obj)
             or _edited_since(obj, tree)
         ):
-            _again(scene, obj, made_for if world is None else world)
+            _again(scene, obj, baked_at if world is None else world)
         elif before is not None and np.array_equal(before, now) and not np.array_equal(was, playback.samples(obj)):
-            playback.keep(obj, tree, made_for)  # the mesh was edited
+            playback.keep(obj, tree, baked_at)  # the mesh was edited
     finally:
         _working = False
 
@@ -69,16 +69,16 @@ def _edited_since(obj, tree):
     return tree.get(playback.COPIED) != refined.mark(obj)
 
 
-def _applied(obj, made_for, was, before, now):
+def _applied(obj, baked_at, was, before, now):
     """The matrix our tree is to be made for, where what an object's transform did was given to its mesh; else None."""
     there = playback.samples(obj)
     if len(there) != len(was) or np.array_equal(there, was):
         return None
     at = axes.points(now, there, 1.0)
-    for old in (before, made_for):
+    for old in (before, baked_at):
         if old is not None and np.abs(axes.points(old, was, 1.0) - at).max() <= NEAR * np.abs(at).max():
             with suppress(np.linalg.LinAlgError):
-                return made_for @ np.linalg.inv(old) @ now
+                return baked_at @ np.linalg.inv(old) @ now
     return None
 
 
@@ -90,18 +90,18 @@ def _again(scene, obj, world):
         surface = ground.laid(surface, world)
         if playback.interpolates(playback.modifier(obj).node_group):  # as its neighbours may do
             surface = replace(surface, between=True)
-        _, told = show.play(scene, obj, surface)
+        _, sentences = show.play(scene, obj, surface)
         summary = obj.desire_path.summary
         if summary:
             found = json.loads(summary)
             found["warnings"] = [each for each in found["warnings"] if not cover.is_of_points(each)]
-            found["warnings"] += [each for each in told if cover.is_of_points(each)]
+            found["warnings"] += [each for each in sentences if cover.is_of_points(each)]
             obj.desire_path.summary = json.dumps(found)
     except DesirePathError:  # the state says what is wrong
         place = stack.find(scene, obj, scene.frame_current)
         ours = playback.modifier(obj)
         compat.move_modifier(obj, ours, place.before)
-        playback.keep(obj, ours.node_group, playback.made_for(ours.node_group)[0])
+        playback.keep(obj, ours.node_group, playback.lay_of(ours.node_group)[0])
 
 
 # ---- handlers -----------------------------------------------------------------------------------------

@@ -136,8 +136,8 @@ class _MemoryStatus(ctypes.Structure):  # MEMORYSTATUSEX
 
 def _memory_free_windows() -> float:
     status = _MemoryStatus(size=ctypes.sizeof(_MemoryStatus))
-    told = getattr(ctypes, "windll").kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # noqa: B009
-    return float(status.free_paged) if told else float("inf")
+    succeeded = getattr(ctypes, "windll").kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # noqa: B009
+    return float(status.free_paged) if succeeded else float("inf")
 
 
 # ---- locks -------------------------------------------------------------------------------------------------

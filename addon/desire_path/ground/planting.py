@@ -146,10 +146,10 @@ class Planting:
 
     def parameters(self) -> dict[str, Any]:
         """What it is, for a report: numbers and words only."""
-        told: dict[str, Any] = {"kind": asdict(self.kind), "density": self.density, "seed": int(self.seed)}
+        numbers: dict[str, Any] = {"kind": asdict(self.kind), "density": self.density, "seed": int(self.seed)}
         if self.rectangle is not None:
-            told["rectangle"] = list(self.rectangle)
-        return told
+            numbers["rectangle"] = list(self.rectangle)
+        return numbers
 
     def arrays(self) -> list[np.ndarray]:
         """The arrays that tell one planting from another."""

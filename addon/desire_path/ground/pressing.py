@@ -270,12 +270,12 @@ class Pressing:
 
     def _steps(self, start: np.ndarray, end: np.ndarray) -> int:
         """Into how many steps a move is cut so that no body jumps over ground; who carves sweeps it by itself."""
-        way = np.linalg.norm(end[:, :3] - start[:, :3], axis=1)
+        distance = np.linalg.norm(end[:, :3] - start[:, :3], axis=1)
         wide = np.array([float(np.ptp(each.vertices[:, :3], axis=0).max()) for each in self.bodies])
         turn = np.linalg.norm(end[:, 3:] - start[:, 3:], axis=1) * wide
         carves = np.array([each.mass is None for each in self.bodies])
         long = np.where(carves, SWEPT * self.cell_size, np.maximum(2.0 * self.cell_size, 0.1 * wide))
-        return int(np.clip(math.ceil(float(((way + turn) / long).max())), 1, MOST_STEPS))
+        return int(np.clip(math.ceil(float(((distance + turn) / long).max())), 1, MOST_STEPS))
 
     def _step(self, poses: np.ndarray, seconds: float) -> bool:
         """One step of a stroke; returns whether anything touches."""

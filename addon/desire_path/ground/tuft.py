@@ -184,8 +184,8 @@ def tuft(kind: Kind, look: Look, seed: int) -> Tuft:
             )
             faces += [tuple(v + count for v in face) for face in cut]
             count += len(at)
-    root, at, tilt, arch, told = (np.concatenate(each).astype(np.float32) for each in zip(*blocks, strict=True))
-    return Tuft(bent(root, at, tilt, arch).astype(np.float32), tuple(faces), root, at, tilt, arch, told)
+    root, at, tilt, arch, apart = (np.concatenate(each).astype(np.float32) for each in zip(*blocks, strict=True))
+    return Tuft(bent(root, at, tilt, arch).astype(np.float32), tuple(faces), root, at, tilt, arch, apart)
 
 
 def bent(root: np.ndarray, at: np.ndarray, tilt: np.ndarray, arch: np.ndarray) -> np.ndarray:

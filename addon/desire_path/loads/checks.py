@@ -61,12 +61,12 @@ def slides(gait: Gait, places: np.ndarray, touching: np.ndarray, size: float) ->
         mine = mine & ~still if (mine & ~still).any() else mine
         speed = float(np.median(rush[mine])) if mine.any() else 0.0
         if speed > SLIDE * pace:
-            way = np.hypot(*(gait.com[w, -1] - gait.com[w, 0])[:2]) / (gait.time[-1] - gait.time[0])
+            along = np.hypot(*(gait.com[w, -1] - gait.com[w, 0])[:2]) / (gait.time[-1] - gait.time[0])
             warnings.append(
                 f"The feet of {name} slide at {speed:.1f} m/s while they stand"
                 + (
-                    f", though it goes at {way:.1f} m/s: make it faster or slower, until they stand still."
-                    if way > STILL * pace
+                    f", though it goes at {along:.1f} m/s: make it faster or slower, until they stand still."
+                    if along > STILL * pace
                     else ": if its clip walks in place, move the character forward at that speed."
                 )
             )

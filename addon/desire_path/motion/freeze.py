@@ -57,8 +57,8 @@ def stops(
     found = _exact(time, com, poses, size)
     if rests:
         return tuple(found)
-    found = [each for each in found if _under_way(time, com, *each, size)]
-    jitters = [each for each in _jittery(time, com, poses, size) if _under_way(time, com, *each, size)]
+    found = [each for each in found if _is_moving(time, com, *each, size)]
+    jitters = [each for each in _jittery(time, com, poses, size) if _is_moving(time, com, *each, size)]
     apart = [(a, b) for a, b in jitters if not any(first < b and a < last for first, last in found)]
     return tuple(sorted(found + apart))
 
@@ -126,7 +126,7 @@ def _runs(mask: np.ndarray) -> Iterator[tuple[int, int]]:
     return zip(edge[::2].tolist(), edge[1::2].tolist())
 
 
-def _under_way(time: np.ndarray, com: np.ndarray, first: int, last: int, size: float) -> bool:
+def _is_moving(time: np.ndarray, com: np.ndarray, first: int, last: int, size: float) -> bool:
     """Did the body walk up to a hold, or does it from there on?"""
     span, pace = BEFORE * np.sqrt(size), WALKS * np.sqrt(size)
     before, after = (

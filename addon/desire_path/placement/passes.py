@@ -74,17 +74,17 @@ def along(
             "(n, 2)."
         )
     line = path if isinstance(path, Path) else Path(path)
-    if not _is_whole(passes, 1):
+    if not _is_integer(passes, 1):
         raise DesirePathError(f"A walk of {passes} passes cannot be walked: give a whole number from 1 on.")
-    if not _is_whole(seed, 0) or seed >= 1 << 64:
+    if not _is_integer(seed, 0) or seed >= 1 << 64:
         raise DesirePathError(f"A seed of {seed} cannot be used: choose a whole number from 0 to 2^64 - 1.")
     scatter.check()
     if not (math.isfinite(pause) and 0.0 <= pause <= MAX_PAUSE):
         raise DesirePathError(f"A pause of {pause:g} s cannot be used: choose one from 0 to {MAX_PAUSE:g}.")
     rate = gait.frame_rate * math.ceil(RATE / gait.frame_rate - 1e-6)
     if gait.mass_keys:
-        told = "The keys on the mass of walkers do not count along a path: they weigh what they do at first."
-        gait = replace(gait, mass_keys=(), warnings=(told, *gait.warnings))
+        sentence = "The keys on the mass of walkers do not count along a path: they weigh what they do at first."
+        gait = replace(gait, mass_keys=(), warnings=(sentence, *gait.warnings))
     cycles = [find(gait.only([w])) for w in range(len(gait.mass))]
     samples = sum(passes * (line.length / cycle.speed * rate + 2) for cycle in cycles) * len(gait.pose)
     if samples > MAX_SAMPLES:
@@ -105,7 +105,7 @@ def along(
     return _chained(walks, turns, rate, [pause if n else 0.0 for n in range(len(turns))])
 
 
-def _is_whole(value: object, low: int) -> bool:
+def _is_integer(value: object, low: int) -> bool:
     return (
         isinstance(value, (int, float, np.integer, np.floating))
         and not isinstance(value, bool)

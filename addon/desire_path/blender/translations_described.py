@@ -1,4 +1,4 @@
-"""translations_told.py - the descriptions of the add-on in other languages, which Blender shows beside the pointer.
+"""translations_described.py - the descriptions of the add-on in other languages, shown beside the pointer.
 
 Keys are the English descriptions, as Blender has them: line ends and all.
 """
