@@ -12,7 +12,7 @@ from test_bake import refused, state
 from test_playback import corners, fresh
 from test_sample import ids
 
-from desire_path.blender import axes, compat, grass, plants, playback, playback_tree, wiring
+from desire_path.blender import axes, compat, grass, grass_tree, plants, playback, playback_tree, wiring
 from desire_path.ground.plants import KINDS
 
 NX, NY, CELL = 96, 64, 0.02
@@ -434,7 +434,7 @@ def grown(obj, frame=None):
     real = compat.positions(mesh) if _is_real(mesh) else np.zeros((0, 3), np.float32)
     values = {}
     if len(real):
-        for name in (grass.PLACE, grass.ROOT, grass.AT, grass.LOOK):
+        for name in (grass_tree.PLACE, grass_tree.ROOT, grass_tree.AT, grass_tree.LOOK):
             values[name] = np.empty((len(real), 3), np.float32)
             mesh.attributes[name].data.foreach_get("vector", values[name].ravel())
         values[grass.STRENGTH] = compat.float_attribute(mesh, grass.STRENGTH)
@@ -443,7 +443,7 @@ def grown(obj, frame=None):
 
 
 def _is_real(mesh):
-    return grass.PLACE in mesh.attributes
+    return grass_tree.PLACE in mesh.attributes
 
 
 def images(folder, trail, lean):
@@ -518,26 +518,26 @@ def test_trodden_stems_lie_along_the_lean_and_standing_ones_stay(folder):
     away = [at for at in standing if abs(at[0] - 0.96) > 0.4 or abs(at[1] - 0.6) > 0.35]
     assert len(away) > 50 and all(at in found for at in away) and len(found) < len(standing)
     size = told[grass.SIZE]
-    foot = told[grass.PLACE][:, :2]
+    foot = told[grass_tree.PLACE][:, :2]
     deep = (abs(foot[:, 0] - 0.96) < 0.16) & (abs(foot[:, 1] - 0.6) < 0.11)
-    above = told[grass.AT][:, 2] > 1e-4
+    above = told[grass_tree.AT][:, 2] > 1e-4
     assert deep.sum() > 1000
     # flat on the pressed ground, none below it
     height = real[deep & above, 2]
     assert height.min() > -0.0301 and np.percentile(height, 90) < -0.03 + 0.012 and height.max() < 0.02, height.max()
     # tips point along +x, at about the stem's length
-    tip = deep & (told[grass.LOOK][:, 0] > 0.99)
-    reach = (real[tip, 0] - foot[tip, 0]) / (told[grass.ROOT][tip, 2] * size[tip])
+    tip = deep & (told[grass_tree.LOOK][:, 0] > 0.99)
+    reach = (real[tip, 0] - foot[tip, 0]) / (told[grass_tree.ROOT][tip, 2] * size[tip])
     assert np.median(reach) > 0.75 and (reach > 0.3).mean() > 0.95, np.median(reach)
 
 
 def lengths(real, told, many=200):
     """Length of every real stem along its middle over its length when straight."""
-    key = np.column_stack([told[grass.PLACE], told[grass.ROOT]])
+    key = np.column_stack([told[grass_tree.PLACE], told[grass_tree.ROOT]])
     out = []
     for stem in np.unique(key, axis=0)[:many]:
         at = np.flatnonzero((key == stem).all(axis=1))
-        s = told[grass.AT][at, 2]
+        s = told[grass_tree.AT][at, 2]
         rows = np.unique(np.round(s, 6))
         rows = rows[rows >= -1e-6]
         middle = np.array([real[at][np.abs(s - row) < 2e-6].mean(axis=0) for row in rows])
@@ -560,7 +560,7 @@ def test_leaning_stems_are_arcs_of_the_same_length(folder):
         kept = lengths(real, told)  # along the blades' few pieces: chords of an arc are a little shorter
         assert len(kept) > 100 and np.median(kept) > 0.93 and kept.max() < 1.02, (kept.min(), kept.max())
         # bent more towards the tip: the lower half rises higher than the upper
-        s, high = told[grass.LOOK][:, 0], real[:, 2] / (told[grass.ROOT][:, 2] * told[grass.SIZE])
+        s, high = told[grass_tree.LOOK][:, 0], real[:, 2] / (told[grass_tree.ROOT][:, 2] * told[grass.SIZE])
         half = high[abs(s - 1 / 3) < 0.01].mean()
         top = high[s > 0.99].mean()
         assert half > 1.2 * top / 3, (half, top)
@@ -604,7 +604,7 @@ def test_broken_stems_are_pale_and_wear_away(folder):
         lean[...] = (0.9 * (1 - strength), 0.0, 1 - strength, strength)
         play(ground, images(folder, trail, lean))
         _, real, told = grown(each.grass, 1)
-        tips = told[grass.LOOK][:, 0] > 0.99
+        tips = told[grass_tree.LOOK][:, 0] > 0.99
         heights.append(real[tips, 2].mean())
         pale.append(told[grass.STRENGTH][tips].mean())
     assert heights[0] > 1.4 * heights[1] > 5 * heights[2], heights

@@ -58,14 +58,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
     scale = axes.unit_scale(scene)
-    warnings = []
-    groups = [each.vertex_group for each in obj.desire_path.painted]
-    for name in groups:
-        if name not in obj.vertex_groups:
-            raise DesirePathError(
-                f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
-                "choose another group or remove the soil from the list."
-            )
+    warnings, groups = [], _painted_groups(obj)
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
         warnings.append(
             f"'{obj.name}' shows instances of its children, in which there are no prints: make them real "
@@ -126,6 +119,18 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         meshes.mark(painted),
         finer,
     )
+
+
+def _painted_groups(obj):
+    """The vertex groups that soils are painted by."""
+    groups = [each.vertex_group for each in obj.desire_path.painted]
+    for name in groups:
+        if name not in obj.vertex_groups:
+            raise DesirePathError(
+                f"'{obj.name}' has no vertex group '{name}' to paint a soil with: "
+                "choose another group or remove the soil from the list."
+            )
+    return groups
 
 
 def laid(surface, world):

@@ -93,17 +93,8 @@ def create(obj, shown, playing, into=None):
     # sample once, read everything from it
     texture = wire.image(shown["trail"], at, number, smooth)
     some = {} if inside is None else {"Selection": inside}
-    stored = entry
     scattered = place is not None and place.scattered  # before us: it goes down with the ground
-    for domain in ("INSTANCE", "POINT")[not scattered :]:
-        stored = wire.add(
-            "GeometryNodeStoreNamedAttribute",
-            {"data_type": "FLOAT_COLOR", "domain": domain},
-            Geometry=stored.outputs[0],
-            Name=ATTRIBUTE,
-            Value=texture.outputs["Color"],
-            **some,
-        )
+    stored = _stored(wire, entry, texture.outputs["Color"], scattered, some)
     split = wire.add("FunctionNodeSeparateColor", {"mode": "RGB"}, Color=wire.named(ATTRIBUTE, "FLOAT_COLOR"))
     up, rise = axes.lift(world, scale), strengths.rise(wire, given, split.outputs[0], split.outputs[2])
     if detailed:
@@ -133,6 +124,20 @@ def create(obj, shown, playing, into=None):
     tree.links.new(geometry, leave.inputs[0])
     leave.location = (180 * wire.column, 0)
     return tree
+
+
+def _stored(wire, entry, color, scattered, some):
+    """The node after which points, and instances that are scattered, have a color where they are `some`."""
+    for domain in ("INSTANCE", "POINT")[not scattered :]:
+        entry = wire.add(
+            "GeometryNodeStoreNamedAttribute",
+            {"data_type": "FLOAT_COLOR", "domain": domain},
+            Geometry=entry.outputs[0],
+            Name=ATTRIBUTE,
+            Value=color,
+            **some,
+        )
+    return entry
 
 
 def _detail(wire, baked, threshold):

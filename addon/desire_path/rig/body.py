@@ -216,13 +216,8 @@ def gait_from_bones(
             foot.face(square, up_rest)
     ahead_rest = _ahead(feet, up_rest, square)
     lefts = _lefts(bones, feet, np.cross(up_rest, ahead_rest))
-    at_rest = RestPose(skeleton, up_rest, ahead_rest, soles.skin)
-    if isinstance(soles.tread, str):
-        at_rest = replace(at_rest, tread=tread.check(soles.tread))
-    elif soles.tread is not None:
-        laid = lay_tread(soles.tread, feet, lefts, moving, at_rest)
-        at_rest = replace(at_rest, laid=laid)
-        warnings += laid.warnings
+    at_rest = _soled(RestPose(skeleton, up_rest, ahead_rest, soles.skin), soles, feet, lefts, moving)
+    warnings += at_rest.laid.warnings if at_rest.laid is not None else ()
     hills: Sequence[slope.Slope | None] = [None] * len(feet)
     if soles.land is not None:
         hills = slope.below(soles.land, feet, moving, up_rest, bool(shapes) or None)
@@ -248,6 +243,17 @@ def gait_from_bones(
         jump=np.array([(sample, 0) for sample in cut]),
         leg=np.array([own_leg]),
     ).check()
+
+
+def _soled(
+    at_rest: RestPose, soles: SoleSource, feet: Sequence[Foot], lefts: Sequence[bool], moving: np.ndarray
+) -> RestPose:
+    """The rest pose with the treads that are asked for."""
+    if isinstance(soles.tread, str):
+        return replace(at_rest, tread=tread.check(soles.tread))
+    if soles.tread is not None:
+        return replace(at_rest, laid=lay_tread(soles.tread, feet, lefts, moving, at_rest))
+    return at_rest
 
 
 def _lefts(bones: SampledBones, feet: Sequence[Foot], left_axis: np.ndarray) -> list[bool]:
