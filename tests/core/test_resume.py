@@ -211,6 +211,28 @@ def test_a_stopped_bake_goes_on_from_the_frame_it_was_stopped_at(tmp_path):
     assert content(tmp_path / "bake") == content(tmp_path / "whole")
 
 
+def test_states_of_storeys_count_once_the_last_of_them_is_written(tmp_path, monkeypatch, each_frame):
+    """As if it was killed when but some of them were there."""
+    written, write = [], state.write
+
+    def writes(path, *more):
+        written.append(Path(path).relative_to(tmp_path))
+        write(path, *more)
+
+    monkeypatch.setattr(state, "write", writes)
+    run = tiles(tmp_path).run()
+    for _ in range(4):
+        next(run)
+    run.close()
+    names = [path.name for path in written[-4:]]
+    assert names == ["bake_0003.state"] * 2 + ["bake_0004.state"] * 2, "one of each storey"
+    last = written[-1]
+    assert last.parts[0] != written[-2].parts[0]
+    (there,) = (tmp_path / last.parts[0]).rglob(last.name)
+    there.unlink()
+    assert finish(tmp_path, tiles) == (4, [])
+
+
 @pytest.mark.parametrize(
     "damage",
     [
