@@ -82,6 +82,13 @@ static bool open_laws(DpBuffers* buffers, PyObject* object, Cast* cast)
     return laws != NULL;
 }
 
+static PyObject* loaded(DpStatus status)
+{
+    return dp_py_because(
+        status, "loading the recording",
+        "times must rise, poses be turns, forces finite, and parts, limbs and walkers be there");
+}
+
 PyObject* dp_py_load(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
@@ -111,9 +118,7 @@ PyObject* dp_py_load(PyObject* object, PyObject* args)
     status = dp_sim_load(self->sim, &cast.gait, poses.touching, poses.force, poses.pressure_point);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_py_because(
-        status, "loading the recording",
-        "times must rise, poses be turns, forces finite, and parts, limbs and walkers be there");
+    result = loaded(status);
 done:
     dp_free(cast.sole);
     dp_buffers_close(&buffers);
@@ -195,9 +200,7 @@ PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
     if (status != DP_OK) dp_motion_destroy(motion);
     Py_END_ALLOW_THREADS
     self->busy = false;
-    result = dp_py_because(
-        status, "loading the recording",
-        "times must rise, poses be turns, forces finite, and parts, limbs and walkers be there");
+    result = loaded(status);
 done:
     dp_free(track), dp_free(cast.sole);
     dp_buffers_close(&buffers);

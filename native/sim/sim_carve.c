@@ -65,21 +65,9 @@ double dp_carve_depth(const DpSim* sim, Limb* limb, int sample)
 // So many poses that nothing low moves by more than half a cell from one to the next.
 static int steps_of(const DpSim* sim, const Limb* limb, int sample)
 {
-    const DpBox box = limb->from;
-    double      farthest = 0.0;
-    for (int p = 0; p < limb->part_count; ++p) {
-        const DpMesh* sole = &sim->cast.sole[limb->part[p]];
-        const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
-        const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
-        const int     stride = sole->vertex_count / PROBED + 1;
-        for (int v = 0; v < sole->vertex_count; v += stride) {
-            const float* at = sole->vertex + 3 * (size_t)v;
-            const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
-            const DpVec3 from = dp_place(a, point), to = dp_place(b, point);
-            if (from.z <= box.z0 + LOW_PART * (box.z1 - box.z0))
-                farthest = fmax(farthest, hypot(to.x - from.x, to.y - from.y));
-        }
-    }
+    const DpBox  box = limb->from;
+    const double high = box.z0 + LOW_PART * (box.z1 - box.z0);
+    const double farthest = dp_limb_probe(sim, limb, sample, PROBED, high).farthest;
     const double moves = ceil(farthest / (0.5 * sim->grid.cell));
     return (int)dp_clamp(moves, 1.0, DP_CARVE_STEPS - 1);
 }
@@ -199,11 +187,8 @@ DpStatus dp_carve_behind(DpSim* sim, Limb* limb)
     WorkerScratch*   scratch = &sim->scratch[0];
     const DpCellRect at = dp_cells_grown(limb->trodden, BEHIND_MARGIN);
     DpSoilPatch*     patch = NULL;
-    DpStatus         status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
-    if (status == DP_OK) status = dp_limb_fit(scratch, patch);
+    DpStatus         status = dp_limb_lease(sim, scratch, at, &patch);
     if (status != DP_OK) return status;
-    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
-    for (size_t k = 0; k < cells; ++k) scratch->imprint.ring[k] = DP_RING_FAR;
     for (long j = limb->patch.j0; j < limb->patch.j1; ++j)  // where it is now nothing moves
         for (long i = limb->patch.i0; i < limb->patch.i1; ++i)
             scratch->imprint.ring[(j - at.j0) * patch->row + (i - at.i0)] = 0;

@@ -176,6 +176,14 @@ DpCellRect  dp_box_cells(const DpSim* sim, const DpBox* box, double margin);
 DpCellRect  dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
 int         dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample);
 
+// Some `count` vertices of each part: how low they are at a sample, and how far over the ground those not above `high`
+// go until the next                                                                                          [m]
+typedef struct DpProbe
+{
+    double lowest, farthest;
+} DpProbe;
+DpProbe dp_limb_probe(const DpSim* sim, const Limb* limb, int sample, int count, double high);
+
 // sim_cells.c: cells whose centres may lie in a box [m]; the ground asks again for its cover within
 // one; the surface where no limb is near, as plants ask for it (context: the terrain)
 DpCellRect dp_sim_cells(const DpSim* sim, double x0, double y0, double x1, double y1);
@@ -218,6 +226,9 @@ void     dp_pressing_clear(DpSim* sim);
 // sim_lay.c: room for the imprint of a patch in the scratch's grids; what its sole has displaced, and what still waits, is
 // laid around it, threshold of TRAIL (13) [N]
 DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
+
+// .. of a patch that is acquired here, with no sole on it
+DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoilPatch** patch);
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                      const DpFootForce* foot, double volume, double threshold);
 

@@ -15,6 +15,16 @@ DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
     return fits ? DP_OK : DP_NO_MEMORY;
 }
 
+DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoilPatch** patch)
+{
+    DpStatus status = dp_terrain_acquire(sim->terrain, scratch->lease, at, patch);
+    if (status == DP_OK) status = dp_limb_fit(scratch, *patch);
+    if (status != DP_OK) return status;
+    const size_t cells = (size_t)(*patch)->row * (size_t)(*patch)->ny;
+    for (size_t k = 0; k < cells; ++k) scratch->imprint.ring[k] = DP_RING_FAR;
+    return DP_OK;
+}
+
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                      const DpFootForce* foot, double volume, double threshold)
 {

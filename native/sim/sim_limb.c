@@ -122,30 +122,33 @@ static DpVec3 lowest_spot(const DpMesh* sole, DpPose pose)
     return count > 0.0 ? dp_scale(sum, 1.0 / count) : sum;
 }
 
+DpProbe dp_limb_probe(const DpSim* sim, const Limb* limb, int sample, int count, double high)
+{
+    DpProbe found = {INFINITY, 0.0};
+    for (int p = 0; p < limb->part_count; ++p) {
+        const DpMesh* sole = &sim->cast.sole[limb->part[p]];
+        const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
+        const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
+        const int     stride = sole->vertex_count / count + 1;
+        for (int v = 0; v < sole->vertex_count; v += stride) {
+            const float* at = sole->vertex + 3 * (size_t)v;
+            const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
+            const DpVec3 from = dp_place(a, point);
+            found.lowest = fmin(found.lowest, from.z);
+            if (from.z > high) continue;
+            const DpVec3 displacement = dp_sub(dp_place(b, point), from);
+            found.farthest = fmax(found.farthest, hypot(displacement.x, displacement.y));
+        }
+    }
+    return found;
+}
+
 // So many sub-steps that no column which may be loaded moves by more than half a cell in one, nor
 // does the place a rigid body rolls on. A foot's two parts roll from one to the other.
 int dp_limb_substeps(const DpSim* sim, const Limb* limb, int sample)
 {
-    double lowest = INFINITY, farthest = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int p = 0; p < limb->part_count; ++p) {
-            const DpMesh* sole = &sim->cast.sole[limb->part[p]];
-            const DpPose  a = dp_limb_pose(sim, limb->part[p], sample, 0.0);
-            const DpPose  b = dp_limb_pose(sim, limb->part[p], sample, 1.0);
-            const int     stride = sole->vertex_count / PROBED + 1;
-            for (int v = 0; v < sole->vertex_count; v += stride) {
-                const float* at = sole->vertex + 3 * v;
-                const DpVec3 point = dp_vec3((double)at[0], (double)at[1], (double)at[2]);
-                const DpVec3 from = dp_place(a, point);
-                if (pass == 0)
-                    lowest = fmin(lowest, from.z);
-                else if (from.z < lowest + LOADED_BAND) {
-                    const DpVec3 displacement = dp_sub(dp_place(b, point), from);
-                    farthest = fmax(farthest, hypot(displacement.x, displacement.y));
-                }
-            }
-        }
-    }
+    const double lowest = dp_limb_probe(sim, limb, sample, PROBED, -INFINITY).lowest;
+    double       farthest = dp_limb_probe(sim, limb, sample, PROBED, lowest + LOADED_BAND).farthest;
     if (limb->part_count == 1) {
         const DpMesh* sole = &sim->cast.sole[limb->part[0]];
         const DpVec3  rolled =

@@ -22,11 +22,8 @@ DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample)
     if (!dp_terrain_springs(sim->terrain) || dp_cells_empty(cells)) return DP_OK;
     WorkerScratch* scratch = &sim->scratch[0];
     DpSoilPatch*   patch = NULL;
-    DpStatus       status = dp_terrain_acquire(sim->terrain, scratch->lease, cells, &patch);
-    if (status == DP_OK) status = dp_limb_fit(scratch, patch);
+    const DpStatus status = dp_limb_lease(sim, scratch, cells, &patch);
     if (status != DP_OK) return status;
-    const size_t count = (size_t)patch->row * (size_t)patch->ny;
-    for (size_t p = 0; p < count; ++p) scratch->imprint.ring[p] = DP_RING_FAR;
     for (int l = 0; l < sim->cast.limbs; ++l)
         stand(sim, l, sample, cells, &scratch->imprint, patch->row);
     const double back = dp_soil_rebound(patch, &scratch->imprint);

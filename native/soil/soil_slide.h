@@ -3,6 +3,9 @@
 #include "soil/soil_inside.h"
 
 #define BARRIER 1e30f  // height of what soil cannot go to
+#define ROOT2 1.41421356f
+#define HOLD \
+    0.25f  // share of the tolerance below which a cell, or a wall, gives nothing; twice that: all
 
 // What one row wants, as bits.
 #define ROW_MOVES 1     // a cell gives something
@@ -14,6 +17,16 @@ typedef struct Row
     float * firm, *height, *heap, *fall, *slack;
     double* sum;
 } Row;
+
+static inline float above_zero(float x)
+{
+    return x > 0.0f ? x : 0.0f;
+}
+
+static inline float at_most_one(float x)
+{
+    return x < 1.0f ? x : 1.0f;
+}
 
 // First stencil: what each cell of a row gives away, TRAIL (14) (15); returns ROW_ bits.
 // @param film  an excess as large counts as one neighbour [m]

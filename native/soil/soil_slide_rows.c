@@ -4,19 +4,6 @@
 #include "base/wide.h"  // first: it says how loops may be widened
 #include "soil/soil_slide.h"
 
-#define ROOT2 1.41421356f
-#define HOLD 0.25f  // share of the tolerance below which a cell gives nothing; twice that: all
-
-static inline float above_zero(float x)
-{
-    return x > 0.0f ? x : 0.0f;
-}
-
-static inline float at_most_one(float x)
-{
-    return x < 1.0f ? x : 1.0f;
-}
-
 DP_CLONES
 static int decide(float* restrict share, float* restrict give, const float* restrict h,
                   const float* restrict heap, const float* restrict fall,

@@ -4,19 +4,6 @@
 #include "base/wide.h"  // first: it says how loops may be widened
 #include "soil/soil_slide.h"
 
-#define ROOT2 1.41421356f
-#define HOLD 0.25f  // share of the tolerance below which a wall gives nothing; twice that: all
-
-static inline float above_zero(float x)
-{
-    return x > 0.0f ? x : 0.0f;
-}
-
-static inline float at_most_one(float x)
-{
-    return x < 1.0f ? x : 1.0f;
-}
-
 // How much higher firm ground stands over a neighbour's surface than it may: than its wall, or than
 // the ground before any walker. A wall of soil that stands may be as high as it likes.
 static inline float over(float firm, float base, float steep, float surface, float base_at)

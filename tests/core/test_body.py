@@ -13,6 +13,7 @@ from desire_path.motion import rotation
 from desire_path.motion.gait import BALL, HEEL, TIP, Sole
 from desire_path.rig import body, rigs, sole
 from desire_path.rig.body import Motion, Skeleton, Skin
+from tests.scenes.gaits import BOX_FACES
 
 NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
 PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
@@ -429,25 +430,11 @@ def boots(depth=0.02):
     """A skin of two boots: a box under each heel and toe, the heels with a tread, and a leg above."""
     vertices, triangles, weights = [], [], {n: [] for n in ("foot.L", "toe.L", "foot.R", "toe.R", "shin.L")}
     box = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-    faces = [
-        (0, 2, 1),
-        (1, 2, 3),
-        (4, 5, 6),
-        (5, 7, 6),
-        (0, 1, 4),
-        (1, 5, 4),
-        (2, 6, 3),
-        (3, 6, 7),
-        (0, 4, 2),
-        (2, 4, 6),
-        (1, 3, 5),
-        (3, 7, 5),
-    ]
 
     def add(low, high, owner):
         first = len(vertices)
         vertices.extend((np.array(low) + box * (np.array(high) - low)).tolist())
-        triangles.extend((np.array(faces) + first).tolist())
+        triangles.extend((BOX_FACES + first).tolist())
         for name in weights:
             weights[name] += [1.0 if name == owner else 0.0] * 8
 

@@ -8,23 +8,7 @@ from desire_path.loads import walker
 from desire_path.motion.points import point_places
 from desire_path.rig import limbs, solid
 from desire_path.rig.skeleton import Motion, Skeleton, Skin
-
-BOX_FACES = np.array(
-    [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ]
-)
+from tests.scenes.gaits import BOX_FACES
 
 
 def box(size, at=(0.0, 0.0, 0.0)):

@@ -7,30 +7,14 @@ from desire_path.errors import DesirePathError
 from desire_path.rig import sole, sole_mesh
 from desire_path.rig.sole_mesh import Tread
 from tests.core.test_body import boots, flat_sample, gait, person, places, walk
-
-FACES = np.array(
-    [
-        (0, 2, 1),
-        (1, 2, 3),
-        (4, 5, 6),
-        (5, 7, 6),
-        (0, 1, 4),
-        (1, 5, 4),
-        (2, 6, 3),
-        (3, 6, 7),
-        (0, 4, 2),
-        (2, 4, 6),
-        (1, 3, 5),
-        (3, 7, 5),
-    ]
-)
+from tests.scenes.gaits import BOX_FACES
 
 
 def boxes(*limits):
     """A Tread of boxes (low, high)."""
     corner = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
     vertices = [np.array(low) + corner * (np.array(high, float) - low) for low, high in limits]
-    return Tread(np.concatenate(vertices), np.concatenate([FACES + 8 * k for k in range(len(limits))]), "'Boot'")
+    return Tread(np.concatenate(vertices), np.concatenate([BOX_FACES + 8 * k for k in range(len(limits))]), "'Boot'")
 
 
 def boot(side=1):
@@ -142,7 +126,7 @@ def test_a_tread_of_no_use():
     bad = boot().vertices.copy()
     bad[3, 1] = np.nan
     with pytest.raises(DesirePathError, match="'Boot' has NaN"):
-        gait(bones, motion, tread=Tread(bad, FACES, "'Boot'"))
+        gait(bones, motion, tread=Tread(bad, BOX_FACES, "'Boot'"))
     for faces in ([(0, 1, 10**6)], [(0, 1, -1)]):
         with pytest.raises(DesirePathError, match="'Boot' has a face without its vertices"):
             gait(bones, motion, tread=Tread(boot().vertices, np.array(faces), "'Boot'"))

@@ -22,6 +22,24 @@ from desire_path.rig import body
 SOLE = Sole([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]], [[0, 2, 1]])
 
 
+def on_two_feet(time, com, pose, rate):
+    """What a person of 70 kg did on two rigid feet. com: (T, 3); pose: (2, T, 7)"""
+    return Gait(
+        time=time,
+        com=com[None],
+        mass=[70.0],
+        pose=pose,
+        limb_walker=[0, 0],
+        part_limb=[0, 1],
+        soles=(SOLE, SOLE),
+        point=np.zeros((2, 3)),
+        point_part=[0, 1],
+        point_role=[0, 1],
+        frame_rate=rate,
+        leg=[size.LEG],
+    )
+
+
 def two_feet(seed=1, rate=120.0, count=300, hover=0.0):
     """A random walk of a body over two one-point feet that take turns."""
     random = np.random.default_rng(seed)
@@ -40,20 +58,7 @@ def two_feet(seed=1, rate=120.0, count=300, hover=0.0):
         pose[p, :, 0] = 1.15 * (step + swing**2 * (3 - 2 * swing)) - 0.57 * p
         pose[p, :, 1] = 0.1 - 0.2 * p
         pose[p, :, 2] = hover + 0.12 * np.sin(np.pi * swing) ** 2
-    return Gait(
-        time=time,
-        com=com[None],
-        mass=[70.0],
-        pose=pose,
-        limb_walker=[0, 0],
-        part_limb=[0, 1],
-        soles=(SOLE, SOLE),
-        point=np.zeros((2, 3)),
-        point_part=[0, 1],
-        point_role=[0, 1],
-        frame_rate=rate,
-        leg=[size.LEG],
-    )
+    return on_two_feet(time, com, pose, rate)
 
 
 # ---- twins -------------------------------------------------------------------------------------------
@@ -585,20 +590,7 @@ def stepping(heights, speed=0.0, rate=120.0):
             pose[foot, t, 2] = z0 + (z1 - z0) * share + 0.15 * np.sin(np.pi * share)
     high = np.interp(time / stance, np.arange(count) + 0.5, heights)
     com = np.stack([0.6 * time / stance, 0 * time, 0.95 + high], axis=1)
-    return Gait(
-        time=time,
-        com=com[None],
-        mass=[70.0],
-        pose=pose,
-        limb_walker=[0, 0],
-        part_limb=[0, 1],
-        soles=(SOLE, SOLE),
-        point=np.zeros((2, 3)),
-        point_part=[0, 1],
-        point_role=[0, 1],
-        frame_rate=rate,
-        leg=[size.LEG],
-    )
+    return on_two_feet(time, com, pose, rate)
 
 
 def test_what_stands_on_a_box_is_carried_there_and_leaves_no_print():

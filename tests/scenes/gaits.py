@@ -10,12 +10,9 @@ import numpy as np
 
 from desire_path.motion.gait import Gait, Sole
 
-
-def box(length, width, height=0.02):
-    """A closed box, its underside at z = 0, centred; 12 triangles."""
-    x, y = length / 2, width / 2
-    corner = np.array([[sx * x, sy * y, z] for z in (0, height) for sy in (-1, 1) for sx in (-1, 1)])
-    faces = [
+# of a box whose corners are numbered x first, z last; out of it
+BOX_FACES = np.array(
+    [
         [0, 2, 1],
         [1, 2, 3],
         [4, 5, 6],
@@ -29,7 +26,14 @@ def box(length, width, height=0.02):
         [1, 3, 5],
         [3, 7, 5],
     ]
-    return Sole(corner, faces)
+)
+
+
+def box(length, width, height=0.02):
+    """A closed box, its underside at z = 0, centred; 12 triangles."""
+    x, y = length / 2, width / 2
+    corner = np.array([[sx * x, sy * y, z] for z in (0, height) for sy in (-1, 1) for sx in (-1, 1)])
+    return Sole(corner, BOX_FACES)
 
 
 def sphere(radius, rings=24):
@@ -43,7 +47,7 @@ def sphere(radius, rings=24):
         for i in range(n):
             a, b = j * n + i, j * n + (i + 1) % n
             faces += [[a, b, a + n], [b, b + n, a + n]]
-    return Sole(corner, faces)
+    return Sole(corner, BOX_FACES)
 
 
 def writable(record):
