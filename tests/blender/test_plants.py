@@ -70,7 +70,7 @@ def test_plants_stand_on_the_ground_as_dense_as_asked():
         wanted = 0.1 * np.sin(4 * place[:, 0]) + 0.2 * place[:, 1]
         np.testing.assert_allclose(place[:, 2], wanted, atol=2e-3)
         slope = np.empty((len(place), 3), np.float32)
-        each.grass.data.attributes[grass.SLOPE].data.foreach_get("vector", slope.ravel())
+        each.grass.data.attributes[grass_tree.SLOPE].data.foreach_get("vector", slope.ravel())
         inner = (place[:, 0] > 0.1) & (place[:, 0] < 1.8) & (place[:, 1] > 0.1) & (place[:, 1] < 1.1)
         np.testing.assert_allclose(slope[inner, 0], 0.4 * np.cos(4 * place[inner, 0]), atol=0.05)
         np.testing.assert_allclose(slope[inner, 1], 0.2, atol=0.02)
@@ -437,8 +437,8 @@ def grown(obj, frame=None):
         for name in (grass_tree.PLACE, grass_tree.ROOT, grass_tree.AT, grass_tree.LOOK):
             values[name] = np.empty((len(real), 3), np.float32)
             mesh.attributes[name].data.foreach_get("vector", values[name].ravel())
-        values[grass.STRENGTH] = compat.float_attribute(mesh, grass.STRENGTH)
-        values[grass.SIZE] = compat.float_attribute(mesh, grass.SIZE)
+        values[grass_tree.STRENGTH] = compat.float_attribute(mesh, grass_tree.STRENGTH)
+        values[grass_tree.SIZE] = compat.float_attribute(mesh, grass_tree.SIZE)
     return found, real, values
 
 
@@ -517,7 +517,7 @@ def test_trodden_stems_lie_along_the_lean_and_standing_ones_stay(folder):
     assert all(standing[at] == height for at, height in found.items())
     away = [at for at in standing if abs(at[0] - 0.96) > 0.4 or abs(at[1] - 0.6) > 0.35]
     assert len(away) > 50 and all(at in found for at in away) and len(found) < len(standing)
-    size = told[grass.SIZE]
+    size = told[grass_tree.SIZE]
     foot = told[grass_tree.PLACE][:, :2]
     deep = (abs(foot[:, 0] - 0.96) < 0.16) & (abs(foot[:, 1] - 0.6) < 0.11)
     above = told[grass_tree.AT][:, 2] > 1e-4
@@ -541,7 +541,7 @@ def lengths(real, told, many=200):
         rows = np.unique(np.round(s, 6))
         rows = rows[rows >= -1e-6]
         middle = np.array([real[at][np.abs(s - row) < 2e-6].mean(axis=0) for row in rows])
-        straight = (rows[-1] - rows[0]) * told[grass.SIZE][at[0]]
+        straight = (rows[-1] - rows[0]) * told[grass_tree.SIZE][at[0]]
         if straight > 0.01:
             out.append(np.linalg.norm(np.diff(middle, axis=0), axis=1).sum() / straight)
     return np.array(out)
@@ -560,7 +560,7 @@ def test_leaning_stems_are_arcs_of_the_same_length(folder):
         kept = lengths(real, told)  # along the blades' few pieces: chords of an arc are a little shorter
         assert len(kept) > 100 and np.median(kept) > 0.93 and kept.max() < 1.02, (kept.min(), kept.max())
         # bent more towards the tip: the lower half rises higher than the upper
-        s, high = told[grass_tree.LOOK][:, 0], real[:, 2] / (told[grass_tree.ROOT][:, 2] * told[grass.SIZE])
+        s, high = told[grass_tree.LOOK][:, 0], real[:, 2] / (told[grass_tree.ROOT][:, 2] * told[grass_tree.SIZE])
         half = high[abs(s - 1 / 3) < 0.01].mean()
         top = high[s > 0.99].mean()
         assert half > 1.2 * top / 3, (half, top)
@@ -606,7 +606,7 @@ def test_broken_stems_are_pale_and_wear_away(folder):
         _, real, told = grown(each.grass, 1)
         tips = told[grass_tree.LOOK][:, 0] > 0.99
         heights.append(real[tips, 2].mean())
-        pale.append(told[grass.STRENGTH][tips].mean())
+        pale.append(told[grass_tree.STRENGTH][tips].mean())
     assert heights[0] > 1.4 * heights[1] > 5 * heights[2], heights
     assert pale[0] > pale[1] > pale[2] and pale[2] < 0.15, pale
 
@@ -750,6 +750,6 @@ def test_the_users_own_tufts_stay(folder):
     mesh = each.grass.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     ends = compat.positions(mesh).reshape(-1, 2, 3)
     assert len(ends) == each.count and np.abs(ends[:, 0, 2]).max() < 0.003
-    way, size = ends[:, 1] - ends[:, 0], compat.float_attribute(mesh, grass.SIZE).reshape(-1, 2)[:, 0]
+    way, size = ends[:, 1] - ends[:, 0], compat.float_attribute(mesh, grass_tree.SIZE).reshape(-1, 2)[:, 0]
     np.testing.assert_allclose(np.linalg.norm(way, axis=1), 0.1 * size, rtol=0.1)
     assert way[:, 2].max() < 0.03 and np.median(way[:, 1] / size) > 0.08

@@ -2,14 +2,17 @@
 read only, arguments that have names, and are alike where they mean the same."""
 
 import copy
+import importlib
 import inspect
 import pickle
+import pkgutil
 from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
 from scenes import gaits
 
+import desire_path
 from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil
 from desire_path.bake.options import BakeOutput
 from desire_path.errors import DesirePathError
@@ -215,3 +218,36 @@ def test_arrays_of_a_planting_are_read_only():
     held = list(arrays_of(Planting("lawn", roots=[(0, 0), (1, 1)], vigour=[0, 1])))
     held += arrays_of(Planting("lawn", weight=np.ones((2, 2)), rectangle=(0, 0, 1, 1)))
     assert len(held) == 3 and not any(array.flags.writeable for array in held)
+
+
+def modules():
+    for found in pkgutil.walk_packages(desire_path.__path__, "desire_path."):
+        if not found.name.startswith("desire_path.blender") and not found.name.endswith("__main__"):
+            yield importlib.import_module(found.name)
+
+
+def public_functions():
+    """(where, function) of all that the package has without Blender; records take as many numbers as they hold."""
+    for module in modules():
+        for name, each in vars(module).items():
+            if name.startswith("_") or getattr(each, "__module__", "") != module.__name__:
+                continue
+            if inspect.isfunction(each):
+                yield f"{module.__name__}.{name}", each
+            elif inspect.isclass(each):
+                own = {key: value for key, value in vars(each).items() if inspect.isfunction(value)}
+                shown = [key for key in own if not key.startswith("_")]
+                if "__init__" in own and not is_dataclass(each):
+                    shown.append("__init__")
+                for key in shown:
+                    yield f"{module.__name__}.{name}.{key}", own[key]
+
+
+def test_no_function_takes_more_than_eight_parameters():
+    """More are a record of options."""
+    many = {}
+    for where, each in public_functions():
+        count = len([name for name in inspect.signature(each).parameters if name not in ("self", "cls")])
+        if count > 8:
+            many[where] = count
+    assert not many
