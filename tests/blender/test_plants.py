@@ -404,6 +404,20 @@ def test_modifiers_scale_and_units_of_the_ground_count():
     np.testing.assert_allclose(np.array(each.grass.matrix_world)[:3, 3] - world[:3, 3], (7, 0, 0), atol=1e-4)
 
 
+def test_plants_stand_on_the_ground_as_it_is_first_whatever_frame_is_shown():
+    scene = bpy.context.scene
+    ground = bed()
+    rise = ground.modifiers.new("Rise", "DISPLACE")
+    rise.strength, rise.mid_level, rise.direction = 0.05, 0.0, "Z"
+    for frame, on in ((1, True), (10, False)):
+        rise.show_render = on
+        rise.keyframe_insert("show_render", frame=frame)
+    ground.desire_path.frame_start = 1
+    for shown in (1, 20):
+        scene.frame_set(shown)
+        np.testing.assert_allclose(roots(add(ground))[:, 2], 0.05, atol=1e-6)
+
+
 def test_a_kind_of_the_user(folder):
     path = str(folder / "heath.json")
     KINDS["carex"].save(path)

@@ -140,6 +140,20 @@ def test_a_modifier_that_is_off_shapes_nothing():
     np.testing.assert_allclose(mesh_of(read(obj))[0][:, 2], 0.0)
 
 
+def test_nodes_that_are_switched_shape_as_they_do_first():
+    scene = bpy.context.scene
+    obj = meshes.grid(21, 21, 0.1)
+    obj.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    switch = tree_of(obj, "Switched", raised)
+    for frame, on in ((1, True), (10, False)):
+        switch.show_render = on
+        switch.keyframe_insert("show_render", frame=frame)
+    for shown in (1, 20):
+        scene.frame_set(shown)
+        assert stack.find(scene, obj, 1).before == 2, shown  # the tree shapes the ground: hair cannot follow
+        assert stack.find(scene, obj, 20).before == 0, shown  # and does nothing there
+
+
 # ---- the whole way ------------------------------------------------------------------------------------
 
 

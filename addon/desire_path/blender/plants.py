@@ -73,6 +73,7 @@ class Bed:
         trees = [stack.realised()] if place.realise else []
         trees += [ground.weights_tree(groups)] if groups else []
         with stack.shaped(scene, obj, place.before, trees) as (own, copy):
+            stack.let_led(scene, own, copy, obj, frame)
             found = sample.evaluated(own, copy, frame)
             world = axes.matrix(found.matrix_world, obj.name)
             vertices = axes.points(world, compat.positions(found.data), self.scale)

@@ -234,6 +234,7 @@ class _Evaluated:
 def _look(scene, obj, count, frame):
     """What the first modifiers make of a ground."""
     with shaped(scene, obj, count) as (own, copy):
+        let_led(scene, own, copy, obj, frame)
         found = evaluated(own, copy, frame)
         world = np.array(found.matrix_world, np.float64)
         points, corners = compat.positions(found.data), np.empty(len(found.data.loops), np.int32)
@@ -246,6 +247,7 @@ def _look(scene, obj, count, frame):
         "GeometryNodePointsToVertices",
     )
     with shaped(scene, obj, count, [tail]) as (own, copy):
+        let_led(scene, own, copy, obj, frame)
         instances = compat.positions(evaluated(own, copy, frame).data)
     return _Evaluated(points, corners, instances, world)
 
