@@ -1,4 +1,5 @@
 // A trail that is laid down reads as it was left, and is ground like any other from then on.
+#include <limits.h>
 #include <math.h>
 
 #include "terrain/ground.h"
@@ -93,7 +94,7 @@ TEST(nonsense_is_not_laid)
         CHECK(dp_terrain_lay(terrain, &trail) == DP_BAD_ARGUMENT);
         heap[77] = was;
     }
-    const DpTrail far = {0x7fffffffffffff00, 0, NX, NY, compression, heap, pressure_time};
+    const DpTrail far = {LONG_MAX - 255, 0, NX, NY, compression, heap, pressure_time};
     const DpTrail none = {0, 0, 0, NY, compression, heap, pressure_time};
     CHECK(dp_terrain_lay(terrain, &far) == DP_BAD_ARGUMENT);
     CHECK(dp_terrain_lay(terrain, &none) == DP_BAD_ARGUMENT);

@@ -1,4 +1,5 @@
 // tests of terrain_state.c: what walkers made of the ground is kept and taken back, to the bit
+#include <limits.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -202,7 +203,7 @@ TEST(what_makes_no_sense_is_refused)
     CHECK(take_tile(terrain, 0, 1, 1, INFINITY, 5) == DP_BAD_FILE);
     CHECK(take_tile(terrain, 0, 0, 1, 0.25f, 5) == DP_BAD_FILE);   // twice the same
     CHECK(take_tile(terrain, 0, -1, 1, 0.25f, 5) == DP_BAD_FILE);  // out of order
-    CHECK(take_tile(terrain, -(1L << 60), 1, 1, 0.25f, 5) == DP_BAD_FILE);
+    CHECK(take_tile(terrain, -(LONG_MAX / 8), 1, 1, 0.25f, 5) == DP_BAD_FILE);
     CHECK(take_tile(terrain, 0, 1, 4, 0.0f, 5) == DP_BAD_FILE);
     CHECK(take_tile(terrain, 0, 1, 2, 0.0f, 5) == DP_BAD_FILE);  // nothing grows here
     CHECK(dp_terrain_tile_count(terrain) == 2);
