@@ -481,6 +481,11 @@ TEST(bad_soles_are_refused_and_leave_the_imprint)
     CHECK(press(&ground, &holed, &stand, 1, 2) == DP_BAD_ARGUMENT);
     const DpPose lost = {{0.0, INFINITY, 0.0}, {1.0, 0.0, 0.0, 0.0}};
     CHECK(press(&ground, &box, &lost, 1, 2) == DP_BAD_ARGUMENT);
+    const double heights[2] = {INFINITY, NAN};
+    for (int k = 0; k < 2; ++k) {
+        const DpPose high = {{0.0, 0.0, heights[k]}, {1.0, 0.0, 0.0, 0.0}};
+        CHECK(press(&ground, &box, &high, 1, 2) == DP_BAD_ARGUMENT);
+    }
     ground.patch.cell = 0.0;
     CHECK(press(&ground, &box, &stand, 1, 2) == DP_BAD_ARGUMENT);
     ground.patch.cell = 0.01;
