@@ -23,6 +23,7 @@ BEFORE = "desire_path_carried_delta"  # and the delta location before
 TURNED = "desire_path_carried_turn"  # and the delta rotation before, Euler angles and then a quaternion
 PLACED_FROM = "desire_path_placed_from"  # on an action of ours whose feet were placed: the one it was before
 DELTA = "delta_location"
+PAST = ", past the end of which its clip goes"  # of a curve
 SHARE = 0.3  # of its way a carried character may be off
 _refused = {}  # why who was not carried, by name
 
@@ -95,13 +96,12 @@ def carry(scene, armature, line=None):
         copied[OURS] = _keys(compat.curves(animation, rig))
         switch(armature, False)
         raise
-    text = f"'{armature.name}' walks in place and is carried {'ahead' if course is None else 'along the curve'}"
+    how = ", its clip repeated" if goes_on else ", as far as its clip goes, which does not loop"
+    if ends:
+        how = f" to its end, its clip repeated up to frame {last}" if last <= until else PAST
     return (
-        f"{text} at {np.hypot(*velocity):.2f} m/s"
-        + (f" to its end, its clip repeated up to frame {last}" if ends and last <= until else "")
-        + (", past the end of which its clip goes" if ends and last > until else "")
-        + (", its clip repeated" if goes_on else "" if ends else ", as far as its clip goes, which does not loop")
-        + f": action '{copied.name}'; Carried switches it off."
+        f"'{armature.name}' walks in place and is carried {'ahead' if course is None else 'along the curve'} at "
+        f"{np.hypot(*velocity):.2f} m/s{how}: action '{copied.name}'; Carried switches it off."
     )
 
 

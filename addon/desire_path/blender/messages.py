@@ -6,7 +6,7 @@ from collections import deque
 import bpy
 
 from ..version import VERSION
-from .late import platform
+from .late import platform, sentences
 
 MOST = 500  # messages that are kept
 NAME = "Desire Path Messages"  # of the text that holds them
@@ -17,6 +17,12 @@ _kept = deque(maxlen=MOST)  # (time, level, sentence)
 def add(level, sentence):
     """Keep a sentence. level: "ERROR", "WARNING" or "INFO" """
     _kept.append((time.strftime("%Y-%m-%d %H:%M:%S"), level, sentence))
+
+
+def tell(operator, level, sentence):
+    """Keep a sentence, and let an operator report it in the language of the interface."""
+    add(level, sentence)
+    operator.report({level}, sentences.told(sentence))
 
 
 def text(obj=None):
@@ -42,7 +48,7 @@ class WM_OT_desire_path_messages_copy(bpy.types.Operator):
         there.clear()
         there.write(found)
         context.window_manager.clipboard = found
-        self.report({"INFO"}, f"The messages are in the clipboard and in the text '{NAME}'.")
+        tell(self, "INFO", f"The messages are in the clipboard and in the text '{NAME}'.")
         return {"FINISHED"}
 
 

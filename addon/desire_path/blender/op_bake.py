@@ -11,9 +11,9 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..errors import DesirePathError
-from . import messages
 from .chosen import grounds
 from .late import bake_all, bake_job, framing, home, live, show, timeline
+from .messages import tell
 from .ops import AsksFirst, Refusal, active, begins, sentence
 from .translations import say
 
@@ -51,12 +51,8 @@ class _Bakes(Refusal):
     def tell(self, job):
         text = job.finish()
         for each in job.warnings:
-            self.say("WARNING", each)
-        self.say("INFO", text)
-
-    def say(self, level, text):
-        messages.add(level, text)
-        self.report({level}, text)
+            tell(self, "WARNING", each)
+        tell(self, "INFO", text)
 
     # ---- in a window ----------------------------------------------------------------------------
 
@@ -68,7 +64,7 @@ class _Bakes(Refusal):
         try:
             self.job = self.make(context)
         except (DesirePathError, OSError, MemoryError) as problem:
-            self.say("ERROR", sentence(problem))
+            tell(self, "ERROR", sentence(problem))
             return {"CANCELLED"}
         bake_job.run(self.job)
         timeline.show()
@@ -90,13 +86,13 @@ class _Bakes(Refusal):
             while time.perf_counter() < until:
                 next(self.steps)
                 while job.early:  # before it is made: it may be stopped and mended
-                    self.say("WARNING", job.early.pop(0))
+                    tell(self, "WARNING", job.early.pop(0))
         except StopIteration:
             self.leave(context)
             try:
                 self.tell(job)
             except DesirePathError as problem:
-                self.say("ERROR", str(problem))
+                tell(self, "ERROR", str(problem))
                 return {"CANCELLED"}
             if self.look:
                 framing.look(context, job.object(), job.bake, context.scene.frame_start)
@@ -105,7 +101,7 @@ class _Bakes(Refusal):
             self.leave(context)
             if job.bake is not None:
                 job.play()
-            self.say("ERROR", sentence(problem))
+            tell(self, "ERROR", sentence(problem))
             return {"CANCELLED"}
         context.window_manager.progress_update(int(1000 * job.fraction))
         done = f"{job.text} ({100 * job.fraction:.0f} %)"
@@ -122,7 +118,7 @@ class _Bakes(Refusal):
             bpy.ops.ed.undo_push(message="Stopped Bake")
         obj = bpy.data.objects.get(self.job.name)
         text = obj.desire_path.missing if obj is not None else ""
-        self.say("WARNING", text or "The bake was stopped; the one from before plays on.")
+        tell(self, "WARNING", text or "The bake was stopped; the one from before plays on.")
         return {"CANCELLED"}
 
     def leave(self, context):

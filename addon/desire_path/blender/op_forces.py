@@ -19,6 +19,7 @@ from . import soils
 from .chosen import WALKERS, walkers
 from .drawing import batch, gpu
 from .late import axes, force_graph, ground, json, moves, np, reach, report, ride, sample, walker
+from .messages import tell
 from .ops import Refusal, active
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
@@ -286,14 +287,15 @@ class _Forces(Refusal):
         context.view_layer.update()
         reading = read(context.scene, context.object)
         for each in reading.warnings:
-            self.report({"WARNING"}, each)
+            tell(self, "WARNING", each)
         return reading
 
     def windowless(self):
         if not bpy.app.background:
             return False
-        self.report(
-            {"WARNING"},
+        tell(
+            self,
+            "WARNING",
             "Forces are shown in a viewport, and Blender runs without a window: draw them to "
             "a picture with python -m desire_path plot.",
         )
@@ -318,8 +320,9 @@ class OBJECT_OT_desire_path_forces_show(_Forces, bpy.types.Operator):
         forces = reading.forces
         show(obj, forces)
         last = forces.frame_start + forces.time[-1] * forces.frame_rate
-        self.report(
-            {"INFO"},
+        tell(
+            self,
+            "INFO",
             f"The forces of '{obj.name}' are shown from frame {forces.frame_start} to "
             f"{last:.0f}; after a change of the walk show them anew.",
         )
@@ -369,7 +372,7 @@ class _Report(_Forces):
             where = f" Tables in {folder}."
         if shows(obj):
             show(obj, reading.forces, graph=shows_graph(obj))
-        self.report({"INFO"}, f"'{obj.name}': {'; '.join(report.sentences(numbers))}.{where}")
+        tell(self, "INFO", f"'{obj.name}': {'; '.join(report.sentences(numbers))}.{where}")
         return {"FINISHED"}
 
 

@@ -5,6 +5,7 @@ import bpy
 from ..errors import DesirePathError
 from . import auto
 from .late import home
+from .messages import tell
 from .ops import Refusal, active
 from .translations import say
 
@@ -46,7 +47,7 @@ class OBJECT_OT_desire_path_ground_add(Refusal, bpy.types.Operator):
         return active(cls, context, {"MESH"}, "the mesh that is walked on")
 
     def work(self, context):
-        self.report({"INFO"}, add(context.scene, context.object))
+        tell(self, "INFO", add(context.scene, context.object))
         return {"FINISHED"}
 
 

@@ -5,6 +5,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..errors import DesirePathError
 from .late import materials, watch
+from .messages import tell
 from .ops import Refusal, active
 
 KINDS = (
@@ -56,7 +57,7 @@ class OBJECT_OT_desire_path_material_add(Refusal, bpy.types.Operator):
             raise DesirePathError(" ".join(wrong))
         for kind, sentences in (("INFO", done), ("WARNING", wrong)):
             if sentences:
-                self.report({kind}, " ".join(sentences))
+                tell(self, kind, " ".join(sentences))
         return {"FINISHED"}
 
 
@@ -77,7 +78,7 @@ class WM_OT_desire_path_assets_add(Refusal, bpy.types.Operator):
     def work(self, _context):
         folder = bpy.path.abspath(self.directory) or bpy.utils.user_resource("DATAFILES", path="desire_path")
         path = materials.write_library(folder)
-        self.report({"INFO"}, f"The Asset Browser has the library '{materials.LIBRARY}', {path}.")
+        tell(self, "INFO", f"The Asset Browser has the library '{materials.LIBRARY}', {path}.")
         return {"FINISHED"}
 
 

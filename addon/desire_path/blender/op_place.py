@@ -33,6 +33,7 @@ from .late import (
     slope,
     walker,
 )
+from .messages import tell
 from .ops import Refusal, active
 
 SOURCE = "desire_path_placed_from"  # on a placed action: name of the one it was made from
@@ -208,10 +209,11 @@ floor. Makes a new action; the one it had stays"""
         context.view_layer.update()
         action, warnings = bake(context.scene, obj, land, self.into_prints)
         for each in warnings:
-            self.report({"WARNING"}, each)
+            tell(self, "WARNING", each)
         back, where = action.get(SOURCE), "in the prints of" if self.into_prints else "on"
-        self.report(
-            {"INFO"},
+        tell(
+            self,
+            "INFO",
             f"'{obj.name}' plays '{action.name}', its feet {where} '{land.name}'"
             + (f"; '{back}' is as it was." if back else "."),
         )

@@ -6,6 +6,7 @@ from bpy.props import BoolProperty, FloatProperty, StringProperty
 from ..errors import DesirePathError
 from . import props_parts
 from .late import bake_job, picture, plants, replant, show
+from .messages import tell
 from .ops import Refusal
 
 
@@ -75,8 +76,8 @@ class OBJECT_OT_desire_path_plants_add(_OfGround, bpy.types.Operator):
             raise
         settings.plants_index = len(settings.plants) - 1
         for sentence in sentences:
-            self.report({"WARNING"}, sentence)
-        self.report({"INFO"}, f"{each.count} plants of {self.kind} grow on '{obj.name}'.")
+            tell(self, "WARNING", sentence)
+        tell(self, "INFO", f"{each.count} plants of {self.kind} grow on '{obj.name}'.")
         return {"FINISHED"}
 
 
@@ -116,7 +117,7 @@ class OBJECT_OT_desire_path_plants_update(_OfGround, bpy.types.Operator):
         obj = context.object
         context.view_layer.update()
         for sentence in plants.plant(context.scene, obj):
-            self.report({"WARNING"}, sentence)
+            tell(self, "WARNING", sentence)
         show.show_plants(obj)
         return {"FINISHED"}
 

@@ -12,8 +12,8 @@ from bpy.props import EnumProperty, FloatProperty
 from bpy_extras import view3d_utils
 
 from ..errors import DesirePathError
-from . import messages
-from .late import bake_job, live, np, press, state, timeline
+from .late import bake_job, live, np, press, sentences, state, timeline
+from .messages import tell
 from .ops import Refusal, begins, sentence
 
 TICK = 0.04  # between two looks at what moves by itself [s]
@@ -92,12 +92,8 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
 
     def tell(self, hand, text):
         for each in dict.fromkeys(hand.sentences):
-            self.say("INFO", each)
-        self.say("INFO", text)
-
-    def say(self, level, text):
-        messages.add(level, text)
-        self.report({level}, text)
+            tell(self, "INFO", each)
+        tell(self, "INFO", text)
 
     # ---- the tool --------------------------------------------------------------------------------
 
@@ -109,7 +105,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
         try:
             self.hand = self.make(context)
         except (DesirePathError, OSError, MemoryError) as problem:
-            self.say("ERROR", sentence(problem))
+            tell(self, "ERROR", sentence(problem))
             return {"CANCELLED"}
         self.turn, self.place, self.down, self.follows, self.wanted = 0.0, None, False, False, ""
         self.timer = context.window_manager.event_timer_add(TICK, window=context.window)
@@ -125,7 +121,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
         try:
             return self.event(context, event)
         except (DesirePathError, OSError, MemoryError, ReferenceError) as problem:
-            self.say("ERROR", sentence(problem))
+            tell(self, "ERROR", sentence(problem))
             return self.end(context, keep=False)
 
     def event(self, context, event):
@@ -226,7 +222,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
     def undo(self, context):
         self.down = False
         if not self.hand.undo():
-            self.say("INFO", "Nothing is left to undo: ESC drops the tool.")
+            tell(self, "INFO", "Nothing is left to undo: ESC drops the tool.")
         self.hover(context)
         return {"RUNNING_MODAL"}
 
@@ -239,6 +235,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
         text = KEYS.format(what)
         if self.follows:
             text = f"Follows the animation.    {text}"
+        text = sentences.told(text)
         context.workspace.status_text_set(text)
         for area in context.screen.areas:
             if area.type == "VIEW_3D":
@@ -251,7 +248,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
             try:
                 self.tell(hand, hand.keep())
             except (DesirePathError, OSError, MemoryError) as problem:
-                self.say("ERROR", sentence(problem))
+                tell(self, "ERROR", sentence(problem))
                 if hand.live.strokes:  # nothing is lost: one may go on, or try again
                     return {"RUNNING_MODAL"}
                 kept = False

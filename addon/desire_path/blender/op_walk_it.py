@@ -4,12 +4,15 @@ what is selected --> characters --forward.py--> they go ahead, along a curve tha
 the meshes they tread are grounds, or one is made --op_place.py--> on a hill their feet are placed --> bake
 """
 
+import re
+
 import bpy
 
 from ..errors import DesirePathError
 from . import op_ground, op_place, op_walkers
 from .chosen import grounds
 from .late import axes, bounds, forward, ground, moves, np, paths, place, reach, sample, size, underfoot, worn
+from .messages import tell
 from .ops import Refusal
 
 MARGIN = 1.0  # a ground that is made reaches this far beyond the feet, in leg lengths
@@ -92,7 +95,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
                 bpy.ops.object.mode_set(mode="POSE")
             raise
         for level, text in sentences:  # nothing is told of what was taken back
-            self.report({level}, text)
+            tell(self, level, text)
         return {"FINISHED"}
 
     def begin(self, context):
@@ -175,7 +178,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             else:
                 bpy.ops.object.desire_path_bake(how, look=True)
         except RuntimeError as problem:
-            raise DesirePathError(str(problem).removeprefix("Error: ").strip()) from None
+            raise DesirePathError(re.sub(r"^\w+: ", "", str(problem)).strip()) from None  # "Error: ", in any language
 
     @staticmethod
     def place(scene, armature, land):

@@ -6,6 +6,7 @@ from bpy.props import IntProperty, StringProperty
 from ..errors import DesirePathError
 from .chosen import WALKERS, grounds, walkers
 from .late import axes, bodies, ground, moves, plants, rigs, sample, show, sim
+from .messages import tell
 from .ops import AsksFirst, Refusal, active
 
 
@@ -44,13 +45,14 @@ class OBJECT_OT_desire_path_rig_detect(Refusal, bpy.types.Operator):
         obj = context.object
         found = detect(context.scene, obj)
         for each in found.warnings:
-            self.report({"WARNING"}, each)
+            tell(self, "WARNING", each)
         feet = "; ".join(
             f"{foot.limb}: " + ", ".join(name for name in (foot.foot, foot.toe, foot.heel) if name)
             for foot in found.feet
         )
-        self.report(
-            {"INFO"},
+        tell(
+            self,
+            "INFO",
             f"'{obj.name}' has {len(found.feet)} feet ({feet}) and "
             + (f"hangs on {found.hips}." if found.hips else "no hips bone."),
         )
@@ -96,7 +98,7 @@ class OBJECT_OT_desire_path_foot_remove(bpy.types.Operator):
     def execute(self, context):
         feet = context.object.desire_path.feet
         if self.index >= len(feet):
-            self.report({"ERROR"}, f"There is no foot {self.index}: '{context.object.name}' has {len(feet)}.")
+            tell(self, "ERROR", f"There is no foot {self.index}: '{context.object.name}' has {len(feet)}.")
             return {"CANCELLED"}
         feet.remove(self.index)
         return {"FINISHED"}
@@ -171,7 +173,7 @@ class OBJECT_OT_desire_path_walker_add(Refusal, bpy.types.Operator):
 
     def work(self, context):
         for level, text in add(context, context.object):
-            self.report({level}, text)
+            tell(self, level, text)
         return {"FINISHED"}
 
 
@@ -243,8 +245,8 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
         path = bpy.path.abspath(self.filepath)
         gait.save(path)
         for each in gait.warnings:
-            self.report({"WARNING"}, each)
-        self.report({"INFO"}, f"Recorded frames {first} to {last} of '{obj.name}' to {path}.")
+            tell(self, "WARNING", each)
+        tell(self, "INFO", f"Recorded frames {first} to {last} of '{obj.name}' to {path}.")
         return {"FINISHED"}
 
 

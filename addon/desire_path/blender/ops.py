@@ -3,8 +3,9 @@
 import bpy
 
 from ..errors import DesirePathError
-from . import arrival, messages
+from . import arrival
 from .late import playback
+from .messages import tell
 from .translations import say
 
 before = []  # called before an operator of ours does its work
@@ -25,8 +26,7 @@ class Refusal:
         try:
             return self.work(context)
         except (DesirePathError, OSError, MemoryError) as problem:
-            messages.add("ERROR", sentence(problem))
-            self.report({"ERROR"}, sentence(problem))
+            tell(self, "ERROR", sentence(problem))
             return {"CANCELLED"}
 
 

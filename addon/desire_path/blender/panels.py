@@ -5,7 +5,7 @@ import bpy
 from ..errors import DesirePathError
 from . import arrival, panel_lists, soil_presets, soils
 from .chosen import grounds, walkers
-from .late import bake_job, forward, json, plants, state
+from .late import bake_job, forward, json, plants, sentences, state
 
 
 def _column(layout):
@@ -54,7 +54,8 @@ def draw_ground(layout, context, obj):
     for each in there:
         passes = each.desire_path.passes if each.desire_path.path is not None else 1
         box.label(
-            text=f"{each.name}, {weight(each.desire_path)}" + (f", {passes} passes" if passes > 1 else ""),
+            text=f"{each.name}, {weight(each.desire_path)}"
+            + (sentences.told(f", {passes} passes") if passes > 1 else ""),
             icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA",
         )
     if not there:
@@ -127,10 +128,10 @@ def _letters(context):
 
 
 def _lines(layout, text, icon, width):
-    """A sentence over several lines, since labels do not wrap."""
+    """A sentence over several lines, since labels do not wrap, in the language of the interface."""
     column = layout.column(align=True)
     line = ""
-    for word in text.split():
+    for word in sentences.told(text).split():
         if line and len(line) + 1 + len(word) > width:
             column.label(text=line, icon=icon)
             line, icon = word, "BLANK1"
@@ -206,8 +207,8 @@ def weight(settings):
     if settings.mass:
         return f"{settings.mass:g} kg"
     if settings.estimated_mass:
-        return f"about {settings.estimated_mass:.3g} kg"
-    return "mass estimated when recorded"
+        return sentences.told(f"about {settings.estimated_mass:.3g} kg")
+    return sentences.told("mass estimated when recorded")
 
 
 def draw_walker(layout, context, obj):

@@ -17,6 +17,7 @@ from ..errors import DesirePathError
 from ..ground.soil import BY_DEPTH, NUMBERS, SOILS, Soil
 from . import compat, units
 from .late import axes
+from .messages import tell
 
 # what people call a number, and what it is
 WORDS = {
@@ -281,9 +282,9 @@ class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):
         try:
             soil_of(context.object.desire_path).save(bpy.path.abspath(self.filepath))
         except (DesirePathError, OSError) as problem:
-            self.report({"ERROR"}, str(problem))
+            tell(self, "ERROR", str(problem))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"The soil is saved as {self.filepath}.")
+        tell(self, "INFO", f"The soil is saved as {self.filepath}.")
         return {"FINISHED"}
 
 

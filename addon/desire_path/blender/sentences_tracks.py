@@ -1,0 +1,80 @@
+"""sentences_tracks.py - what is told of tracks of stamps and wheels, in other languages.
+
+Keys are the English sentences as templates; {} is what comes in, in the same order unless numbered.
+"""
+
+GERMAN = {
+    # ---- bake/stamping.py
+    "There is no mark to press: lay a track first.": "Es gibt keinen Abdruck zu drücken: erst eine Fährte legen.",
+    "The tracks lie in {} cells of {} m: choose larger cells.": (
+        "Die Fährten liegen in {} Zellen von {} m: größere Zellen wählen."
+    ),
+    # ---- placement/marks.py
+    "There is no foot '{}' to begin with: choose left or right.": (
+        "Es gibt keinen Fuß '{}', um zu beginnen: left oder right wählen."
+    ),
+    "{} marks cannot be made: give a number from 1 to {}.": "{} Abdrücke gehen nicht: eine Zahl von 1 bis {} angeben.",
+    "A track has either a spacing or a number of marks: leave one of them out.": (
+        "Eine Fährte hat entweder einen Abstand oder eine Zahl von Abdrücken: eines davon weglassen."
+    ),
+    "This would be {} marks, and {} are the most: give a larger spacing.": (
+        "Das wären {} Abdrücke, und {} sind die meisten: einen größeren Abstand angeben."
+    ),
+    "The curve stands upright, and no track goes along it: lay it over the ground.": (
+        "Die Kurve steht aufrecht, und keine Fährte führt an ihr entlang: sie über den Boden legen."
+    ),
+    "A track has either a mass or a depth: leave one of them out.": (
+        "Eine Fährte hat entweder eine Masse oder eine Tiefe: eines davon weglassen."
+    ),
+    "A track with a {} of {} {} is none: give one above 0 and up to {}.": (
+        "Eine Fährte mit {} von {} {} ist keine: mehr als 0 und bis {} angeben."
+    ),
+    "A track with a {} of {} is none: give one from {} to {}.": (
+        "Eine Fährte mit {} von {} ist keine: etwas von {} bis {} angeben."
+    ),
+    # ---- placement/pace.py
+    "A track's ground is a height, a function of places (n, 2), or a Simulation.": (
+        "Der Boden einer Fährte ist eine Höhe, eine Funktion von Orten (n, 2) oder eine Simulation."
+    ),
+    "The track leaves the ground at x {} m, y {} m: keep the curve on it, or make it larger.": (
+        "Die Fährte verlässt den Boden bei x {} m, y {} m: die Kurve darauf halten, oder ihn größer machen."
+    ),
+    # ---- placement/stamps.py
+    "The stamp's mesh has no faces, or one without its vertices: repair the mesh.": (
+        "Das Netz des Stempels hat keine Flächen, oder eine ohne ihre Punkte: das Netz richten."
+    ),
+    "The stamp's mesh has NaN or infinite vertices: repair the mesh.": (
+        "Das Netz des Stempels hat Punkte, die NaN oder unendlich sind: das Netz richten."
+    ),
+    "The stamp's mesh has no length along x: turn it, so that x is forward and z up.": (
+        "Das Netz des Stempels hat keine Länge entlang x: es so drehen, dass x nach vorn und z nach oben zeigt."
+    ),
+    "The stamp's picture has the shape {}: give it rows and columns.": (
+        "Das Bild des Stempels hat die Form {}: ihm Zeilen und Spalten geben."
+    ),
+    "The stamp's picture has NaN or infinite pixels: mend the picture.": (
+        "Das Bild des Stempels hat Pixel, die NaN oder unendlich sind: das Bild richten."
+    ),
+    "A stamp with a {} of {} m is none: give one from {} to {} m.": (
+        "Ein Stempel mit {} von {} m ist keiner: etwas von {} bis {} m angeben."
+    ),
+    "The stamp's picture is black all over, and touches nothing: paint its shape white.": (
+        "Das Bild des Stempels ist ganz schwarz und berührt nichts: seine Form weiß malen."
+    ),
+    "There is no stamp '{}': choose one of {}.": "Es gibt keinen Stempel '{}': einen von {} wählen.",
+    # ---- placement/track.py
+    "A wheel of radius {} m cannot roll {} m deep: give it less depth, or more radius.": (
+        "Ein Rad mit dem Radius {} m kann nicht {} m tief rollen: ihm weniger Tiefe oder mehr Radius geben."
+    ),
+    "{} frames a second cannot be made: give a number above 0.": (
+        "{} Bilder in der Sekunde gehen nicht: eine Zahl über 0 angeben."
+    ),
+    "This track would take {} samples, and {} are the most: shorten the curve, or go along it faster.": (
+        "Diese Fährte bräuchte {} Werte, und {} sind die meisten: die Kurve kürzen, oder schneller daran entlang gehen."
+    ),
+    # ---- placement/tyre.py
+    "There is no tread '{}' for wheels: choose one of {}.": "Es gibt kein Profil '{}' für Räder: eines von {} wählen.",
+    "A wheel with a {} of {} m cannot roll: give one above 0 and up to {} m.": (
+        "Ein Rad mit {} von {} m kann nicht rollen: mehr als 0 und bis {} m angeben."
+    ),
+}

@@ -1,0 +1,390 @@
+"""sentences_walker.py - what is told of rigs, recordings, loads and placed feet, in other languages.
+
+Keys are the English sentences as templates; {} is what comes in, in the same order unless numbered.
+"""
+
+GERMAN = {
+    # ---- loads/below.py
+    "The ground gave heights of shape {} for {} places: let it give one for each.": (
+        "Der Boden gab Höhen der Form {} für {} Orte: ihn für jeden eine geben lassen."
+    ),
+    "The ground's heights have shape {} where {} is needed: give one height for each contact point and sample.": (
+        "Die Höhen des Bodens haben die Form {}, wo {} nötig ist: für jeden Berührpunkt und Zeitpunkt eine Höhe geben."
+    ),
+    "A {} is no ground to stand on: give a height, heights (K, T), a function of points (n, 2), or a Simulation, "
+    "as Simulation(Ground.flat()).": (
+        "Auf einem {} kann man nicht stehen: eine Höhe geben, Höhen (K, T), eine Funktion von Punkten (n, 2), "
+        "oder eine Simulation, wie Simulation(Ground.flat())."
+    ),
+    # ---- loads/carving.py
+    "{} stays over the ground, so that it leaves no print by the contact law Carve: lower it, or let it press by "
+    "its mass.": (
+        "{} bleibt über dem Boden, so dass es nach dem Kontaktgesetz Verdrängt keinen Abdruck hinterlässt: es "
+        "tiefer setzen, oder durch seine Masse drücken lassen."
+    ),
+    # ---- loads/checks.py
+    "{} is below the ground all the time, whose highest faces count: move the ground down or the walker up, or "
+    "take roofs out of the ground.": (
+        "{} ist die ganze Zeit unter dem Boden, dessen höchste Flächen zählen: den Boden tiefer oder den Läufer "
+        "höher setzen, oder Dächer aus dem Boden nehmen."
+    ),
+    "{} walks {} m above the ground: lower it or raise the ground.": (
+        "{} geht {} m über dem Boden: tiefer setzen, oder den Boden höher."
+    ),
+    "{} walks {} m deep in the ground: raise it or lower the ground.": (
+        "{} geht {} m tief im Boden: höher setzen, oder den Boden tiefer."
+    ),
+    "The feet of {} slide at {} m/s while they stand, though it goes at {} m/s: make it faster or slower, until "
+    "they stand still.": (
+        "Die Füße von {} rutschen mit {} m/s, während sie stehen, obwohl es mit {} m/s vorwärts geht: schneller "
+        "oder langsamer machen, bis sie still stehen."
+    ),
+    "The feet of {} slide at {} m/s while they stand: if its clip walks in place, move the character forward at "
+    "that speed.": (
+        "Die Füße von {} rutschen mit {} m/s, während sie stehen: geht der Clip auf der Stelle, die Figur mit "
+        "dieser Geschwindigkeit vorwärts bewegen."
+    ),
+    "{} of {} steps of {} land beside the ground or reach over its edge, and leave no print there: make the "
+    "ground larger, or move it under the walk.": (
+        "{} von {} Schritten von {} landen neben dem Boden oder ragen über seinen Rand, und hinterlassen dort "
+        "keinen Abdruck: den Boden größer machen, oder unter den Gang schieben."
+    ),
+    "{} never touches the ground: check its feet, its scale and the frame range.": (
+        "{} berührt den Boden nie: Füße, Größe und Bilder prüfen."
+    ),
+    "The feet of {} carry {} of its weight on average: check the mass centre, the scale and whether feet float.": (
+        "Die Füße von {} tragen im Mittel {} des Gewichts: Schwerpunkt und Größe prüfen, und ob die Füße schweben."
+    ),
+    "{} stands on something else than the ground, of which there is no print: about {} m over it, first at frame "
+    "{}; make that a ground if it is to take prints.": (
+        "{} steht auf etwas anderem als dem Boden, wovon es keinen Abdruck gibt: etwa {} m darüber, zuerst in "
+        "Bild {}; jenes zum Boden machen, wenn es Abdrücke bekommen soll."
+    ),
+    # ---- loads/plot.py
+    "Drawing forces needs Matplotlib, which is not here: install it with pip install desire-path[plot], or pip "
+    "install matplotlib.": (
+        "Kräfte zu zeichnen braucht Matplotlib, das nicht da ist: es mit pip install desire-path[plot] oder pip "
+        "install matplotlib einrichten."
+    ),
+    "{} is no picture this can draw: let its name end in {} or {}.": (
+        "{} ist kein Bild, das sich hiermit zeichnen lässt: den Namen auf {} oder {} enden lassen."
+    ),
+    # ---- loads/walker.py
+    "{} is an old name: call it {}.": "{} ist ein alter Name: {} sagen.",
+    "There is no setting {}: use one of {}.": "Es gibt keine Einstellung {}: eine von {} nehmen.",
+    "There is no load model {}: use {}.": "Es gibt kein Lastmodell {}: {} nehmen.",
+    "A settle time of {} s cannot be used: give one above 0.": (
+        "Eine Zeit des Setzens von {} s geht nicht: eine über 0 angeben."
+    ),
+    "The settle time of the soil is not above 0 everywhere: let it be, under every foot.": (
+        "Die Zeit des Setzens der Bodenart ist nicht überall über 0: sie es unter jedem Fuß sein lassen."
+    ),
+    # ---- motion/gait.py
+    "There is no recording at {}: record the walk first or check the name.": (
+        "In {} ist keine Aufnahme: erst den Gang aufnehmen, oder den Namen prüfen."
+    ),
+    "The recording {} cannot be read ({}): check whose file it is.": (
+        "Die Aufnahme {} lässt sich nicht lesen ({}): prüfen, wem die Datei gehört."
+    ),
+    "{} is damaged or no recording ({}): record the walk again.": (
+        "{} ist beschädigt oder keine Aufnahme ({}): den Gang noch einmal aufnehmen."
+    ),
+    "{} was recorded by another version ({}): record the walk again.": (
+        "{} wurde von einer anderen Version aufgenommen ({}): den Gang noch einmal aufnehmen."
+    ),
+    "There is not enough memory for the recording {}: record fewer frames.": (
+        "Der Speicher reicht nicht für die Aufnahme {}: weniger Bilder aufnehmen."
+    ),
+    "There is no walker to record: choose an armature first.": (
+        "Es gibt keinen Läufer aufzunehmen: erst ein Skelett wählen."
+    ),
+    "The walkers were recorded at different times: record them over one frame range.": (
+        "Die Läufer wurden zu verschiedenen Zeiten aufgenommen: sie über dieselben Bilder aufnehmen."
+    ),
+    "A rate of {} samples a second cannot be used: give one above 0.": (
+        "Eine Rate von {} Werten in der Sekunde geht nicht: eine über 0 angeben."
+    ),
+    # ---- motion/jumps.py
+    "{}: taken as a cut, over which nothing moves.": "{}: als Schnitt genommen, über den sich nichts bewegt.",
+    "{}, and {} more times elsewhere: taken as cuts, over which nothing moves.": (
+        "{}, und {} mal mehr anderswo: als Schnitte genommen, über die sich nichts bewegt."
+    ),
+    # ---- motion/mass_keys.py
+    "The recording's mass keys are not those of its walkers: give some for each, or ().": (
+        "Die Keyframes der Massen in der Aufnahme sind nicht die ihrer Läufer: für jeden welche geben, oder ()."
+    ),
+    "Only walkers who are there all the time can have keys on their mass: remove them.": (
+        "Nur Läufer, die immer da sind, können Keyframes auf ihrer Masse haben: sie entfernen."
+    ),
+    "The keys on the mass of {} need times that rise.": "Die Keyframes auf der Masse von {} brauchen steigende Zeiten.",
+    "{} has a mass of {} kg at {} s: give it one above 0 and up to {}.": (
+        "{} hat eine Masse von {} kg bei {} s: eine über 0 und bis {} geben."
+    ),
+    # ---- motion/recording.py
+    "The recording's {} has shape {} where {} is needed: record the walk again.": (
+        "{} der Aufnahme hat die Form {}, wo {} nötig ist: den Gang noch einmal aufnehmen."
+    ),
+    "The recording's {} has {} entries where {} are needed: record the walk again.": (
+        "{} der Aufnahme hat {} Einträge, wo {} nötig sind: den Gang noch einmal aufnehmen."
+    ),
+    "The recording has {} soles for {} parts: give one for each.": (
+        "Die Aufnahme hat {} Sohlen für {} Teile: für jedes eine geben."
+    ),
+    "The recording has no frames: choose a frame range in which the character walks.": (
+        "Die Aufnahme hat keine Bilder: Bilder wählen, in denen die Figur geht."
+    ),
+    "The recording has no feet: choose the foot bones and record again.": (
+        "Die Aufnahme hat keine Füße: die Fußknochen wählen und noch einmal aufnehmen."
+    ),
+    "The recording's cuts do not rise from its second sample to its last: record the walk again.": (
+        "Die Schnitte der Aufnahme steigen nicht von ihrem zweiten Wert bis zum letzten: den Gang noch einmal "
+        "aufnehmen."
+    ),
+    "The recording's jumps are not among its cuts and walkers: record the walk again.": (
+        "Die Sprünge der Aufnahme gehören nicht zu ihren Schnitten und Läufern: den Gang noch einmal aufnehmen."
+    ),
+    "The recording's times do not increase: record the walk again.": (
+        "Die Zeiten der Aufnahme steigen nicht: den Gang noch einmal aufnehmen."
+    ),
+    "The recording reaches {} s at {} frames a second, which no scene does: record the walk again.": (
+        "Die Aufnahme reicht bis {} s mit {} Bildern in der Sekunde, was keine Szene tut: den Gang noch einmal "
+        "aufnehmen."
+    ),
+    "The recording begins at frame {}, where no scene is: record the walk again.": (
+        "Die Aufnahme beginnt bei Bild {}, wo keine Szene ist: den Gang noch einmal aufnehmen."
+    ),
+    "A frame rate of {} cannot be used: set the scene's frames a second to more than 0.": (
+        "Eine Bildrate von {} geht nicht: die Bilder in der Sekunde der Szene auf mehr als 0 setzen."
+    ),
+    "{} has a mass of {} kg: give it one above 0 and up to {}.": (
+        "{} hat eine Masse von {} kg: eine über 0 und bis {} geben."
+    ),
+    "The mass centre of {} has no finite position at frame {}: mend the animation there or leave the frame out.": (
+        "Der Schwerpunkt von {} liegt in Bild {} nicht im Endlichen: die Animation dort richten, oder das Bild "
+        "weglassen."
+    ),
+    "The recording's legs have no length above 0 for each walker: record the walk again.": (
+        "Die Beine der Aufnahme haben nicht für jeden Läufer eine Länge über 0: den Gang noch einmal aufnehmen."
+    ),
+    "There is no contact law '{}': choose auto or {}.": "Es gibt kein Kontaktgesetz '{}': auto oder {} wählen.",
+    "The recording has {} contact laws for {} walkers: give each one.": (
+        "Die Aufnahme hat {} Kontaktgesetze für {} Läufer: jedem eines geben."
+    ),
+    "Bone {} has no finite position at frame {}: mend the animation there or leave the frame out.": (
+        "Der Knochen {} liegt in Bild {} nicht im Endlichen: die Animation dort richten, oder das Bild weglassen."
+    ),
+    "Bone {} has a broken rotation at frame {}: record the walk again.": (
+        "Der Knochen {} hat in Bild {} eine kaputte Drehung: den Gang noch einmal aufnehmen."
+    ),
+    "The sole of bone {} has no faces or a broken vertex: choose another sole.": (
+        "Die Sohle des Knochens {} hat keine Flächen oder einen kaputten Punkt: eine andere Sohle wählen."
+    ),
+    "The sole of bone {} has a face without its vertices: choose another sole.": (
+        "Die Sohle des Knochens {} hat eine Fläche ohne ihre Punkte: eine andere Sohle wählen."
+    ),
+    "The recording's contact point {} has no finite position: record the walk again.": (
+        "Der Berührpunkt {} der Aufnahme liegt nicht im Endlichen: den Gang noch einmal aufnehmen."
+    ),
+    "The recording's {} says {} at {}, where 0 to {} are there: record the walk again.": (
+        "{} der Aufnahme nennt {} bei {}, wo es 0 bis {} gibt: den Gang noch einmal aufnehmen."
+    ),
+    "Part {} of the recording, of bone {}, has no contact point: give it one.": (
+        "Der Teil {} der Aufnahme, vom Knochen {}, hat keinen Berührpunkt: ihm einen geben."
+    ),
+    "Walkers {} cannot be taken of {}: give their numbers from 0 on, rising.": (
+        "Die Läufer {} lassen sich nicht aus {} nehmen: ihre Nummern von 0 an geben, steigend."
+    ),
+    # ---- motion/scatter.py
+    "A {} of {} cannot be used: choose one from 0 to {}.": "{} von {} geht nicht: etwas von 0 bis {} wählen.",
+    # ---- placement/cycle.py
+    "{} walks in place and is carried ahead at {} m/s.": (
+        "{} geht auf der Stelle und wird mit {} m/s vorwärts getragen."
+    ),
+    "The recording of {} is too short to be carried along a path: record at least one whole stride.": (
+        "Die Aufnahme von {} ist zu kurz, um an einem Weg entlang getragen zu werden: mindestens einen ganzen "
+        "Doppelschritt aufnehmen."
+    ),
+    "{} does not walk ahead in its recording and cannot be carried along a path: record a walk, in place or over "
+    "the ground.": (
+        "{} geht in der Aufnahme nicht vorwärts und lässt sich nicht an einem Weg entlang tragen: einen Gang "
+        "aufnehmen, auf der Stelle oder über den Boden."
+    ),
+    # ---- placement/passes.py
+    "A {} is no ground to walk on: give a Ground, a Simulation or a function of points (n, 2).": (
+        "Auf einem {} kann man nicht gehen: einen Ground, eine Simulation oder eine Funktion von Punkten (n, 2) geben."
+    ),
+    "A walk of {} passes cannot be walked: give a whole number from 1 on.": (
+        "Ein Gang aus {} Durchgängen geht nicht: eine ganze Zahl von 1 an geben."
+    ),
+    "A pause of {} s cannot be used: choose one from 0 to {}.": (
+        "Eine Pause von {} s geht nicht: eine von 0 bis {} wählen."
+    ),
+    "The keys on the mass of walkers do not count along a path: they weigh what they do at first.": (
+        "Keyframes auf der Masse von Läufern zählen an einem Weg nicht: sie wiegen, was sie zu Anfang wiegen."
+    ),
+    "{} passes over {} m are too long for one recording: walk them in several bakes, or choose fewer passes or a "
+    "lower frame rate.": (
+        "{} Durchgänge über {} m sind zu lang für eine Aufnahme: sie mit mehrmaligem Backen gehen, oder weniger "
+        "Durchgänge oder eine kleinere Bildrate wählen."
+    ),
+    "The walkers were recorded at different rates: resample them to one.": (
+        "Die Läufer wurden mit verschiedenen Raten aufgenommen: sie auf eine bringen."
+    ),
+    # ---- placement/path.py
+    "The path has no length: give it at least two places that lie apart.": (
+        "Der Weg hat keine Länge: ihm mindestens zwei Orte geben, die auseinander liegen."
+    ),
+    "The path is no list of places: give rows of x, y or x, y, z in metres.": (
+        "Der Weg ist keine Liste von Orten: Zeilen aus x, y oder x, y, z in Metern geben."
+    ),
+    "The path has the shape {}: give at least two rows of x, y or x, y, z in metres.": (
+        "Der Weg hat die Form {}: mindestens zwei Zeilen aus x, y oder x, y, z in Metern geben."
+    ),
+    "Row {} of the path is not a finite place: mend it.": "Die Zeile {} des Wegs ist kein endlicher Ort: sie richten.",
+    "Row {} of the path lies {} m away: give places within {} m.": (
+        "Die Zeile {} des Wegs liegt {} m fort: Orte innerhalb von {} m geben."
+    ),
+    "Line {} of {} is not a place in numbers: mend it.": "Die Zeile {} von {} ist kein Ort in Zahlen: sie richten.",
+    # ---- placement/place.py
+    "A {} of {} m cannot be used: give one above 0.": "{} von {} m geht nicht: mehr als 0 angeben.",
+    "A toe slope of {} rad cannot be used: give 0 to {}.": (
+        "Eine Neigung der Zehen von {} rad geht nicht: 0 bis {} angeben."
+    ),
+    "Feet are placed on a Ground or a Simulation: make one of the ground first.": (
+        "Füße werden auf einen Ground oder eine Simulation aufgesetzt: erst eines aus dem Boden machen."
+    ),
+    "The floor's height is not a number: give it in metres, or none.": (
+        "Die Höhe des Fußbodens ist keine Zahl: sie in Metern angeben, oder keine."
+    ),
+    "There is no walker {}: the recording has {}.": "Es gibt keinen Läufer {}: die Aufnahme hat {}.",
+    "{} walks beside the ground: move the walker or the ground so that one lies over the other.": (
+        "{} geht am Boden vorbei: den Läufer oder den Boden verschieben, so dass einer über dem anderen liegt."
+    ),
+    # ---- placement/settle_feet.py
+    "No foot stands on ground that is pressed: bake the trail of this walk first.": (
+        "Kein Fuß steht auf Boden, der eingedrückt ist: erst die Spur dieses Gangs backen."
+    ),
+    # ---- rig/body.py
+    "The skeleton's rest matrices do not fit its bones: record again.": (
+        "Die Ruhematrizen des Skeletts passen nicht zu seinen Knochen: noch einmal aufnehmen."
+    ),
+    "The bones span {} m, too little for feet: check the walker's scale and the scene's unit scale.": (
+        "Die Knochen messen {} m, zu wenig für Füße: die Größe des Läufers und die Einheiten der Szene prüfen."
+    ),
+    "The recorded matrices do not fit their times and bones: record again.": (
+        "Die aufgenommenen Matrizen passen nicht zu ihren Zeiten und Knochen: noch einmal aufnehmen."
+    ),
+    "A mass of {} kg cannot press the ground: give the walker a mass above 0.": (
+        "Eine Masse von {} kg kann nicht in den Boden drücken: dem Läufer eine über 0 geben."
+    ),
+    "The recorded times do not increase: record again.": (
+        "Die aufgenommenen Zeiten steigen nicht: noch einmal aufnehmen."
+    ),
+    "Bone {} was not recorded: it was renamed or removed; detect the rig again or choose the bone by hand.": (
+        "Der Knochen {} wurde nicht aufgenommen: er wurde umbenannt oder entfernt; die Füße neu finden oder den "
+        "Knochen von Hand wählen."
+    ),
+    "Bone {} has a broken rest pose: mend the bone in edit mode.": (
+        "Der Knochen {} hat eine kaputte Ruhelage: ihn im Bearbeitungsmodus richten."
+    ),
+    "Bone {} is scaled to nothing at frame {}: give it a scale above 0 there.": (
+        "Der Knochen {} ist in Bild {} auf nichts skaliert: ihm dort eine Größe über 0 geben."
+    ),
+    # ---- rig/foot.py
+    "Bone {} has no length: give it one in edit mode.": (
+        "Der Knochen {} hat keine Länge: ihm im Bearbeitungsmodus eine geben."
+    ),
+    "Bone {} has no length up to {}: choose another toe bone or none.": (
+        "Der Knochen {} hat bis {} keine Länge: einen anderen Zehenknochen wählen oder keinen."
+    ),
+    # ---- rig/foot_parts.py
+    "{} never stands flat: its sole was laid by the rest pose.": (
+        "{} steht nie flach: die Sohle wurde nach der Ruhelage gelegt."
+    ),
+    "No faces of the mesh move with {}: it got the built-in sole.": (
+        "Mit {} bewegen sich keine Flächen des Netzes: er bekam die eingebaute Sohle."
+    ),
+    # ---- rig/limbs.py
+    "No mesh hangs on the bones of '{}': bind one to it, or let its feet press.": (
+        "An den Knochen von '{}' hängt kein Netz: eines daran binden, oder die Füße drücken lassen."
+    ),
+    # ---- rig/mass.py
+    "{} weighs {} kg by an estimate from the {} litres of its mesh: set a mass to use another.": (
+        "{} wiegt {} kg, geschätzt aus den {} Litern des Netzes: eine Masse setzen, um eine andere zu nehmen."
+    ),
+    "The mass of {} cannot be estimated, since only people with two legs below their hips tell their height, and "
+    "no mesh is bound to it: give it a mass in kilograms.": (
+        "Die Masse von {} lässt sich nicht schätzen, da nur Menschen mit zwei Beinen unter der Hüfte ihre Größe "
+        "verraten, und kein Netz daran hängt: eine Masse in Kilogramm angeben."
+    ),
+    "{} weighs {} kg by an estimate from its height of {} m: set a mass to use another.": (
+        "{} wiegt {} kg, geschätzt aus der Größe von {} m: eine Masse setzen, um eine andere zu nehmen."
+    ),
+    "{}: if that is not meant, {}.": "{}: wenn das nicht gemeint ist, {}.",
+    "{} and weighs {} kg, since nobody gave it another mass: give it the mass of its size, or, if that size is "
+    "not meant, {}.": (
+        "{} und wiegt {} kg, da ihm niemand eine andere Masse gab: ihm die Masse seiner Größe geben, oder, wenn "
+        "diese Größe nicht gemeint ist, {}."
+    ),
+    "{} and weighs {} kg, which cannot be: {}, or give it the mass of its size.": (
+        "{} und wiegt {} kg, was nicht sein kann: {}, oder ihm die Masse seiner Größe geben."
+    ),
+    # ---- rig/rigs.py
+    "The armature has no bone {}: it was renamed or removed; choose the foot bone again.": (
+        "Das Skelett hat keinen Knochen {}: er wurde umbenannt oder entfernt; den Fußknochen neu wählen."
+    ),
+    "The armature has no bones: choose the one that walks.": "Das Skelett hat keine Knochen: das wählen, das geht.",
+    "No foot bones were found: the armature has no bone named like a foot or an ankle and no pair of legs; choose "
+    "the foot bones by hand.": (
+        "Es fanden sich keine Fußknochen: das Skelett hat keinen Knochen, der wie ein Fuß oder Knöchel heißt, und "
+        "kein Paar von Beinen; die Fußknochen von Hand wählen."
+    ),
+    "The feet were found by the shape of the rig, not by name: check that {} are the feet.": (
+        "Die Füße wurden nach der Form des Skeletts gefunden, nicht nach Namen: prüfen, ob {} die Füße sind."
+    ),
+    "The armature has no bone {}: it was renamed or removed; detect the rig again or choose the bone by hand.": (
+        "Das Skelett hat keinen Knochen {}: er wurde umbenannt oder entfernt; die Füße neu finden oder den "
+        "Knochen von Hand wählen."
+    ),
+    "No foot bones were chosen: choose at least one foot bone.": (
+        "Es wurden keine Fußknochen gewählt: mindestens einen wählen."
+    ),
+    "The armature has no bone {}: it was renamed or removed; detect the rig again or choose the hips by hand.": (
+        "Das Skelett hat keinen Knochen {}: er wurde umbenannt oder entfernt; die Füße neu finden oder die Hüfte "
+        "von Hand wählen."
+    ),
+    "No hips bone was found: the mass centre is taken above the feet; choose the hips bone by hand.": (
+        "Es fand sich kein Hüftknochen: der Schwerpunkt wird über den Füßen genommen; den Hüftknochen von Hand wählen."
+    ),
+    # ---- rig/sole.py
+    "The soles of {} are {} cells of {} m wide, too few for a print to have their shape: choose a cell size of {} "
+    "m or so.": (
+        "Die Sohlen von {} sind {} Zellen von {} m breit, zu wenige für einen Abdruck ihrer Form: eine Zellgröße "
+        "von etwa {} m wählen."
+    ),
+    "{} press with {} triangles on {} cells, too few for the shape of a foot: give the shoes or skin a finer mesh "
+    "there, or choose a mesh as the sole.": (
+        "{} drücken mit {} Dreiecken auf {} Zellen, zu wenige für die Form eines Fußes: den Schuhen oder der Haut "
+        "dort ein feineres Netz geben, oder ein Netz als Sohle wählen."
+    ),
+    # ---- rig/sole_mesh.py
+    "{} has no faces to be a sole: choose a mesh with faces.": (
+        "{} hat keine Flächen, um eine Sohle zu sein: ein Netz mit Flächen wählen."
+    ),
+    "{} has a face without its vertices: repair the mesh.": "{} hat eine Fläche ohne ihre Punkte: das Netz richten.",
+    "{} has NaN or infinite vertices: repair the mesh.": (
+        "{} hat Punkte, die NaN oder unendlich sind: das Netz richten."
+    ),
+    "{} lies at no foot of the rest pose: it was laid centred under each, its front the way the walker faces.": (
+        "{} liegt an keinem Fuß der Ruhelage: es wurde mittig unter jeden gelegt, vorn, wohin der Läufer sieht."
+    ),
+    "{} is {} m long under a foot of {} m: check its scale.": (
+        "{} ist {} m lang unter einem Fuß von {} m: die Größe prüfen."
+    ),
+    # ---- rig/solid.py
+    "The matrices of '{}' have shape {} where {} is needed: give one a time.": (
+        "Die Matrizen von '{}' haben die Form {}, wo {} nötig ist: für jede Zeit eine geben."
+    ),
+    # ---- rig/tread.py
+    "There is no tread '{}': choose one of {}.": "Es gibt kein Profil '{}': eines von {} wählen.",
+}
