@@ -87,7 +87,7 @@ def test_blender_itself_calls_it(folder):
     words = ["bake", str(path), "--ground", "Beach", "--report", str(folder / "told.json")]
     for extra, code in (([], 0), (["--ground", "Sea"], 1)):
         done = subprocess.run(
-            [bpy.app.binary_path, "--factory-startup", "--command", "desire_path", *words, *extra],
+            [bpy.app.binary_path, "--command", "desire_path", *words, *extra],
             env={"PATH": "/usr/bin:/bin", "HOME": str(folder), "BLENDER_USER_SCRIPTS": str(folder / "scripts")},
             capture_output=True,
             text=True,
