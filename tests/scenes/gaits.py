@@ -47,7 +47,7 @@ def sphere(radius, rings=24):
         for i in range(n):
             a, b = j * n + i, j * n + (i + 1) % n
             faces += [[a, b, a + n], [b, b + n, a + n]]
-    return Sole(corner, BOX_FACES)
+    return Sole(corner, np.array(faces))
 
 
 def writable(record):
