@@ -14,6 +14,7 @@ from desire_path.blender import (
     translations_described,
     translations_said,
     translations_soil,
+    translations_track,
 )
 
 FOLDER = pathlib.Path(addon.__file__).parent
@@ -105,7 +106,12 @@ def test_every_word_is_in_every_language():
 def test_no_word_is_told_that_nobody_says():
     """Of the descriptions; labels may be Blender's, too."""
     known = set(descriptions()) | set(reasons()) | {soils.DESCRIBED}
-    words = {*translations_described.GERMAN, *translations_soil.GERMAN, *translations_said.GERMAN}
+    words = {
+        *translations_described.GERMAN,
+        *translations_soil.GERMAN,
+        *translations_said.GERMAN,
+        *translations_track.GERMAN,
+    }
     assert words <= known, sorted(words - known)
 
 

@@ -195,6 +195,25 @@ def test_progress_is_told_and_a_track_is_pressed_once():
         TrackPress(Ground.flat(), [])
 
 
+def test_wheels_roll_at_once_beside_stamps():
+    """A rut as deep as it is told, one by weight, and marks, one after the other into the same ground."""
+    line = np.array([(0.0, 0.0), (1.2, 0.0)])
+    smooth = Wheel(radius=0.3, tread="plain")
+    tracks = [
+        track.rolled(line, smooth, Drive(depth=0.03)),
+        lay(line + (0.0, 1.0), "shoe", Marks(count=3), Drive(depth=0.02)),
+        track.rolled(line + (0.0, 2.0), smooth, Drive(mass=150.0)),
+    ]
+    found, press = at_once(tracks)
+    i0, _, j0, _ = press.window
+    along = [found[y - 40 - j0 : y + 40 - j0, 20 - i0 : 100 - i0].max(axis=0) for y in (0, 100, 200)]
+    assert press.strokes == 5 and along[0].min() > 0.0285 and along[0].max() < 0.0301
+    assert along[1].max() == pytest.approx(0.02, abs=2e-3) and along[1].min() == 0.0
+    slow, (i0, _), _ = pressed(track.rolled(line, smooth, Drive(mass=150.0)))
+    assert along[2].min() > 0.5 * along[2].max()
+    assert along[2].mean() == pytest.approx(slow.max(axis=0)[20 - i0 : 100 - i0].mean(), rel=0.1)
+
+
 # ---- pictures -------------------------------------------------------------------------------------
 
 

@@ -1,11 +1,11 @@
-"""Tracks of stamps, pressed at once: each mark straight down and up again, one step a mark. PEYRAT11, MODEL 3.8
+"""Tracks pressed at once: marks of stamps, each straight down and up again in one step, and wheels that roll along.
 
-    Laid --TrackPress.press--> ground with its marks --keep--> folder/frames, maps_final.exr, report.json
+    Laid, or a Gait of wheels --TrackPress.press--> ground with its tracks --keep--> folder/frames, maps_final.exr ..
 
-    laid = track.lay([(0, 0), (20, 0)], "boot")
-    TrackPress(Ground.flat(), laid, "wet-sand", 0.005).press().keep("pressed")
+    tracks = [lay([(0, 0), (20, 0)], "boot"), rolled([(5, -5), (5, 5)], Wheel(0.33))]
+    TrackPress(Ground.flat(), tracks, "wet-sand", 0.005).press().keep("pressed")
 
-Marks are pressed in their order; some that do not meet come down in one step.
+Marks are pressed in their order; some that do not meet come down in one step. PEYRAT11, MODEL 3.8
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..ground.options import SimulationOptions
-from ..ground.pressing import AROUND, GRAVITY, PressBody
+from ..ground.pressing import AROUND, GRAVITY, TOUCH, PressBody
 from ..ground.sim import Ground
 from ..ground.soil import Soil
+from ..motion.gait import Gait
 from ..placement.marks import SIDES, Laid
 from .press import LivePress
 
@@ -33,39 +34,43 @@ Kind = tuple[int, bool, float]  # track, left foot, size
 
 
 class TrackPress(LivePress):
-    """Ground and the marks of tracks to be pressed into it.
+    """Ground and the tracks to be pressed into it, one after the other.
 
-    laid: track.lay(), or several of them, one pressed after the other; the others as for Simulation
+    tracks: marks.lay() or track.rolled(), or several of them; the others as for Simulation
     """
 
     def __init__(
         self,
         ground: Ground,
-        laid: Laid | Iterable[Laid],
+        tracks: Laid | Gait | Iterable[Laid | Gait],
         soils: str | Soil | Iterable[str | Soil] = "dry-sand",
         cell_size: float = 0.01,
         *,
         options: SimulationOptions = SimulationOptions(),
     ) -> None:
-        self.tracks = (laid,) if isinstance(laid, Laid) else tuple(laid)
-        self._marks = [
-            ((number, bool(left), float(size)), pose)
-            for number, each in enumerate(self.tracks)
-            for left, size, pose in zip(each.left, each.size, each.pressed_pose())
-        ]
-        if not self._marks:
+        self.tracks = (tracks,) if isinstance(tracks, (Laid, Gait)) else tuple(tracks)
+        self._marks = {n: _marks_of(n, each) for n, each in enumerate(self.tracks) if isinstance(each, Laid)}
+        if not self.tracks or not all(self._marks.values()):
             raise DesirePathError("There is no mark to press: lay a track first.")
-        self._pressed = 0
-        self._feet: dict[Kind, list[int]] = {kind: [] for kind, _ in self._marks}
-        bodies = [self._body(kind) for kind in self._feet]
-        for number, kind in enumerate(list(self._feet) * max(AT_ONCE // len(bodies), 1)):
+        self._done = self._pressed = 0
+        self._feet: dict[Kind, list[int]] = {kind: [] for marks in self._marks.values() for kind, _ in marks}
+        self._kinds = list(self._feet) * max(AT_ONCE // max(len(self._feet), 1), 1)  # of each foot
+        for number, kind in enumerate(self._kinds):
             self._feet[kind].append(number)
-        super().__init__(ground, bodies * max(AT_ONCE // len(bodies), 1), soils, cell_size, options=options)
+        soles = {kind: self._body(kind) for kind in self._feet}
+        bodies = [soles[kind] for kind in self._kinds]
+        self._wheels: dict[int, range] = {}  # bodies of each track of wheels
+        for n, each in enumerate(self.tracks):
+            if isinstance(each, Gait):
+                self._wheels[n] = range(len(bodies), len(bodies) + len(each.soles))
+                bodies += _wheels_of(each)
+        super().__init__(ground, bodies, soils, cell_size, options=options)
         self._stands = max(float(soil.settle_time) for soil in self.soils)
 
     def _body(self, kind: Kind) -> PressBody:
         number, left, size = kind
         track = self.tracks[number]
+        assert isinstance(track, Laid)
         sole = track.stamp.sole(left, size)
         return PressBody(
             sole.vertices, sole.triangles, None if track.depth > 0.0 else track.mass, f"{track.name} {SIDES[not left]}"
@@ -73,41 +78,39 @@ class TrackPress(LivePress):
 
     @property
     def strokes(self) -> int:
-        """How many marks were pressed."""
+        """How many marks were pressed, and wheels rolled."""
         return self._pressed
 
     def press(self, progress: Callable[[float], object] | None = None) -> TrackPress:
-        """Press all marks that are not pressed yet; progress is told the share that is. Returns itself."""
+        """Press all tracks that are not pressed yet; progress is told the share that is. Returns itself."""
         reach = self._widen()
-        step: dict[int, np.ndarray] = {}  # the pose of each foot that presses
-        for number, (kind, pose) in enumerate(self._marks[self._pressed :], self._pressed):
-            foot = next((each for each in self._feet[kind] if each not in step), None)
-            near = [HEAPS * (reach[kind] + reach[other]) for other in self._kinds(step)]
-            if foot is None or _meets(pose, step.values(), near):
-                self._press_step(step)
-                self._pressed, step, foot = number, {}, self._feet[kind][0]
+        for number in range(self._done, len(self.tracks)):
+
+            def told(share: float, before: int = number) -> None:
                 if progress is not None:
-                    progress(number / len(self._marks))
-            step[foot] = pose
-        if step:
-            self._press_step(step)
-        self._pressed = len(self._marks)
+                    progress((before + share) / len(self.tracks))
+
+            track = self.tracks[number]
+            if isinstance(track, Laid):
+                self._stamp(self._marks[number], reach, told)
+            else:
+                self._roll(track, self._wheels[number], told)
+            self._done = number + 1
         return self
 
-    def _kinds(self, feet: Iterable[int]) -> list[Kind]:
-        kinds = list(self._feet)
-        return [kinds[foot % len(kinds)] for foot in feet]
-
-    def _widen(self) -> dict[Kind, float]:
-        """The window reaches as far as marks change the ground; returns how far each kind reaches itself [m]."""
-        reach = {
-            kind: float(np.linalg.norm(self.bodies[feet[0]].vertices[:, :2], axis=1).max())
-            for kind, feet in self._feet.items()
-        }
-        places = np.array([pose[:2] for _, pose in self._marks])
-        wide = np.array([reach[kind] + AROUND for kind, _ in self._marks])[:, None]
-        (x0, y0), (x1, y1) = (places - wide).min(axis=0), (places + wide).max(axis=0)
-        i0, i1, j0, j1 = self._clipped(self.sim.cells((x0, y0, x1, y1)))
+    def _widen(self) -> list[float]:
+        """The window reaches as far as tracks change the ground; returns how far each body reaches itself [m]."""
+        reach = [float(np.linalg.norm(body.vertices[:, :2], axis=1).max()) for body in self.bodies]
+        boxes = []
+        for number, track in enumerate(self.tracks):
+            if isinstance(track, Laid):
+                places = np.array([pose[:2] for _, pose in self._marks[number]])
+                wide = max(reach[self._feet[kind][0]] for kind, _ in self._marks[number])
+            else:
+                places, wide = np.asarray(track.pose)[..., :2].reshape(-1, 2), max(reach)
+            boxes.append((*(places.min(axis=0) - wide - AROUND), *(places.max(axis=0) + wide + AROUND)))
+        box = np.array(boxes)
+        i0, i1, j0, j1 = self._clipped(self.sim.cells((*box[:, :2].min(axis=0), *box[:, 2:].max(axis=0))))
         if (i1 - i0) * (j1 - j0) > MOST_CELLS:
             raise DesirePathError(
                 f"The tracks lie in {(i1 - i0) * (j1 - j0):.3g} cells of {self.cell_size:g} m: choose larger cells."
@@ -118,21 +121,91 @@ class TrackPress(LivePress):
         self.window = (i0, i1, j0, j1)
         return reach
 
-    def _press_step(self, step: dict[int, np.ndarray]) -> None:
+    # ---- stamps ----------------------------------------------------------------------------------
+
+    def _stamp(
+        self, marks: Sequence[tuple[Kind, np.ndarray]], reach: Sequence[float], told: Callable[[float], None]
+    ) -> None:
+        step: dict[int, np.ndarray] = {}  # the pose of each foot that presses
+        for number, (kind, pose) in enumerate(marks):
+            foot = next((each for each in self._feet[kind] if each not in step), None)
+            near = [HEAPS * (reach[self._feet[kind][0]] + reach[other]) for other in step]
+            if foot is None or _meets(pose, step.values(), near):
+                self._stand(step)
+                step, foot = {}, self._feet[kind][0]
+                told(number / len(marks))
+            step[foot] = pose
+        self._stand(step)
+
+    def _stand(self, step: dict[int, np.ndarray]) -> None:
         """Some feet come down at once, stand until the ground has yielded, and are lifted."""
         count = len(self.bodies)
-        pose, there = np.zeros((count, 7)), np.zeros(count, np.uint8)
-        pose[:, 3] = 1.0
-        force, point = np.zeros((count, 3)), np.full((count, 3), np.nan)
+        pose, there, force, point = _nowhere(count)
         for number, at in step.items():
             pose[number], point[number], there[number] = at, at[:3], 1
             force[number, 2] = -(self.bodies[number].mass or 0.0) * GRAVITY
         nobody = np.zeros(count, np.uint8)
         for seconds, present in ((LIFTS, there), (self._stands, there), (LIFTS, nobody)):
-            self._time += seconds
-            self.sim.push(self._time, pose, present, force, point, present)
-            self._samples += 1
+            self._next(seconds, pose, present, force, point, present)
         self.sim.run(self._samples - 1)
+        self._pressed += len(step)
+
+    # ---- wheels ----------------------------------------------------------------------------------
+
+    def _roll(self, gait: Gait, wheels: range, told: Callable[[float], None]) -> None:
+        """Wheels roll along; each touches where it meets the ground, as that was or as it is then."""
+        pose, there, force, point = _nowhere(len(self.bodies))
+        touching = there.copy()
+        there[wheels.start : wheels.stop] = 1
+        times, poses = gait.time, np.asarray(gait.pose)
+        for t in range(len(times)):
+            for number, at in zip(wheels, poses[:, t]):
+                body, found = self.bodies[number], self._contact(number, at)
+                pose[number], point[number] = at, found.point
+                touching[number] = min(found.gap, found.rest_gap) <= TOUCH or body.mass is None
+                force[number, 2] = -(body.mass or 0.0) * GRAVITY * touching[number]
+            self._next(times[t] - times[t - 1] if t else LIFTS, pose, touching, force, point, there)
+            self.sim.run(self._samples - 1)
+            told((t + 1) / len(times))
+        nobody = np.zeros_like(there)
+        self._next(LIFTS, pose, nobody, 0.0 * force, point, nobody)
+        self.sim.run(self._samples - 1)
+        self._pressed += len(wheels)
+
+    def _next(
+        self,
+        seconds: float,
+        pose: np.ndarray,
+        touching: np.ndarray,
+        force: np.ndarray,
+        point: np.ndarray,
+        there: np.ndarray,
+    ) -> None:
+        """The next sample, so much later."""
+        self._time += seconds
+        self.sim.push(self._time, pose, touching, force, point, there)
+        self._samples += 1
+
+
+def _marks_of(number: int, laid: Laid) -> list[tuple[Kind, np.ndarray]]:
+    """Which foot presses each mark, and its pose (7,)."""
+    feet = zip(laid.left.tolist(), laid.size.tolist())
+    return [((number, *foot), pose) for foot, pose in zip(feet, laid.pressed_pose())]
+
+
+def _wheels_of(gait: Gait) -> list[PressBody]:
+    owner = gait.limb_walker[gait.part_limb]
+    return [
+        PressBody(sole.vertices, sole.triangles, None if carves else float(gait.mass[owner[part]]), gait.bone(part))
+        for part, (sole, carves) in enumerate(zip(gait.soles, gait.carving()[owner]))
+    ]
+
+
+def _nowhere(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Poses, who is there, forces and points of bodies that are not there."""
+    pose = np.zeros((count, 7))
+    pose[:, 3] = 1.0
+    return pose, np.zeros(count, np.uint8), np.zeros((count, 3)), np.full((count, 3), np.nan)
 
 
 def _meets(pose: np.ndarray, others: Iterable[np.ndarray], near: Sequence[float]) -> bool:

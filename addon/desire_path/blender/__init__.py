@@ -16,9 +16,11 @@ from . import (
     op_place,
     op_plants,
     op_press,
+    op_track,
     op_walk_it,
     op_walkers,
     panels,
+    panels_track,
     panels_walker,
     props,
     soil_presets,
@@ -36,12 +38,14 @@ _CLASSES = (
     + op_plants.CLASSES
     + op_walk_it.CLASSES
     + op_press.CLASSES
+    + op_track.CLASSES
     + op_material.CLASSES
     + soils.CLASSES
     + messages.CLASSES
     + soil_presets.CLASSES
     + panels.CLASSES
     + panels_walker.CLASSES
+    + panels_track.CLASSES
 )
 
 

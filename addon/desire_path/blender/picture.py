@@ -29,18 +29,21 @@ def is_still(_self, image):
     return image.source in {"FILE", "GENERATED"}
 
 
-def brightness(image):
-    """Rec. 709 luminance of an image's pixels as they are stored, float32 (rows, columns) 0..1, row 0 below."""
+def brightness(image, what="density image"):
+    """Rec. 709 luminance of an image's pixels as they are stored, float32 (rows, columns) 0..1, row 0 below.
+
+    what: it is, where it cannot be read
+    """
     if not is_still(None, image):
         raise DesirePathError(
-            f"The density image '{image.name}' is no single picture but a {image.source.lower()}: "
+            f"The {what} '{image.name}' is no single picture but a {image.source.lower()}: "
             "save the picture that is meant as a file of its own and choose that."
         )
     count, (width, height) = len(image.pixels), image.size
     if not count or count % (width * height):
         path = bpy.path.abspath(image.filepath)
         raise DesirePathError(
-            f"The density image '{image.name}' cannot be loaded"
+            f"The {what} '{image.name}' cannot be loaded"
             + (f" from {path}" if path else "")
             + ": mend its path in the Image Editor, or choose another image."
         )

@@ -84,7 +84,7 @@ class Press:
             )
         self.scale, self.sentences = axes.unit_scale(self.scene), []
         depsgraph = context.evaluated_depsgraph_get()
-        self.held = [_taken(each, depsgraph, self.scale, mass) for each in bodies]
+        self.held = [taken(each, depsgraph, self.scale, mass) for each in bodies]
         self.weighs = any(each.shape.mass is not None for each in self.held)
         height = min(float(np.ptp(each.shape.vertices[:, 2])) for each in self.held)
         layer = min(soil.layer_depth for soil in ground.soils(obj))
@@ -243,32 +243,11 @@ class Press:
 
     def keep(self):
         """What was pressed stays: a bake of its own, which plays where nobody walks; returns a sentence."""
-        obj = bpy.data.objects[self.name]
-        settings = obj.desire_path
         self.live.lift()
-        walked = playback.modifier(obj) is not None and not pressed.plays(obj)
-        home.claim(obj)
-        place = pressed.next_place(obj)
-        index = self.live.keep(
-            bpy.path.abspath(place),
-            frame=self.scene.frame_start,
-            frame_rate=self.scene.render.fps / self.scene.render.fps_base,
-            owner=settings.bake_id,
-            inputs=pressed.marks(obj, self.surface),
+        obj = bpy.data.objects[self.name]
+        return stay(
+            self.scene, obj, self.surface, self.live, self.sentences, pressed.marks(obj, self.surface), self.view
         )
-        deepest = float(self.live.read("compression").max())
-        self.view.remove()
-        self.live.drop()
-        pressed.replaced(obj)
-        settings.pressed = place
-        if not walked:
-            settings.summary = ""
-            _, warnings = show.play(self.scene, obj, self.surface, place=place)
-            self.sentences += warnings
-        text = f"'{obj.name}' stays as it was pressed, {1000 * deepest:.0f} mm deep at most; files in {index.folder}."
-        if walkers(self.scene, obj):
-            text += " Bake it again to walk over that."
-        return text
 
     def drop(self):
         """Nothing was pressed: the ground, and the objects, are as they were."""
@@ -290,7 +269,39 @@ class Press:
                 setattr(settings, name, self.was[name])
 
 
-def _taken(obj, depsgraph, scale, mass):
+def stay(scene, obj, surface, live, sentences, inputs, view=None):
+    """What was pressed into a ground becomes a bake of its own, which plays where nobody walks; returns a sentence.
+
+    sentences: gets what is to be said of it; inputs: a word for each part it was made from; view: what has shown it so far
+    """
+    settings = obj.desire_path
+    walked = playback.modifier(obj) is not None and not pressed.plays(obj)
+    home.claim(obj)
+    place = pressed.next_place(obj)
+    index = live.keep(
+        bpy.path.abspath(place),
+        frame=scene.frame_start,
+        frame_rate=scene.render.fps / scene.render.fps_base,
+        owner=settings.bake_id,
+        inputs=inputs,
+    )
+    deepest = float(live.read("compression").max())
+    if view is not None:
+        view.remove()
+    live.drop()
+    pressed.replaced(obj)
+    settings.pressed = place
+    if not walked:
+        settings.summary = ""
+        _, warnings = show.play(scene, obj, surface, place=place)
+        sentences += warnings
+    text = f"'{obj.name}' stays as it was pressed, {1000 * deepest:.0f} mm deep at most; files in {index.folder}."
+    if walkers(scene, obj):
+        text += " Bake it again to walk over that."
+    return text
+
+
+def taken(obj, depsgraph, scale, mass):
     """An object as a body, as modifiers and its scale make it."""
     found = obj.evaluated_get(depsgraph)
     world = axes.matrix(found.matrix_world, obj.name)

@@ -11,7 +11,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import arrival, compat, props_parts, soils, units
+from . import arrival, compat, props_parts, props_track, soils, units
 from .late import forward, live, state, watch
 
 
@@ -353,8 +353,13 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     forces: StringProperty(options={"HIDDEN"}, description="What the forces of the walk came to")
     hips: StringProperty(name="Hips", description="The bone the body hangs on")
 
+    # ---- a curve
+    track: PointerProperty(
+        type=props_track.DesirePathTrack, name="Track", description="What leaves a track along a curve"
+    )
 
-CLASSES = (*props_parts.CLASSES, DesirePathSettings)
+
+CLASSES = (*props_parts.CLASSES, *props_track.CLASSES, DesirePathSettings)
 
 
 def register():

@@ -2,14 +2,14 @@
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
 Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_described.py, translations_soil.py), and every question and reason why a button cannot be
-pressed (translations_said.py).
+description (translations_described.py, translations_soil.py, translations_track.py), and every question and reason why a
+button cannot be pressed (translations_said.py).
 """
 
 import bpy
 
 from ..ground.soil import SOILS
-from . import soils, translations_described, translations_said, translations_soil
+from . import soils, translations_described, translations_said, translations_soil, translations_track
 
 GERMAN = {
     "Operator": {
@@ -218,9 +218,17 @@ def catalogue(language, messages):
     return {(context, label): text for context, labels in words.items() for label, text in labels.items()}
 
 
-_MESSAGES = {**translations_described.GERMAN, **translations_soil.GERMAN, **translations_said.GERMAN}
+_MESSAGES = {
+    **translations_described.GERMAN,
+    **translations_soil.GERMAN,
+    **translations_said.GERMAN,
+    **translations_track.GERMAN,
+}
 # newer Blenders name a language without its country
-TABLE = dict.fromkeys(("de_DE", "de"), catalogue(GERMAN, _MESSAGES))
+TABLE = dict.fromkeys(
+    ("de_DE", "de"),
+    catalogue({room: {**GERMAN[room], **translations_track.LABELS[room]} for room in GERMAN}, _MESSAGES),
+)
 
 
 def say(text, *values):

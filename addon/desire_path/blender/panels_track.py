@@ -1,0 +1,72 @@
+"""panels_track.py - what leaves a track along a curve, and the buttons that press it."""
+
+import bpy
+
+from .panels import _column, _Physics, _Sidebar
+
+STAMPED = ("spacing", "width", "first", "size", "scatter")
+
+
+def draw(layout, obj):
+    settings = obj.desire_path.track
+    if not settings.is_track:
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("object.desire_path_track_add", icon="MOD_DYNAMICPAINT")
+        return
+    column = _column(layout)
+    column.prop(obj.desire_path, "ground")
+    column.prop(settings, "kind")
+    if settings.kind == "WHEEL":
+        for name in ("radius", "tyre_width", "tread", "gauge"):
+            column.prop(settings, name)
+    else:
+        _draw_stamp(column, settings)
+    column = _column(layout)
+    column.prop(settings, "depth")
+    weight = column.row()
+    weight.active = not settings.depth
+    weight.prop(settings, "weight")
+    column.prop(settings, "speed")
+    column.prop(settings, "end_speed")
+    row = layout.row()
+    row.scale_y = 1.4
+    row.operator("object.desire_path_tracks_press", icon="BRUSH_DATA")
+    layout.operator("object.desire_path_track_remove", icon="X")
+
+
+def _draw_stamp(column, settings):
+    if settings.kind == "SOLE":
+        column.prop(settings, "sole")
+    else:
+        column.prop(settings, "stamp")
+        if settings.stamp == "image":
+            column.template_ID(settings, "image", open="image.open")
+            column.prop(settings, "image_length")
+            column.prop(settings, "image_height")
+    for name in STAMPED:
+        column.prop(settings, name)
+    if settings.scatter:
+        column.prop(settings, "seed")
+
+
+class _Track:
+    bl_label = "Desire Path"
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "CURVE"
+
+    def draw(self, context):
+        draw(self.layout, context.object)
+
+
+class PHYSICS_PT_desire_path_track(_Physics, _Track, bpy.types.Panel):
+    pass
+
+
+class VIEW3D_PT_desire_path_track(_Sidebar, _Track, bpy.types.Panel):
+    pass
+
+
+CLASSES = (PHYSICS_PT_desire_path_track, VIEW3D_PT_desire_path_track)
