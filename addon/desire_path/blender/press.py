@@ -272,7 +272,7 @@ class Press:
 def stay(scene, obj, surface, live, sentences, inputs, view=None):
     """What was pressed into a ground becomes a bake of its own, which plays where nobody walks; returns a sentence.
 
-    sentences: gets what is to be said of it; inputs: a word for each part it was made from; view: what has shown it so far
+    sentences: gets what is to be said of it; inputs: a word for each part it was made from; view: what has shown it
     """
     settings = obj.desire_path
     walked = playback.modifier(obj) is not None and not pressed.plays(obj)

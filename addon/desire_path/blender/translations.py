@@ -2,8 +2,8 @@
 
 Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
 Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_described.py, translations_soil.py, translations_track.py), and every question and reason why a
-button cannot be pressed (translations_said.py).
+description (translations_described.py, translations_soil.py, translations_track.py), and every question and reason
+why a button cannot be pressed (translations_said.py).
 """
 
 import bpy
