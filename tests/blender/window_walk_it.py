@@ -17,7 +17,7 @@ from scenes import first_minute  # noqa: E402
 from scenes.hands import Hands, tell, until  # noqa: E402
 
 from desire_path.bake import bake  # noqa: E402
-from desire_path.blender import bake_job  # noqa: E402
+from desire_path.blender import bake_job, sample  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
 
@@ -51,8 +51,13 @@ def story(hands):
     yield 0.5
     yield from hands.click(hands.place((0.8, -0.8, 0.0)), shift=True)
     assert bpy.context.object == object_of("Plane") and object_of("Rig").select_get()
+    made, baked, record, finish = [], [], sample.record, bake_job.Job.finish
+    sample.record = lambda *asked: made.append(asked[1:4]) or record(*asked)
+    bake_job.Job.finish = lambda job: baked.append(made[:]) or finish(job)
     yield from first_minute.walk_it(hands)
     yield from first_minute.pressed(hands)
+    sample.record, bake_job.Job.finish = record, finish
+    assert len(baked[0]) == 2, baked  # the clip and the walk, which the bake in the window is handed
     assert hands.clicks <= 3 and hands.digits == 0 and hands.keys == 0, (hands.clicks, hands.digits, hands.keys)
     yield from until(lambda: hands.window.screen.is_animation_playing)
     yield 1.0

@@ -7,6 +7,7 @@ be baked is told and left as it is.
 import bpy
 
 from ..errors import DesirePathError
+from . import recordings
 from .bake_job import Job
 from .chosen import grounds, walkers
 
@@ -22,7 +23,7 @@ class AllJobs:
         self.scene_name, self.names = scene.name, [obj.name for obj in there if walkers(scene, obj)]
         if not self.names:
             raise DesirePathError("Nobody walks on the grounds of this scene: select an armature and press Add Walker.")
-        self.job = None
+        self.job, self.recordings = None, recordings.current()
         self.cancelled, self.warnings, self.early = False, [], []
         self.done, self.reports, self.problems = [], [], []
 
@@ -68,7 +69,7 @@ class AllJobs:
                 if obj.mode == "EDIT":
                     raise DesirePathError(f"'{name}' is in Edit Mode: leave it and bake again.")
                 self.job = Job(scene, obj)
-                yield from self.job.run()
+                yield from recordings.within(self.recordings, self.job.run())
                 self.reports.append(self.job.finish())
                 self.warnings += [each for each in self.job.warnings if each not in self.warnings]
             except (DesirePathError, OSError) as problem:

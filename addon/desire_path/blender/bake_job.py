@@ -17,7 +17,7 @@ from ..bake.bake import read_index
 from ..bake.output import check_idle
 from ..bounds import Limits
 from ..errors import DesirePathError
-from . import home, inputs, moves, paths, reach, replant, sample, trash
+from . import home, inputs, moves, paths, reach, recordings, replant, sample, trash
 from .chosen import absent, walkers
 from .home import folder
 from .ops import active
@@ -82,6 +82,7 @@ class Job:
         check_idle(home.claim(obj))
         self.begun = time.perf_counter()
         self.walkers = [each.name for each in there]
+        self.recordings = recordings.current()  # of who has made them to bake
 
     def object(self):
         obj = bpy.data.objects.get(self.name)
@@ -96,7 +97,7 @@ class Job:
         there = [bpy.data.objects.get(name) for name in self.walkers]
         if None in there:
             raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake again.")
-        company = yield from reach.company(scene, obj)
+        company = yield from recordings.within(self.recordings, reach.company(scene, obj))
         if not company.walkers:
             raise DesirePathError(NOBODY.format(obj.name))
         self.grounds = [each.name for each in company.grounds]
@@ -106,7 +107,9 @@ class Job:
         reach.follow(company)
         for each in company.walkers:
             sample.poses(each)
-        bake, self.surfaces = yield from inputs.taken(scene, company, folders, wait=0.0)
+        steps = inputs.taken(scene, company, folders, wait=0.0)
+        bake, self.surfaces = yield from recordings.within(self.recordings, steps)
+        self.recordings = None
         for each, parcel in zip(company.grounds, bake.parcels):
             parcel.inputs.update(inputs.marks(each, company, bake, self.surfaces))
         self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, bake.parcels))

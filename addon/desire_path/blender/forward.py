@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..placement import cycle
-from . import axes, clock, compat, forward_curve, moves, posing, sample
+from . import axes, clock, compat, forward_curve, moves, posing, recordings
 
 OURS = "desire_path_carried"  # on an action of ours: how many keys it was made with
 SOURCE = "desire_path_carried_from"  # and the action it was made from, where there was one
@@ -57,7 +57,7 @@ def carry(scene, armature, line=None):
             return ""
         switch(armature, False)
     first, last = moves.frame_range(scene, armature)
-    gait = sample.record(scene, armature, first, last, samples=1)
+    gait = recordings.record(scene, armature, first, last, samples=1)
     velocity = cycle.ahead(gait)
     if velocity is None:
         why = "does not walk" if _stays(gait) else "moves by itself"
@@ -86,7 +86,7 @@ def carry(scene, armature, line=None):
         copied[OURS] = _keys(curves)
         bpy.context.view_layer.update()
         end = first + round(seconds * clock.frame_rate(scene))
-        came = sample.record(scene, armature, end - 1, end, samples=1).com[0, -1]
+        came = _came(scene, armature, end)
         if np.hypot(*(came - wanted)[:2]) > SHARE * np.hypot(*velocity) * seconds:
             raise DesirePathError(
                 f"'{armature.name}' walks in place and cannot be carried ahead, since something else holds it there: "
@@ -204,6 +204,14 @@ def _only_strip(animation):
     full = np.allclose(span, strip.action.frame_range[:], atol=1e-3)
     plain = strip.scale == strip.repeat == 1.0 and not (strip.use_reverse or strip.use_animated_influence)
     return strip if full and plain and strip.blend_type == "REPLACE" else None
+
+
+def _came(scene, armature, frame):
+    """Where the mass centre is at a scene frame (3,) [m], seen in all of the walk where that is asked for next."""
+    first, last = moves.frame_range(scene, armature)
+    if recordings.current() is None or not first <= frame <= last:
+        first, last = frame - 1, frame
+    return recordings.record(scene, armature, first, last, samples=1).com[0, frame - first]
 
 
 def _stays(gait):

@@ -19,7 +19,7 @@ from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, playback, pressed, reach, sample, soil_keys
+from . import axes, bodies, ground, paths, plants, playback, pressed, reach, recordings, soil_keys
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 ROUNDED = 4e-7  # rounding moves points no farther, in shares of their distance from the origin
@@ -49,7 +49,7 @@ def taken(scene, company, folders, **more):
         gait = paths.carried(scene, walkers, first, last, land)
         last = None  # every pass is shown
     else:
-        gait = company.gait or sample.gaits(scene, walkers, first, last)
+        gait = company.gait or recordings.gaits(scene, walkers, first, last)
         yield
         found = _read(scene, company, cell, ground.under(gait))
         if any(np.ptp(each.vertices[:, 2]) >= ground.LEVEL for each in found.values()) or any(

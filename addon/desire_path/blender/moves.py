@@ -68,6 +68,11 @@ def moves(obj):
     return bool(found.spans or found.goes_on)
 
 
+def movers(obj):
+    """All datablocks that have a part in how an object moves, itself among them."""
+    return _Movers(obj).seen
+
+
 def still(walkers):
     """Sentences about walkers that nothing moves: what is off, and how it comes on."""
     return [
@@ -138,6 +143,7 @@ class _Movers:
     """Everything that moves an object.
 
     spans: first and last frame of keys and strips, in the animation's time; goes_on: does anything else move it?
+    seen: all datablocks that take part in it
     """
 
     def __init__(self, obj):
@@ -145,7 +151,7 @@ class _Movers:
         own = _chain(obj)
         for each in own:
             self._look(each)
-        seen = set(own)
+        seen = self.seen = set(own)
         while self.tied:
             each = self.tied.pop()
             for other in _chain(each) if isinstance(each, bpy.types.Object) else [each]:

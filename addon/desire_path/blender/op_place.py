@@ -28,6 +28,7 @@ from .late import (
     playback,
     posing,
     reach,
+    recordings,
     sample,
     settle_feet,
     slope,
@@ -52,7 +53,7 @@ def frames_of(scene, armature, land):
 
 def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
-    gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
+    gait = recordings.record(scene, armature, frames[0], frames[-1], samples=1)
     below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)

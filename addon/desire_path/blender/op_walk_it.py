@@ -11,7 +11,7 @@ import bpy
 from ..errors import DesirePathError
 from . import op_ground, op_place, op_walkers
 from .chosen import grounds
-from .late import axes, bounds, forward, ground, moves, np, paths, place, reach, sample, size, underfoot, worn
+from .late import axes, bounds, forward, ground, moves, np, paths, place, reach, recordings, size, underfoot, worn
 from .messages import tell
 from .ops import Refusal
 
@@ -89,7 +89,8 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         if posed:
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
-            sentences = self.begin(context)
+            with recordings.kept():
+                sentences = self.begin(context)
         except BaseException:
             if posed:
                 bpy.ops.object.mode_set(mode="POSE")
@@ -113,7 +114,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
                     "Override > Make) first."
                 )
         for each in who:  # who has no feet is refused, too
-            underfoot.upright(sample.record(scene, each, *moves.frame_range(scene, each), samples=1))
+            underfoot.upright(recordings.record(scene, each, *moves.frame_range(scene, each), samples=1))
             if not moves.has_motion(each):
                 why = "it is keyed at one frame; give it an action" if moves.moves(each) else moves.why_still(each)
                 raise DesirePathError(f"Nothing moves '{each.name}': {why}.")
@@ -134,7 +135,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             sentences += [("INFO", text)] if text else []
         gaits, homes, new = [], meshes * len(who), []
         if len(meshes) != 1 or not meshes[0].desire_path.is_ground:
-            gaits = [sample.record(scene, each, *moves.frame_range(scene, each)) for each in who]
+            gaits = [recordings.record(scene, each, *moves.frame_range(scene, each)) for each in who]
             homes, new, more = self.lands(context, who, meshes, gaits)
             sentences += more
         for each in new:
@@ -186,7 +187,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         if not forward.is_carried(armature):
             return []
         frames = op_place.frames_of(scene, armature, land)
-        gait = sample.record(scene, armature, frames[0], frames[-1], samples=1)
+        gait = recordings.record(scene, armature, frames[0], frames[-1], samples=1)
         below, _, _ = reach.under(scene, armature, land, gait, frames[0])
         if not place.carries(gait, below, 0):
             return []

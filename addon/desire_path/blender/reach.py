@@ -15,7 +15,7 @@ from ..ground import parcels as fields
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation
 from ..motion.gait import Gait
-from . import auto, axes, ground, moves, paths, ride, sample, worn
+from . import auto, axes, ground, moves, paths, recordings, ride, sample, worn
 from .chosen import grounds, walkers
 
 ROUGH = 0.5  # a ground this near to the feet is looked at [m]
@@ -177,7 +177,7 @@ def _frames(chosen, crew):
 def _track(scene, walker, home, all_walkers):
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
-        gait = sample.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
+        gait = recordings.record(scene, walker, first, last, sample.samples_of(scene, all_walkers))
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
         line = paths.waypoints(scene, walker.desire_path.path, first)

@@ -1,0 +1,79 @@
+"""Walk It does what it does once: a walk is recorded, and what was recorded serves all who ask."""
+
+import os
+
+import bpy
+import numpy as np
+from test_refined import plane
+from test_walk_it import character, curve, hill, select, summary
+
+from desire_path.bake.bake import read_index
+from desire_path.bake.contents import MAPS_ALWAYS
+from desire_path.blender import forward, home, recordings, sample
+from desire_path.ground import maps
+
+
+def counted(*selected, fresh=False):
+    """(the recordings that Walk It makes, the summary of its ground); fresh: none of them is kept"""
+    made, real, kept = [], sample.record, recordings._kept
+    sample.record = lambda *asked: made.append((asked[2:4], len(asked) > 5)) or real(*asked)
+    keys = recordings._depends
+    if fresh:
+        recordings._depends = lambda *_: (object(),)
+    try:
+        select(*selected)
+        assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
+    finally:
+        sample.record, recordings._depends = real, keys
+    assert recordings._kept is kept is None  # nothing outlives the button
+    found = summary(next(each for each in selected if each.type == "ARMATURE").desire_path.ground)
+    return made, {name: value for name, value in found.items() if name != "seconds_in_all"}
+
+
+def level():
+    return [character()]
+
+
+def crossed():
+    """Two grounds that one walk crosses, two characters."""
+    one, other = character(), character()
+    other.location.x = 0.5
+    for y in (-6.0, -11.0):
+        made = plane(side=1.0)
+        made.scale, made.location.y = (3.0, 2.5, 1.0), y + 5.0
+    bpy.context.view_layer.update()
+    return [one, other, *(each for each in bpy.data.objects if each.type == "MESH" and each.parent is None)]
+
+
+def hilly():
+    return [character(), hill(lambda x, y: 0.3 * np.sin(y))]
+
+
+def elsewhere():
+    """Who is carried along one line already goes along another one that is as long."""
+    rig = character()
+    forward.carry(bpy.context.scene, rig, np.array([(0.0, 0.0), (0.0, 2.0), (2.0, 2.0)]))
+    return [rig, curve((0.0, 0.0), (0.0, -2.0), (-2.0, -2.0))]
+
+
+def test_the_clip_and_the_walk_are_recorded_once_each():
+    # placed feet are another walk, then on their slopes; what went along a curve before did so for as many frames
+    for setting, wanted in ((level, 2), (crossed, 4), (hilly, 4), (elsewhere, 3)):
+        prints = []
+        for fresh in (False, True):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            made, found = counted(*setting(), fresh=fresh)
+            assert fresh or len(made) == wanted, (setting.__name__, made)
+            assert not fresh or len(made) > wanted, (setting.__name__, made)
+            prints.append((found, marks()))
+        assert prints[0] == prints[1], setting.__name__
+
+
+def marks():
+    """What each ground was baked from, and what came of it."""
+    out = []
+    for each in sorted((obj for obj in bpy.data.objects if obj.desire_path.is_ground), key=lambda obj: obj.name):
+        index = read_index(home.folder(each))
+        final = maps.read(os.path.join(os.path.dirname(index.folder), MAPS_ALWAYS[1]))
+        out.append((index.inputs, {name: plane.tobytes() for name, plane in final.planes.items()}))
+    return out
