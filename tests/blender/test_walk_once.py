@@ -1,15 +1,17 @@
-"""Walk It does what it does once: a walk is recorded, and what was recorded serves all who ask."""
+"""Walk It records a walk once, and what was recorded serves all who ask; bare ground looks like its soil."""
 
 import os
 
 import bpy
 import numpy as np
-from test_refined import plane
+from scenes import meshes
+from test_refined import copy_of, plane
+from test_underfoot import heard
 from test_walk_it import character, curve, hill, select, summary
 
 from desire_path.bake.bake import read_index
 from desire_path.bake.contents import MAPS_ALWAYS
-from desire_path.blender import forward, home, recordings, sample
+from desire_path.blender import forward, home, materials, recordings, sample
 from desire_path.ground import maps
 
 
@@ -77,3 +79,51 @@ def marks():
         final = maps.read(os.path.join(os.path.dirname(index.folder), MAPS_ALWAYS[1]))
         out.append((index.inputs, {name: plane.tobytes() for name, plane in final.planes.items()}))
     return out
+
+
+def test_a_ground_without_a_material_looks_like_its_soil():
+    rig, land = character(), hill(lambda x, y: 0.0 * x)
+    land.data.materials.append(None)
+    select(rig, land)
+    told = heard(bpy.ops.object.desire_path_walk_it)
+    assert [each.name for each in land.data.materials] == ["Desire Path Sand"], land.data.materials[:]
+    assert told.rstrip().endswith("'Ground' is made of 'Desire Path Sand'."), told
+    assert copy_of(land).data.materials[0] == land.data.materials[0]
+    assert land.desire_path.bake_state == "FRESH"
+
+
+def test_what_is_made_to_be_walked_on_has_a_material_and_undo_takes_both():
+    rig = character()
+    select(rig)
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.object.desire_path_walk_it("EXEC_DEFAULT", True) == {"FINISHED"}
+    land = bpy.data.objects["Rig"].desire_path.ground
+    assert materials.is_ours(land.data.materials[0]) and land.desire_path.bake_state == "FRESH"
+    bpy.ops.ed.undo()
+    assert "Ground" not in bpy.data.objects and not [each for each in bpy.data.materials if materials.is_ours(each)]
+
+
+def test_a_material_of_the_users_is_not_touched():
+    rig, land = character(), plane(side=8.0)
+    own = bpy.data.materials.new("Own")
+    own.use_nodes = True
+    land.data.materials.append(None)
+    land.data.materials.append(own)
+    nodes = len(own.node_tree.nodes)
+    select(rig, land)
+    assert "is made of" not in heard(bpy.ops.object.desire_path_walk_it)
+    assert land.data.materials[:] == [None, own] and len(own.node_tree.nodes) == nodes
+    assert not [each for each in bpy.data.materials if materials.is_ours(each)]
+
+
+def test_what_cannot_be_given_a_material_is_walked_on_and_told(folder):
+    path = str(folder / "library.blend")
+    bpy.data.libraries.write(path, {plane(side=8.0).data})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (there, here):
+        here.meshes = there.meshes
+    rig, land = character(), meshes.link(bpy.data.objects.new("Land", here.meshes[0]))
+    select(rig, land)
+    told = heard(bpy.ops.object.desire_path_walk_it)
+    assert "is linked from another file and has no material slot" in told, told
+    assert rig.desire_path.ground == land and land.desire_path.bake_state == "FRESH", told

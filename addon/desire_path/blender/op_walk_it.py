@@ -2,6 +2,7 @@
 
 what is selected --> characters --forward.py--> they go ahead, along a curve that is selected, too --underfoot.py-->
 the meshes they tread are grounds, or one is made --op_place.py--> on a hill their feet are placed --> bake
+--materials.py--> a ground without a material looks like what it is made of
 """
 
 import re
@@ -11,7 +12,23 @@ import bpy
 from ..errors import DesirePathError
 from . import op_ground, op_place, op_walkers
 from .chosen import grounds
-from .late import axes, bounds, forward, ground, moves, np, paths, place, reach, recordings, size, underfoot, worn
+from .late import (
+    axes,
+    bounds,
+    forward,
+    ground,
+    materials,
+    moves,
+    np,
+    paths,
+    place,
+    reach,
+    recordings,
+    size,
+    underfoot,
+    watch,
+    worn,
+)
 from .messages import tell
 from .ops import Refusal
 
@@ -152,7 +169,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
         if not bpy.app.background:
             for each in set(homes) & set(new):
                 each.desire_path.auto_update = True  # whoever asks for one button wants no second one
-        return sentences
+        return sentences + look_like_soil(scene, [*homes, *new])
 
     def lands(self, context, who, meshes, gaits):
         """(the ground of each character, meshes that are to be grounds, what is to be told)"""
@@ -234,6 +251,21 @@ class _Before:
                 bpy.data.objects.remove(each)
                 bpy.data.meshes.remove(mesh)
         self.context.view_layer.objects.active = self.active
+
+
+def look_like_soil(scene, lands):
+    """Grounds that have no material get one of what they are made of; returns what is to be told."""
+    told = []
+    for each in dict.fromkeys(lands):
+        if any(slot.material is not None for slot in each.material_slots):
+            continue
+        try:
+            told.append(("INFO", materials.add(scene, each)))
+        except DesirePathError as problem:
+            told.append(("WARNING", str(problem)))
+            continue
+        watch.renew(scene, each)
+    return told
 
 
 def make_ground(context, gaits):
