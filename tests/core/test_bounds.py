@@ -172,7 +172,8 @@ import numpy, desire_path.bake.bake, desire_path.study.trampling, desire_path._n
 from desire_path.__main__ import main
 def deep(calls):  # the stack has grown as far as it needs to: a system that refuses that ends the process itself
     return calls and sorted([calls], key=lambda _: deep(calls - 1))
-deep(200)
+sys.setrecursionlimit(4000)
+deep(400)
 pages = int(open("/proc/self/statm").read().split()[0])
 resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + (int(sys.argv[1]) << 20),) * 2)
 sys.exit(main(sys.argv[2:]))

@@ -13,6 +13,7 @@ from collections import Counter
 import bpy
 import numpy as np
 
+from .. import bounds
 from ..errors import DesirePathError
 from ..placement import cycle
 from . import axes, clock, compat, forward_curve, moves, posing, recordings
@@ -209,7 +210,8 @@ def _only_strip(animation):
 def _came(scene, armature, frame):
     """Where the mass centre is at a scene frame (3,) [m], seen in all of the walk where that is asked for next."""
     first, last = moves.frame_range(scene, armature)
-    if recordings.current() is None or not first <= frame <= last:
+    endless = last - first + 1 > bounds.Limits().frames  # which is told of before it is recorded
+    if recordings.current() is None or endless or not first <= frame <= last:
         first, last = frame - 1, frame
     return recordings.record(scene, armature, first, last, samples=1).com[0, frame - first]
 

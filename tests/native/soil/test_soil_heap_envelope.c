@@ -112,7 +112,7 @@ TEST(cones_fall_by_their_slope_around_all_that_takes_no_soil)
         const int at[3][2] = {{13, 12}, {22, 17}, {17, 8}};
         for (int k = 0; k < 3; ++k) {
             ground.base_height[at[k][1] * NX + at[k][0]] = 3.0f;
-            apex[k] = (Apex){at[k][0], at[k][1], 3.0, k == 0 ? 1.0 : 0.7, 0.25 * k};
+            apex[k] = (Apex){at[k][0], at[k][1], 3.0, k == 0 ? 1.0 : 0.7, 0.25 * k, 0.0, 0.0};
         }
         Heap heap = heap_on(&ground, 0, 0, NX, NY);
         heap.apex_count = 1 + (int)(seed % 3);
@@ -137,7 +137,7 @@ TEST(one_cone_on_level_ground)
 {
     Ground ground = ground_make(NX, NY, CELL, dp_soil_default());
     for (int k = 0; k < NX * NY; ++k) ground.imprint.ring[k] = DP_RING_FAR;
-    apex[0] = (Apex){18, 14, 0.0, 1.0, 0.0};
+    apex[0] = (Apex){18, 14, 0.0, 1.0, 0.0, 0.0, 0.0};
     Heap heap = heap_on(&ground, 0, 0, NX, NY);
     heap.apex_count = 1;
     const Laid laid = dp_heap_fill(&heap, HEIGHT);

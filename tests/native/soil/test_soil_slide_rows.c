@@ -8,7 +8,7 @@
 #define HIGH 5
 #define CELLS (ROW * HIGH)
 #define FILM 2e-5f
-#define HOLD 0.25
+#define HELD 0.25
 
 static float firm[CELLS], height[CELLS], heap[CELLS], fall[CELLS], slack[CELLS], share[CELLS],
     give[CELLS];
@@ -57,7 +57,7 @@ static double least(double a, double b)
 // how much of its excess a cell gives of it all, by how far the steepest neighbour is beyond rest
 static double eagerness(double worst, double slack_of)
 {
-    return least(1.0, fmax(0.0, worst - HOLD * slack_of) / (HOLD * slack_of));
+    return least(1.0, fmax(0.0, worst - HELD * slack_of) / (HELD * slack_of));
 }
 
 // TRAIL (14): by how much a cell is higher than it may be over its q-th neighbour
