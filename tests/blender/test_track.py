@@ -5,7 +5,7 @@ import numpy as np
 from scenes import meshes
 
 from desire_path.bake.bake import read_index
-from desire_path.blender import compat, playback, pressed, track
+from desire_path.blender import compat, playback, pressed
 from desire_path.ground.sim import Ground
 
 
@@ -101,7 +101,7 @@ def test_stamps_are_pressed_and_play_and_are_pressed_anew(folder):
     assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
     assert playback.modifier(land) is not None and pressed.plays(land)
     index = read_index(pressed.folder(land))
-    assert index.inputs[track.TRACKS] and index.inputs[pressed.HAND]
+    assert index.inputs[pressed.TRACKS] and index.inputs[pressed.HAND]
     for x in (-1.5, -0.75, 0.0, 0.75, 1.5):
         assert 0.02 < depth_at(land, x - 0.08, 0.0) < 0.031, (x, depth_at(land, x - 0.08, 0.0))
     assert depth_at(land, -0.35, 0.0) == 0.0
@@ -154,21 +154,80 @@ def test_bad_tracks_are_refused_in_a_sentence(folder):
     assert not land.desire_path.pressed and playback.modifier(land) is None
 
 
-def test_tracks_go_on_from_what_a_hand_has_pressed(folder):
+def test_what_is_chosen_later_is_shown_too(folder):
+    lonely = curve((-1.5, 0.0), (1.5, 0.0))
+    refused("press Add Ground on a mesh first", lonely, kind="SOLE")
+    assert not lonely.desire_path.track.is_track
+    field(folder)
+    assert add(lonely, kind="SOLE") == {"FINISHED"} and lonely.desire_path.track.marks is None
+    lonely.desire_path.track.sole = meshes.grid(2, 2, 0.2, -0.1, -0.1)
+    assert len(lonely.desire_path.track.marks.data.vertices) == 5 * 5
+    lonely.desire_path.track.end_speed = 0.35  # steps are half as long at the end
+    slower = len(lonely.desire_path.track.marks.data.vertices)
+    assert slower == 5 * 6
+    lonely.desire_path.track.speed = 0.35
+    assert len(lonely.desire_path.track.marks.data.vertices) == 5 * 5 < slower
+
+
+def test_tracks_that_changed_are_outdated(folder):
     land, line = field(folder), curve((-1.0, 0.5), (1.0, 0.5))
+    add(line)
+    use(land)
+
+    def state():
+        bpy.context.view_layer.update()
+        return land.desire_path.bake_state
+
+    def press():
+        assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
+        assert state() == "FRESH", state()
+
+    press()
+    line.location.y = -0.3
+    assert state() == "OUTDATED" and "The tracks have changed" in land.desire_path.missing, land.desire_path.missing
+    press()
+    for name, value in (("size", 1.2), ("first", "right"), ("stamp", "wolf"), ("kind", "WHEEL"), ("radius", 0.5)):
+        setattr(line.desire_path.track, name, value)
+        assert state() == "OUTDATED", name
+        press()
+    line.desire_path.track.is_track = False
+    assert state() == "OUTDATED" and "free the ground" in land.desire_path.missing
+
+
+def by_hand(land, x, y):
     block = box(0.1)
-    block.location = (0.0, -0.5, 0.03)
+    block.location = (x, y, 0.03)
     bpy.context.view_layer.update()
     for each in bpy.context.scene.objects:
         each.select_set(each in (land, block))
     bpy.context.view_layer.objects.active = block
     assert bpy.ops.object.desire_path_press() == {"FINISHED"}
-    by_hand = depth_at(land, 0.0, -0.5)
-    assert by_hand > 0.01
+    return depth_at(land, x, y)
+
+
+def test_tracks_go_on_from_what_a_hand_has_pressed(folder):
+    land, line = field(folder), curve((-1.0, 0.5), (1.0, 0.5))
+    deep = by_hand(land, 0.0, -0.5)
+    assert deep > 0.01
     add(line)
     assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
-    assert abs(depth_at(land, 0.0, -0.5) - by_hand) < 1e-4 and pressed_map(land).compression.max() > 0.005
-    assert track.TRACKS not in read_index(pressed.folder(land)).inputs
+    assert abs(depth_at(land, 0.0, -0.5) - deep) < 1e-4 and pressed_map(land).compression.max() > 0.005
+    first = pressed.folder(land)
+    refused("would be pressed twice", land, "tracks_press")
+    assert pressed.folder(land) == first
+
+
+def test_a_hand_goes_on_from_tracks_which_are_not_pressed_twice(folder):
+    land, line = field(folder), curve((-1.0, 0.5), (1.0, 0.5))
+    add(line)
+    assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
+    before = pressed_map(land).compression.max()
+    assert by_hand(land, 0.0, -0.5) > 0.01 and pressed_map(land).compression[150:].max() == before
+    assert land.desire_path.bake_state == "FRESH"
+    refused("would be pressed twice", land, "tracks_press")
+    line.location.y = -0.1
+    bpy.context.view_layer.update()
+    assert land.desire_path.bake_state == "OUTDATED"
 
 
 def test_units_of_the_scene_do_not_change_a_track(folder):

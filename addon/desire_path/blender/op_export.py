@@ -4,6 +4,7 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ..errors import DesirePathError
+from . import messages
 from .late import height16, home
 from .ops import Refusal, active
 
@@ -44,7 +45,7 @@ class WM_OT_desire_path_export(Refusal, bpy.types.Operator):
             raise DesirePathError("There is no name to write to: give a filepath that ends with .png, .raw or .r16.")
         path = bpy.path.abspath(self.filepath)
         told = height16.write(place, path)
-        self.report({"INFO"}, f"{told['columns']} x {told['rows']} heights are written to {path}.")
+        messages.tell(self, "INFO", f"{told['columns']} x {told['rows']} heights are written to {path}.")
         return {"FINISHED"}
 
 

@@ -8,7 +8,13 @@ from .late import bake_job, track
 from .ops import Refusal, active
 
 
-class OBJECT_OT_desire_path_track_add(Refusal, bpy.types.Operator):
+class _OfCurve(Refusal):
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, {"CURVE"}, "the curve that a track lies along")
+
+
+class OBJECT_OT_desire_path_track_add(_OfCurve, bpy.types.Operator):
     """Let marks lie along the active curve, on its ground or the only one there is, and show where"""
 
     bl_idname = "object.desire_path_track_add"
@@ -18,35 +24,27 @@ class OBJECT_OT_desire_path_track_add(Refusal, bpy.types.Operator):
     kind: EnumProperty(name="Leaves", items=props_track.KINDS, description="What leaves the track")
     stamp: EnumProperty(name="Stamp", items=props_track.STAMPS, description="The shape of the marks")
 
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"CURVE"}, "the curve that a track lies along")
-
     def work(self, context):
         obj = context.object
         settings = obj.desire_path.track
         if self.kind == "SOLE" and settings.sole is None or self.kind == "STAMPS" and self.stamp == "image":
-            settings.kind, settings.stamp, settings.is_track = self.kind, self.stamp, True
             obj.desire_path.ground = track.choose_ground(context.scene, obj)
+            settings.kind, settings.stamp, settings.is_track = self.kind, self.stamp, True
             if self.kind == "SOLE" or settings.image is None:
-                self.report({"INFO"}, f"Choose what leaves the marks of '{obj.name}' in its panel.")
+                messages.tell(self, "INFO", f"Choose what leaves the marks of '{obj.name}' in its panel.")
                 return {"FINISHED"}
         land, count = track.settle(context.scene, obj, self.kind, self.stamp)
         lies = f"{count} marks lie" if count else "A rut lies"
-        self.report({"INFO"}, f"{lies} along '{obj.name}' on '{land.name}': Press Tracks presses them.")
+        messages.tell(self, "INFO", f"{lies} along '{obj.name}' on '{land.name}': Press Tracks presses them.")
         return {"FINISHED"}
 
 
-class OBJECT_OT_desire_path_track_remove(Refusal, bpy.types.Operator):
+class OBJECT_OT_desire_path_track_remove(_OfCurve, bpy.types.Operator):
     """Let no marks lie along the active curve; what was pressed stays until tracks are pressed again"""
 
     bl_idname = "object.desire_path_track_remove"
     bl_label = "Remove Track"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"CURVE"}, "the curve that a track lies along")
 
     def work(self, context):
         track.forget(context.object)
@@ -73,8 +71,7 @@ class OBJECT_OT_desire_path_tracks_press(Refusal, bpy.types.Operator):
         sentences = []
         text = track.press_all(scene, land, sentences)
         for each in (*dict.fromkeys(sentences), text):
-            messages.add("INFO", each)
-            self.report({"INFO"}, each)
+            messages.tell(self, "INFO", each)
         return {"FINISHED"}
 
 

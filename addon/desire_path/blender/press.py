@@ -105,7 +105,7 @@ class Press:
         cell = axes.typed(settings.cell_size)
         self.surface = ground.read(self.scene, obj, cell, self.scene.frame_current)
         self.sentences += self.surface.warnings
-        base = pressed.start(obj, self.surface.ground)
+        base, self.beneath = pressed.start(obj, self.surface.ground), pressed.mixed(obj)
         options = SimulationOptions(
             law=settings.law, heap=settings.heap, origin=self.surface.origin, threads=settings.threads
         )
@@ -245,9 +245,8 @@ class Press:
         """What was pressed stays: a bake of its own, which plays where nobody walks; returns a sentence."""
         self.live.lift()
         obj = bpy.data.objects[self.name]
-        return stay(
-            self.scene, obj, self.surface, self.live, self.sentences, pressed.marks(obj, self.surface), self.view
-        )
+        inputs = pressed.marks(obj, self.surface) | self.beneath
+        return stay(self.scene, obj, self.surface, self.live, self.sentences, inputs, self.view)
 
     def drop(self):
         """Nothing was pressed: the ground, and the objects, are as they were."""

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import bpy
 
+from ..bake.bake import read_index
 from ..bake.output import free
 from ..errors import DesirePathError
 from ..ground import mesh
@@ -18,6 +19,8 @@ from ..ground.sim import Ground
 from . import axes, ground, home
 
 HAND = "pressed"  # in a bake's inputs: it was pressed by hand
+TRACKS = "tracks"  # .. : tracks are in it, and what they were made from
+MIXED = "mixed"  # .. : and something else that a hand has pressed, so that they cannot be pressed anew alone
 SETTINGS = ("law", "heap")
 _left = set()  # (folder, owner) of bakes that others have taken the place of in this session
 
@@ -52,9 +55,28 @@ def start(obj, given):
     try:
         return replace(given, trail=Ground.read(os.path.join(path, "maps_final.exr")).trail)
     except DesirePathError as problem:
-        raise DesirePathError(
-            f"What was pressed into '{obj.name}' by hand cannot be read ({problem}) Press it again, or free the ground."
-        ) from None
+        raise _unreadable(obj, problem) from None
+
+
+def _unreadable(obj, problem):
+    return DesirePathError(
+        f"What was pressed into '{obj.name}' by hand cannot be read ({problem}) Press it again, or free the ground."
+    )
+
+
+def inputs(obj):
+    """What is known of what was pressed into a ground, by part; empty where nothing was."""
+    path = folder(obj)
+    try:
+        return read_index(path).inputs if path else {}
+    except DesirePathError as problem:
+        raise _unreadable(obj, problem) from None
+
+
+def mixed(obj):
+    """The same of the tracks, for what goes on from them; empty where there are none."""
+    found = inputs(obj)
+    return {TRACKS: found[TRACKS], MIXED: True} if TRACKS in found else {}
 
 
 def plays(obj):

@@ -89,7 +89,10 @@ class DesirePathTrack(bpy.types.PropertyGroup):
     )
     weight: units.mass("mass", "Mass", "What rests on a mark, or on all wheels; 0 = as is usual", min=0.0)
     speed: FloatProperty(
-        name="Speed [m/s]", min=0.0, description="At the start of the curve, in metres a second; 0 = as is usual"
+        name="Speed [m/s]",
+        min=0.0,
+        update=_preview,
+        description="At the start of the curve, in metres a second; 0 = as is usual",
     )
     end_speed: FloatProperty(
         name="End Speed [m/s]",

@@ -9,6 +9,18 @@ GERMAN = {
     "The tracks lie in {} cells of {} m: choose larger cells.": (
         "Die Fährten liegen in {} Zellen von {} m: größere Zellen wählen."
     ),
+    # ---- blender/track.py
+    "The tracks of '{}' are pressed already, together with what a hand has pressed, and would be pressed twice: "
+    "undo that, or free the ground, first.": (
+        "Die Fährten von '{}' sind schon eingedrückt, zusammen mit dem, was eine Hand eingedrückt hat, und würden es "
+        "zweimal: das erst rückgängig machen, oder den Boden freigeben."
+    ),
+    "The tracks that were pressed are gone: free the ground, or add others and press them.": (
+        "Die Fährten, die eingedrückt wurden, sind fort: den Boden freigeben, oder andere hinzufügen und eindrücken."
+    ),
+    "The tracks have changed since they were pressed: press them again.": (
+        "Die Fährten haben sich geändert, seit sie eingedrückt wurden: sie wieder eindrücken."
+    ),
     # ---- placement/marks.py
     "There is no foot '{}' to begin with: choose left or right.": (
         "Es gibt keinen Fuß '{}', um zu beginnen: left oder right wählen."

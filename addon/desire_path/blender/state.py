@@ -18,6 +18,7 @@ from ..bake.bake import read_index
 from ..errors import DesirePathError
 from . import compat, home, inputs, playback, pressed, show, soil_keys
 from .chosen import walkers
+from .late import track
 from .private import looked_at
 
 NONE, FRESH, OUTDATED, PARTIAL, MISSING = STATES = "NONE", "FRESH", "OUTDATED", "PARTIAL", "MISSING"
@@ -78,7 +79,7 @@ def _changed(obj, index):
         if walkers(scene, obj):
             return f"'{obj.name}' is shown as it was pressed by hand, before anybody walks on it: bake it."
         try:
-            return pressed.changed(scene, obj, index)
+            return pressed.changed(scene, obj, index) or track.changed(scene, obj, index)
         except DesirePathError as problem:
             return f"The scene has changed since the ground was pressed: {problem}"
     if not walkers(scene, obj) and not home.is_own(obj):

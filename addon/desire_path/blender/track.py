@@ -10,9 +10,9 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..bake.bake import read_index
 from ..bake.stamping import TrackPress
 from ..errors import DesirePathError
+from ..ground import mesh
 from ..ground.options import SimulationOptions
 from ..placement import stamps
 from ..placement.marks import Drive, Marks, lay
@@ -21,7 +21,7 @@ from ..placement.track import Wheel, rolled
 from . import axes, clock, ground, paths, picture, press, pressed
 from .chosen import grounds
 
-TRACKS = "tracks"  # in a bake's inputs: tracks alone pressed it
+APART = {"rna_type", "name", "image", "sole", "marks", "weight"}  # of a track's settings: no numbers, or told twice
 RUT_STEP = 0.5  # ruts are shown by lines with a place so often [m]
 ABOVE = 0.005  # marks are shown so high over the ground [m]
 
@@ -138,9 +138,9 @@ def preview(scene, obj, below):
 
 
 def preview_again(obj):
-    """A setting of a curve was changed: its marks are shown anew, if they are shown and can be."""
+    """A setting of a curve was changed: its marks are shown anew, if they can be."""
     settings, scene = obj.desire_path, bpy.context.scene
-    if not settings.track.is_track or settings.track.marks is None or settings.ground is None:
+    if not settings.track.is_track or settings.ground is None:
         return
     with suppress(DesirePathError):  # what is wrong is told where it is pressed
         preview(scene, obj, heights(surface_of(scene, settings.ground), settings.ground))
@@ -202,7 +202,14 @@ def press_all(scene, land, sentences):
     sentences += surface.warnings
     below = heights(surface, land)
     laid = [made(scene, each, below) for each in curves]
-    base = surface.ground if _tracks_alone(land) else pressed.start(land, surface.ground)
+    there = pressed.inputs(land)
+    if pressed.MIXED in there:
+        raise DesirePathError(
+            f"The tracks of '{land.name}' are pressed already, together with what a hand has pressed, and would be "
+            "pressed twice: undo that, or free the ground, first."
+        )
+    alone = pressed.TRACKS in there
+    base = surface.ground if alone else pressed.start(land, surface.ground)
     live = TrackPress(
         base,
         laid,
@@ -212,9 +219,9 @@ def press_all(scene, land, sentences):
             law=settings.law, heap=settings.heap, origin=surface.origin, threads=settings.threads
         ),
     )
-    inputs = pressed.marks(land, surface)
-    if base is surface.ground:
-        inputs[TRACKS] = True
+    inputs = pressed.marks(land, surface) | {pressed.TRACKS: _mark(scene, curves)}
+    if there and not alone:
+        inputs[pressed.MIXED] = True
     try:
         live.press()
         sentences += live.warnings
@@ -224,11 +231,30 @@ def press_all(scene, land, sentences):
     return text
 
 
-def _tracks_alone(land):
-    """Whether what was pressed into a ground, if anything was, is tracks."""
-    path = pressed.folder(land)
-    index = read_index(path) if path else None
-    return index is not None and bool(index.inputs.get(TRACKS))
+def changed(scene, land, index):
+    """A sentence about what has changed since tracks were pressed, if any were; empty where nothing has."""
+    if pressed.TRACKS not in index.inputs:
+        return ""
+    curves = tracks(scene, land)
+    if not curves:
+        return "The tracks that were pressed are gone: free the ground, or add others and press them."
+    if _mark(scene, curves) != index.inputs[pressed.TRACKS]:
+        return "The tracks have changed since they were pressed: press them again."
+    return ""
+
+
+def _mark(scene, curves):
+    """A word for all that tracks are made from but their ground."""
+    arrays, words = [], []
+    for obj in curves:
+        settings = obj.desire_path.track
+        arrays.append(paths.waypoints(scene, obj))
+        if settings.kind != "WHEEL":
+            stamp = stamp_of(obj)
+            arrays += map(np.asarray, stamp.draw(stamp.length))
+        numbers = {name: getattr(settings, name) for name in settings.bl_rna.properties.keys() if name not in APART}
+        words.append((obj.name, numbers))
+    return mesh.mark(arrays, words)
 
 
 def settle(scene, obj, kind, stamp):
