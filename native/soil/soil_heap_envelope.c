@@ -2,8 +2,7 @@
 #include "base/wide.h"  // first: it says how loops may be widened
 #include "soil/soil_heap_inside.h"
 
-#define SIDE \
-    0.5  // of a heap's height is what it loses at its sides; it climbs from there at the rest angle
+#define SIDE 0.5  // the share of its height a pushed heap has at its sides [-]; MODEL 6.11
 
 // What a row got from the row before, as bits.
 #define ROW_RAISED 1  // a cell is higher than it was

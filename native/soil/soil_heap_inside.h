@@ -59,5 +59,6 @@ static inline int32_t* row_of(const Window* window, int32_t* grid, int j)
 // not fit the steps.
 bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box);
 
-// Lay cones of height T sqrt(omega), lower beside the sides of what is pushed ahead, and measure what lies over the present surface.
+// Lay cones of height T sqrt(omega), lower beside the sides of what is pushed ahead, and measure
+// what lies over the present surface.
 Laid dp_heap_fill(const Heap* heap, double height);
