@@ -21,7 +21,7 @@ PACKAGE = [sys.executable, str(ROOT / "scripts" / "package")]
 PLATFORMS = ("linux-x64", "linux-arm64", "windows-x64", "macos-x64", "macos-arm64")
 RUNNERS = {
     "windows-x64": ["wine"],
-    "linux-arm64": ["qemu-aarch64", "-cpu", "cortex-a72", "-L", str(MACHINES / "arm64" / "root")],
+    "linux-arm64": ["qemu-aarch64", "-cpu", "cortex-a72", "-L", str(MACHINES / "arm64" / "system")],
 }
 LONGEST = 2400  # [s] of one program
 
@@ -80,8 +80,8 @@ class Machine:
         if self.platform == "windows-x64":
             return run([*start, self.folder / "python" / "python.exe", self.path(script)])
         home = MACHINES / "arm64"
-        places = {**os.environ, "PYTHONPATH": f"{self.folder}/addon:{home}/site", "PYTHONHOME": f"{home}/root/usr"}
-        return run([*start, home / "root/usr/bin/python3.11", script], env=places)
+        places = {**os.environ, "PYTHONPATH": f"{self.folder}/addon:{home}/site", "PYTHONHOME": f"{home}/system/usr"}
+        return run([*start, home / "system/usr/bin/python3.11", script], env=places)
 
 
 @pytest.fixture(scope="session", params=RUNNERS)
