@@ -5,7 +5,7 @@ import numpy as np
 from scenes import gaits, meshes, people
 
 from desire_path.bake.bake import read_index
-from desire_path.blender import compat, home, inputs, playback, press, pressed, show, state
+from desire_path.blender import compat, home, inputs, playback, press, pressed, show, state, watch
 from desire_path.errors import DesirePathError
 from desire_path.ground.sim import Ground
 
@@ -133,6 +133,27 @@ def test_what_is_kept_plays_and_says_so_and_can_be_pressed_again(folder):
     assert not ground.modifiers and not ground.desire_path.pressed and len(shown(ground)) == 4
     pressed.tidy()
     assert not (folder / "bake").exists() or not list((folder / "bake").iterdir())
+
+
+def test_what_is_done_to_pressed_ground_later_is_seen(folder):
+    ground, one = plane(), ball()
+    ground.desire_path.folder = str(folder / "bake")
+    hand = press.Press(bpy.context, ground, [one], depth=0.04)
+    dragged(hand)
+    hand.keep()
+    place, low = home.played(ground), shown(ground)[:, 2].min()
+    assert low < -0.03 and home.place(ground) == place
+    chosen(ground)
+    assert bpy.ops.object.desire_path_material_add() == {"FINISHED"}
+    made = ground.material_slots[0].material
+    found = ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    assert [each.name for each in found.materials] == [made.name]
+    hill = ground.modifiers.new("Hill", "DISPLACE")  # the ground is 5 cm higher
+    hill.mid_level, hill.strength = 0.0, 0.05
+    hill.direction = "Z"
+    watch.renew(bpy.context.scene, ground)
+    assert abs(shown(ground)[:, 2].min() - low - 0.05) < 1e-3, shown(ground)[:, 2].min()
+    assert home.played(ground) == place
 
 
 def test_a_walk_goes_on_from_what_was_pressed(folder):

@@ -8,6 +8,7 @@ a folder of its own, so that a bake is replaced and freed by its own ground only
 
 import contextlib
 import os
+import posixpath
 import shutil
 import stat
 import tempfile
@@ -30,15 +31,25 @@ def folder(obj):
     return os.path.abspath(bpy.path.abspath(obj.desire_path.folder))
 
 
-def played(obj):
-    """The bake folder a ground plays from, which is another one after its file was saved elsewhere; empty: none."""
+def place(obj):
+    """The bake folder a ground plays from, as Blender writes paths; empty: none."""
     ours = playback.modifier(obj)
     image = playback.image_of(ours.node_group) if ours is not None else None
     if image is None:
         return ""
-    frames = os.path.dirname(os.path.abspath(bpy.path.abspath(image.filepath, library=image.library)))
-    above = os.path.dirname(frames)
-    return above if playback.is_published(frames) else os.path.dirname(above)
+    frames = posixpath.dirname(image.filepath.replace(os.sep, "/"))
+    above = posixpath.dirname(frames)
+    return above if playback.is_published(_absolute(frames, image)) else posixpath.dirname(above)
+
+
+def played(obj):
+    """The same as the system knows it; after its file was saved elsewhere it is another one than its own."""
+    found = place(obj)
+    return found and _absolute(found, playback.image_of(playback.modifier(obj).node_group))
+
+
+def _absolute(path, image):
+    return os.path.abspath(bpy.path.abspath(path, library=image.library))
 
 
 def sharing(obj):

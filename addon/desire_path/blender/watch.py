@@ -90,7 +90,7 @@ def _again(scene, obj, world):
         surface = ground.laid(surface, world)
         if playback.interpolates(playback.modifier(obj).node_group):  # as its neighbours may do
             surface = replace(surface, between=True)
-        _, sentences = show.play(scene, obj, surface)
+        _, sentences = show.play(scene, obj, surface, place=home.place(obj))
         summary = obj.desire_path.summary
         if summary:
             found = json.loads(summary)
