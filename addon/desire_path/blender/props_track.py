@@ -56,8 +56,8 @@ class DesirePathTrack(bpy.types.PropertyGroup):
         update=_preview,
         description="The shape of the marks, seen from above, forward is up: white is lowest, black does not touch",
     )
-    image_length: _length("Image Length [m]", "How long the image is, in metres", default=0.3)
-    image_height: _length("Image Height [m]", "From what is nearly black to what is white, in metres", default=0.01)
+    image_length: _length("Length [m]", "How long the image is, in metres", default=0.3)
+    image_height: _length("Height [m]", "From what is nearly black to what is white, in metres", default=0.01)
     sole: PointerProperty(
         name="Sole",
         type=bpy.types.Object,
@@ -95,7 +95,7 @@ class DesirePathTrack(bpy.types.PropertyGroup):
         description="At the start of the curve, in metres a second; 0 = as is usual",
     )
     end_speed: FloatProperty(
-        name="End Speed [m/s]",
+        name="End [m/s]",
         min=0.0,
         update=_preview,
         description="At the end of the curve, in metres a second: steps grow with it; 0 = as at the start",
