@@ -252,7 +252,8 @@ def _mark(scene, curves):
         if settings.kind != "WHEEL":
             stamp = stamp_of(obj)
             arrays += map(np.asarray, stamp.draw(stamp.length))
-        numbers = {name: getattr(settings, name) for name in settings.bl_rna.properties.keys() if name not in APART}
+        names = (each.identifier for each in settings.bl_rna.properties)
+        numbers = {name: getattr(settings, name) for name in names if name not in APART}
         words.append((obj.name, numbers))
     return mesh.mark(arrays, words)
 
