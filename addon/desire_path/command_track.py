@@ -1,4 +1,4 @@
-"""python -m desire_path track: marks of stamps, or ruts of wheels, along a drawn curve."""
+"""python -m desire_path track: marks of stamps, or ruts of wheels and vehicles, along a drawn curve."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from .ground.soil import as_soil
 from .motion.gait import Gait
 from .needs import Need, Parser
 from .placement import path as paths
-from .placement import stamps, tyre
+from .placement import stamps, tyre, vehicle
 from .placement.marks import SIDES, Drive, Marks, lay
 from .placement.track import Wheel, rolled, stamped
 
-STAMPED = Need(lambda args: args.wheel is None, "is of stamps: leave --wheel out")
+STAMPED = Need(
+    lambda args: args.wheel is None and args.vehicle is None, "is of stamps: leave --wheel and --vehicle out"
+)
 ROLLED = Need(lambda args: args.wheel is not None, "is of wheels: add --wheel RADIUS")
 SCATTERED = Need(lambda args: bool(args.plants) or args.scatter is not None, "is of chance: add --scatter or --plants")
 STAMP = Need(lambda args: args.stamp.endswith(".exr"), "is that of a picture: give --stamp a .exr")
@@ -29,7 +31,8 @@ MOVES = ("film", "plants", "soil_keys", "frame_start", "frame_end", "limit")  # 
 def _track(args: argparse.Namespace) -> None:
     ground = read_ground(args.ground, args.ground_spacing)
     below = Simulation(ground, options=SimulationOptions(origin=args.origin or (0.0, 0.0)))
-    if args.wheel is None and not any(getattr(args, name) for name in MOVES) and args.model == "inertia":
+    at_once = STAMPED.met(args) and args.model == "inertia"
+    if at_once and not any(getattr(args, name) for name in MOVES):
         _at_once(args, ground, below)
     else:
         args.film = args.film or "frames"
@@ -49,6 +52,8 @@ def _stamp(args: argparse.Namespace) -> stamps.Stamp:
 
 def _motion(args: argparse.Namespace, below: Simulation) -> Gait:
     curve, (marks, drive) = paths.read(args.along), _numbers(args)
+    if args.vehicle is not None:
+        return rolled(curve, vehicle.find(args.vehicle), drive, below)
     if args.wheel is not None:
         return rolled(curve, Wheel(args.wheel, args.tyre_width, args.tread, args.gauge), drive, below)
     return stamped(curve, _stamp(args), marks, drive, below)
@@ -92,13 +97,17 @@ def add(tasks: argparse._SubParsersAction[Parser]) -> None:
     track.option("--size", STAMPED, type=float, default=1.0, help="times as large as usual (1)")
     track.option("--scatter", STAMPED, type=float, help="by how much sizes differ, a share (0)")
     track.option("--seed", SCATTERED, type=int, default=0, help="of sizes and plants (0)")
-    track.add_argument("--wheel", type=float, metavar="RADIUS", help="a wheel rolls along, in place of stamps [m]")
+    rolls = track.add_mutually_exclusive_group()
+    rolls.add_argument("--wheel", type=float, metavar="RADIUS", help="a wheel rolls along, in place of stamps [m]")
+    rolls.add_argument(
+        "--vehicle", metavar="NAME", help=f"all wheels of a {', '.join(vehicle.VEHICLES)}, or of one saved as .json"
+    )
     track.option("--tyre-width", ROLLED, type=float, default=0.2, help="how wide its tyre is [m] (0.2)")
     track.option("--tread", ROLLED, default="blocks", choices=tyre.TYRES, help="what its rim carries (blocks)")
     track.option("--gauge", ROLLED, type=float, default=0.0, help="two wheels, so far from middle to middle [m] (one)")
-    track.add_argument("--mass", type=float, help="that rests on a mark, or on all wheels [kg] (the stamp's; 200)")
+    track.add_argument("--mass", type=float, help="that rests on a mark, or on all wheels [kg] (what is usual)")
     track.add_argument("--depth", type=float, help="so deep, whatever it weighs, instead of a mass [m]")
-    track.add_argument("--speed", type=float, help="at the start [m/s] (the stamp's; 2)")
+    track.add_argument("--speed", type=float, help="at the start [m/s] (what is usual)")
     track.add_argument("--end-speed", type=float, help="at the end [m/s] (as at the start)")
     track.add_argument("--frame-rate", type=float, default=24.0, help="playback frames a second (24)")
     track.add_argument(

@@ -135,6 +135,25 @@ def test_crossing_tracks_wheels_images_and_soles_lie_on_one_ground(folder):
     assert abs(depth_at(land, -1.5, 1.0) - 0.02) < 1e-3 and depth_at(land, -1.14, 1.0) == 0.0
 
 
+def test_all_wheels_of_a_vehicle_are_shown_and_pressed(folder):
+    land, line = field(folder), curve((-0.5, 0.0), (1.5, 0.0))
+    assert add(line, kind="WHEEL", vehicle="bicycle") == {"FINISHED"}
+    settings = line.desire_path.track
+    at = compat.positions(settings.marks.data)
+    assert abs(at[:, 0].min() + 0.5 + 1.05) < 0.01 and np.ptp(at[:, 1]) < 0.051, "a front and a rear wheel"
+    settings.vehicle = "motorcycle"
+    at = compat.positions(settings.marks.data)
+    assert abs(at[:, 0].min() + 0.5 + 1.45) < 0.01 and 0.16 < np.ptp(at[:, 1]) < 0.171
+    settings.depth = 0.02
+    assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
+    beside = np.arange(-0.06, 0.06, 0.01)
+    for x in (-1.5, -1.0, 0.0, 1.0):
+        assert max(depth_at(land, x, y) for y in beside) > 0.0185, f"no rut at {x} m"
+    kept = settings.vehicle, settings.kind
+    refused("leaves the ground at", line, kind="WHEEL", vehicle="lorry")
+    assert (settings.vehicle, settings.kind) == kept, "a refused vehicle is kept"
+
+
 def test_bad_tracks_are_refused_in_a_sentence(folder):
     lonely = curve((0.0, 0.0), (1.0, 0.0))
     refused("press Add Ground on a mesh first", lonely)

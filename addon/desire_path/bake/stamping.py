@@ -20,6 +20,7 @@ from ..ground.pressing import AROUND, GRAVITY, TOUCH, PressBody
 from ..ground.sim import Ground
 from ..ground.soil import Soil
 from ..motion.gait import Gait
+from ..placement import tyre
 from ..placement.marks import SIDES, Laid
 from .press import LivePress
 
@@ -65,6 +66,10 @@ class TrackPress(LivePress):
                 self._wheels[n] = range(len(bodies), len(bodies) + len(each.soles))
                 bodies += _wheels_of(each)
         super().__init__(ground, bodies, soils, cell_size, options=options)
+        for wheels in self._wheels.values():
+            for number in wheels:  # stands on its lugs as a drum would
+                vertices, triangles = tyre.drum(bodies[number].vertices)
+                self._under[number] = vertices.astype(np.float32), triangles
         self._stands = max(float(soil.settle_time) for soil in self.soils)
 
     def _body(self, kind: Kind) -> PressBody:

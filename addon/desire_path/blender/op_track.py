@@ -7,6 +7,8 @@ from . import messages, props_track
 from .late import bake_job, track
 from .ops import Refusal, active
 
+ADDED = ("kind", "stamp", "vehicle")  # of a track, as it is added
+
 
 class _OfCurve(Refusal):
     @classmethod
@@ -23,6 +25,7 @@ class OBJECT_OT_desire_path_track_add(_OfCurve, bpy.types.Operator):
 
     kind: EnumProperty(name="Leaves", items=props_track.KINDS, description="What leaves the track")
     stamp: EnumProperty(name="Stamp", items=props_track.STAMPS, description="The shape of the marks")
+    vehicle: EnumProperty(name="Vehicle", items=props_track.VEHICLES, description="Whose wheels roll along")
 
     def work(self, context):
         obj = context.object
@@ -33,7 +36,7 @@ class OBJECT_OT_desire_path_track_add(_OfCurve, bpy.types.Operator):
             if self.kind == "SOLE" or settings.image is None:
                 messages.tell(self, "INFO", f"Choose what leaves the marks of '{obj.name}' in its panel.")
                 return {"FINISHED"}
-        land, count = track.settle(context.scene, obj, self.kind, self.stamp)
+        land, count = track.settle(context.scene, obj, {name: getattr(self, name) for name in ADDED})
         lies = f"{count} marks lie" if count else "A rut lies"
         messages.tell(self, "INFO", f"{lies} along '{obj.name}' on '{land.name}': Press Tracks presses them.")
         return {"FINISHED"}

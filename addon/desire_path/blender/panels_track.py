@@ -18,8 +18,10 @@ def draw(layout, obj):
     column.prop(obj.desire_path, "ground")
     column.prop(settings, "kind")
     if settings.kind == "WHEEL":
-        for name in ("radius", "tyre_width", "tread", "gauge"):
-            column.prop(settings, name)
+        column.prop(settings, "vehicle")
+        if settings.vehicle == "none":
+            for name in ("radius", "tyre_width", "tread", "gauge"):
+                column.prop(settings, name)
     else:
         _draw_stamp(column, settings)
     column = _column(layout)

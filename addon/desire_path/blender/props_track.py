@@ -8,7 +8,7 @@ from .late import track
 
 KINDS = (
     ("STAMPS", "Stamps", "Marks of one shape after the other"),
-    ("WHEEL", "Wheel", "A wheel that rolls along, or two"),
+    ("WHEEL", "Wheel", "A wheel that rolls along, two, or those of a vehicle"),
     ("SOLE", "Sole", "Marks of a mesh, one after the other"),
 )
 STAMPS = (
@@ -26,6 +26,15 @@ TREADS = (
     ("plain", "Plain", "A smooth tyre"),
     ("blocks", "Blocks", "Rows of blocks, as on roads"),
     ("bars", "Bars", "Bars that meet in the middle, as of a tractor"),
+)
+VEHICLES = (
+    ("none", "Wheels", "One wheel, or two, as set below"),
+    ("bicycle", "Bicycle", "Two narrow tyres, one behind the other"),
+    ("motorcycle", "Motorcycle", "Two tyres, one behind the other"),
+    ("car", "Car", "Four wheels"),
+    ("tractor", "Tractor", "Bars on its tyres, the larger behind"),
+    ("truck", "Truck", "Two axles, with dual tyres behind"),
+    ("lorry", "Lorry", "Three axles, with dual tyres on the two behind"),
 )
 
 
@@ -100,6 +109,7 @@ class DesirePathTrack(bpy.types.PropertyGroup):
         update=_preview,
         description="At the end of the curve, in metres a second: steps grow with it; 0 = as at the start",
     )
+    vehicle: EnumProperty(name="Vehicle", items=VEHICLES, update=_preview, description="Whose wheels roll along")
     radius: _length("Radius [m]", "Of the wheel, in metres", default=0.33)
     tyre_width: _length("Tyre Width [m]", "How wide the tyre is, in metres", default=0.2)
     gauge: _length("Gauge [m]", "Two wheels, so far from middle to middle, in metres; 0 = one wheel")

@@ -51,6 +51,30 @@ GERMAN = {
     "The track leaves the ground at x {} m, y {} m: keep the curve on it, or make it larger.": (
         "Die Fährte verlässt den Boden bei x {} m, y {} m: die Kurve darauf halten, oder ihn größer machen."
     ),
+    # ---- placement/vehicle.py
+    "A vehicle has {} axles: give it from 1 to {}.": "Ein Fahrzeug hat {} Achsen: 1 bis {} angeben.",
+    "A vehicle's first axle is its foremost, 0 m behind itself, and the others lie behind it: mend `behind`.": (
+        "Die erste Achse eines Fahrzeugs ist seine vorderste, 0 m hinter sich, und die anderen liegen hinter ihr: "
+        "`behind` richten."
+    ),
+    "The curve bends too tightly for this vehicle at x {} m, y {} m, where its front wheels would stand at {} degrees: "
+    "draw it wider, or choose a shorter vehicle.": (
+        "Die Kurve biegt bei x {} m, y {} m zu eng für dieses Fahrzeug, dessen Vorderräder dort {} Grad einschlagen "
+        "müssten: sie weiter ziehen, oder ein kürzeres Fahrzeug wählen."
+    ),
+    "An axle has no {}: remove it.": "Eine Achse hat kein {}: es entfernen.",
+    "A vehicle's axles are a list of Axle: give it so.": (
+        "Die Achsen eines Fahrzeugs sind eine Liste von Axle: so angeben."
+    ),
+    "An axle's {} is {}: give a number from {} to {}.": "{} einer Achse ist {}: eine Zahl von {} bis {} angeben.",
+    "An axle's {} is {}: give a number of metres.": "{} einer Achse ist {}: eine Zahl in Metern angeben.",
+    "An axle has {} tyres side by side: give 1 or {}.": "Eine Achse hat {} Reifen nebeneinander: 1 oder {} angeben.",
+    "Dual tyres {} m wide do not fit in a gauge of {} m: widen it.": (
+        "Zwillingsreifen von {} m Breite passen nicht in eine Spurweite von {} m: sie weiten."
+    ),
+    "There is no vehicle '{}': choose one of {}, or a .json file of one.": (
+        "Es gibt kein Fahrzeug '{}': eines von {} wählen, oder eine .json-Datei von einem."
+    ),
     # ---- placement/stamps.py
     "The stamp's mesh has no faces, or one without its vertices: repair the mesh.": (
         "Das Netz des Stempels hat keine Flächen, oder eine ohne ihre Punkte: das Netz richten."

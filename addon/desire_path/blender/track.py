@@ -5,7 +5,6 @@ curve, settings --marks.lay, track.rolled--> Laid, Gait --preview--> a wire obje
 """
 
 from contextlib import suppress
-from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -14,7 +13,7 @@ from ..bake.stamping import TrackPress
 from ..errors import DesirePathError
 from ..ground import mesh
 from ..ground.options import SimulationOptions
-from ..placement import stamps
+from ..placement import stamps, vehicle
 from ..placement.marks import Drive, Marks, lay
 from ..placement.pace import land_of, slope_of
 from ..placement.track import Wheel, rolled
@@ -90,6 +89,8 @@ def _numbers(obj, scene):
 
 def _wheel(obj):
     settings = obj.desire_path.track
+    if settings.vehicle != "none":
+        return vehicle.find(settings.vehicle)
     radius, width, gauge = (axes.typed(getattr(settings, name)) for name in ("radius", "tyre_width", "gauge"))
     return Wheel(radius, width, settings.tread, gauge)
 
@@ -157,16 +158,16 @@ def _outlines(laid):
 
 def _ruts(obj, line, below):
     wheel = _wheel(obj)
-    gait = rolled(line, replace(wheel, tread="plain"), Drive(), below)
+    gait = rolled(line, wheel.plain(), Drive(), below)
     points, edges = [], []
-    for pose in np.asarray(gait.pose):
+    for pose, sole in zip(np.asarray(gait.pose), gait.soles):
         way = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1))]
         at = np.interp(np.linspace(0.0, way[-1], max(int(way[-1] / RUT_STEP), 1) + 1), way, np.arange(len(way)))
         places = pose[at.astype(int), :2]
         ahead = np.gradient(places, axis=0) if len(places) > 1 else np.ones((1, 2))
         ahead /= np.maximum(np.linalg.norm(ahead, axis=1), 1e-9)[:, None]
         for side in (0.5, -0.5):
-            beside = places + side * wheel.width * np.stack([-ahead[:, 1], ahead[:, 0]], axis=1)
+            beside = places + side * np.ptp(sole.vertices[:, 1]) * np.stack([-ahead[:, 1], ahead[:, 0]], axis=1)
             first = sum(map(len, points))
             points.append(np.column_stack([beside, slope_of(land_of(below), beside, 0.01)[0]]))
             edges += [(first + k, first + k + 1) for k in range(len(beside) - 1)]
@@ -258,12 +259,26 @@ def _mark(scene, curves):
     return mesh.mark(arrays, words)
 
 
-def settle(scene, obj, kind, stamp):
-    """Make a curve a track, and show its marks; returns (its ground, how many marks there are)."""
+def settle(scene, obj, given):
+    """Make a curve a track with some settings, and show its marks; returns (its ground, how many marks there are).
+
+    Where it cannot be one, it stays as it was.
+    """
     land = choose_ground(scene, obj)
     settings = obj.desire_path
+    ground_before, before = settings.ground, {name: getattr(settings.track, name) for name in given}
     settings.ground = land
-    settings.track.kind, settings.track.stamp = kind, stamp
-    shown = preview(scene, obj, heights(surface_of(scene, land), land))
+    _set(settings.track, given)
+    try:
+        shown = preview(scene, obj, heights(surface_of(scene, land), land))
+    except DesirePathError:
+        settings.ground = ground_before
+        _set(settings.track, before)
+        raise
     settings.track.is_track = True
-    return land, 0 if kind == "WHEEL" else len(shown.data.vertices) // 5
+    return land, 0 if settings.track.kind == "WHEEL" else len(shown.data.vertices) // 5
+
+
+def _set(settings, given):
+    for name, value in given.items():
+        setattr(settings, name, value)

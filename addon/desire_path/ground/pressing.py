@@ -96,6 +96,7 @@ class Pressing:
             raise DesirePathError("There is no body to press the ground with: give one at least.")
         self.window: tuple[int, int, int, int] | None = None
         self._before: list[tuple[tuple[int, int, int, int] | None, Trail | None]] = []  # of each stroke
+        self._under = [(each.vertices, each.triangles) for each in self.bodies]  # what finds where a body stands
         self._turned: list[tuple[np.ndarray, np.ndarray] | None] = [None] * len(self.bodies)
         self._at: np.ndarray | None = None  # poses of the stroke on its way (B, 7)
         self._open(ground)
@@ -342,9 +343,10 @@ class Pressing:
     def _contact(self, number: int, pose: np.ndarray) -> _Contact:
         """A body over the ground as it is now."""
         body, cell, (ox, oy) = self.bodies[number], self.cell_size, self.options.origin
+        vertices, triangles = self._under[number]
         known = self._turned[number]
         if known is None or not np.array_equal(known[0], pose[3:]):
-            known = self._turned[number] = (pose[3:].copy(), turned(pose[3:], body.vertices.astype(np.float64)))
+            known = self._turned[number] = (pose[3:].copy(), turned(pose[3:], vertices.astype(np.float64)))
         at = known[1][:, :2]
         low, high = at.min(axis=0) + pose[:2], at.max(axis=0) + pose[:2]
         i0, j0 = math.floor((low[0] - ox) / cell) - 1, math.floor((low[1] - oy) / cell) - 1
@@ -360,7 +362,7 @@ class Pressing:
         lifted = pose.copy()
         lifted[2] -= base
         _native.imprint_foot(
-            [(body.vertices, body.triangles)],
+            [(vertices, triangles)],
             lifted[None],
             ox + (i0 + 0.5) * cell,
             oy + (j0 + 0.5) * cell,

@@ -1,7 +1,7 @@
 """Tracks: a drawn curve makes the motion that leaves a row of marks, or a rut, along it. PEYRAT11, MODEL 3.8
 
     curve + Stamp ---stamped---> Gait of two feet that come down in turn on the marks of marks.lay()
-    curve + wheel ---rolled----> Gait of a wheel, or two, that roll without slip
+    curve + wheel ---rolled----> Gait of a wheel, of two, or of all those of a vehicle, that roll without slip
 
 What presses weighs something, or goes as deep as it is told (contact law "carve").
 """
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,8 +22,9 @@ from ..motion.gait import AUTO, HEEL, Gait, Sole
 from ..rig import solid
 from . import tyre
 from .marks import LONGEST, SIDES, Drive, Marks, depth_of, lay, mass_of, number_of, path_of, speeds_of
-from .pace import Pace, ahead_of, land_of, left_of, slope_of
+from .pace import Land, Pace, ahead_of, land_of, left_of, slope_of
 from .stamps import Stamp
+from .vehicle import Axle, Vehicle
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -46,6 +47,15 @@ class Wheel:
     width: float = 0.2  # of the tyre [m] > 0
     tread: str = "blocks"  # one of tyre.TYRES
     gauge: float = 0.0  # between the middles of a left and a right wheel [m]; 0: one wheel
+
+    def plain(self) -> Wheel:
+        """The same without a tread."""
+        return replace(self, tread="plain")
+
+    def vehicle(self) -> Vehicle:
+        """One axle of it."""
+        number_of("gauge", self.gauge, 0.0, LONGEST)
+        return Vehicle((Axle(0.0, self.radius, self.width, self.tread, self.gauge),))
 
 
 def stamped(
@@ -89,40 +99,50 @@ def stamped(
     )
 
 
-def rolled(curve: ArrayLike, wheel: Wheel = Wheel(), drive: Drive = Drive(), ground: GroundHeights = None) -> Gait:
-    """A wheel, or a left and a right one, upright along a curve (n, 2 or 3) [m] without slip: each turns by its own
-    way over its radius. What it weighs is shared.
+def rolled(
+    curve: ArrayLike, wheel: Wheel | Vehicle = Wheel(), drive: Drive = Drive(), ground: GroundHeights = None
+) -> Gait:
+    """A wheel, a left and a right one, or all those of a vehicle, upright along a curve (n, 2 or 3) [m] without slip:
+    each turns by its own way over its radius. What they weigh is shared, between axles as the vehicle says.
 
-    ground: as for stamped(). A wheel that is told its depth comes down at the start and is lifted at the end.
+    ground: as for stamped(). The foremost axle goes from the curve's start to its end; what lies behind it comes
+    straight from before the start. Wheels that are told their depth come down at the start and are lifted at the end.
     """
     path = path_of(curve)
-    vertices, triangles = tyre.wheel(wheel.radius, wheel.width, wheel.tread)
-    gauge = number_of("gauge", wheel.gauge, 0.0, LONGEST)
-    pace = Pace(path.length, *speeds_of(drive, 2.0))
-    depth, land, sides = depth_of(drive), land_of(ground), [0.5, -0.5] if gauge > 0.0 else [0.0]
-    if not depth < wheel.radius:
+    vehicle = wheel if isinstance(wheel, Vehicle) else wheel.vehicle()
+    shapes = [tyre.wheel(axle.radius, axle.width, axle.tread) for axle in vehicle.axles]
+    pace = Pace(path.length, *speeds_of(drive, vehicle.speed))
+    depth, land = depth_of(drive), land_of(ground)
+    least = min(axle.radius for axle in vehicle.axles)
+    if not depth < least:
         raise DesirePathError(
-            f"A wheel of radius {wheel.radius:g} m cannot roll {depth:g} m deep: give it less depth, or more radius."
+            f"A wheel of radius {least:g} m cannot roll {depth:g} m deep: give it less depth, or more radius."
         )
     way, wait = float(pace.time(path.length)), COMES_DOWN if depth > 0.0 else 0.0
-    turns = max(pace.start, pace.end) * (1.0 + gauge * abs(path.bend).max()) / wheel.radius
+    wide = max(axle.gauge for axle in vehicle.axles)
+    turns = max(pace.start, pace.end) * (1.0 + wide * abs(path.bend).max()) / least
     time = _samples(-wait, way + wait, max(turns / ROLLS, 24.0), drive)
-    place, heading = path.at(pace.place(np.clip(time, 0.0, way) if wait else time))
-    above = np.clip(np.maximum(-time, time - way) / COMES_DOWN, 0.0, 1.0) * (2.0 * depth)
-    poses = []
-    for side in sides:
-        at = place + side * gauge * left_of(heading)
-        high, slope = slope_of(land, at, 0.1 * wheel.radius)
-        z = high + wheel.radius * np.sqrt(1.0 + (slope**2).sum(axis=1)) - depth + above
-        own = np.r_[0.0, np.cumsum((np.diff(at, axis=0) * ahead_of(0.5 * (heading[1:] + heading[:-1]))).sum(axis=1))]
-        poses.append(np.column_stack([at, z, _rolling(heading, own / wheel.radius)]))
-    pose = np.stack(poses)
-    names = [SIDES[side < 0.0] for side in sides] if gauge > 0.0 else ["wheel"]
-    share = mass_of(drive, 200.0) / len(sides)
-    return Gait.join(
-        _gait(drive, time, each[None, :, :3], each[None], [Sole(vertices, triangles)], _Who(share, [name], []))
-        for each, name in zip(pose, names)
-    )
+    s = pace.place(np.clip(time, 0.0, way) if wait else time)
+    above = np.clip(np.maximum(-time, time - way) / COMES_DOWN, 0.0, 1.0) * (2.0 * depth) - depth
+    mass = mass_of(drive, vehicle.mass) / sum(axle.share for axle in vehicle.axles)
+    gaits = []
+    for number, (axle, (place, heading)) in enumerate(zip(vehicle.axles, vehicle.steer(path, s)), 1):
+        sides = axle.sides()
+        for side, aside in sides:
+            pose = _wheel_pose(land, place + aside * left_of(heading), heading, axle.radius, above)
+            name = f"axle {number} {side}".strip() if len(vehicle.axles) > 1 else side or "wheel"
+            who = _Who(mass * axle.share / len(sides), [name], [])
+            vertices, triangles = shapes[number - 1]
+            gaits.append(_gait(drive, time, pose[None, :, :3], pose[None], [Sole(vertices, triangles)], who))
+    return Gait.join(gaits)
+
+
+def _wheel_pose(land: Land, at: np.ndarray, heading: np.ndarray, radius: float, above: np.ndarray) -> np.ndarray:
+    """Poses (T, 7) of a wheel at places (T, 2) that has rolled as far as it has gone along its headings."""
+    high, slope = slope_of(land, at, 0.1 * radius)
+    z = high + radius * np.sqrt(1.0 + (slope**2).sum(axis=1)) + above
+    own = np.r_[0.0, np.cumsum((np.diff(at, axis=0) * ahead_of(0.5 * (heading[1:] + heading[:-1]))).sum(axis=1))]
+    return np.column_stack([at, z, _rolling(heading, own / radius)])
 
 
 def _samples(first: float, last: float, rate: float, drive: Drive) -> np.ndarray:

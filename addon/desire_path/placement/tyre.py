@@ -17,6 +17,7 @@ MOST = 720  # .. but no more of them than this
 DEEP = 0.06  # of the width: how far grooves stand back ..
 DEEPEST = 0.03  # .. at most, in shares of the radius
 SHOULDER = 0.12  # of the width: the rim rounds off so near to its sides
+ROUND = 180  # points round a drum
 LARGEST = 100.0  # a wheel's radius may be [m]
 
 
@@ -61,7 +62,22 @@ def wheel(radius: float, width: float, tread: str = "plain") -> Faces:
     rim = np.stack(
         [out * np.sin(angle), np.broadcast_to(across * width / 2.0, out.shape), out * np.cos(angle)], axis=-1
     )
-    n = len(across)
+    return _closed(rim, width)
+
+
+def drum(vertices: np.ndarray) -> Faces:
+    """What a wheel would be without grooves: round, as wide, and as large at each place across its tyre."""
+    across, column = np.unique(np.round(vertices[:, 1], 6), return_inverse=True)
+    out = np.zeros(len(across))
+    np.maximum.at(out, column.reshape(-1), np.hypot(vertices[:, 0], vertices[:, 2]))
+    angle = 2.0 * np.pi * np.arange(ROUND)[:, None] / ROUND
+    rim = [out * np.sin(angle), np.broadcast_to(across, (ROUND, len(across))), out * np.cos(angle)]
+    return _closed(np.stack(rim, axis=-1), float(np.ptp(across)))
+
+
+def _closed(rim: np.ndarray, width: float) -> Faces:
+    """A rim (round, across, 3) with its two sides."""
+    count, n = rim.shape[:2]
     vertices = np.concatenate([rim.reshape(-1, 3), [(0.0, -width / 2.0, 0.0), (0.0, width / 2.0, 0.0)]])
     k, after = np.arange(count) * n, np.roll(np.arange(count), -1) * n
     faces = []
