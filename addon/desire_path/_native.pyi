@@ -282,7 +282,7 @@ class Simulation:
         law: int = 0,
         heap: int = 0,
         rim_width: float = ...,
-        most_sweeps: int = ...,
+        max_sweeps: int = ...,
         normal_radius: float = ...,
         workers: int = 0,
         times: _Array | None = None,  # (T,) f8; then soils of each, T times as many

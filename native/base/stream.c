@@ -321,10 +321,10 @@ double dp_read_number(DpStateReader* reader, double low, double high)
     return holds ? value : low;
 }
 
-size_t dp_read_count(DpStateReader* reader, size_t most, size_t each)
+size_t dp_read_count(DpStateReader* reader, size_t max_count, size_t each)
 {
     const uint64_t count = dp_read_u64(reader);
     const size_t   left = reader->open ? reader->end - reader->at : 0;
-    dp_read_check(reader, count <= most && count <= left / each);
+    dp_read_check(reader, count <= max_count && count <= left / each);
     return reader->status == DP_OK ? (size_t)count : 0;
 }

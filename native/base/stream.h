@@ -78,6 +78,6 @@ int64_t dp_read_int(DpStateReader* reader, int64_t low, int64_t high);
 double  dp_read_number(DpStateReader* reader, double low, double high);
 // How many things of at least `each` bytes follow (u64): no more than `most`, nor than there are
 // bytes for, so that memory can be asked for. each > 0
-size_t dp_read_count(DpStateReader* reader, size_t most, size_t each);
+size_t dp_read_count(DpStateReader* reader, size_t max_count, size_t each);
 // What was read makes no sense unless `holds`: DP_BAD_FILE.
 void dp_read_check(DpStateReader* reader, bool holds);

@@ -12,8 +12,8 @@
 #include "imprint/imprint.h"
 #include "imprint/imprint_raster.h"
 
-#define MOST_SAMPLES 4
-#define MOST_CELLS (1 << 24)  // along one side of a patch: 64-bit sizes and exact floats below it
+#define MAX_SAMPLES 4
+#define MAX_CELLS (1 << 24)  // along one side of a patch: 64-bit sizes and exact floats below it
 
 struct DpImprintScratch
 {
@@ -56,13 +56,13 @@ DpBox dp_imprint_box(const DpMesh* sole, DpPose pose)
 int dp_imprint_samples(double cell)
 {
     const double wanted = cell / 0.0025;
-    return wanted >= MOST_SAMPLES - 0.5 ? MOST_SAMPLES : wanted < 1.5 ? 1 : (int)(wanted + 0.5);
+    return wanted >= MAX_SAMPLES - 0.5 ? MAX_SAMPLES : wanted < 1.5 ? 1 : (int)(wanted + 0.5);
 }
 
 static bool is_patch(const DpSoilPatch* patch)
 {
-    return patch->nx > 0 && patch->ny > 0 && patch->row >= patch->nx && patch->nx < MOST_CELLS &&
-           patch->ny < MOST_CELLS && patch->cell > 0.0 && isfinite(patch->cell) &&
+    return patch->nx > 0 && patch->ny > 0 && patch->row >= patch->nx && patch->nx < MAX_CELLS &&
+           patch->ny < MAX_CELLS && patch->cell > 0.0 && isfinite(patch->cell) &&
            isfinite(patch->x0) && isfinite(patch->y0);
 }
 
@@ -187,7 +187,7 @@ DP_CLONES static void mean_row(const DpSamples* window, const float* low, int ce
             mean_cells(sum, covered, cells, 3, lowest, bottom, cover);
             break;
         default:
-            mean_cells(sum, covered, cells, MOST_SAMPLES, lowest, bottom, cover);
+            mean_cells(sum, covered, cells, MAX_SAMPLES, lowest, bottom, cover);
             break;
     }
 }
@@ -225,7 +225,7 @@ static void find_box(DpImprint* imprint, int row, int i0, int i1, int j0, int j1
 DpStatus dp_imprint_foot(DpImprint* imprint, const DpSoilPatch* patch, const DpMesh* soles,
                          const DpPose* poses, int count, int samples, DpImprintScratch* scratch)
 {
-    if (!is_patch(patch) || count < 0 || samples < 1 || samples > MOST_SAMPLES)
+    if (!is_patch(patch) || count < 0 || samples < 1 || samples > MAX_SAMPLES)
         return DP_BAD_ARGUMENT;
     size_t corners = 0, max_triangles = 0;
     for (int s = 0; s < count; ++s) {

@@ -10,8 +10,8 @@
 #include "maps/maps_exr.h"
 
 #define WORKERS 64
-#define MOST_TILES (DP_MAPS_PIXELS / (DP_TILE * DP_TILE))
-#define MOST_CHANNELS 16
+#define MAX_TILES (DP_MAPS_PIXELS / (DP_TILE * DP_TILE))
+#define MAX_CHANNELS 16
 #define TILE_CELLS (DP_TILE * DP_TILE)
 
 typedef struct Tile
@@ -31,8 +31,8 @@ struct DpFrames
 {
     int         tiles_x, tiles_y;
     int         channel_count;
-    const char* channel[MOST_CHANNELS];  // names, own copies
-    int         order[MOST_CHANNELS];    // channels as the file keeps them, sorted by name
+    const char* channel[MAX_CHANNELS];  // names, own copies
+    int         order[MAX_CHANNELS];    // channels as the file keeps them, sorted by name
     DpNote*     notes;
     int         note_count;
 
@@ -238,8 +238,8 @@ static DpStatus fill(DpFrames* frames, const char* const* channel, int channel_c
 DpStatus dp_frames_create(DpFrames** frames, int tiles_x, int tiles_y, const char* const* channel,
                           int channel_count, const DpNote* notes, int note_count)
 {
-    if (!channel || channel_count < 1 || channel_count > MOST_CHANNELS) return DP_BAD_ARGUMENT;
-    if (!frames || tiles_x < 1 || tiles_y < 1 || (int64_t)tiles_x * tiles_y > MOST_TILES ||
+    if (!channel || channel_count < 1 || channel_count > MAX_CHANNELS) return DP_BAD_ARGUMENT;
+    if (!frames || tiles_x < 1 || tiles_y < 1 || (int64_t)tiles_x * tiles_y > MAX_TILES ||
         note_count < 0 || (note_count > 0 && !notes))
         return DP_BAD_ARGUMENT;
     DpFrames* fresh = dp_alloc(1, sizeof *fresh);

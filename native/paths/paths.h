@@ -13,7 +13,7 @@
 
 #include "base/status.h"
 
-#define DP_MOST_COST 1e20f  // of a metre; the least is 1 / DP_MOST_COST
+#define DP_MAX_COST 1e20f  // of a metre; the least is 1 / DP_MAX_COST
 
 // A grid of numbers, row by row.
 typedef struct DpField

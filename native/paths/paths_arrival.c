@@ -171,8 +171,7 @@ static DpStatus lay_costs(March* m, const DpField* cost)
         const float* from = cost->value + (size_t)j * (size_t)cost->nx;
         for (int i = 0; i < cost->nx; ++i) {
             if (isnan(from[i]) || from[i] == INFINITY) continue;
-            if (!(from[i] >= 1.0f / DP_MOST_COST && from[i] <= DP_MOST_COST))
-                return DP_BAD_ARGUMENT;
+            if (!(from[i] >= 1.0f / DP_MAX_COST && from[i] <= DP_MAX_COST)) return DP_BAD_ARGUMENT;
             m->cost[place_of(m, i, j)] = from[i];
             sum += (double)from[i];
             free += 1;

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "paths/paths.h"
 
-#define LEAST_FALL \
+#define MIN_FALL \
     0.02  // of what a step straight to the best neighbour falls, for a step that counts
 
 typedef struct Place
@@ -142,7 +142,7 @@ static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place a
         const double fall = best(time, at, &middle);
         if (!(fall > 0.0)) return DP_OK;
         const Here   here = look(time, pull, at);
-        const double highest = here.time - LEAST_FALL * fall * step / time->cell;
+        const double highest = here.time - MIN_FALL * fall * step / time->cell;
         const Place  e = unit(here.down.x + here.pull.x, here.down.y + here.pull.y);  // MODEL 12.3
         const bool   free = here.time < stuck;
         if (!free || (!step_to(&at, time, e, step, highest) &&

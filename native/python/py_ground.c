@@ -22,12 +22,12 @@ static int read_soil(PyObject* object, Py_ssize_t place, DpSoil* soil)
 }
 
 // Soils, each a dict of numbers by name; 1 to `most`.
-DpSoil* dp_py_soils(PyObject* object, int most, int* count)
+DpSoil* dp_py_soils(PyObject* object, int max_count, int* count)
 {
     const Py_ssize_t size = PySequence_Size(object);
     if (size < 0) return NULL;
-    if (size < 1 || size > most) {
-        PyErr_Format(PyExc_ValueError, "soils: give 1 to %d soils", most);
+    if (size < 1 || size > max_count) {
+        PyErr_Format(PyExc_ValueError, "soils: give 1 to %d soils", max_count);
         return NULL;
     }
     *count = (int)size;

@@ -2,7 +2,7 @@
 #include "imprint/imprint.h"
 #include "python/buffers.h"
 
-#define MOST_SOLES 16
+#define MAX_SOLES 16
 
 static PyObject* no_soles(const char* words)
 {
@@ -16,7 +16,7 @@ static int open_soles(DpBuffers* buffers, PyObject* soles, DpMesh* mesh)
     PyObject* items = PySequence_Tuple(soles);
     if (!items) return -1;
     const Py_ssize_t count = PyTuple_Size(items);
-    if (count > MOST_SOLES) {
+    if (count > MAX_SOLES) {
         Py_DECREF(items);
         no_soles("soles: a limb has at most 16 parts");
         return -1;
@@ -58,8 +58,8 @@ static PyObject* imprint_foot(PyObject* module, PyObject* arguments)
                           &samples, &bottom, &cover))
         return NULL;
     DpBuffers buffers = {0};
-    DpMesh    mesh[MOST_SOLES];
-    DpPose    pose[MOST_SOLES];
+    DpMesh    mesh[MAX_SOLES];
+    DpPose    pose[MAX_SOLES];
     PyObject* answer = NULL;
     const int count = open_soles(&buffers, soles, mesh);
     if (count < 0) goto done;

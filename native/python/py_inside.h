@@ -29,7 +29,7 @@ static inline bool dp_py_enter(Simulation* self)
 // py_ground.c: what arrays and tuples say; NULL or false with an exception.
 // Soils are dicts of numbers by name, or rows of all; the caller frees them. A ground is
 // ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds).
-DpSoil* dp_py_soils(PyObject* object, int most, int* count);
+DpSoil* dp_py_soils(PyObject* object, int max_count, int* count);
 bool    dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
 
 // py_kind.c: a kind by its numbers' names; 0 or -1 with an exception.

@@ -13,8 +13,8 @@
 #include "base/alloc.h"
 #include "python/py_inside.h"
 
-#define COLLIDERS_MOST 16
-#define MOST_STEPS 1000000  // of one call, which nothing can stop
+#define MAX_COLLIDERS 16
+#define MAX_STEPS 1000000  // of one call, which nothing can stop
 
 static PyObject* plants_place(PyObject* module, PyObject* arguments)
 {
@@ -68,7 +68,7 @@ typedef struct Stand
     float *         position, *velocity;
     double*         strength;
     DpPlantGround   ground;
-    DpPlantCollider collider[COLLIDERS_MOST];
+    DpPlantCollider collider[MAX_COLLIDERS];
     int             colliders;
 } Stand;
 
@@ -179,7 +179,7 @@ static int open_colliders(Stand* stand, PyObject* objects)
 {
     PyObject* items = PySequence_Tuple(objects);
     int       fine = items ? 0 : -1;
-    if (items && PyTuple_Size(items) > COLLIDERS_MOST) {
+    if (items && PyTuple_Size(items) > MAX_COLLIDERS) {
         PyErr_SetString(PyExc_ValueError, "colliders: at most 16");
         fine = -1;
     }
@@ -202,8 +202,8 @@ static PyObject* plants_step(PyObject* module, PyObject* arguments)
                           &position, &velocity, &strength, &ground, &colliders, &dt, &steps,
                           &workers))
         return NULL;
-    if (steps < 0 || steps > MOST_STEPS)
-        return PyErr_Format(PyExc_ValueError, "steps: expected 0 to %d", MOST_STEPS);
+    if (steps < 0 || steps > MAX_STEPS)
+        return PyErr_Format(PyExc_ValueError, "steps: expected 0 to %d", MAX_STEPS);
     if (open_stand(&stand, kind, seed, root, heading) < 0 ||
         (ground != Py_None && open_ground(&stand, ground) < 0) ||
         open_colliders(&stand, colliders) < 0)

@@ -34,8 +34,8 @@ static bool read_times(DpBuffers* buffers, PyObject* object, DpShape* shape, dou
 
 static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
 {
-    static char* words[] = {"ground",    "soils",       "cell",          "origin",  "law",   "heap",
-                            "rim_width", "most_sweeps", "normal_radius", "workers", "times", NULL};
+    static char* words[] = {"ground",    "soils",      "cell",          "origin",  "law",   "heap",
+                            "rim_width", "max_sweeps", "normal_radius", "workers", "times", NULL};
     PyObject *   ground_tuple, *soils_object, *times_object = Py_None;
     DpSimOptions options = dp_sim_options_default();
     double       cell, origin[2] = {0.0, 0.0};

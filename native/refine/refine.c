@@ -21,7 +21,7 @@ typedef struct Piece
     float weight[3][3];  // of each point: shares of the source's points
 } Piece;
 
-#define MOST (INT32_MAX / 2)  // of any array
+#define MAX_COUNT (INT32_MAX / 2)  // of any array
 
 typedef struct Cutting
 {
@@ -88,7 +88,7 @@ static bool fit_one_more(Cutting* cutting)
 {
     const size_t pieces = (size_t)cutting->pieces + 1, edges = (size_t)cutting->edges + 3;
     const size_t points = (size_t)cutting->points + 1, fresh = points - (size_t)cutting->given;
-    return edges < MOST && 3 * pieces < MOST &&
+    return edges < MAX_COUNT && 3 * pieces < MAX_COUNT &&
            dp_make_room(&cutting->piece, pieces, sizeof *cutting->piece) &&
            dp_make_room(&cutting->next, 3 * pieces, sizeof *cutting->next) &&
            dp_make_room(&cutting->edge, edges, sizeof *cutting->edge) &&

@@ -57,8 +57,8 @@ void     dp_refined_free(DpRefined* refined);
     X(grit_height, "m", 0.0, 1.0, 0.0, "deviation of grains that are seen") \
     X(grit_size, "m", 1e-4, 1.0, 0.005, "how long they are") \
     X(crumb_share, "-", 0.0, 0.5, 0.0, "share of a heap that lies under crumbs") \
-    X(crumb_least, "m", 1e-4, 1.0, 0.002, "radius of the smallest, at most crumb_most") \
-    X(crumb_most, "m", 1e-4, 1.0, 0.004, "and of the largest") \
+    X(min_crumb, "m", 1e-4, 1.0, 0.002, "radius of the smallest, at most max_crumb") \
+    X(max_crumb, "m", 1e-4, 1.0, 0.004, "and of the largest") \
     X(vein_height, "m", 0.0, 1.0, 0.0, "of what a sole sucks up when it is lifted") \
     X(vein_size, "m", 1e-4, 1.0, 0.02, "how far veins lie apart") \
     X(fray, "m", 0.0, 1.0, 0.0, "deviation by which edges of prints stray, each way") \

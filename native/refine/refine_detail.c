@@ -91,11 +91,11 @@ static double crumbs(const DpDetail* detail, double x, double y, uint32_t seed, 
 {
     int    sizes = 0;
     double high = 0.0;
-    *threshold = SHOWS * detail->crumb_least;
+    *threshold = SHOWS * detail->min_crumb;
     if (!(detail->crumb_share > 0.0)) return 0.0;
-    for (double radius = detail->crumb_most; radius > 0.99 * detail->crumb_least; radius *= 0.5)
+    for (double radius = detail->max_crumb; radius > 0.99 * detail->min_crumb; radius *= 0.5)
         ++sizes;
-    for (double radius = detail->crumb_most; radius > 0.99 * detail->crumb_least;
+    for (double radius = detail->max_crumb; radius > 0.99 * detail->min_crumb;
          radius *= 0.5, seed += 3)
         high += crumbs_of(x, y, radius, detail->crumb_share / sizes, seed, threshold);
     return high;
@@ -155,7 +155,7 @@ DpStatus dp_refine_detail(const double* point, int points, const DpDetail* detai
                           float* shown)
 {
     if (dp_numbers_check(detail, numbers, COUNT, NULL) != DP_OK ||
-        detail->crumb_least > detail->crumb_most)
+        detail->min_crumb > detail->max_crumb)
         return DP_BAD_ARGUMENT;
     for (size_t k = 0; k < 3 * (size_t)points; ++k)
         if (!(fabs(point[k]) < 1e9)) return DP_BAD_ARGUMENT;

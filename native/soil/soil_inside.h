@@ -8,7 +8,7 @@
 #define SOIL_RIGID 0.95  // share of L0 that can be pressed; rigid ground below
 
 #define SPRING_ROUGH 1.6  // how much the share that comes back differs, by the soil's roughness
-#define SPRING_MOST 0.9   // of the depth comes back at most
+#define MAX_SPRING 0.9    // of the depth comes back at most
 
 // soil_rebound.c, of a patch that has springs: a cell was pressed from compression `before` [m] to what it is now, and how
 // much of that had come back before [m]; the share of its depth that comes back.

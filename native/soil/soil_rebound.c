@@ -24,7 +24,7 @@ double dp_soil_spring_share(const DpSoilPatch* patch, size_t p)
 {
     const double share = (double)patch->soils[patch->kind[p]].rebound;
     const double uneven = patch->uneven ? (double)patch->uneven[p] : 0.0;
-    return soil_min(soil_max(share * (1.0 + SPRING_ROUGH * uneven), 0.0), SPRING_MOST);
+    return soil_min(soil_max(share * (1.0 + SPRING_ROUGH * uneven), 0.0), MAX_SPRING);
 }
 
 double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint)

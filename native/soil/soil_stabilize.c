@@ -27,9 +27,9 @@
 #include "base/alloc.h"
 #include "soil/soil_slide.h"
 
-#define MOST_FALLS 0.5f  // of a cell, in a sweep: high walls do not jump, nor what takes time
-#define FRAME 3          // cells around the window that only stand as walls
-#define FIRST_MARGIN 8   // cells the window is larger than what is looked at
+#define MAX_FALLS 0.5f  // of a cell, in a sweep: high walls do not jump, nor what takes time
+#define FRAME 3         // cells around the window that only stand as walls
+#define FIRST_MARGIN 8  // cells the window is larger than what is looked at
 
 // A copy of the part of the patch in which soil moves. All grids (ny + 2 FRAME, row).
 typedef struct Window
@@ -105,7 +105,7 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     const size_t cells = window->row * (ny + 2 * FRAME);
     window->slides = patch->wall_slope != NULL;
     window->cell = (float)patch->cell;
-    window->most = soil_takes_time(patch) ? MOST_FALLS * window->cell : INFINITY;
+    window->most = soil_takes_time(patch) ? MAX_FALLS * window->cell : INFINITY;
     const size_t floats = window->slides ? GRIDS + WALL_GRIDS : GRIDS;
     const size_t fine = window->slides ? 2 : 1;
     double*      doubles =
@@ -262,9 +262,8 @@ static int decide_walls(const Window* window, size_t at, int count, float film)
 {
     const Walls  walls = walls_at(window, at);
     float *const share = window->wall_share + at, *const give = window->wall_give + at;
-    const int wish =
-        dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
-                        (ptrdiff_t)window->row, count, film, MOST_FALLS * window->cell);
+    const int wish = dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
+                                     (ptrdiff_t)window->row, count, film, MAX_FALLS * window->cell);
     clear_sides(share, count);
     clear_sides(give, count);
     return wish;

@@ -64,7 +64,7 @@ def test_what_cannot_be_is_told():
     for wrong in ({"grit_height": -1.0}, {"crumb_share": 0.6}, {"fray_size": 0.0}, {"vein_size": float("nan")}):
         with pytest.raises(DesirePathError, match=next(iter(wrong))):
             Detail(**wrong)
-    with pytest.raises(DesirePathError, match="crumb_least"):
-        Detail(crumb_least=0.01)
+    with pytest.raises(DesirePathError, match="min_crumb"):
+        Detail(min_crumb=0.01)
     with pytest.raises(DesirePathError, match="NaN"):
         details([[np.nan, 0.0, 0.0]], ALL)

@@ -19,7 +19,7 @@ def script():
 
 MODULE = '''"""A module."""
 
-MOST = 3  # of anything [m]
+MAX_SIZE = 3  # of anything [m]
 QUIET = 4
 
 

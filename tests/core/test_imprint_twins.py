@@ -39,12 +39,12 @@ def test_imprint_agrees(samples, parts):
     poses = np.array([[*rng.normal(0, 0.04, 3), *unit(rng.normal(0, 1, 4))] for _ in range(parts)])
     grid = (-0.151, -0.127, 0.0117, samples)
     bottom, cover, box = press(soles, poses, *grid, (22, 27))
-    least_bottom, least = slow.foot(soles, poses, *grid, (22, 27), slack=-1e-9)
+    min_bottom, least = slow.foot(soles, poses, *grid, (22, 27), slack=-1e-9)
     _, most = slow.foot(soles, poses, *grid, (22, 27), slack=1e-9)
     assert np.all(cover >= least - 1e-6) and np.all(cover <= most + 1e-6)
     sure = (least == most) & (least > 0)
     assert sure.sum() > 50
-    assert np.abs(bottom[sure] - least_bottom[sure]).max() < 1e-6
+    assert np.abs(bottom[sure] - min_bottom[sure]).max() < 1e-6
     assert np.all(np.isposinf(bottom) == (cover == 0))
     j, i = np.nonzero(cover)
     assert box == (i.min(), i.max() + 1, j.min(), j.max() + 1)

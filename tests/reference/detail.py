@@ -59,7 +59,7 @@ def crumbs(x, y, share, least, most, seed):
 def detail(x, y, its, seed):
     """What a place is like; its: a Detail."""
     near = max(0.0, 1 - abs(wave(x, y, its.vein_size, seed)) / VEIN)
-    high, threshold = crumbs(x, y, its.crumb_share, its.crumb_least, its.crumb_most, seed + 7)
+    high, threshold = crumbs(x, y, its.crumb_share, its.min_crumb, its.max_crumb, seed + 7)
     return (
         its.vein_height * (near**2 - VEIN_MEAN) if its.vein_height else 0.0,
         high,

@@ -29,7 +29,7 @@ __all__ = ["TrackPress"]
 AT_ONCE = 8  # feet that press in one step
 HEAPS = 1.35  # soles are so many times wider with their heaps, for telling which marks meet
 LIFTS = 0.01  # time from one step to the next [s]
-MOST_CELLS = 1 << 28  # the rectangle around all marks may have so many
+MAX_CELLS = 1 << 28  # the rectangle around all marks may have so many
 
 Kind = tuple[int, bool, float]  # track, left foot, size
 
@@ -116,7 +116,7 @@ class TrackPress(LivePress):
             boxes.append((*(places.min(axis=0) - wide - AROUND), *(places.max(axis=0) + wide + AROUND)))
         box = np.array(boxes)
         i0, i1, j0, j1 = self._clipped(self.sim.cells((*box[:, :2].min(axis=0), *box[:, 2:].max(axis=0))))
-        if (i1 - i0) * (j1 - j0) > MOST_CELLS:
+        if (i1 - i0) * (j1 - j0) > MAX_CELLS:
             raise DesirePathError(
                 f"The tracks lie in {(i1 - i0) * (j1 - j0):.3g} cells of {self.cell_size:g} m: choose larger cells."
             )

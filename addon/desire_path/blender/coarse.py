@@ -16,7 +16,7 @@ from ..bake.bake import Bake, read_index
 from ..bake.options import BakeOutput
 from . import home, playback, playback_tree, press_view, refined, show
 
-MOST = 0.5  # side of a cell [m]
+MAX_SIDE = 0.5  # side of a cell [m]
 
 
 class Coarse:
@@ -24,7 +24,7 @@ class Coarse:
 
     def __init__(self, job, times):
         self.job, self.shown = job, []
-        self.cell = min(times * job.bake.cell_size, MOST)
+        self.cell = min(times * job.bake.cell_size, MAX_SIDE)
         self.folder = tempfile.mkdtemp(prefix="coarse_", dir=home.temporary())
         bake = job.bake
         parcels = [

@@ -8,10 +8,10 @@ import bpy
 from ..version import VERSION
 from .late import platform, sentences
 
-MOST = 500  # messages that are kept
+MAX_KEPT = 500  # messages that are kept
 NAME = "Desire Path Messages"  # of the text that holds them
 
-_kept = deque(maxlen=MOST)  # (time, level, sentence)
+_kept = deque(maxlen=MAX_KEPT)  # (time, level, sentence)
 
 
 def add(level, sentence):

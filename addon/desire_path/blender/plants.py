@@ -16,9 +16,9 @@ from ..ground.plants import KINDS, Kind, Planting
 from ..ground.sim import Ground, Simulation
 from . import axes, compat, grass, ground, picture, playback, sample, stack
 
-MOST = 1_000_000  # plants of one planting that are shown
+MAX_SHOWN = 1_000_000  # plants of one planting that are shown
 FINEST = 0.02  # the density is looked up at places this far apart, or farther on wide ground [m]
-MOST_PLACES = 1024  # along one side
+MAX_PLACES = 1024  # along one side
 SLOPE_OVER = 0.04  # the ground's slope at a root is taken over this [m]
 
 
@@ -109,7 +109,7 @@ class Bed:
     def spread(self, each):
         """How dense a planting is over the rectangle around the ground: 1 = as asked for, 0 = off the ground."""
         size = self.high - self.low
-        step = max(FINEST, float(size.max()) / MOST_PLACES)
+        step = max(FINEST, float(size.max()) / MAX_PLACES)
         nx, ny = (max(1, int(np.ceil(side / step))) for side in size)
         x = self.low[0] + (np.arange(nx) + 0.5) * size[0] / nx
         y = self.low[1] + (np.arange(ny) + 0.5) * size[1] / ny
@@ -167,14 +167,14 @@ def plant(scene, obj, chosen=None):
     bed = Bed(scene, obj, chosen, settings.frame_start)
     sentences = []
     for each, its in zip(chosen, kinds):
-        planting, wanted = bed.planting(each, its, MOST)
+        planting, wanted = bed.planting(each, its, MAX_SHOWN)
         root = bed.roots(planting)
         each.count = len(root)
         each.mark = mark(each)
-        if wanted > MOST:
+        if wanted > MAX_SHOWN:
             sentences.append(
                 f"'{obj.name}' would carry {wanted / 1e6:.1f} million plants of {each.kind} and shows "
-                f"{MOST / 1e6:.0f} million: paint a density group or image where they are seen."
+                f"{MAX_SHOWN / 1e6:.0f} million: paint a density group or image where they are seen."
             )
         elif not len(root):
             sentences.append(

@@ -15,7 +15,7 @@ from ..ground.pressing import AROUND
 from ..ground.sim import TILE
 from . import axes, compat, cover, playback, playback_tree, refined, show
 
-MOST = 1 << 20  # cells of the image; larger ground is shown around what was pressed
+MAX_CELLS = 1 << 20  # cells of the image; larger ground is shown around what was pressed
 MARGIN = 4  # tiles around that
 NEAR = 0.12  # the copy has to be fine so far around a body [m]
 SQUARE = 0.5  # and is made so at least that far [m]
@@ -79,7 +79,7 @@ class View:
         bounds = press.sim.bounds()
         if np.isfinite(bounds).all():
             tiles = _around(press.sim.cells(bounds), 0)
-            if tiles[2] * tiles[3] * TILE * TILE <= MOST:
+            if tiles[2] * tiles[3] * TILE * TILE <= MAX_CELLS:
                 return tiles
         there = [press.sim.cells(each) for each in boxes] + ([press.window] if press.window is not None else [])
         low, high = np.array(there)[:, 0::2].min(axis=0), np.array(there)[:, 1::2].max(axis=0)

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import DesirePathError
 from . import clock, compat
 
-MOST_LOOKS = 24  # frames at which one is looked at that something switches on and off
+MAX_LOOKS = 24  # frames at which one is looked at that something switches on and off
 
 
 @contextmanager
@@ -64,7 +64,7 @@ def off_in_renders(scene, obj, frames):
         if keyed is None or led is not None:
             return [obj.hide_render]
         return [keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames]
-    pick = np.linspace(0, len(frames) - 1, min(len(frames), MOST_LOOKS)).round().astype(int)
+    pick = np.linspace(0, len(frames) - 1, min(len(frames), MAX_LOOKS)).round().astype(int)
     found, copy = [], obj.copy()
     try:
         copy.parent = None  # what moves and shapes it costs time and does not matter

@@ -5,8 +5,8 @@ Keys are the English sentences as templates; {} is what comes in, in the same or
 
 GERMAN = {
     # ---- ground/detail.py
-    "A detail's crumb_least is above its crumb_most: exchange them.": (
-        "crumb_least einer Feinheit liegt über crumb_most: beide vertauschen."
+    "A detail's min_crumb is above its max_crumb: exchange them.": (
+        "min_crumb einer Feinheit liegt über max_crumb: beide vertauschen."
     ),
     "A point is NaN, infinite or farther out than {} m: move or remove it.": (
         "Ein Punkt ist NaN, unendlich oder weiter fort als {} m: ihn verschieben oder entfernen."

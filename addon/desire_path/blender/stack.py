@@ -31,7 +31,7 @@ LEVELS = {
 }
 SPREAD = 1.25  # what a scatter adds reaches over no more than this many times the ground's own rectangle
 ALIKE = 16  # points in the place of a ground's first one that may be that one
-MOST_FACES = 2e7  # subdivision goes no farther than this where the ground is read
+MAX_FACES = 2e7  # subdivision goes no farther than this where the ground is read
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,7 @@ def shaped(scene, obj, before, trees=()):
 
 def show(scene, copy, obj, render=True):
     """Let a copy's modifiers be as renders have them, or as the viewport does; returns how many times finer the
-    faces would be than they are, since no more than MOST_FACES are made."""
+    faces would be than they are, since no more than MAX_FACES are made."""
     faces, left_out = max(len(obj.data.polygons), 1) if obj.type == "MESH" else 1, 1
     for each in copy.modifiers:
         source = obj.modifiers.get(each.name)
@@ -130,7 +130,7 @@ def show(scene, copy, obj, render=True):
             continue
         level = fineness(scene, source, render)
         if each.type in ("SUBSURF", "MULTIRES") and each.show_viewport:
-            while level > 0 and faces * 4**level > MOST_FACES:
+            while level > 0 and faces * 4**level > MAX_FACES:
                 level, left_out = level - 1, left_out * 4
             faces *= 4**level
         setattr(each, LEVELS[each.type][0], level)

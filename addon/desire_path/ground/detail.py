@@ -38,8 +38,8 @@ class Detail:
 
     def __post_init__(self) -> None:
         check(self, NUMBERS, "A detail's")
-        if self.crumb_least > self.crumb_most:
-            raise DesirePathError("A detail's crumb_least is above its crumb_most: exchange them.")
+        if self.min_crumb > self.max_crumb:
+            raise DesirePathError("A detail's min_crumb is above its max_crumb: exchange them.")
 
 
 # For looks: tried by eye on prints of a boot, sun at 20 degrees.

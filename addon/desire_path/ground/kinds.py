@@ -237,7 +237,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(_KINDS)  # by name, to be read: a k
 # Most plants of a kind are alike, a few give way at once, a few bear nearly anything: the density of their vigour z
 # is as exp(-sqrt(|z| / c)), mean 0, deviation 1. Reserves are exp(spread z) times the kind's.
 _VIGOUR = 120.0**-0.5  # c
-MOST_VIGOUR = 8.0  # no plant is farther out
+MAX_VIGOUR = 8.0  # no plant is farther out
 
 
 def share_below(vigour: ArrayLike) -> np.ndarray:
@@ -255,7 +255,7 @@ def vigour_at(share: ArrayLike) -> np.ndarray:
     for _ in range(8):
         t = t - (t - np.log1p(t) - far) * (1.0 + t) / t
         t = np.maximum(t, 1e-12)
-    size = np.minimum(t * t * _VIGOUR, MOST_VIGOUR)
+    size = np.minimum(t * t * _VIGOUR, MAX_VIGOUR)
     return np.where(share < 0.5, -size, size)
 
 

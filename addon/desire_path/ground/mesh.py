@@ -74,9 +74,9 @@ def are_quads(corners: np.ndarray, corner_edges: np.ndarray, edges: np.ndarray) 
     return _native.are_quads(corners, corner_edges, edges)
 
 
-def are_centres(vertices: ArrayLike, cell: float, corner: tuple[float, float], most: float) -> bool:
-    """Whether all world points (n, 3) [m] lie within `most` cells of the centres of the cells they lie in."""
-    return _native.are_centres(np.ascontiguousarray(vertices, np.float64), cell, *corner, most)
+def are_centres(vertices: ArrayLike, cell: float, corner: tuple[float, float], max_away: float) -> bool:
+    """Whether all world points (n, 3) [m] lie within `max_away` cells of the centres of the cells they lie in."""
+    return _native.are_centres(np.ascontiguousarray(vertices, np.float64), cell, *corner, max_away)
 
 
 def at_points(

@@ -18,7 +18,7 @@ from ..tables import is_number
 from .kinds import Kind, as_kind
 
 SQUARE = 2.0  # side of the squares in which ground is planted [m]; the same seed gives each the same roots
-MOST_PLANTS = 4_000_000  # of one planting
+MAX_PLANTS = 4_000_000  # of one planting
 
 
 @dataclass(frozen=True, eq=False)

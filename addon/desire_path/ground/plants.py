@@ -6,14 +6,14 @@ sim = Simulation(ground, soils, plants=[lawn, meadow])       # several kinds on 
 bake = Bake(gait, ground, soils, folder, plants=[lawn])
 """
 
-from .kinds import FORMS, KINDS, MOST_VIGOUR, NUMBERS, PAPER, YEAR, Kind, as_kind, share_below, vigour_at
-from .planting import MOST_PLANTS, SQUARE, Planting, as_plantings, seed_of
+from .kinds import FORMS, KINDS, MAX_VIGOUR, NUMBERS, PAPER, YEAR, Kind, as_kind, share_below, vigour_at
+from .planting import MAX_PLANTS, SQUARE, Planting, as_plantings, seed_of
 
 __all__ = [
     "FORMS",
     "KINDS",
-    "MOST_PLANTS",
-    "MOST_VIGOUR",
+    "MAX_PLANTS",
+    "MAX_VIGOUR",
     "NUMBERS",
     "PAPER",
     "SQUARE",

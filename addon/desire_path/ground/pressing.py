@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 TOUCH = 5e-4  # a body that hovers no higher than this touches [m]
 AROUND = 0.3  # a body changes the ground no farther away than this [m]
 STEP = 0.04  # how long a step takes, if nobody says [s]
-MOST_STEPS = 64  # that one move is cut into
+MAX_STEPS = 64  # that one move is cut into
 SWEPT = 12.0  # a body that carves is swept so far in a step [cells]
-MOST_CELLS = 1 << 20  # a body may cover
+MAX_CELLS = 1 << 20  # a body may cover
 SAMPLE = 0.0025  # undersides are sampled so closely, or four times a cell [m]
 GRAVITY = 9.81  # [m/s^2]
 
@@ -276,7 +276,7 @@ class Pressing:
         turn = np.linalg.norm(end[:, 3:] - start[:, 3:], axis=1) * wide
         carves = np.array([each.mass is None for each in self.bodies])
         long = np.where(carves, SWEPT * self.cell_size, np.maximum(2.0 * self.cell_size, 0.1 * wide))
-        return int(np.clip(math.ceil(float(((distance + turn) / long).max())), 1, MOST_STEPS))
+        return int(np.clip(math.ceil(float(((distance + turn) / long).max())), 1, MAX_STEPS))
 
     def _step(self, poses: np.ndarray, seconds: float) -> bool:
         """One step of a stroke; returns whether anything touches."""
@@ -351,7 +351,7 @@ class Pressing:
         low, high = at.min(axis=0) + pose[:2], at.max(axis=0) + pose[:2]
         i0, j0 = math.floor((low[0] - ox) / cell) - 1, math.floor((low[1] - oy) / cell) - 1
         nx, ny = math.floor((high[0] - ox) / cell) + 2 - i0, math.floor((high[1] - oy) / cell) + 2 - j0
-        if nx * ny > MOST_CELLS:
+        if nx * ny > MAX_CELLS:
             raise DesirePathError(
                 f"'{body.name}' is {max(high - low):.3g} m wide, too large for cells of {cell:g} m: choose larger ones."
             )

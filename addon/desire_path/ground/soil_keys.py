@@ -25,7 +25,7 @@ from .soil import NUMBERS, Soil, as_soil
 
 FIXED = {"grain_size": "places that differ would wander"}  # numbers that cannot change over time, and why
 _TAG, _VERSION = "desire_path_soil_keys", 1  # of a file
-_MOST = 1 << 24  # bytes of a file
+_MAX_BYTES = 1 << 24  # bytes of a file
 
 
 @dataclass(frozen=True, init=False)
@@ -75,14 +75,14 @@ class SoilKeys:
         """A soil with the keys of a file that save() wrote: `{"young_modulus": [[0, 2e6], [5, 4e5]]}` is one, too."""
         try:
             with atomic_file.reader(path) as file:
-                text = file.read(_MOST + 1)
+                text = file.read(_MAX_BYTES + 1)
         except (OSError, ValueError) as error:
             raise DesirePathError(
                 f"The keys of the soil {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
                 "choose a file that SoilKeys.save() wrote."
             ) from None
         try:
-            given = json.loads(text.decode("utf-8")) if len(text) <= _MOST else None
+            given = json.loads(text.decode("utf-8")) if len(text) <= _MAX_BYTES else None
         except (ValueError, RecursionError, MemoryError):
             given = None
         if not isinstance(given, dict) or given.pop(_TAG, _VERSION) != _VERSION or not given:

@@ -17,8 +17,8 @@ def taken(keys: Sequence[Sequence[Sequence[float]]]) -> Keys:
     return found if any(found) else ()
 
 
-def check(keys: Keys, names: Sequence[str], come_and_go: bool, most: float) -> None:
-    """DesirePathError for keys that cannot be; come_and_go: walkers are not there all the time; most: [kg]"""
+def check(keys: Keys, names: Sequence[str], come_and_go: bool, max_mass: float) -> None:
+    """DesirePathError for keys that cannot be; come_and_go: walkers are not there all the time; max_mass: [kg]"""
     if len(keys) not in (0, len(names)):
         raise DesirePathError("The recording's mass keys are not those of its walkers: give some for each, or ().")
     if keys and come_and_go:
@@ -28,9 +28,9 @@ def check(keys: Keys, names: Sequence[str], come_and_go: bool, most: float) -> N
         if not np.isfinite(times).all() or any(b <= a for a, b in zip(times, times[1:])):
             raise DesirePathError(f"The keys on the mass of {name} need times that rise.")
         for time, kilograms in pairs:
-            if not 0 < kilograms <= most:
+            if not 0 < kilograms <= max_mass:
                 raise DesirePathError(
-                    f"{name} has a mass of {kilograms:g} kg at {time:g} s: give it one above 0 and up to {most:g}."
+                    f"{name} has a mass of {kilograms:g} kg at {time:g} s: give it one above 0 and up to {max_mass:g}."
                 )
 
 

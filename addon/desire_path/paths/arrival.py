@@ -18,9 +18,9 @@ import numpy as np
 from ..core import _native
 from ..errors import DesirePathError
 
-MOST_COST = 1e20  # of a metre; the least is 1 / MOST_COST
-MOST_START = 1e30
-MOST_CELLS = 2**31 - 1
+MAX_COST = 1e20  # of a metre; the least is 1 / MAX_COST
+MAX_START = 1e30
+MAX_CELLS = 2**31 - 1
 CELLS = (1e-6, 1e6)  # how wide cells may be [m]
 
 
@@ -30,7 +30,7 @@ def field(values: Any, name: str) -> np.ndarray:
         found = np.ascontiguousarray(values, np.float32)
     except (TypeError, ValueError):
         raise DesirePathError(f"{name} are numbers in rows and columns: give an array of them.") from None
-    if np.ndim(values) != 2 or not found.size or (found.shape[0] + 8) * (found.shape[1] + 8) > MOST_CELLS:
+    if np.ndim(values) != 2 or not found.size or (found.shape[0] + 8) * (found.shape[1] + 8) > MAX_CELLS:
         raise DesirePathError(
             f"{name} of shape {np.shape(values)} are no field: give rows and columns, of one cell to 2^31 in all."
         )
@@ -47,11 +47,11 @@ def check_cell(cell: float) -> float:
 def _check_costs(cost: np.ndarray) -> np.ndarray:
     """Which cells are free; a sentence where a cost is none."""
     free = ~(np.isnan(cost) | (cost == np.inf))
-    wrong = free & ~((cost >= 1.0 / MOST_COST) & (cost <= MOST_COST))
+    wrong = free & ~((cost >= 1.0 / MAX_COST) & (cost <= MAX_COST))
     if wrong.any():
         j, i = np.argwhere(wrong)[0]
         raise DesirePathError(
-            f"The cost of cell ({i}, {j}) is {cost[j, i]:g}: write a number above 0, at most {MOST_COST:g}, or inf for "
+            f"The cost of cell ({i}, {j}) is {cost[j, i]:g}: write a number above 0, at most {MAX_COST:g}, or inf for "
             "an obstacle."
         )
     if not free.any():
@@ -103,10 +103,10 @@ def arrival(cost: Any, goals: Any, cell: float, starts: Any = None) -> np.ndarra
     begin = np.zeros(len(places), np.float32) if starts is None else np.ascontiguousarray(starts, np.float32)
     if begin.shape != places.shape:
         raise DesirePathError(f"There are {len(places)} goals, and starts of shape {begin.shape}: give one for each.")
-    good = (begin >= 0.0) & (begin <= MOST_START)
+    good = (begin >= 0.0) & (begin <= MAX_START)
     if not good.all():
         bad = int(np.argmin(good))
-        raise DesirePathError(f"Goal {bad} starts at {begin[bad]:g}: give a number from 0 to {MOST_START:g}.")
+        raise DesirePathError(f"Goal {bad} starts at {begin[bad]:g}: give a number from 0 to {MAX_START:g}.")
     time = np.empty_like(costs)
     _native.arrival(costs, cell, places, begin, time)
     return time

@@ -12,7 +12,7 @@ from .arrival import check_cell, field
 
 SIGHT = 2.0  # sigma, how far wear is seen [m]
 STRENGTH = 0.5  # l, how far it pulls, against 1 for the direction [-]
-LEAST = 0.05  # g0, gradients below it pull less [m]
+MIN_GRADIENT = 0.05  # g0, gradients below it pull less [m]
 REACH = 8.0  # sights beyond which nothing is seen
 
 
@@ -39,7 +39,9 @@ def seen(wear: Any, cell: float, sight: float = SIGHT) -> np.ndarray:
     return np.fft.irfft2(spectrum, shape)[rows : rows + ny, columns : columns + nx]
 
 
-def pull(wear: Any, cell: float, strength: float = STRENGTH, sight: float = SIGHT, least: float = LEAST) -> np.ndarray:
+def pull(
+    wear: Any, cell: float, strength: float = STRENGTH, sight: float = SIGHT, least: float = MIN_GRADIENT
+) -> np.ndarray:
     """Where worn ground pulls: l grad V / max(|grad V|, g0). MODEL 12.4
 
     wear: 0 = untouched, 1 = bare (ny, nx); cell: [m]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 SIDES = ("left", "right")
-MOST = 100_000  # marks of a track
+MAX_MARKS = 100_000  # marks of a track
 LONGEST, SLOWEST, FASTEST = 1e4, 1e-3, 1e3  # a track's numbers may be: lengths [m], speeds [m/s]
 DEEPEST = 10.0  # [m]
 SIZES = 5  # that marks have whose size scatters
@@ -140,15 +140,15 @@ def lay(
 def _spacing(marks: Marks, usual: float, pace: Pace) -> float:
     """The first spacing [m], as it is told or as the count makes it."""
     if marks.count is not None:
-        if not 1 <= marks.count <= MOST:
-            raise DesirePathError(f"{marks.count} marks cannot be made: give a number from 1 to {MOST}.")
+        if not 1 <= marks.count <= MAX_MARKS:
+            raise DesirePathError(f"{marks.count} marks cannot be made: give a number from 1 to {MAX_MARKS}.")
         if marks.spacing is not None:
             raise DesirePathError("A track has either a spacing or a number of marks: leave one of them out.")
         return pace.whole(1.0) / max(marks.count - 1, 1)
     spacing = usual if marks.spacing is None else _above("spacing", marks.spacing, LONGEST)
-    if pace.whole(spacing) + 1.0 > MOST:
+    if pace.whole(spacing) + 1.0 > MAX_MARKS:
         raise DesirePathError(
-            f"This would be {pace.whole(spacing) + 1.0:.0f} marks, and {MOST} are the most: give a larger spacing."
+            f"This would be {pace.whole(spacing) + 1.0:.0f} marks, and {MAX_MARKS} are the most: give a larger spacing."
         )
     return spacing
 
@@ -191,16 +191,16 @@ def mass_of(drive: Drive, usual: float) -> float:
     return usual if drive.mass is None else _above("mass", drive.mass, MAX_MASS, "kg")
 
 
-def _above(name: str, value: float, most: float, unit: str = "m") -> float:
-    if not 0.0 < value <= most:
+def _above(name: str, value: float, maximum: float, unit: str = "m") -> float:
+    if not 0.0 < value <= maximum:
         raise DesirePathError(
-            f"A track with a {name} of {value:g} {unit} is none: give one above 0 and up to {most:g}."
+            f"A track with a {name} of {value:g} {unit} is none: give one above 0 and up to {maximum:g}."
         )
     return float(value)
 
 
-def number_of(name: str, value: float, least: float, most: float, unit: str = "m") -> float:
-    if not least <= value <= most:
+def number_of(name: str, value: float, minimum: float, maximum: float, unit: str = "m") -> float:
+    if not minimum <= value <= maximum:
         told = f"{value:g} {unit}".strip()
-        raise DesirePathError(f"A track with a {name} of {told} is none: give one from {least:.3g} to {most:.3g}.")
+        raise DesirePathError(f"A track with a {name} of {told} is none: give one from {minimum:.3g} to {maximum:.3g}.")
     return float(value)

@@ -24,7 +24,7 @@ from ..rig.sole import Faces
 
 CORNERS = 28  # of a pad's outline
 RINGS = (1.0, 0.92, 0.75, 0.5, 0.25)  # from a pad's rim inwards, in shares of its size
-MOST_PIXELS = 128  # of a picture from side to side that are told apart
+MAX_PIXELS = 128  # of a picture from side to side that are told apart
 DARK = 1.0 / 64.0  # pixels below do not touch
 LARGEST, SMALLEST = 100.0, 1e-3  # a stamp may be so long [m]
 
@@ -118,8 +118,8 @@ def find(stamp: str | Stamp) -> Stamp:
 
 
 def _coarser(pixels: np.ndarray) -> np.ndarray:
-    """The means of blocks of pixels, where there are more than MOST_PIXELS from side to side."""
-    block = -(-max(pixels.shape) // MOST_PIXELS)
+    """The means of blocks of pixels, where there are more than MAX_PIXELS from side to side."""
+    block = -(-max(pixels.shape) // MAX_PIXELS)
     ny, nx = (-(-size // block) for size in pixels.shape)
     padded = np.zeros((ny * block, nx * block))
     padded[: pixels.shape[0], : pixels.shape[1]] = pixels

@@ -29,7 +29,7 @@ from .vehicle import Axle, Vehicle
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-MOST_SAMPLES = 10_000_000  # of its motion
+MAX_SAMPLES = 10_000_000  # of its motion
 STANDS = 0.6  # of the time from mark to mark a foot is down before its mark's own time, and after it
 RISES = 0.2  # .. of it, it takes to come straight down, and up again
 LIFT = 0.25  # feet are carried so high, in legs
@@ -151,9 +151,9 @@ def _samples(first: float, last: float, rate: float, drive: Drive) -> np.ndarray
         raise DesirePathError(f"{drive.frame_rate:g} frames a second cannot be made: give a number above 0.")
     rate = drive.frame_rate * math.ceil(rate / drive.frame_rate)
     count = (last - first) * rate + 1.0
-    if count > MOST_SAMPLES:
+    if count > MAX_SAMPLES:
         raise DesirePathError(
-            f"This track would take {count:.0f} samples, and {MOST_SAMPLES} are the most: shorten the curve, or go "
+            f"This track would take {count:.0f} samples, and {MAX_SAMPLES} are the most: shorten the curve, or go "
             "along it faster."
         )
     return first + np.arange(math.ceil(count)) / rate

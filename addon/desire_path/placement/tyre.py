@@ -13,7 +13,7 @@ from ..rig.sole import Faces
 TYRES = ("plain", "blocks", "bars")  # smooth | rows of blocks, as on roads | bars that meet, as of a tractor
 ACROSS = 25  # points from side to side
 STEP = 0.008  # points of a tread lie so far apart along the rim, about [m] ..
-MOST = 720  # .. but no more of them than this
+MAX_POINTS = 720  # .. but no more of them than this
 DEEP = 0.06  # of the width: how far grooves stand back ..
 DEEPEST = 0.03  # .. at most, in shares of the radius
 SHOULDER = 0.12  # of the width: the rim rounds off so near to its sides
@@ -50,7 +50,7 @@ def wheel(radius: float, width: float, tread: str = "plain") -> Faces:
             )
     around = 2.0 * np.pi * radius
     pitches = max(int(round(around / (0.45 * width if tread == "bars" else 0.22 * width))), 3)
-    count = 120 if tread == "plain" else int(np.clip(np.ceil(around / STEP), 120, MOST))
+    count = 120 if tread == "plain" else int(np.clip(np.ceil(around / STEP), 120, MAX_POINTS))
     share = np.arange(count) / count
     across = np.linspace(-1.0, 1.0, 9 if tread == "plain" else ACROSS)
     groove = _grooved(tread, share[:, None] * pitches, across[None])

@@ -22,7 +22,7 @@ from ..core import side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, table
 from ..ground.options import SimulationOptions
-from ..ground.plants import MOST_PLANTS, Kind, Planting, as_kind, vigour_at
+from ..ground.plants import MAX_PLANTS, Kind, Planting, as_kind, vigour_at
 from ..ground.sim import Ground, Simulation
 from ..ground.soil import Soil
 from ..keywords import fields_of
@@ -65,10 +65,10 @@ class Lane:
         for name, low, high in (("length", 0.5, 1000.0), ("width", 0.1, 100.0), ("mass", 1.0, 1000.0)):
             _check_range(name, getattr(self, name), low, high)
         stand = self.stand(kind)
-        if not 0.0 < stand * self.length * self.width <= MOST_PLANTS:
+        if not 0.0 < stand * self.length * self.width <= MAX_PLANTS:
             raise DesirePathError(
                 f"A density of {stand:g} plants a m^2 cannot be used for this lane: choose one that "
-                f"makes up to {MOST_PLANTS} plants."
+                f"makes up to {MAX_PLANTS} plants."
             )
 
 

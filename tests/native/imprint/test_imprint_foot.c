@@ -4,15 +4,15 @@
 #include "check.h"
 #include "imprint/imprint.h"
 
-#define MOST (160 * 160)
+#define MAX_CELLS (160 * 160)
 
 // a patch with an imprint on it, filled with rubbish so that what is not written shows
 typedef struct Ground
 {
     DpSoilPatch patch;
     DpImprint   imprint;
-    float       bottom[MOST], cover[MOST];
-    int32_t     ring[MOST];
+    float       bottom[MAX_CELLS], cover[MAX_CELLS];
+    int32_t     ring[MAX_CELLS];
 } Ground;
 
 static void lay(Ground* ground, int nx, int ny, double cell, double x0, double y0)
@@ -24,8 +24,8 @@ static void lay(Ground* ground, int nx, int ny, double cell, double x0, double y
     ground->patch.cell = cell;
     ground->patch.x0 = x0;
     ground->patch.y0 = y0;
-    for (int n = 0; n < MOST; ++n) ground->bottom[n] = ground->cover[n] = -7.0f;
-    for (int n = 0; n < MOST; ++n) ground->ring[n] = -7;
+    for (int n = 0; n < MAX_CELLS; ++n) ground->bottom[n] = ground->cover[n] = -7.0f;
+    for (int n = 0; n < MAX_CELLS; ++n) ground->ring[n] = -7;
     ground->imprint.bottom = ground->bottom;
     ground->imprint.cover = ground->cover;
     ground->imprint.ring = ground->ring;
@@ -81,7 +81,7 @@ TEST(a_box_covers_its_cells_and_no_others)
                 CHECK(ground.cover[at] == (under ? 1.0f : 0.0f));
                 CHECK(ground.bottom[at] == (under ? 0.5f : INFINITY));
             }
-        for (int n = 0; n < MOST; ++n) {
+        for (int n = 0; n < MAX_CELLS; ++n) {
             const int i = n % ground.patch.row;
             if (i >= 40 || n >= 30 * ground.patch.row) CHECK(ground.cover[n] == -7.0f);
             CHECK(ground.ring[n] == -7);  // rings are not its business
@@ -498,7 +498,8 @@ TEST(bad_soles_are_refused_and_leave_the_imprint)
         dp_alloc_fail_after(-1);
         dp_imprint_scratch_destroy(scratch);
     }
-    for (int n = 0; n < MOST; ++n) CHECK(ground.cover[n] == -7.0f && ground.bottom[n] == -7.0f);
+    for (int n = 0; n < MAX_CELLS; ++n)
+        CHECK(ground.cover[n] == -7.0f && ground.bottom[n] == -7.0f);
     CHECK(ground.imprint.i1 == 77);
     dp_imprint_scratch_destroy(NULL);
 }

@@ -1,9 +1,9 @@
 #include "check.h"
 #include "imprint/imprint.h"
 
-#define MOST 4096
+#define MAX_CELLS 4096
 
-static int32_t ring[MOST], want[MOST];
+static int32_t ring[MAX_CELLS], want[MAX_CELLS];
 
 // ring numbers by looking at every pair of cells
 static void slow_rings(const DpSoilPatch* patch, int rings)
@@ -27,7 +27,8 @@ static void compare(int nx, int ny, int rings, double density, unsigned* seed)
     patch.nx = nx, patch.ny = ny, patch.row = nx + 2;
     DpImprint imprint = {0};
     imprint.ring = ring;
-    for (int n = 0; n < MOST; ++n) ring[n] = check_random(seed) < density ? 0 : n % 3 ? -5 : 12345;
+    for (int n = 0; n < MAX_CELLS; ++n)
+        ring[n] = check_random(seed) < density ? 0 : n % 3 ? -5 : 12345;
     for (int j = 0; j < ny; ++j) ring[j * patch.row + nx] = -99;
     slow_rings(&patch, rings);
     dp_imprint_rings(&imprint, &patch, rings);

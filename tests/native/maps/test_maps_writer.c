@@ -48,13 +48,13 @@ TEST(the_same_files_in_the_background)
 {
     enum
     {
-        MOST = 4000000
+        MAX_BYTES = 4000000
     };
-    unsigned char* plain = malloc(MOST);
-    unsigned char* other = malloc(MOST);
-    const size_t   size = film(false, plain, MOST);
-    CHECK(size > 20000 && size < MOST);
-    CHECK(film(true, other, MOST) == size && memcmp(plain, other, size) == 0);
+    unsigned char* plain = malloc(MAX_BYTES);
+    unsigned char* other = malloc(MAX_BYTES);
+    const size_t   size = film(false, plain, MAX_BYTES);
+    CHECK(size > 20000 && size < MAX_BYTES);
+    CHECK(film(true, other, MAX_BYTES) == size && memcmp(plain, other, size) == 0);
     free(plain);
     free(other);
 }

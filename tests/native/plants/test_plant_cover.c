@@ -6,7 +6,7 @@
 
 static const DpPlantWindow window = {N, N, N, 0.05, 0.5, 0.5};
 
-static void least_and_most(const float* grid, double* least, double* most)
+static void min_and_max(const float* grid, double* least, double* most)
 {
     *least = INFINITY, *most = -INFINITY;
     for (int k = 0; k < N * N; ++k) {
@@ -22,10 +22,10 @@ TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
     float             strength[N * N], modulus[N * N];
     double            low, high, broken[20];
     CHECK(dp_plants_cover(plants, &window, DP_COVER_FULL, strength, modulus) == DP_OK);
-    least_and_most(strength, &low, &high);
+    min_and_max(strength, &low, &high);
     CHECK_NEAR(low, 1.0, 1e-6);
     CHECK_NEAR(high, 1.0, 1e-6);
-    least_and_most(modulus, &low, &high);
+    min_and_max(modulus, &low, &high);
     CHECK_CLOSE(low, 10e6, 1e-6);  // TRAIL (8)
     CHECK_CLOSE(high, 10e6, 1e-6);
 
@@ -33,10 +33,10 @@ TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
         for (int b = 0; b < 20; ++b) broken[b] = b / 5 % 2 < share && b % 5 == 0 ? 0.0 : 0.1;
         for (int k = 0; k < 625; ++k) dp_plants_write(plants, 0, k, NULL, NULL, broken);
         dp_plants_cover(plants, &window, DP_COVER_FULL, strength, modulus);
-        least_and_most(strength, &low, &high);
+        min_and_max(strength, &low, &high);
         CHECK_NEAR(low, 1.0 - 0.5 * share, 1e-6);
         CHECK_NEAR(high, 1.0 - 0.5 * share, 1e-6);
-        least_and_most(modulus, &low, &high);
+        min_and_max(modulus, &low, &high);
         CHECK_NEAR(high, 10e6 * (1.0 - 0.5 * share), 10.0);
     }
     dp_plants_destroy(plants);
@@ -44,7 +44,7 @@ TEST(full_cover_is_1_half_broken_is_a_half_none_is_0)
     plants = dp_plants_create(1);  // no plants: 0
     for (int law = 0; law < 2; ++law) {
         CHECK(dp_plants_cover(plants, &window, (DpCoverLaw)law, strength, modulus) == DP_OK);
-        least_and_most(strength, &low, &high);
+        min_and_max(strength, &low, &high);
         CHECK_NEAR(high, 0.0, 0.0);
     }
     dp_plants_destroy(plants);
@@ -58,7 +58,7 @@ TEST(a_thin_stand_covers_less)
     float     strength[N * N];
     double    low, high;
     dp_plants_cover(plants, &window, DP_COVER_FULL, strength, NULL);
-    least_and_most(strength, &low, &high);
+    min_and_max(strength, &low, &high);
     CHECK_NEAR(low, 0.5, 0.03);
     CHECK_NEAR(high, 0.5, 0.03);
     dp_plants_destroy(plants);

@@ -75,7 +75,7 @@ TEST(what_cannot_be_is_refused)
     DpDetail     wrong[6] = {all, all, all, all, all, all};
     wrong[0].grit_height = -1.0;
     wrong[1].crumb_share = 0.51;
-    wrong[2].crumb_least = 0.01;
+    wrong[2].min_crumb = 0.01;
     wrong[3].fray_size = 0.0;
     wrong[4].vein_height = NAN;
     wrong[5].grit_size = INFINITY;

@@ -14,8 +14,8 @@ static double   next(double low, double high)
 }
 
 // the least size of the squares that come within `around` of a box
-static double least_near(const DpWishes* wishes, const double low[2], const double high[2],
-                         double around)
+static double min_near(const DpWishes* wishes, const double low[2], const double high[2],
+                       double around)
 {
     double least = INFINITY;
     for (int k = 0; k < wishes->count; ++k) {
@@ -46,9 +46,9 @@ TEST(no_wish_is_missed_and_none_comes_from_afar)
         const double low[2] = {next(-60.0, 120.0), next(-20.0, 20.0)};
         const double high[2] = {low[0] + extent, low[1] + next(0.0, 1.0) * extent};
         const double found = dp_wish_within(tree, low, high);
-        CHECK(found <= least_near(&wishes, low, high, 0.0));
+        CHECK(found <= min_near(&wishes, low, high, 0.0));
         if (extent < 32.0)  // beyond, all wishes are one square's
-            CHECK(found >= least_near(&wishes, low, high, 2.0 * fmax(extent, BLOCK) + 1e-9));
+            CHECK(found >= min_near(&wishes, low, high, 2.0 * fmax(extent, BLOCK) + 1e-9));
     }
     dp_wish_destroy(tree);
 }

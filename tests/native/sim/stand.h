@@ -7,7 +7,7 @@
 #define CELL 0.01
 #define RATE 100.0
 #define TIMES 201
-#define MOST_LIMBS 2
+#define MAX_LIMBS 2
 
 static const float   STAND_BOX[] = {-0.05f, -0.05f, 0, 0.05f,  -0.05f, 0,
                                     0.05f,  0.05f,  0, -0.05f, 0.05f,  0};
@@ -19,9 +19,9 @@ typedef struct Stand
     int        limbs;
     DpTerrain* terrain;
     DpSim*     sim;
-    double     time[TIMES], pose[MOST_LIMBS][TIMES][7], force[MOST_LIMBS][TIMES][3];
-    double     point[MOST_LIMBS][TIMES][3];
-    uint8_t    touching[MOST_LIMBS][TIMES];
+    double     time[TIMES], pose[MAX_LIMBS][TIMES][7], force[MAX_LIMBS][TIMES][3];
+    double     point[MAX_LIMBS][TIMES][3];
+    uint8_t    touching[MAX_LIMBS][TIMES];
 } Stand;
 
 // nobody touches yet
@@ -47,10 +47,9 @@ static inline void stand_on(Stand* s, int limb, int from, int end, double x, dou
 
 static inline void stand_load(Stand* s, const DpSoil* soil, DpSimOptions chosen)
 {
-    static const double    mass[MOST_LIMBS] = {70.0, 70.0};
-    static const int32_t   owner[MOST_LIMBS] = {0, 1};
-    const DpMesh           sole[MOST_LIMBS] = {{4, 2, STAND_BOX, STAND_FACES},
-                                               {4, 2, STAND_BOX, STAND_FACES}};
+    static const double  mass[MAX_LIMBS] = {70.0, 70.0};
+    static const int32_t owner[MAX_LIMBS] = {0, 1};
+    const DpMesh sole[MAX_LIMBS] = {{4, 2, STAND_BOX, STAND_FACES}, {4, 2, STAND_BOX, STAND_FACES}};
     const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soil, 1, 1, 0, NULL};
     const DpGround         flat = {.kind = DP_GROUND_FLAT};
     const DpGait           gait = {.times = TIMES,

@@ -138,7 +138,7 @@ static inline double ground_sum(const Ground* ground, const float* grid)
     return sum * ground->patch.cell * ground->patch.cell;
 }
 
-static inline double ground_most(const Ground* ground, const float* grid)
+static inline double ground_max(const Ground* ground, const float* grid)
 {
     double most = 0.0;
     for (int k = 0; k < ground->patch.nx * ground->patch.ny; ++k)

@@ -93,8 +93,8 @@ TEST(rest_is_a_triangle)
         double       height = 0.0;
         CHECK(lay(&ground, ground_load(1.0), 2.0 * area * 160 * 0.005, &rest, &height) == DP_OK);
         const double top = sqrt(2.0 * area * slope);
-        CHECK_NEAR(ground_most(&ground, ground.heap), top, 0.6 * slope * 0.005 + 0.002 * top);
-        CHECK_CLOSE(height, ground_most(&ground, ground.heap), 0.01);
+        CHECK_NEAR(ground_max(&ground, ground.heap), top, 0.6 * slope * 0.005 + 0.002 * top);
+        CHECK_CLOSE(height, ground_max(&ground, ground.heap), 0.01);
         CHECK(steepest(&ground) < 0.1 * DP_PI / 180.0);
         ground_free(&ground);
     }
@@ -130,7 +130,7 @@ TEST(steps_do_not_matter)
         double height = 0.0;
         for (int k = 0; k < (m ? 50 : 1); ++k)
             CHECK(lay(&ground, ground_load(700.0), m ? 1e-5 : 5e-4, &rest, &height) == DP_OK);
-        top[m] = ground_most(&ground, ground.heap);
+        top[m] = ground_max(&ground, ground.heap);
         ground_free(&ground);
     }
     CHECK_CLOSE(top[0], top[1], 0.01);

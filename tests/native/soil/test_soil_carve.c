@@ -24,7 +24,7 @@ TEST(goes_down_to_the_body)
     Ground         g = ground_make(40, 40, 0.01, sand());
     const BoxSole  box = {.z = -0.1, .length = 0.2, .width = 0.1};
     const DpCarved c = carve(&g, box, straight);
-    CHECK_NEAR(ground_most(&g, g.compression), 0.1, 1e-7);
+    CHECK_NEAR(ground_max(&g, g.compression), 0.1, 1e-7);
     CHECK_NEAR(c.pressed.firm, 0.1 * 0.2 * 0.1, 1e-9);
     CHECK_NEAR(c.pressed.displaced, 0.7 * c.pressed.firm, 1e-9);
     CHECK(c.cut_firm <= 0.0 && c.cut_loose <= 0.0);

@@ -37,7 +37,7 @@ TEST(flat_sole_is_trail_10)
         const double    c = 75 * DP_GRAVITY * 0.30 / (0.35e6 * 0.0275);
         CHECK_CLOSE(c, 0.0229, 0.01);
         CHECK_CLOSE(p.deepest, c, 0.01);
-        CHECK_CLOSE(p.deepest, ground_most(&ground, ground.compression), 1e-6);
+        CHECK_CLOSE(p.deepest, ground_max(&ground, ground.compression), 1e-6);
         CHECK_CLOSE(p.firm, c * 0.0275, 0.01);
         CHECK_CLOSE(p.area, 0.0275, 0.01);
         CHECK_CLOSE(p.displaced, 2 * 0.35 * p.firm, 1e-6);
@@ -56,7 +56,7 @@ TEST(even_ground_is_exact)
     CHECK_CLOSE(p.deepest, 600.0 * 0.30 / (0.35e6 * 0.028), 1e-6);
     CHECK_CLOSE(p.firm, 600.0 * 0.30 / 0.35e6, 1e-6);
     // stress over time: N t/A where the sole covers the cell
-    CHECK_CLOSE(ground_most(&ground, ground.pressure_time), 600.0 / 0.028 * 0.3, 1e-5);
+    CHECK_CLOSE(ground_max(&ground, ground.pressure_time), 600.0 / 0.028 * 0.3, 1e-5);
     CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 600.0 * 0.3, 1e-5);
     ground_free(&ground);
 }
@@ -211,7 +211,7 @@ TEST(rises_off_pressed_ground)
     const DpPressed p = stand(&ground, shoe, 350.0, DP_CONTACT_SOLE, 0.01, 0.01);
     CHECK(p.firm == 0.0);
     CHECK_NEAR(ground_sum(&ground, ground.pressure_time) - before, 3.5, 1e-3);
-    CHECK_CLOSE(p.sink, 0.5 * ground_most(&ground, ground.compression), 1e-3);
+    CHECK_CLOSE(p.sink, 0.5 * ground_max(&ground, ground.compression), 1e-3);
     ground_free(&ground);
 }
 
@@ -250,7 +250,7 @@ TEST(first_touch_is_finite)
     const BoxSole   sole = {.x = 0.005, .length = 0.28, .width = 0.02, .pitch = 1.0};
     const DpPressed p = stand(&ground, sole, 2.0, DP_CONTACT_SOLE, 0.4, 0.01);
     CHECK(p.area > 0.0 && p.area < 4e-4);
-    const double stress = ground_most(&ground, ground.pressure_time) / 0.4;
+    const double stress = ground_max(&ground, ground.pressure_time) / 0.4;
     CHECK(stress < 2.0 * 2.0 / 4e-4);
     ground_free(&ground);
 }
@@ -298,7 +298,7 @@ TEST(nothing_to_press)
     CHECK(stand(&ground, away, 100.0, DP_CONTACT_SOLE, 0.01, 0.01).area == 0.0);
     for (int k = 0; k < 400; ++k) ground.base_height[k] = NAN;
     CHECK(stand(&ground, shoe, 100.0, DP_CONTACT_UNIFORM, 0.01, 0.01).area == 0.0);
-    CHECK(ground_most(&ground, ground.compression) == 0.0);
+    CHECK(ground_max(&ground, ground.compression) == 0.0);
     DpPressed         p;
     const DpFootForce foot = ground_load(1.0);
     CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, 0, 0.0, &p) == DP_BAD_ARGUMENT);
@@ -354,7 +354,7 @@ TEST(mirrored_to_the_bit)
             CHECK(unlike == 0);
         }
     }
-    CHECK(ground_most(&g[0], g[0].compression) > 0.01);
+    CHECK(ground_max(&g[0], g[0].compression) > 0.01);
     for (int m = 0; m < 4; ++m) ground_free(&g[m]);
 }
 

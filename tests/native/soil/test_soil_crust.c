@@ -59,12 +59,12 @@ TEST(it_carries_to_the_load_that_bends_it_too_far)
     const double most = 3e5 / dp_soil_crust_stress(&soil, 1.0, 0.02, 2e5 / 0.3, false);
     Ground       ground = ground_with_crust();
     DpPressed    pressed = press(&ground, 0.999 * most);
-    CHECK_NEAR(ground_most(&ground, ground.compression), 0.0, 0.0);
+    CHECK_NEAR(ground_max(&ground, ground.compression), 0.0, 0.0);
     CHECK_CLOSE(pressed.area, 0.02, 1e-9);
     CHECK_NEAR(pressed.firm + pressed.displaced, 0.0, 0.0);
     CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 0.999 * most * 0.25, 1e-5);
     pressed = press(&ground, 1.001 * most);
-    CHECK(pressed.firm > 0.0 && ground_most(&ground, ground.compression) > 0.0);
+    CHECK(pressed.firm > 0.0 && ground_max(&ground, ground.compression) > 0.0);
     ground_free(&ground);
 }
 

@@ -77,7 +77,7 @@ static double footfall(Ground* ground, BoxSole sole, double newton, DpHeapLaw la
         ground_rings(ground, 6);
         CHECK(dp_soil_accumulate(&ground->patch, &ground->imprint, &foot, p.displaced, &options,
                                  &height, scratch) == DP_OK);
-        top = fmax(top, ground_most(ground, ground->heap));
+        top = fmax(top, ground_max(ground, ground->heap));
         DpSettled settled;
         dp_soil_stabilize(&ground->patch, &ground->imprint, NULL, TENTH, 20, scratch, &settled);
     }
@@ -205,7 +205,7 @@ TEST(rounding_does_not_matter)
         for (int k = 0; k < 110 * 80; ++k)
             most = fmax(most, fabs((double)g[0].heap[k] - (double)g[1].heap[k]));
         CHECK(most < 4e-4);
-        CHECK(ground_most(&g[0], g[0].heap) > 0.01);
+        CHECK(ground_max(&g[0], g[0].heap) > 0.01);
         for (int m = 0; m < 2; ++m) ground_free(&g[m]);
     }
 }
@@ -278,7 +278,7 @@ TEST(cells_do_not_matter)
         footfall(&ground, (BoxSole){.length = 0.32, .width = 0.16}, 3000.0, DP_HEAP_REST, &ledger);
         volume[k] = ground_sum(&ground, ground.compression);
         (void)settle(&ground, NULL, NULL, 100000);
-        rim[k] = ground_most(&ground, ground.heap);
+        rim[k] = ground_max(&ground, ground.heap);
         ground_free(&ground);
     }
     for (int k = 0; k < 2; ++k) {
@@ -299,7 +299,7 @@ TEST(trends_of_soft22)
         double ledger = 0.0;
         rim[k] = footfall(&ground, (BoxSole){.length = 0.2, .width = 0.2}, k == 1 ? 4482.0 : 2241.0,
                           DP_HEAP_REST, &ledger);
-        depth[k] = ground_most(&ground, ground.compression);
+        depth[k] = ground_max(&ground, ground.compression);
         ground_free(&ground);
     }
     CHECK(depth[1] > 1.8 * depth[0] && depth[2] < 0.6 * depth[0]);

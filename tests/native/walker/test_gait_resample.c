@@ -37,11 +37,11 @@ TEST(keeps_cubics_on_uneven_times)
     const double  last = s.time[T - 1];
     enum
     {
-        MOST = 200
+        MAX_SAMPLES = 200
     };
-    double    time[MOST], com[3 * MOST], pose[7 * MOST];
+    double    time[MAX_SAMPLES], com[3 * MAX_SAMPLES], pose[7 * MAX_SAMPLES];
     const int count = dp_gait_resample_count(0.0, last, 240.0);
-    CHECK(count > 60 && count < MOST);
+    CHECK(count > 60 && count < MAX_SAMPLES);
     CHECK(dp_gait_resample(gait, 240.0, count, time, com, pose) == DP_OK);
     for (int k = 0; k < count; ++k) {
         CHECK_NEAR(time[k], (double)k / 240.0, 1e-12);
