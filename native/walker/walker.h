@@ -112,7 +112,7 @@ typedef enum DpLoadModel
 #define DP_LOAD_NUMBERS(X) \
     X(cutoff_share, "-", 1e-3, 1e6, 3.0, "low-pass of a_com in step frequencies") \
     X(cutoff_low, "Hz", 1e-3, 1e6, 5.0, "its lower bound") \
-    X(cutoff_high, "Hz", 1e-3, 1e6, 10.0, "its upper bound, no lower than that") \
+    X(cutoff_high, "Hz", 1e-3, 1e6, 11.0, "its upper bound, no lower than that") \
     X(cutoff_flight, "Hz", 1e-3, 1e6, 8.0, "the lower one of who flies") \
     X(cutoff_knock, "Hz", 1e-3, 1e6, 20.0, "the upper one of a landing whose flight shows no noise") \
     X(noise_share, "-", 1e-3, 1e6, 2.0, "so many times the noise of flights may be smoothed away") \

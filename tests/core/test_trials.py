@@ -50,7 +50,7 @@ def test_an_uneven_landing_is_shared_at_any_frame_rate(rate):
 
 @pytest.mark.parametrize("name", trials.TRIALS)
 def test_no_constant_carries_the_known_forces(name):
-    """Each constant moved by 30 % either way; a sample of 4 ms is 0.035 of a sprint's stance of 105 ms."""
+    """Each constant moved by 30 % either way; 4 ms earlier, one sample, a sprint's stance of 105 ms tells 0.031."""
     trial = trials.make(name, 120.0)
     gait, loads = loads_of(trial)
     base = trials.compare(trial, gait, loads).rmse
@@ -59,7 +59,7 @@ def test_no_constant_carries_the_known_forces(name):
             for factor in (0.7, 1.3):
                 moved = walker.loads(gait, **{kind: {constant: value * factor}})
                 most = abs(trials.compare(trial, gait, moved).rmse - base).max()
-                assert most <= (0.04 if name.startswith("sprint") else 0.03), (constant, factor)
+                assert most <= (0.032 if name.startswith("sprint") else 0.03), (constant, factor)
 
 
 @pytest.mark.parametrize("name", trials.TRIALS)

@@ -42,7 +42,7 @@ TEST(what_does_not_go_together_is_told)
     DpLoadOptions options = dp_load_options_default();
     options.cutoff_low = 12.0;  // over cutoff_high
     CHECK(dp_load_options_check(&options, &reason) == DP_BAD_ARGUMENT);
-    CHECK(strstr(reason.text, "cutoff_high of 10 Hz") != NULL);
+    CHECK(strstr(reason.text, "cutoff_high of 11 Hz") != NULL);
     options = dp_load_options_default();
     options.model = (DpLoadModel)7;
     CHECK(dp_load_options_check(&options, &reason) == DP_BAD_ARGUMENT);
