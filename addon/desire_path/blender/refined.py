@@ -7,6 +7,7 @@ The ground's own mesh is never touched. The copy goes with the tree, its only us
 and away again. What is no mesh of the ground, as instances and curves on it, is shown as it was.
 """
 
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import bpy
@@ -110,18 +111,32 @@ class Cut:
     left: list  # names of attributes that could not be carried over
 
 
-def cut(scene, obj, surface, frame, wanted, into=None):
-    """The Cut of a ground's mesh as it is at a frame, or None where no wish asks for one.
-
-    wanted: refine.Wishes; into: the object of an earlier copy, which is made anew then
-    """
-    groups = [each.name for each in obj.vertex_groups]
+@contextmanager
+def _as_it_is(scene, obj, surface, frame, groups=()):
+    """A ground's mesh at a frame, as modifiers before ours make it; groups: vertex groups that are attributes of it."""
     trees = [stack.realised()] if surface.place.realise else []
     trees += [ground.weights_tree(groups)] if groups else []
     with stack.shaped(scene, obj, surface.place.before, trees) as (own, copy):
         stack.show(scene, copy, obj)
-        mesh = private.evaluated(own, copy, frame).data
-        refined = refine.refine(_triangles(mesh, surface), wanted)
+        yield private.evaluated(own, copy, frame).data
+
+
+def triangles(scene, obj, surface, frame):
+    """A ground's mesh as it is at a frame, as refine.Triangles."""
+    with _as_it_is(scene, obj, surface, frame) as mesh:
+        return _triangles(mesh, surface)
+
+
+def cut(scene, obj, surface, frame, wanted, into=None, refined=None):
+    """The Cut of a ground's mesh as it is at a frame, or None where no wish asks for one.
+
+    wanted: refine.Wishes; into: the object of an earlier copy, which is made anew then
+    refined: what refine.refine makes of triangles() for these wishes, if that is known
+    """
+    groups = [each.name for each in obj.vertex_groups]
+    with _as_it_is(scene, obj, surface, frame, groups) as mesh:
+        if refined is None or (len(refined.of.points), refined.of.starts[-1]) != (len(mesh.vertices), len(mesh.loops)):
+            refined = refine.refine(_triangles(mesh, surface), wanted)
         if not len(refined.triangles):
             return None
         weights = [compat.float_attribute(mesh, ground.WEIGHT.format(k)) for k in range(len(groups))]
@@ -262,7 +277,7 @@ def _triangles(mesh, surface):
 
 
 def _fill(mesh, source, refined):
-    """Fill an empty mesh as `made` cuts another one; returns the names of attributes that could not be carried over."""
+    """Fill an empty mesh as `refined` cuts another one; returns the names of attributes that are left out."""
     points = refined.on_points(compat.positions(source).astype(np.float64)).astype(np.float32)
     mesh.vertices.add(len(points))
     compat.set_numbers(mesh, "position", "vector", points, mesh.vertices, "co")
@@ -274,20 +289,21 @@ def _fill(mesh, source, refined):
     mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
     if not mesh.polygons[0].bl_rna.properties["loop_total"].is_readonly:  # later Blenders read it off loop_start
         mesh.polygons.foreach_set("loop_total", sizes)
-    mesh.polygons.foreach_set(
-        "material_index", refined.on_faces(_numbers(source.polygons, "material_index", 1, np.int32))
-    )
     smooth = _numbers(source.polygons, "use_smooth", 1, bool)
-    mesh.polygons.foreach_set(
-        "use_smooth", np.concatenate((smooth[refined.kept], np.ones(len(refined.triangles), bool)))
-    )
+    for name, values in (
+        ("material_index", refined.on_faces(_numbers(source.polygons, "material_index", 1, np.int32))),
+        ("use_smooth", np.concatenate((smooth[refined.kept], np.ones(len(refined.triangles), bool)))),
+    ):
+        if (values != getattr(mesh.polygons[0], name)).any():  # all new faces have the same
+            mesh.polygons.foreach_set(name, values)
     mesh.update(calc_edges=True)
-    edges = [_numbers(each.edges, "vertices", 2, np.int32) for each in (source, mesh)]
     along = {
         "POINT": refined.on_points,
         "CORNER": refined.on_corners,
         "FACE": refined.on_faces,
-        "EDGE": lambda values: refined.on_edges(values, *edges),
+        "EDGE": lambda values: refined.on_edges(
+            values, *(_numbers(each.edges, "vertices", 2, np.int32) for each in (source, mesh))
+        ),
     }
     left = _attributes(mesh, source, along)
     sharp = _numbers(source.edges, "use_edge_sharp", 1, bool) | _creased(source, smooth)
