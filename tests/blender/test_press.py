@@ -93,6 +93,20 @@ def test_a_plane_of_four_points_shows_what_is_pressed_into_it_and_nothing_after_
     assert np.allclose(np.array(one.matrix_world), matrix)
 
 
+def test_the_ground_is_fine_wherever_a_hand_goes_and_is_seldom_cut_anew(folder):
+    ground, one = plane(), ball()
+    hand, counts = press.Press(bpy.context, ground, [one], depth=0.04), []
+    for turn in np.linspace(0.0, 1.5 * np.pi, 30):
+        at = np.array((np.cos(turn), 0.5 * np.sin(turn)))
+        hand.step(hand.at(*at, down=True))
+        found = shown(ground)
+        near = found[np.linalg.norm(found[:, :2] - at, axis=1) < 0.04]
+        assert len(near) > 30 and abs(near[:, 2].min() + 0.04) < 0.004, (turn, len(near), near[:, 2].min(initial=0.0))
+        counts.append(len(found))
+    assert len(set(counts)) < 15 and max(counts) < 250_000, counts
+    hand.drop()
+
+
 def test_what_is_kept_plays_and_says_so_and_can_be_pressed_again(folder):
     ground, one = plane(), ball()
     ground.desire_path.is_ground = True

@@ -18,7 +18,13 @@ from . import axes, compat, cover, playback, playback_tree, refined, show
 MAX_CELLS = 1 << 20  # cells of the image; larger ground is shown around what was pressed
 MARGIN = 4  # tiles around that
 NEAR = 0.12  # the copy has to be fine so far around a body [m]
-SQUARE = 0.5  # and is made so at least that far [m]
+WIDER = 0.1  # it is made so that much farther [m] ..
+FAN = 0.35  # .. and where a body goes to, wider by this share of the way
+AHEAD = (16_000, 30_000)  # cells that are made fine there at once: at first, and when many were before
+SHARE = 0.5  # of those that are fine: so many are made fine at once between the two
+MOST_FINE = 60_000  # cells that stay fine though nobody pressed them
+SOON = (4, 0.25)  # the copy is cut before a body can come to where it is coarse in so many moves, and no sooner [m]
+TURNS = 0.5  # share by which one move changes where a body is taken to go to
 HIDES, SHOWS = 2, 1  # whether something plays behind what is shown for a while
 EDGE = 3  # cells around what is to be seen that are looked at, too
 SHADES = 1e-7  # where less was pressed or heaped nothing is to be seen [m]
@@ -30,7 +36,8 @@ class View:
     def __init__(self, scene, obj, surface, press):
         self.scene, self.name, self.surface, self.press = scene, obj.name, surface, press
         self.warnings, self.copy, self.fine, self.tiles, self.pixels = [], None, None, None, None
-        self.modifier_name = ""
+        self.at, self.going = None, np.zeros(2)  # where bodies were shown last, and how they go on from there [m]
+        self.modifier_name, self.mesh, self.cutting = "", None, None
         why = refined.held(scene, obj, surface.place)
         self.refines = obj.desire_path.refine and not why
         if obj.desire_path.refine and why:
@@ -50,8 +57,9 @@ class View:
         tiles = self._tiles(boxes)
         if tiles != self.tiles:
             self._open(tiles)
-        if self.refines and not self._is_fine(boxes):
-            self._cut(boxes)
+        self._follow(boxes)
+        if self.refines:
+            self._refine(boxes)
         self._look(boxes)
         self.image.pixels.foreach_set(self.pixels.ravel())
         self.image.update()
@@ -120,7 +128,7 @@ class View:
 
     def _open(self, tiles):
         """An image over other tiles, and the tree that shows it."""
-        self.tiles, self.pixels = tiles, None
+        self.tiles, self.pixels, self.fine, self.cutting = tiles, None, None, None
         index = self._index()
         image = bpy.data.images.new("desire_path press", index.nx, index.ny, alpha=True, float_buffer=True)
         image.colorspace_settings.name = "Non-Color"
@@ -144,41 +152,88 @@ class View:
 
     # ---- a copy that is fine around the hand -------------------------------------------------------
 
-    def _is_fine(self, boxes):
-        """Whether the copy shows every cell near bodies."""
-        if self.fine is None:
-            return False
-        x0, y0, x1, y1 = self.fine
-        return all(
-            x0 <= a0 - NEAR and y0 <= b0 - NEAR and a1 + NEAR <= x1 and b1 + NEAR <= y1 for a0, b0, a1, b1 in boxes
-        )
+    def _follow(self, boxes):
+        """Note where bodies go."""
+        if not boxes:
+            self.at = None
+            return
+        at = np.array(boxes).reshape(-1, 2, 2).mean(axis=(0, 1))
+        way = np.zeros(2) if self.at is None else at - self.at
+        self.going = way if self.at is None else TURNS * way + (1.0 - TURNS) * self.going
+        self.at = at
+
+    def _cells(self, box, wider):
+        """What of the image lies within a rectangle and so far around it, as its part [rows, columns]."""
+        x0, y0, x1, y1 = box
+        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        a0, a1, b0, b1 = self.press.sim.cells((x0 - wider, y0 - wider, x1 + wider, y1 + wider))
+        return np.s_[max(b0 - j0, 0) : max(min(b1 - j0, ny), 0), max(a0 - i0, 0) : max(min(a1 - i0, nx), 0)]
+
+    def _is_fine(self, boxes, soon=False):
+        """Whether the copy shows every cell near bodies; soon: where they will be then."""
+        moves, far = SOON if soon else (0, 0.0)
+        step = np.linalg.norm(self.going)
+        shift = np.tile(self.going * (min(moves * step, far) / max(step, 1e-9)), 2)
+        return self.fine is not None and all(self.fine[self._cells(np.array(b) + shift, NEAR)].all() for b in boxes)
+
+    def _refine(self, boxes):
+        """Keep the copy fine around bodies. Where it is to be cut is found out while they are on their way there."""
+        if self.cutting is not None and (self.cutting[-1].done() or not self._is_fine(boxes)):
+            self._take()
+        if not self._is_fine(boxes):
+            self._cut(boxes)
+            self._take()
+        elif self.cutting is None and not self._is_fine(boxes, soon=True):
+            self._cut(boxes)
+
+    def _ahead(self, boxes):
+        """Cells around bodies and ahead of them that the copy is to show, bool (ny, nx)."""
+        out = np.zeros(self.pixels.shape[:2], bool)
+        for each in boxes:
+            out[self._cells(each, NEAR + WIDER)] = True
+        most = np.clip(0 if self.fine is None else SHARE * np.count_nonzero(self.fine), *AHEAD)
+        step = np.linalg.norm(self.going)
+        toward = self.going / step if step > 0.0 else self.going
+        gone = 0.0
+        while boxes and np.count_nonzero(out) < most and gone < max(self.pixels.shape) * self.press.cell_size:
+            gone += WIDER
+            shift = np.tile(gone * toward, 2)
+            wider = NEAR + WIDER + (FAN * gone if step > 0.0 else gone)
+            for each in boxes:
+                out[self._cells(np.array(each) + shift, wider)] = True
+        return out
 
     def _cut(self, boxes):
-        """Make the copy fine around bodies, and as fine as what was pressed asks for elsewhere."""
-        press, index, obj = self.press, self._index(), self.object()
-        i0, j0, nx, ny = (TILE * each for each in self.tiles)
+        """Begin to cut a copy that is fine around bodies, and as fine as what was pressed asks for elsewhere."""
+        obj, press, index = self.object(), self.press, self._index()
         self._look(())
         seen = self.pixels
         changed = (seen[..., 2] > SHADES) | (np.abs(seen[..., 0]) > SHADES)
-        square, self.fine = np.zeros((ny, nx), bool), (0.0, 0.0, 0.0, 0.0)
-        if boxes:
-            low, high = np.array(boxes)[:, :2].min(axis=0), np.array(boxes)[:, 2:].max(axis=0)
-            wide = np.maximum(SQUARE, 1.5 * (high - low)) + NEAR
-            self.fine = (*(low - wide), *(high + wide))
-            a0, a1, b0, b1 = press.sim.cells(self.fine)
-            square[max(b0 - j0, 0) : max(b1 - j0, 0), max(a0 - i0, 0) : max(a1 - i0, 0)] = True
+        square = self._ahead(boxes)
+        if self.fine is not None and np.count_nonzero(self.fine | square) < MOST_FINE:
+            square |= self.fine
+        j, i = (np.flatnonzero((changed | square).any(axis=axis)) for axis in (1, 0))
         printed = {"compression": (changed | square).astype(np.float32)}
-        if cover.spacing(self.surface, index, printed) < refined.FINE:
+        if not len(i) or cover.spacing(self.surface, index, printed) < refined.FINE:
+            self.fine = square
             return
         size = axes.typed(obj.desire_path.refine_size)
         finest = max(size, press.cell_size)
-        j, i = (np.flatnonzero((changed | square).any(axis=axis)) for axis in (1, 0))
-        if not len(i):
-            return
         near = np.s_[max(j[0] - EDGE, 0) : j[-1] + EDGE, max(i[0] - EDGE, 0) : i[-1] + EDGE]
         corner = (index.x0 + near[1].start * index.cell, index.y0 + near[0].start * index.cell)
         wanted = refine.wishes(seen[near][..., 0], changed[near], index.cell, corner, size, (square[near], finest))
-        found = refined.cut(self.scene, obj, self.surface, self.scene.frame_current, wanted, self.copy)
+        if self.mesh is None:
+            self.mesh = refined.triangles(self.scene, obj, self.surface, self.scene.frame_current)
+        self.cutting = square, wanted, refine.begin(self.mesh, wanted)
+
+    def _take(self):
+        """Show the copy that was begun."""
+        if self.cutting is None:
+            return
+        (self.fine, wanted, made), self.cutting = self.cutting, None
+        found = refined.cut(
+            self.scene, self.object(), self.surface, self.scene.frame_current, wanted, self.copy, made.result()
+        )
         if found is not None and self.copy is None:
             self.copy = found.carrier
             self._tree()
@@ -190,7 +245,7 @@ class View:
         obj = self.object()
         if obj is not None:
             clear(obj)
-        self.tiles = self.fine = self.copy = None
+        self.tiles = self.fine = self.copy = self.at = self.mesh = self.cutting = None
         self.modifier_name = ""
 
 

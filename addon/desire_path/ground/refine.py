@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import _native
+from ..core import Begun, _native, begun
 from ..errors import DesirePathError
 
 BLOCK = 4  # cells on the edge of the squares that wishes are for
@@ -217,3 +217,8 @@ def refine(mesh: Triangles, wanted: Wishes, max_triangles: int = MAX_TRIANGLES) 
         point_source,
         point_weight.reshape(-1, 3),
     )
+
+
+def begin(mesh: Triangles, wanted: Wishes) -> Begun[Refined]:
+    """Begin refine() beside what goes on: done() tells whether it is through, result() waits for what it returns."""
+    return begun(refine, mesh, wanted)
