@@ -256,6 +256,8 @@ def descend(
     x: float,
     y: float,
     step: float,
+    turn: _Array | None,  # (n,) f4
+    inertia: float,
     /,
 ) -> Block: ...
 

@@ -1,4 +1,4 @@
-"""python -m desire_path: bake a recording or a track, list or draw forces, wear a lane, where there is no Blender."""
+"""python -m desire_path: bake a recording, a track or a crowd, list or draw forces, where there is no Blender."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import command_bake, command_export, command_track
+from . import command_bake, command_crowd, command_export, command_track
 from .command_bake import SAMPLES, SET_HELP, SOIL_HELP, bar, read_ground, read_kind, walk
 from .errors import DesirePathError
 from .files import atomic_file
@@ -117,8 +117,17 @@ def _load_options(task: Parser) -> None:
 def _parser() -> Parser:
     parser = Parser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
-    tasks = parser.add_subparsers(required=True, metavar="bake | track | loads | plot | lane | fit | export")
-    for add in (command_bake.add, command_track.add, _add_loads, _add_plot, _add_lane, _add_fit, command_export.add):
+    tasks = parser.add_subparsers(required=True, metavar="bake | track | crowd | loads | plot | lane | fit | export")
+    for add in (
+        command_bake.add,
+        command_track.add,
+        command_crowd.add,
+        _add_loads,
+        _add_plot,
+        _add_lane,
+        _add_fit,
+        command_export.add,
+    ):
         add(tasks)
     return parser
 

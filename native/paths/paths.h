@@ -51,12 +51,22 @@ typedef struct DpPath
     int     count;
 } DpPath;
 
+// How a walker strays: nobody turns at once, or goes quite where it means to. MODEL 12.5
+typedef struct DpStray
+{
+    double inertia;  // over which length a heading is kept          [m]   0 = not at all
+    const float*
+        turn;  // how far each step errs, to the left; again from the first when they end [rad] (count)
+    int count;  // 0 = no step errs
+} DpStray;
+
 // Go from a place, step by step, along the direction plus the pull, until a cell is reached from which times do not fall.
 // MODEL 12.3
 // @param pull  what is added to the unit direction, shorter than 1 everywhere; NULL: nothing   [-] (ny, nx, 2)
 // @param x, y  where it begins                                                                  [m]
 // @param step  length of a step, more than cell / 100 and at most a cell                        [m]
-// DP_BAD_ARGUMENT: a size, a step. DP_NO_GROUND: it begins outside, in an obstacle or where no path leads.
+// @param stray NULL: not at all
+// DP_BAD_ARGUMENT: a size, a step, an inertia. DP_NO_GROUND: it begins outside, in an obstacle or where no path leads.
 // On failure `path` stays empty.
 DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
-                          double step);
+                          double step, const DpStray* stray);

@@ -1,4 +1,4 @@
-// paths/paths_descend.c - down a field of times, step by step, pulled aside by what is worn. MODEL 12.2, MODEL 12.3
+// paths/paths_descend.c - down a field of times, pulled aside by what is worn. MODEL 12.2, MODEL 12.3, MODEL 12.5
 #include <math.h>
 
 #include "base/alloc.h"
@@ -131,37 +131,65 @@ static bool step_to(Place* at, const DpField* time, Place e, double step, double
     return true;
 }
 
+// How a walker goes: the length of a step, how much of a heading it keeps, and where it errs.
+typedef struct Manner
+{
+    double         step, kept;
+    const DpStray* stray;
+} Manner;
+
+// where the n-th step goes that is meant to go along `to`; heading: of the step before, 0 = there is none
+static Place err(const Manner* manner, Place* heading, Place to, int n)
+{
+    const DpStray* stray = manner->stray;
+    const double   kept = fabs(heading->x) + fabs(heading->y) > 0.0 ? manner->kept : 0.0;
+    *heading = kept > 0.0 ? unit(kept * heading->x + (1.0 - kept) * to.x,
+                                 kept * heading->y + (1.0 - kept) * to.y)  // MODEL 12.5
+                          : to;
+    if (!stray || stray->count < 1) return *heading;
+    const double turn = (double)stray->turn[n % stray->count], c = cos(turn), s = sin(turn);
+    return (Place){c * heading->x - s * heading->y, s * heading->x + c * heading->y};  // MODEL 12.5
+}
+
 // Steps fall by a least amount each, or else go from cell to cell until they have fallen below where that began: no path
 // goes in a circle.
-static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place at, double step)
+static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place at,
+                   const Manner* manner)
 {
-    double stuck = INFINITY;  // above it: from cell to cell
-    Place  middle = at;
+    const double step = manner->step;
+    double       stuck = INFINITY;  // above it: from cell to cell
+    Place        middle = at, heading = {0.0, 0.0};
     if (!add(path, at)) return DP_NO_MEMORY;
     for (;;) {
         const double fall = best(time, at, &middle);
         if (!(fall > 0.0)) return DP_OK;
         const Here   here = look(time, pull, at);
         const double highest = here.time - MIN_FALL * fall * step / time->cell;
-        const Place  e = unit(here.down.x + here.pull.x, here.down.y + here.pull.y);  // MODEL 12.3
+        const Place  to = unit(here.down.x + here.pull.x, here.down.y + here.pull.y);  // MODEL 12.3
+        const Place  e = err(manner, &heading, to, path->count - 1);
         const bool   free = here.time < stuck;
-        if (!free || (!step_to(&at, time, e, step, highest) &&
-                      !step_to(&at, time, here.down, step, highest))) {
-            if (free) stuck = here.time;
-            at = middle;
+        if (!free || !step_to(&at, time, e, step, highest)) {
+            heading = here.down;
+            if (!free || !step_to(&at, time, here.down, step, highest)) {
+                if (free) stuck = here.time;
+                at = middle;
+            }
         }
         if (!add(path, at)) return DP_NO_MEMORY;
     }
 }
 
 DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
-                          double step)
+                          double step, const DpStray* stray)
 {
     const Place at = {x, y};
+    Manner      manner = {.step = step, .stray = stray};
     if (!good_size(time) || !(step > 0.01 * time->cell && step <= time->cell))
         return DP_BAD_ARGUMENT;
+    if (stray && !(stray->inertia >= 0.0 && stray->inertia <= 1e6)) return DP_BAD_ARGUMENT;
+    if (stray && stray->inertia > 0.0) manner.kept = exp(-step / stray->inertia);
     if (!(cell_time(time, at) < (double)INFINITY)) return DP_NO_GROUND;
-    const DpStatus status = go(path, time, pull, at, step);
+    const DpStatus status = go(path, time, pull, at, &manner);
     if (status != DP_OK) {
         dp_free(path->point);
         *path = (DpPath){NULL, 0};

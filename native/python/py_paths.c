@@ -79,9 +79,11 @@ static PyObject* direction(PyObject* module, PyObject* arguments)
 
 static PyObject* descend(PyObject* module, PyObject* arguments)
 {
-    PyObject *times, *pulls;
+    PyObject *times, *pulls, *turns;
     double    cell, x, y, step;
-    if (!PyArg_ParseTuple(arguments, "OdOddd:descend", &times, &cell, &pulls, &x, &y, &step))
+    DpStray   stray = {0};
+    if (!PyArg_ParseTuple(arguments, "OdOdddOd:descend", &times, &cell, &pulls, &x, &y, &step,
+                          &turns, &stray.inertia))
         return NULL;
     DpBuffers    buffers = {0};
     PyObject*    answer = NULL;
@@ -92,10 +94,16 @@ static PyObject* descend(PyObject* module, PyObject* arguments)
         pull = dp_buffers_open(&buffers, pulls, "pull", 'f', DP_SHAPE3(time.ny, time.nx, 2), false);
         if (!pull) goto done;
     }
+    if (turns != Py_None) {
+        DpShape shape = {1, {-1}};
+        stray.turn = dp_buffers_open(&buffers, turns, "turn", 'f', &shape, false);
+        if (!stray.turn) goto done;
+        stray.count = (int)(shape.n[0] < INT32_MAX ? shape.n[0] : INT32_MAX);
+    }
     DpPath   path = {0};
     DpStatus status;
     Py_BEGIN_ALLOW_THREADS
-    status = dp_paths_descend(&path, &time, pull, x, y, step);
+    status = dp_paths_descend(&path, &time, pull, x, y, step, &stray);
     Py_END_ALLOW_THREADS
     answer = status == DP_OK
                  ? dp_py_block(module, path.point, 2 * (size_t)path.count * sizeof *path.point)
@@ -115,7 +123,8 @@ PyMethodDef dp_py_paths_methods[] = {
      "direction(time, cell, direction)\n--\n\n"
      "Where times float32 (ny, nx) fall steepest; written to direction float32 (ny, nx, 2)."},
     {"descend", descend, METH_VARARGS,
-     "descend(time, cell, pull, x, y, step)\n--\n\n"
-     "A path from (x, y) [m] down times float32 (ny, nx), pulled by float32 (ny, nx, 2) or None.\n"
+     "descend(time, cell, pull, x, y, step, turn, inertia)\n--\n\n"
+     "A path from (x, y) [m] down times float32 (ny, nx), pulled by float32 (ny, nx, 2) or None;\n"
+     "steps err by turn float32 (n,) [rad] or None, and keep their heading over inertia [m].\n"
      "Returns a Block of float64 (n, 2) [m]."},
     {NULL, NULL, 0, NULL}};

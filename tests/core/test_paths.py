@@ -177,6 +177,24 @@ def test_a_worn_line_gathers_ways_that_costs_alone_do_not():
     assert aside[0] > 1.5 and abs(aside[1]) < 0.6
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_ways_are_those_of_the_twin(seed):
+    cost, rng = ground(seed, obstacles=0.04 * seed)
+    cell = 0.4
+    goal = np.argwhere(np.isfinite(cost))[rng.integers(0, np.isfinite(cost).sum())][::-1]
+    time = arrival(cost, [goal], cell)
+    to = rng.normal(size=(*cost.shape, 2)).astype(np.float32)
+    to *= np.float32(0.6) / np.maximum(np.linalg.norm(to, axis=-1, keepdims=True), 1.0)
+    turn = rng.normal(scale=0.3, size=40).astype(np.float32)
+    reached = np.argwhere(np.isfinite(time))
+    for j, i in reached[rng.integers(0, len(reached), 12)]:
+        start = ((i + rng.uniform(0.1, 0.9)) * cell, (j + rng.uniform(0.1, 0.9)) * cell)
+        for more in ({}, {"turn": turn}, {"turn": turn, "inertia": 0.7}, {"inertia": 0.7}):
+            got = way(time, start, cell, to, 0.17, **more)
+            want = slow.way(time, start, cell, to, 0.17, **more)
+            assert got.shape == want.shape and np.allclose(got, want, rtol=0.0, atol=1e-9), (seed, start, more)
+
+
 def test_what_cannot_be_is_told():
     cost = np.ones((10, 20), np.float32)
     cost[4, 7] = np.inf
@@ -225,6 +243,12 @@ def test_ways_and_pulls_that_cannot_be_are_told():
             way(time, (1.0, 1.0), 0.5, np.full((10, 20, 2), strong))
     with pytest.raises(DesirePathError, match="does not fit"):
         way(time, (1.0, 1.0), 0.5, np.zeros((10, 20)))
+    for turn in (np.full(3, np.nan), np.zeros((2, 2))):
+        with pytest.raises(DesirePathError, match="no row of numbers"):
+            way(time, (1.0, 1.0), 0.5, turn=turn)
+    for inertia in (-1.0, np.nan, 1e9):
+        with pytest.raises(DesirePathError, match="heading cannot be kept"):
+            way(time, (1.0, 1.0), 0.5, inertia=inertia)
     for wear in (np.full((4, 4), 1.5), np.full((4, 4), np.nan)):
         with pytest.raises(DesirePathError, match=r"wear of cell \(0, 0\)"):
             pull(wear, 0.5)
@@ -241,5 +265,5 @@ def test_the_core_checks_its_door():
     with pytest.raises((ValueError, TypeError)):
         _native.arrival(cost, 0.5, goal, start, np.zeros((5, 4), np.float32))
     with pytest.raises((ValueError, TypeError)):
-        _native.descend(time, 0.5, np.zeros((4, 5), np.float32), 1.0, 1.0, 0.2)
-    assert len(bytes(_native.descend(time, 0.5, None, 1.0, 1.0, 0.2))) == 16  # flat times: there it is
+        _native.descend(time, 0.5, np.zeros((4, 5), np.float32), 1.0, 1.0, 0.2, None, 0.0)
+    assert len(bytes(_native.descend(time, 0.5, None, 1.0, 1.0, 0.2, None, 0.0))) == 16  # flat times: there it is

@@ -21,6 +21,7 @@ from ..errors import DesirePathError
 MAX_COST = 1e20  # of a metre; the least is 1 / MAX_COST
 MAX_START = 1e30
 MAX_CELLS = 2**31 - 1
+MAX_INERTIA = 1e6  # [m]
 CELLS = (1e-6, 1e6)  # how wide cells may be [m]
 
 
@@ -144,11 +145,22 @@ def direction(time: Any, cell: float) -> np.ndarray:
     return out
 
 
-def way(time: Any, start: Sequence[float], cell: float, pull: Any = None, step: float | None = None) -> np.ndarray:
-    """The way of one walker from a place to the goal, down times of arrival(), pulled aside. MODEL 12.3
+def way(
+    time: Any,
+    start: Sequence[float],
+    cell: float,
+    pull: Any = None,
+    step: float | None = None,
+    *,
+    turn: Any = None,
+    inertia: float = 0.0,
+) -> np.ndarray:
+    """The way of one walker from a place to the goal, down times of arrival(), pulled aside. MODEL 12.3, MODEL 12.5
 
     start: x and y [m]; pull: of pull(), float (ny, nx, 2), or None; step: its length, cell / 100 to cell [m];
     None = half a cell
+    turn: by how much each step errs to the left (n,) [rad], again from the first when they end; None = no step errs
+    inertia: over which length a heading is kept [m], 0 = not at all
     Returns float64 (n, 2) [m], the start first; the last lies in the cell of a goal. It ends at any pull.
     Raises DesirePathError where it starts outside, in an obstacle or on an island, and for a pull of 1 and more.
     """
@@ -174,9 +186,16 @@ def way(time: Any, start: Sequence[float], cell: float, pull: Any = None, step: 
         most = float(np.hypot(pulls[..., 0], pulls[..., 1]).max())
         if not most < 1.0:
             raise DesirePathError(f"The pull is {most:g} long somewhere: keep it below 1, or nobody gets to the goal.")
+    turns = None if turn is None else np.ascontiguousarray(turn, np.float32)
+    if turns is not None and (turns.ndim != 1 or not np.isfinite(turns).all()):
+        raise DesirePathError("Steps err by angles that are no row of numbers: give one for each step, in radians.")
+    if not 0.0 <= inertia <= MAX_INERTIA:
+        raise DesirePathError(f"A heading cannot be kept over {inertia:g} m: give 0 to {MAX_INERTIA:g}.")
     if not times[min(int(y / cell), ny - 1), min(int(x / cell), nx - 1)] < np.inf:
         raise DesirePathError(
             f"No way leads from ({x:g}, {y:g}) to the goal, for it lies in an obstacle or on an island: start "
             "elsewhere, or leave a gap."
         )
-    return np.frombuffer(_native.descend(times, cell, pulls, x, y, step), np.float64).reshape(-1, 2)
+    return np.frombuffer(_native.descend(times, cell, pulls, x, y, step, turns, float(inertia)), np.float64).reshape(
+        -1, 2
+    )

@@ -1,5 +1,8 @@
 // Paths: straight, through mazes, with pulls that would lead elsewhere; where there is none.
 #include "check.h"
+
+#include <string.h>
+
 #include "paths/paths.h"
 
 #define N 61
@@ -39,7 +42,7 @@ TEST(a_path_is_straight_on_even_ground)
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
     const DpField field = field_to(40 * N + 50);
     DpPath        path = {0};
-    CHECK(dp_paths_descend(&path, &field, NULL, 2.2, 3.1, 0.25) == DP_OK);
+    CHECK(dp_paths_descend(&path, &field, NULL, 2.2, 3.1, 0.25, NULL) == DP_OK);
     CHECK(cell_of(path.point + 2 * (path.count - 1)) == 40 * N + 50);
     CHECK_NEAR(0.25 * (path.count - 1), hypot(25.25 - 2.2, 20.25 - 3.1), 0.6);
     dp_free(path.point);
@@ -65,7 +68,7 @@ TEST(every_path_ends_at_the_goal)
             if (!(time_[k] < INFINITY)) continue;
             DpPath path = {0};
             CHECK(dp_paths_descend(&path, &field, pull, (k % N + 0.3) * CELL, (k / N + 0.8) * CELL,
-                                   0.1 + 0.4 * check_random(&seed)) == DP_OK);
+                                   0.1 + 0.4 * check_random(&seed), NULL) == DP_OK);
             CHECK(cell_of(path.point + 2 * (path.count - 1)) == goal);
             for (int p = 0; p < path.count; ++p)
                 CHECK(time_[cell_of(path.point + 2 * p)] < INFINITY);
@@ -82,19 +85,45 @@ TEST(where_there_is_no_path)
     for (int k = 0; k < N; ++k) cost[20 * N + k] = INFINITY;
     const DpField field = field_to(0);
     DpPath        path = {0};
-    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 25.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 10.2, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_descend(&path, &field, NULL, -0.1, 5.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_descend(&path, &field, NULL, (double)NAN, 5.0, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 1e300, 0.25) == DP_NO_GROUND);
-    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.0) == DP_BAD_ARGUMENT);
-    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.6) == DP_BAD_ARGUMENT);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 25.0, 0.25, NULL) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 10.2, 0.25, NULL) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, -0.1, 5.0, 0.25, NULL) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, (double)NAN, 5.0, 0.25, NULL) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 1e300, 0.25, NULL) == DP_NO_GROUND);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.0, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 5.0, 0.6, NULL) == DP_BAD_ARGUMENT);
     dp_alloc_fail_after(1);
-    CHECK(dp_paths_descend(&path, &field, NULL, 8.0, 8.0, 0.05) == DP_NO_MEMORY);
+    CHECK(dp_paths_descend(&path, &field, NULL, 8.0, 8.0, 0.05, NULL) == DP_NO_MEMORY);
     dp_alloc_fail_after(-1);
     CHECK(path.point == NULL && path.count == 0);
-    CHECK(dp_paths_descend(&path, &field, NULL, 0.2, 0.2, 0.25) == DP_OK && path.count == 1);
+    CHECK(dp_paths_descend(&path, &field, NULL, 0.2, 0.2, 0.25, NULL) == DP_OK && path.count == 1);
     dp_free(path.point);
+}
+
+// Errors turn a path to their own side, and it comes to the goal all the same; a heading that is kept turns late.
+TEST(who_strays_comes_to_the_goal)
+{
+    float turn[3] = {0.3f, 0.3f, 0.3f};
+    for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
+    const DpField field = field_to(30 * N + 55);
+    const DpStray stray = {2.0, turn, 3}, still = {0.0, turn, 0}, wrong = {-1.0, NULL, 0};
+    DpPath        path = {0}, other = {0}, straight = {0};
+    CHECK(dp_paths_descend(&path, &field, NULL, 2.25, 15.25, 0.25, &stray) == DP_OK);
+    CHECK(cell_of(path.point + 2 * (path.count - 1)) == 30 * N + 55);
+    CHECK(path.point[101] > 15.25 + 1.0);  // to the left of where it goes
+    for (int k = 0; k < 3; ++k) turn[k] = -turn[k];
+    CHECK(dp_paths_descend(&other, &field, NULL, 2.25, 15.25, 0.25, &stray) == DP_OK);
+    CHECK(other.count == path.count);
+    for (int p = 0; p < path.count && p < other.count; ++p)
+        CHECK_NEAR(other.point[2 * p + 1] - 15.25, 15.25 - path.point[2 * p + 1], 1e-9);
+    dp_free(path.point), dp_free(other.point);
+    path = other = (DpPath){0};
+    CHECK(dp_paths_descend(&path, &field, NULL, 2.2, 3.1, 0.25, &still) == DP_OK);
+    CHECK(dp_paths_descend(&straight, &field, NULL, 2.2, 3.1, 0.25, NULL) == DP_OK);
+    CHECK(path.count == straight.count &&
+          !memcmp(path.point, straight.point, 2 * sizeof(double) * (size_t)path.count));
+    dp_free(path.point), dp_free(straight.point);
+    CHECK(dp_paths_descend(&other, &field, NULL, 2.2, 3.1, 0.25, &wrong) == DP_BAD_ARGUMENT);
 }
 
 int main(void)
@@ -103,5 +132,6 @@ int main(void)
     RUN(a_path_is_straight_on_even_ground);
     RUN(every_path_ends_at_the_goal);
     RUN(where_there_is_no_path);
+    RUN(who_strays_comes_to_the_goal);
     return check_done();
 }

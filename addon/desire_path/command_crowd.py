@@ -1,0 +1,27 @@
+"""python -m desire_path crowd: walkers between places, who choose their ways by what is worn."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from .command_bake import bar
+from .crowd import scene as scenes
+from .crowd.crowd import Crowd
+from .needs import Parser
+
+
+def _crowd(args: argparse.Namespace) -> None:
+    crowd = Crowd(scenes.read(args.scene), args.out)
+    told = crowd.run(lambda share: bar(share, "of the passages"))
+    print(f"passages      {told['passages']}")
+    print(f"detour        {told['detour']:.3f}")
+    print(f"worn          {told['area_below_half_cover']:.0f} m^2 below half cover")
+    print(f"written to    {os.path.abspath(args.out)}")
+
+
+def add(tasks: argparse._SubParsersAction[Parser]) -> None:
+    crowd = tasks.add_parser("crowd", help="let a crowd walk between places, and wear the paths it chooses")
+    crowd.add_argument("scene", help="places, ground and walkers (.json)")
+    crowd.add_argument("--out", required=True, help="the folder: paths.csv, cover_final.exr, frames, crowd.json")
+    crowd.set_defaults(task=_crowd)

@@ -1,0 +1,143 @@
+"""How walkers choose: fields of times and pull over the ground as it is, and the way of each. MODEL 12.5-12.7
+
+loads --Cover--> costs --arrival--> times --+--way--> one walker's way
+             +-> wear ---pull------> aside -+
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import DesirePathError
+from ..paths.arrival import arrival, goal_around, way
+from ..paths.pull import pull
+from .scene import Place, Scene
+
+INERTIA = 0.7  # over which length a heading is kept [m]
+STRAIGHT = 2.0  # over which length headings err alike [m]
+ERRORS = 1024  # steps until they err as at first
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Who goes from where to where."""
+
+    number: int  # from 0
+    kind: int  # of walkers
+    start: int  # place
+    goal: int  # place
+    aside: tuple[float, float]  # where in the start's circle, of its radius 1
+
+
+class Choice:
+    """The ground a crowd chooses on, and how.
+
+    blocked: obstacles (ny, nx); free: the lengths of ways over ground that costs 1, from each cell to each place
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.names = [place.name for place in scene.places]
+        self.blocked, self.paved, self.level = scene.lie()
+        self._goals = [self._goal(place) for place in scene.places]
+        even = np.where(self.blocked, np.inf, 1.0).astype(np.float32)
+        self.free = [self._times(even, number) for number in range(len(scene.places))]
+        self._check_ways()
+        rates = np.outer(*(np.array([place.rate for place in scene.places]),) * 2)
+        np.fill_diagonal(rates, 0.0)
+        self._pairs = np.cumsum(rates.ravel()) / rates.sum()
+        shares = np.array([kind.share for kind in scene.walkers])
+        self._kinds = np.cumsum(shares) / shares.sum()
+
+    def _goal(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
+        """Cells around a place, and how far it is from them."""
+        scene, at = self.scene, self.scene.inside(place)
+        ny, nx = self.blocked.shape
+        if not (0.0 <= at[0] < nx * scene.cell and 0.0 <= at[1] < ny * scene.cell):
+            raise DesirePathError(f"The place '{place.name}' lies outside the ground: move it, or make that larger.")
+        if self.blocked[int(at[1] / scene.cell), int(at[0] / scene.cell)]:
+            raise DesirePathError(f"The place '{place.name}' lies in an obstacle: move it.")
+        even = np.where(self.blocked, np.inf, 1.0).astype(np.float32)
+        return goal_around(even, at, max(place.radius, 1.5 * scene.cell), scene.cell)
+
+    def _times(self, cost: np.ndarray, goal: int) -> np.ndarray:
+        cells, far = self._goals[goal]
+        return arrival(cost, cells, self.scene.cell, far * cost[cells[:, 1], cells[:, 0]])
+
+    def _check_ways(self) -> None:
+        """A sentence for the first two places that no way joins."""
+        used = [number for number, place in enumerate(self.scene.places) if place.rate > 0.0]
+        for number in used[1:]:
+            if math.isinf(self.direct(used[0], number)):
+                first, other = self.scene.places[used[0]].name, self.scene.places[number].name
+                raise DesirePathError(
+                    f"No way leads from '{first}' to '{other}', for obstacles lie all around one of them: leave a gap."
+                )
+
+    def direct(self, start: int, goal: int) -> float:
+        """How long the shortest way from place to place is, up to the goal's circle [m]; inf = there is none."""
+        x, y = self.scene.inside(self.scene.places[start])
+        time = self.free[goal][int(y / self.scene.cell), int(x / self.scene.cell)]
+        return float(time) - self.scene.places[goal].radius
+
+    def passages(self, first: int, count: int) -> list[Passage]:
+        """Those from number `first` on; each depends on the seed and its number alone."""
+        found = []
+        for number in range(first, first + count):
+            chance = np.random.default_rng([self.scene.seed, number]).random(4)
+            pair = min(int(np.searchsorted(self._pairs, chance[0], "right")), len(self._pairs) - 1)
+            kind = min(int(np.searchsorted(self._kinds, chance[1], "right")), len(self._kinds) - 1)
+            far, turn = math.sqrt(chance[2]), 2.0 * math.pi * chance[3]
+            start, goal = divmod(pair, len(self.scene.places))
+            found.append(Passage(number, kind, start, goal, (far * math.cos(turn), far * math.sin(turn))))
+        return found
+
+    def costs(self, load: np.ndarray) -> np.ndarray:
+        """Of a metre of each cell, float32 (ny, nx); inf = an obstacle. MODEL 12.6"""
+        cost = np.where(self.paved, 1.0, self.scene.ground.cost(load)) * self.level
+        return np.where(self.blocked, np.inf, cost).astype(np.float32)
+
+    def wear(self, load: np.ndarray) -> np.ndarray:
+        """How worn each cell is, 0 to 1 (ny, nx); obstacles and paved ways are not."""
+        return np.where(self.blocked | self.paved, 0.0, 1.0 - self.scene.ground.left(load))
+
+    def ways(self, load: np.ndarray, passages: Iterable[Passage]) -> list[np.ndarray]:
+        """The way (n, 2) [m] of each passage from the ground's corner, over the ground as loads tell it. MODEL 12.7"""
+        passages = list(passages)
+        cost, step = self.costs(load), 0.5 * self.scene.cell
+        aside = None
+        if self.scene.ground.pull > 0.0:
+            aside = pull(self.wear(load), self.scene.cell, self.scene.ground.pull)
+        times = {goal: self._times(cost, goal) for goal in sorted({each.goal for each in passages})}
+        turns = self._turns([each.number for each in passages], [each.kind for each in passages], step)
+        return [self._walk(each, times[each.goal], aside, turn, step) for each, turn in zip(passages, turns)]
+
+    def _turns(self, numbers: list[int], kinds: list[int], step: float) -> np.ndarray:
+        """How far each step of each walker errs, float32 (walkers, ERRORS) [rad]. MODEL 12.5"""
+        chance = np.stack([np.random.default_rng([self.scene.seed, n, 1]).standard_normal(ERRORS) for n in numbers])
+        alike = math.exp(-step / STRAIGHT)
+        turns = np.empty_like(chance)
+        turns[:, 0] = chance[:, 0]
+        for k in range(1, ERRORS):
+            turns[:, k] = alike * turns[:, k - 1] + math.sqrt(1.0 - alike * alike) * chance[:, k]
+        stray = np.radians([self.scene.walkers[kind].stray for kind in kinds])
+        return (turns * stray[:, None]).astype(np.float32)
+
+    def _walk(
+        self, passage: Passage, time: np.ndarray, aside: np.ndarray | None, turn: np.ndarray, step: float
+    ) -> np.ndarray:
+        scene = self.scene
+        place, goal = scene.places[passage.start], scene.places[passage.goal]
+        x, y = scene.inside(place)
+        for share in (1.0, 0.5, 0.0):  # nobody starts in an obstacle or behind one
+            at = (x + share * place.radius * passage.aside[0], y + share * place.radius * passage.aside[1])
+            i, j = math.floor(at[0] / scene.cell), math.floor(at[1] / scene.cell)
+            if 0 <= j < time.shape[0] and 0 <= i < time.shape[1] and time[j, i] < math.inf:
+                break
+        walked = way(time, at, scene.cell, aside, step, turn=turn, inertia=INERTIA)
+        near = np.hypot(*(walked - scene.inside(goal)).T) <= goal.radius
+        return walked[: int(np.argmax(near)) + 1] if near.any() else walked

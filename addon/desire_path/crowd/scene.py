@@ -1,0 +1,264 @@
+"""What a crowd is told: places it goes between, its walkers, and the ground as it lies. Experimental.
+
+    {
+      "size": [100, 100], "cell": 0.5, "ground": "meadow",
+      "places": [{"name": "gate", "at": [4, 4]}, {"name": "mill", "at": [96, 60], "rate": 0.5, "radius": 2}],
+      "obstacles": [{"circle": [50, 50, 10]}],
+      "passages": 10000, "per_day": 30, "seed": 1
+    }
+
+All else has a usual value; see Scene.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import math
+import os
+from dataclasses import MISSING, dataclass, field, fields
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..errors import DesirePathError
+from ..files import atomic_file
+from ..ground.options import SimulationOptions
+from ..ground.sim import Ground, Simulation
+from .covers import Cover, as_cover, steep
+from .shapes import mask
+
+MAX_TEXT = 1 << 24  # bytes of a scene
+MAX_SIDE = 20_000  # cells
+MAX_CELL = 0.5  # how wide cells may be: wider ones merge ways that walkers keep apart [m]
+MAX_PASSAGES = 10_000_000
+MAX_PLACES = 1000
+MAX_SLOPE = 1.0  # steeper ground is an obstacle [-]
+Record = TypeVar("Record")
+
+
+def number(value: Any, what: str, low: float, high: float) -> float:
+    """A number in its range; else a sentence that begins with `what`."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: give a number from {low:g} to {high:g}.")
+    return float(value)
+
+
+def whole(value: Any, what: str, low: int, high: int) -> int:
+    """A whole number in its range; else a sentence that begins with `what`."""
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: give a whole number from {low} to {high}.")
+    return value
+
+
+def _pair(value: Any, what: str) -> tuple[float, float]:
+    if not isinstance(value, (list, tuple)) or len(value) != 2:
+        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: write two numbers, as [10, 20].")
+    x, y = (number(each, what, -1e6, 1e6) for each in value)
+    return x, y
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where walkers come from and go to."""
+
+    name: str
+    at: tuple[float, float]  # [m]
+    rate: float = 1.0  # how many walkers come here, against other places          [-] 0..1e6
+    radius: float = 1.25  # who is as near is there, and starts as near              [m] 0.1..100
+
+    def check(self) -> Place:
+        if not isinstance(self.name, str) or not 0 < len(self.name) <= 60 or set(self.name) & set(',"\r\n'):
+            raise DesirePathError(f"A place cannot be called {str(self.name)[:40]!r}: give it a name without commas.")
+        _pair(self.at, f"The place '{self.name}'")
+        number(self.rate, f"The rate of '{self.name}'", 0.0, 1e6)
+        number(self.radius, f"The radius of '{self.name}'", 0.1, 100.0)
+        return self
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind of walkers among others."""
+
+    mass: float = 75.0  # of each [kg] 1..1000
+    share: float = 1.0  # how many are of this kind, against the others [-] 0..1e6
+    walk: str = ""  # a recording (.npz) they walk by; empty = the walk that comes with Desire Path
+    stray: float = 8.0  # how far headings err [degrees] 0..45
+
+    def check(self) -> Kind:
+        number(self.mass, "The mass of walkers", 1.0, 1000.0)
+        number(self.share, "The share of a kind of walkers", 0.0, 1e6)
+        number(self.stray, "The angle by which walkers stray", 0.0, 45.0)
+        if not isinstance(self.walk, str):
+            raise DesirePathError("The walk of walkers is no name of a file: give that of a recording (.npz).")
+        return self
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A crowd and its ground; see the module."""
+
+    places: tuple[Place, ...]
+    size: tuple[float, float] = (100.0, 100.0)  # of the ground along x and y [m]
+    origin: tuple[float, float] = (0.0, 0.0)  # its lowest corner [m]
+    cell: float = 0.5  # side of a cell [m] 0.05..0.5
+    ground: Cover = field(default_factory=lambda: as_cover("meadow"))
+    heights: str = ""  # an EXR of heights, as bakes take it; empty = level
+    obstacles: tuple[Any, ...] = ()  # shapes that nobody walks through
+    paved: tuple[Any, ...] = ()  # shapes that cost 1 and do not wear
+    walkers: tuple[Kind, ...] = (Kind(),)
+    passages: int = 10_000  # from place to place, all together
+    per_day: float = 30.0  # of them [1/day]
+    renewals: int = 100  # how often ways are chosen anew
+    rest_days: float = 0.0  # without walkers, after all passages
+    film_every: int = 0  # passages from picture to picture; 0 = none but the last
+    seed: int = 0
+
+    def check(self) -> Scene:
+        """Itself, if a crowd can walk there; else a sentence."""
+        wide, high = _pair(self.size, "The size of the ground")
+        _pair(self.origin, "The origin of the ground")
+        cell = number(self.cell, "The side of a cell", 0.05, MAX_CELL)
+        if not (cell <= wide <= MAX_SIDE * cell and cell <= high <= MAX_SIDE * cell):
+            raise DesirePathError(
+                f"Ground of {wide:g} x {high:g} m cannot be walked in cells of {cell:g} m: let each side have 1 to "
+                f"{MAX_SIDE} cells."
+            )
+        whole(self.passages, "The number of passages", 1, MAX_PASSAGES)
+        number(self.per_day, "The number of passages a day", 1e-3, 1e6)
+        whole(self.renewals, "The number of renewals", 1, 100_000)
+        number(self.rest_days, "The number of days at rest", 0.0, 1e6)
+        whole(self.film_every, "The number of passages from picture to picture", 0, MAX_PASSAGES)
+        whole(self.seed, "The seed", 0, 2**63)
+        self.ground.check()
+        self._check_places()
+        if not self.walkers or sum(kind.check().share for kind in self.walkers) <= 0.0:
+            raise DesirePathError("Nobody walks here: give at least one kind of walkers a share above 0.")
+        return self
+
+    def _check_places(self) -> None:
+        if len(self.places) > MAX_PLACES:
+            raise DesirePathError(f"There are {len(self.places)} places: give up to {MAX_PLACES}.")
+        names = [place.check().name for place in self.places]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise DesirePathError(f"Two places are called '{twice}': give each a name of its own.")
+        if sum(place.rate > 0.0 for place in self.places) < 2:
+            raise DesirePathError("Nobody can go anywhere: give at least two places a rate above 0.")
+
+    # ---- the ground in cells ---------------------------------------------------------------------------
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return max(round(self.size[1] / self.cell), 1), max(round(self.size[0] / self.cell), 1)
+
+    def middles(self) -> tuple[np.ndarray, np.ndarray]:
+        """x (1, nx) and y (ny, 1) of the middles of cells in the world [m]."""
+        ny, nx = self.shape
+        x = self.origin[0] + (np.arange(nx) + 0.5) * self.cell
+        y = self.origin[1] + (np.arange(ny) + 0.5) * self.cell
+        return x[None, :], y[:, None]
+
+    def inside(self, place: Place) -> tuple[float, float]:
+        """x and y of a place from the ground's corner [m]."""
+        return place.at[0] - self.origin[0], place.at[1] - self.origin[1]
+
+    @functools.cached_property
+    def relief(self) -> np.ndarray:
+        """Heights of the middles of cells [m] (ny, nx); NaN where there is no ground."""
+        if not self.heights:
+            return np.zeros(self.shape)
+        x, y = np.broadcast_arrays(*self.middles())
+        below = Simulation(Ground.read(self.heights, None), cell_size=self.cell, options=SimulationOptions())
+        return below.rest_height(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(self.shape)
+
+    def lie(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(what is an obstacle, what is paved, by which factor slopes cost) of each cell (ny, nx)."""
+        x, y = self.middles()
+        blocked, paved = mask(self.obstacles, x, y, "An obstacle"), mask(self.paved, x, y, "A paved way")
+        heights = self.relief
+        missing = np.isnan(heights)
+        level = steep(np.where(missing, np.nanmean(heights) if not missing.all() else 0.0, heights), self.cell)
+        return blocked | missing | (level > _steepest()), paved, level
+
+
+def _steepest() -> float:
+    """By which factor the steepest ground costs that is walked."""
+    return float(steep(np.array([[0.0, MAX_SLOPE, 2.0 * MAX_SLOPE]]), 1.0)[0, 1])
+
+
+# ---- scenes in files -----------------------------------------------------------------------------------
+
+
+def _record(kind: type[Record], given: Any, what: str) -> Record:
+    """A dataclass of a dict; a sentence for what is none, or says what it does not know."""
+    if not isinstance(given, dict):
+        raise DesirePathError(f'{what} cannot be {str(given)[:40]}: write its numbers by name, as {{"name": ..}}.')
+    known = {each.name: each for each in fields(kind)}  # type: ignore[arg-type]
+    unknown = sorted(set(given) - set(known))
+    if unknown:
+        raise DesirePathError(f"{what} knows nothing of '{unknown[0][:40]}': remove it, or mend its name.")
+    lacking = [
+        name
+        for name, each in known.items()
+        if each.default is MISSING and each.default_factory is MISSING and name not in given
+    ]
+    if lacking:
+        raise DesirePathError(f"{what} does not say its {lacking[0]}: add it.")
+    return kind(**{name: tuple(value) if isinstance(value, list) else value for name, value in given.items()})
+
+
+def _listed(given: Any, what: str) -> list[Any]:
+    if not isinstance(given, (list, tuple)):
+        raise DesirePathError(f"{what} of a scene stand in a list: write [..].")
+    return list(given)
+
+
+def of(given: Any, folder: str = "") -> Scene:
+    """A checked Scene of what a file says; names of files in it are those in `folder`."""
+    scene = _record(
+        Scene, {**given, "places": given.get("places", [])} if isinstance(given, dict) else given, "A scene"
+    )
+    words = dict(scene.__dict__)
+    words["places"] = tuple(_record(Place, each, "A place") for each in _listed(given.get("places", []), "Places"))
+    if "walkers" in given:
+        words["walkers"] = tuple(
+            _record(Kind, each, "A kind of walkers") for each in _listed(given["walkers"], "Walkers")
+        )
+    words["ground"] = as_cover(given.get("ground", "meadow"))
+    for name, what in (("obstacles", "Obstacles"), ("paved", "Paved ways")):
+        words[name] = tuple(_listed(given.get(name, []), what))
+    if not isinstance(words["heights"], str):
+        raise DesirePathError("The heights of a scene are no name of a file: give that of an EXR.")
+    if words["heights"]:
+        words["heights"] = os.path.join(folder, words["heights"])
+    return Scene(**words).check()
+
+
+def read(path: str | os.PathLike[str]) -> Scene:
+    """A checked Scene of a JSON file."""
+    path = os.fspath(path)
+    try:
+        with atomic_file.reader(path) as file:
+            text = file.read(MAX_TEXT + 1)
+    except FileNotFoundError:
+        raise DesirePathError(f"There is no scene at {path}: check the path.") from None
+    except (OSError, ValueError) as error:
+        raise DesirePathError(
+            f"The scene {path} cannot be read ({getattr(error, 'strerror', None) or error}): choose a JSON file."
+        ) from None
+    try:
+        given = json.loads(text.decode("utf-8-sig")) if len(text) <= MAX_TEXT else None
+    except (ValueError, RecursionError, MemoryError) as error:
+        where = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
+        raise DesirePathError(f"{path} is no scene in JSON{where}: mend it.") from None
+    return of(given, os.path.dirname(os.path.abspath(path)))
+
+
+def schedule(scene: Scene, done: int) -> int:
+    """How many walkers go by the same fields after so many passages. MODEL 12.7"""
+    even = max(math.ceil(scene.passages / scene.renewals), 1)
+    if scene.ground.renewal:
+        even = min(max(int(scene.ground.renewal * done), 1), even)
+    return min(even, scene.passages - done)
