@@ -15,7 +15,7 @@ from .errors import DesirePathError
 from .ground.options import CONTACT_LAWS, HEAPS, SimulationOptions
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
-from .ground.soil import SOILS, as_soil
+from .ground.soil import MEASURED, SOILS, as_soil
 from .ground.soil_keys import AnySoil, SoilKeys
 from .motion import jumps
 from .motion.gait import Gait
@@ -24,7 +24,7 @@ from .needs import Need, Parser
 from .placement import path as paths
 from .placement.place import place_feet
 
-SOIL_HELP = f"one of {', '.join(SOILS)}, or a .json file that Soil.save or Save Soil wrote"
+SOIL_HELP = f"one of {', '.join(SOILS)}, {', '.join(MEASURED)}, or a .json file that Soil.save or Save Soil wrote"
 KEYS_HELP = 'numbers of that soil that change over time, as {"young_modulus": [[0, 2e6], [5, 4e5]]}: seconds, values'
 SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 

@@ -25,4 +25,9 @@
     X(flow_time, "s", 0.0, 1e4, 0.0, "T, in which what slides goes 0.1 m; 0 = at once")            \
     X(crust_depth, "m", 0.0, 1.0, 0.0, "h, plate on top that carries until it breaks; 0 = none")   \
     X(crust_strength, "Pa", 0.0, 1e9, 0.0, "bending stress at which the plate breaks")             \
-    X(wetness, "-", 0.0, 1.0, 0.0, "S, share of the pores full of water; 0 = dry, 1 = it flows")
+    X(wetness, "-", 0.0, 1.0, 0.0, "S, share of the pores full of water; 0 = dry, 1 = it flows")   \
+    X(snow_density, "kg/m3", 0.0, 490.0, 0.0, "rho_0, of snow that packs under a load; 0 = none")  \
+    X(bekker_friction, "N/m^(n+2)", 0.0, 1e12, 0.0,                                                \
+      "k_phi, of ground measured by plates, in place of E_g; 0 = none")                            \
+    X(bekker_cohesion, "N/m^(n+1)", 0.0, 1e12, 0.0, "k_c, of the same, over the contact's width")  \
+    X(bekker_power, "-", 0.05, 4.0, 1.0, "n, of the same, of the depth")

@@ -47,6 +47,7 @@ typedef struct DpPressed
     double deepest;    // largest compression of a touched cell                 [m]   >= 0
 } DpPressed;
 
+// What a soil presses back with is E/L0 times its depth, or by its snow_density or Bekker's numbers, MODEL 6.14.
 // By the laws of a sole, not DP_CONTACT_CARVE: press the sole into the patch for dt seconds with the force's part along -normal.
 // Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap
 // and pressure_time of touched cells only. Loose heap is used up before firm ground yields.

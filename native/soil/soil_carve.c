@@ -13,7 +13,7 @@
 //     test_soil_carve.c, cells_do_not_matter
 #include <string.h>
 
-#include "soil/soil_inside.h"
+#include "soil/soil_law.h"
 
 #define TOUCHES 5e-4  // a surface that is so close below the underside touches it [m]
 #define NOISE 1e-7    // less than this is not cut, but pressed [m]
@@ -66,11 +66,15 @@ static void lower(DpSoilPatch* patch, size_t p, double over, double cut, DpCarve
 }
 
 // the pressure of a column under the body, as if it was a spring [Pa]
-static void note_pressure(DpSoilPatch* patch, size_t p, double depth, double share, double dt)
+static void note_pressure(DpSoilPatch* patch, size_t p, double depth, double share, double width,
+                          double dt)
 {
-    const double layer = (double)patch->soils[patch->kind[p]].layer_depth;
-    const double pressed = soil_max(soil_min(depth, SOIL_RIGID * layer), TOUCHES);
-    const double stress = (double)patch->modulus[p] / layer * pressed;
+    const DpSoil* soil = &patch->soils[patch->kind[p]];
+    const double  layer = (double)soil->layer_depth;
+    const double  pressed = soil_max(soil_min(depth, SOIL_RIGID * layer), TOUCHES);
+    const double  stress = dp_law_own(soil)
+                               ? dp_law_firmness(patch, p) * dp_law_pressure(soil, width, pressed)
+                               : (double)patch->modulus[p] / layer * pressed;
     if (patch->pressure_time)
         patch->pressure_time[p] += (float)(stress * share * dt);  // TRAIL (17)
     if (patch->pressure) patch->pressure[p] = (float)(stress * share);
@@ -80,6 +84,7 @@ static void note_pressure(DpSoilPatch* patch, size_t p, double depth, double sha
 typedef struct Contact
 {
     double share, i, j;
+    double width;  // of what may carry, the smaller one [m]
 } Contact;
 
 static void carve_cell(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* descent, int i,
@@ -100,7 +105,7 @@ static void carve_cell(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* 
         const double y = ((double)j - 0.5 * (double)(patch->ny - 1)) * patch->cell;
         lower(patch, p, over, cut_share(descent, x, y, bottom, share, over), carved);
     }
-    note_pressure(patch, p, depth, share, dt);
+    note_pressure(patch, p, depth, share, contact->width, dt);
     carved->pressed.deepest = soil_max(carved->pressed.deepest, (double)patch->compression[p]);
 }
 
@@ -114,7 +119,7 @@ DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* 
         int32_t* ring = imprint->ring + soil_at(patch, 0, j);
         for (int i = 0; i < patch->nx; ++i) ring[i] = DP_RING_FAR;
     }
-    Contact contact = {0};
+    Contact contact = {.width = dp_law_on(patch) ? dp_law_width(patch, imprint) : patch->cell};
     for (int j = imprint->j0; j < imprint->j1; ++j)
         for (int i = imprint->i0; i < imprint->i1; ++i)
             carve_cell(patch, imprint, descent, i, j, dt, carved, &contact);

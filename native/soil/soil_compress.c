@@ -22,7 +22,7 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "soil/soil_columns.h"
+#include "soil/soil_law.h"
 
 #define RIGID_STIFFER 100.0  // how much harder the ground is below SOIL_RIGID
 #define TOUCH_GAP 0.01       // `uniform`: cells this close to the lowest one touch [m]
@@ -232,10 +232,20 @@ static double overlap(const Columns* columns, int k)
     return columns->gap[k] - (e > 0.0 ? soil_min(e / share, columns->rigid[k]) : e);
 }
 
+// how deep a stress presses a cell [m]
+static double uniform_depth(const DpSoilPatch* patch, size_t p, double stress, double rigid,
+                            double width)
+{
+    const DpSoil* soil = &patch->soils[patch->kind[p]];
+    if (dp_law_own(soil)) return dp_law_depth(soil, width, stress / dp_law_firmness(patch, p));
+    return stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
+}
+
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
 static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                           const Balance* balance, double dt, DpPressed* pressed)
 {
+    const double width = dp_law_on(patch) ? dp_law_width(patch, imprint) : patch->cell;
     const double share_grid = ldexp(1.5, 52 - 30);
     double       highest = -INFINITY, area = 0.0, stress = 0.0;
     for (dp_columns_rewind(sole); dp_columns_next(sole);)
@@ -261,7 +271,7 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
                 const size_t   p = columns->cell[k];
                 if (p == NOWHERE || imprint->ring[p] != 0) continue;
                 const double rigid = columns->rigid[k];
-                const double depth = stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
+                const double depth = uniform_depth(patch, p, stress, rigid, width);
                 dp_press_cell(patch, p, (Target){soil_min(depth, rigid), stress, columns->share[k]},
                               dt,
                               pressed);  // SOFT22 (10)
@@ -292,6 +302,8 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     if (patch->plate && dp_crust_carries(patch, imprint, &sole, load, dt, pressed)) return DP_OK;
     if (law == DP_CONTACT_UNIFORM)
         press_uniform(patch, imprint, &sole, &balance, dt, pressed);
+    else if (dp_law_on(patch))
+        dp_law_press(patch, imprint, &sole, load, dt, pressed);
     else
         press_sole(patch, imprint, &sole, &balance, dt, pressed);
     if (patch->plate) dp_crust_tilt(patch, imprint, pressed);

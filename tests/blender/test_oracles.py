@@ -54,6 +54,8 @@ def test_one_foot_sinks_by_stress_over_stiffness(folder):
 def test_every_soil_gives_way_by_its_own_stiffness(folder):
     ground, _ = one_legged(folder)
     for name, soil in SOILS.items():
+        if soil.snow_density > 0.0:
+            continue  # packs, and is no spring
         trail = stands.bake(ground, 0.6, soil=name)
         deep = depth(75.0, soil)  # nothing has sprung back yet: it still stands there
         assert (1.0 - soil.rebound) * 0.99 * deep < trail.drop.max() < 1.01 * deep, name

@@ -43,6 +43,16 @@ WORDS = {
         "What bending the crust bears before it breaks into pieces, in pascal; 0 = none",
     ),
     "wetness": ("Wetness", "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows"),
+    "snow_density": (
+        "Snow [kg/m³]",
+        "How heavy a cubic metre of this snow is, which packs under feet: 100 powder, 350 by wind; 0 = no snow",
+    ),
+    "bekker_friction": (
+        "Bekker Friction",
+        "Bekker's k_phi of ground that was measured, in N/m^(n+2), in place of its stiffness; 0 = none",
+    ),
+    "bekker_cohesion": ("Bekker Cohesion", "Bekker's k_c of ground that was measured, in N/m^(n+1); 0 = none"),
+    "bekker_power": ("Bekker Power", "Bekker's n: how sinkage grows with pressure"),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]

@@ -57,6 +57,17 @@ GERMAN = {
     "0 = it breaks under anything, 0.4 = under a person where it is 2 cm thick, 1 = like ice": (
         "0 = sie bricht unter allem, 0.4 = unter einem Menschen, wo sie 2 cm dick ist, 1 = wie Eis"
     ),
+    "How heavy a cubic metre of this snow is, which packs under feet: 100 powder, 350 by wind; 0 = no snow": (
+        "Wie schwer ein Kubikmeter dieses Schnees ist, der sich unter Füßen verdichtet: 100 Pulver, 350 vom Wind; "
+        "0 = kein Schnee"
+    ),
+    "Bekker's k_phi of ground that was measured, in N/m^(n+2), in place of its stiffness; 0 = none": (
+        "Bekkers k_phi von gemessenem Boden, in N/m^(n+2), statt seiner Steifigkeit; 0 = keines"
+    ),
+    "Bekker's k_c of ground that was measured, in N/m^(n+1); 0 = none": (
+        "Bekkers k_c von gemessenem Boden, in N/m^(n+1); 0 = keines"
+    ),
+    "Bekker's n: how sinkage grows with pressure": "Bekkers n: wie das Einsinken mit dem Druck wächst",
     "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows": (
         "Wie voll Wasser er ist: feuchte Wände stehen, durchnässte rutschen; 0 = trocken, 1 = er fließt"
     ),

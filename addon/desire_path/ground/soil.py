@@ -13,6 +13,7 @@ from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
 from ..tables import check, table, with_numbers
+from . import measured
 
 _TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
 _ALWAYS = 7  # numbers of every soil; those that came later are told where they matter
@@ -31,6 +32,11 @@ class Soil:
 
     def __post_init__(self) -> None:
         check(self, NUMBERS, "A soil's")
+        if self.snow_density > 0.0 and (self.bekker_friction > 0.0 or self.bekker_cohesion > 0.0):
+            raise DesirePathError(
+                "A soil gives way as snow or as ground that was measured, not as both: set its snow_density to 0, or "
+                "its bekker_friction and bekker_cohesion."
+            )
 
     def parameters(self) -> dict[str, float]:
         """The numbers by name that tell this soil from others: those after the first seven where they are not usual."""
@@ -66,13 +72,16 @@ class Soil:
 
 
 def as_soil(soil: str | Soil) -> Soil:
-    """A Soil, the name of a preset, or the path of a file that Soil.save() wrote (.json), as a Soil."""
+    """A Soil, the name of a preset or of measured ground, or the path of a file that Soil.save() wrote, as a Soil."""
     if isinstance(soil, str):
-        if soil in SOILS:
-            return SOILS[soil]
+        for known in (SOILS, MEASURED):
+            if soil in known:
+                return known[soil]
         if soil.lower().endswith(".json"):
             return Soil.load(soil)
-        raise DesirePathError(f"There is no soil '{soil}': choose one of {', '.join(SOILS)}, or a .json file of one.")
+        raise DesirePathError(
+            f"There is no soil '{soil}': choose one of {', '.join((*SOILS, *MEASURED))}, or a .json file."
+        )
     return soil
 
 
@@ -155,9 +164,53 @@ _SOILS |= {
         crust_strength=3e5,
     )
 }  # it bears a fox, not a person
+PACKED, PACKED_BY = 498.0, 35e3  # density to which a foot packs snow, and its pressure: MODEL 6.14 [kg/m^3], [Pa]
+
+
+def snow(density: float, depth: float = 0.3, **others: float) -> Soil:
+    """Snow that packs under its load, MODEL 6.14: no rim, walls that stand. Its stiffness, of which depths do not ask,
+    is that with which a spring would be pressed as deep by a foot, so that roots and crusts are as on other ground.
+
+    density: as it lies [kg/m^3], 10 to 490; depth: over firm ground [m]; others: numbers of the Soil by name
+    """
+    sinks = depth * (1.0 - density / PACKED)
+    usual = {
+        "young_modulus": PACKED_BY * depth / max(sinks, 0.01 * depth),
+        "poisson_ratio": 0.0,
+        "rest_angle": math.radians(38.0),
+        "wall_angle": math.radians(82.0),
+        "roughness": 0.2,
+        "grain_size": 0.02,
+        "settle_time": 0.05,
+    }
+    return Soil(layer_depth=depth, snow_density=density, **{**usual, **others})
+
+
+# Snow by its density, MODEL 6.14: as it has just fallen, as wind has packed it, as feet and machines have.
+_SOILS |= {"powder-snow": snow(100.0), "wind-snow": snow(350.0), "trodden-snow": snow(450.0)}
 BY_DEPTH = tuple(
     sorted(
         _SOILS, key=lambda name: _SOILS[name].young_modulus / _SOILS[name].layer_depth / (1.0 - _SOILS[name].rebound)
     )
 )
 SOILS: Mapping[str, Soil] = MappingProxyType(_SOILS)  # by name, to be read: a soil of your own is a Soil
+
+
+def _measured(name: str) -> Soil:
+    """Stiffness: of a spring that a foot's 35 kPa would press as deep, as in snow()."""
+    cohesion, friction, power, angle = measured.ROWS[name]
+    is_snow = "snow" in name
+    depth = 0.6 if is_snow else 0.3
+    return Soil(
+        layer_depth=depth,
+        young_modulus=PACKED_BY * depth / max(measured.sinks(name, PACKED_BY), 1e-4),
+        poisson_ratio=0.02 if is_snow else 0.35,
+        rest_angle=math.radians(angle),
+        settle_time=0.05,
+        bekker_cohesion=1e3 * cohesion,
+        bekker_friction=1e3 * friction,
+        bekker_power=power,
+    )
+
+
+MEASURED: Mapping[str, Soil] = MappingProxyType({name: _measured(name) for name in measured.ROWS})  # as SOILS is

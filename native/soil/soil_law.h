@@ -1,0 +1,24 @@
+// soil/soil_law.h - ground that is no spring: snow that packs, and ground whose sinkage was measured; not a door.
+#pragma once
+#include "soil/soil_columns.h"
+
+// Does a soil press back by its own law, and not by E/L0 times its depth? Does any of the patch's?
+bool dp_law_own(const DpSoil* soil);
+bool dp_law_on(const DpSoilPatch* patch);
+
+// What a soil without roots presses back with at a depth below h0 [Pa] >= 0, by whatever law.
+// @param width  w, of the contact, the smaller one [m] > 0
+double dp_law_pressure(const DpSoil* soil, double width, double depth);
+
+// How deep it is pressed by a pressure, as far as it yields [m] >= 0.
+double dp_law_depth(const DpSoil* soil, double width, double pressure);
+
+// How many times as hard a cell is as its soil, by roots [-].
+double dp_law_firmness(const DpSoilPatch* patch, size_t p);
+
+// The smaller width of what of a sole may carry, its 2 cm from the lowest point up [m].
+double dp_law_width(const DpSoilPatch* patch, const DpImprint* imprint);
+
+// The law `sole` on such ground: balance, then press what carries, as dp_soil_compress does on springs.
+void dp_law_press(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double load, double dt,
+                  DpPressed* pressed);

@@ -1,0 +1,133 @@
+// soil/soil_law_press.c - a rigid sole on ground that is no spring: how deep it goes. MODEL 6.2, MODEL 6.14
+//
+//   load --(regula falsi)--> sink of the sole --> target of each column --(rate)--> pressed now
+#include "soil/soil_law.h"
+
+#define FIRST_STEP 1e-3  // sinks are looked for so far apart, then twice that .. [m]
+#define FARTHEST 1e4     // [m]
+#define MAX_ROUNDS 100
+#define CLOSE 2e-9        // of the load is near enough
+#define FLOOR_CELLS 4.0   // least contact area, as on springs
+#define FLOOR_SHARE 0.05  // .. or this share of the sole
+
+typedef struct Balance
+{
+    double        load;    // [N]
+    double        width;   // of the contact [m]
+    const DpSoil* beyond;  // what would lie where there is no ground
+} Balance;
+
+typedef struct Answer
+{
+    double force, area;  // [N], [m^2]
+} Answer;
+
+// what column k presses back with, sunk by s [Pa]
+static double stress_of(const Sole* sole, const Balance* balance, const Columns* columns, int k,
+                        double s)
+{
+    const size_t  p = columns->cell[k];
+    const DpSoil* soil = p == NOWHERE ? balance->beyond : &sole->patch->soils[sole->patch->kind[p]];
+    const double  firm = p == NOWHERE ? 1.0 : dp_law_firmness(sole->patch, p);
+    return firm * dp_law_pressure(soil, balance->width, columns->gap[k] + s);
+}
+
+static Answer answer(Sole* sole, const Balance* balance, double s)
+{
+    const double cell2 = sole->patch->cell * sole->patch->cell;
+    const double force_grid = soil_grid(balance->load), share_grid = ldexp(1.5, 52 - 30);
+    Answer       sum = {0.0, 0.0};
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                const Columns* columns = &sole->chunk[c];
+                if (!(columns->gap[k] + s > 0.0)) continue;
+                const double share = columns->share[k];
+                const double push = stress_of(sole, balance, columns, k, s) * share * cell2;
+                sum.force += soil_on_grid(soil_min(push, balance->load), force_grid);
+                sum.area += soil_on_grid(share, share_grid);
+            }
+    sum.area *= cell2;
+    return sum;
+}
+
+// The sink at which the columns carry the load. Their force never falls with the sink, but may rise as steeply or as
+// slowly as it likes: what is known of both sides counts, a third of the time their middle.
+static double sink_of(Sole* sole, const Balance* balance, double highest, Answer* found)
+{
+    double low = -highest, high = low, below = -balance->load, above = 0.0;
+    for (double step = FIRST_STEP; step < FARTHEST; step *= 2.0) {
+        high = low + step;
+        *found = answer(sole, balance, high);
+        above = found->force - balance->load;
+        if (above >= 0.0) break;
+        low = high, below = above;
+    }
+    double s = high;
+    for (int round = 1; round < MAX_ROUNDS; ++round) {
+        if (fabs(found->force - balance->load) <= CLOSE * balance->load) break;
+        const double share = round % 3 ? below / (below - above) : 0.5;
+        s = low + (high - low) * share;
+        if (!(s > low && s < high)) s = 0.5 * (low + high);
+        if (!(s > low && s < high)) break;
+        *found = answer(sole, balance, s);
+        const double over = found->force - balance->load;
+        if (over < 0.0)
+            low = s, below = over;
+        else
+            high = s, above = over;
+    }
+    return s;
+}
+
+// the highest gap, the sole's area, and what lies under it
+static double look(Sole* sole, Balance* balance, double* area)
+{
+    const DpSoilPatch* patch = sole->patch;
+    const double       share_grid = ldexp(1.5, 52 - 30);
+    double             highest = -INFINITY, share = 0.0;
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                const size_t p = sole->chunk[c].cell[k];
+                highest = soil_max(highest, sole->chunk[c].gap[k]);
+                share += soil_on_grid(sole->chunk[c].share[k], share_grid);
+                if (p != NOWHERE && !balance->beyond)
+                    balance->beyond = &patch->soils[patch->kind[p]];
+            }
+    *area = share * patch->cell * patch->cell;
+    return highest;
+}
+
+void dp_law_press(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double load, double dt,
+                  DpPressed* pressed)
+{
+    Balance      balance = {.load = load, .width = dp_law_width(patch, imprint)};
+    double       area = 0.0;
+    const double highest = look(sole, &balance, &area);
+    if (!balance.beyond || !isfinite(highest)) return;
+    const double floor_area = soil_max(FLOOR_CELLS * patch->cell * patch->cell, FLOOR_SHARE * area);
+    const double least = soil_min(floor_area, area);
+    Answer       found;
+    double       s = sink_of(sole, &balance, highest, &found);
+    if (found.area > 0.0 && found.area < least) {
+        balance.load *= found.area / least;
+        s = sink_of(sole, &balance, highest, &found);
+    }
+    pressed->sink = s;
+    pressed->area = found.area;
+    for (dp_columns_rewind(sole); dp_columns_next(sole);)
+        for (int c = 0; c < sole->filled; ++c)
+            for (int k = 0; k < sole->chunk[c].count; ++k) {
+                const Columns* columns = &sole->chunk[c];
+                const size_t   p = columns->cell[k];
+                const double   depth = columns->gap[k] + s;
+                if (!(depth > 0.0) || p == NOWHERE) continue;
+                const double stress = stress_of(sole, &balance, columns, k, s);
+                imprint->ring[p] = 0;
+                dp_press_cell(
+                    patch, p,
+                    (Target){soil_min(depth, columns->rigid[k]), stress, columns->share[k]}, dt,
+                    pressed);
+            }
+}
