@@ -12,9 +12,9 @@ typedef struct Packed
 {
     double density, pressure;  // [kg/m^3], [Pa]
 } Packed;
-static const Packed packed[] = {{498.0, 35e3},  {502.0, 190e3}, {548.0, 230e3},
-                                {552.0, 320e3}, {598.0, 380e3}, {602.0, 650e3},
-                                {648.0, 750e3}, {652.0, 1e6},   {917.0, 1e7}};
+static const Packed packed[] = {{499.5, 35e3},  {500.5, 190e3}, {549.5, 230e3},
+                                {550.5, 320e3}, {599.5, 380e3}, {600.5, 650e3},
+                                {649.5, 750e3}, {650.5, 1e6},   {917.0, 1e7}};
 #define PACKED_COUNT ((int)(sizeof packed / sizeof *packed))
 
 static double cube(double x)

@@ -9,6 +9,7 @@
 #define CLOSE 2e-9        // of the load is near enough
 #define FLOOR_CELLS 4.0   // least contact area, as on springs
 #define FLOOR_SHARE 0.05  // .. or this share of the sole
+#define UNLOADS 0.05  // of its depth: so far pressed ground comes back before it carries nothing
 
 typedef struct Balance
 {
@@ -22,6 +23,16 @@ typedef struct Answer
     double force, area;  // [N], [m^2]
 } Answer;
 
+// The share of what ground carries as it is pressed for the first time that it carries at a depth t: 1 as deep as it was
+// pressed or deeper; the sole lets go of it a little above, where a wheel has left its rut. Bekker and Wong.
+static double reloaded(const Columns* columns, int k, double t)
+{
+    const double e = columns->pressed[k];
+    if (!(e > 0.0)) return 1.0;
+    const double deep = soil_min(e / columns->share[k], columns->rigid[k]);
+    return soil_max(soil_min((t - deep) / (UNLOADS * deep) + 1.0, 1.0), 0.0);
+}
+
 // what column k presses back with, sunk by s [Pa]
 static double stress_of(const Sole* sole, const Balance* balance, const Columns* columns, int k,
                         double s)
@@ -29,7 +40,8 @@ static double stress_of(const Sole* sole, const Balance* balance, const Columns*
     const size_t  p = columns->cell[k];
     const DpSoil* soil = p == NOWHERE ? balance->beyond : &sole->patch->soils[sole->patch->kind[p]];
     const double  firm = p == NOWHERE ? 1.0 : dp_law_firmness(sole->patch, p);
-    return firm * dp_law_pressure(soil, balance->width, columns->gap[k] + s);
+    const double  t = columns->gap[k] + s;
+    return reloaded(columns, k, t) * firm * dp_law_pressure(soil, balance->width, t);
 }
 
 static Answer answer(Sole* sole, const Balance* balance, double s)
@@ -45,7 +57,7 @@ static Answer answer(Sole* sole, const Balance* balance, double s)
                 const double share = columns->share[k];
                 const double push = stress_of(sole, balance, columns, k, s) * share * cell2;
                 sum.force += soil_on_grid(soil_min(push, balance->load), force_grid);
-                sum.area += soil_on_grid(share, share_grid);
+                sum.area += soil_on_grid(push > 0.0 ? share : 0.0, share_grid);
             }
     sum.area *= cell2;
     return sum;

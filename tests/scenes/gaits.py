@@ -50,6 +50,19 @@ def sphere(radius, rings=24):
     return Sole(corner, np.array(faces))
 
 
+def wheel(radius, width, around=180):
+    """A smooth drum about its centre, its axle along y."""
+    turn = np.linspace(0, 2 * np.pi, around, endpoint=False)
+    rim = radius * np.stack([np.sin(turn), 0 * turn, np.cos(turn)], axis=1)
+    side = [rim + [0, 0.5 * width * s, 0] for s in np.linspace(-1, 1, 5)]
+    corner = np.concatenate([*side, [[0, -0.5 * width, 0], [0, 0.5 * width, 0]]])
+    k, after, axle = np.arange(around), (np.arange(around) + 1) % around, 5 * around
+    faces = [(k, after, 0 * k + axle), (after + 4 * around, k + 4 * around, 0 * k + axle + 1)]
+    for ring in range(0, 4 * around, around):
+        faces += [(k + ring, k + ring + around, after + ring), (after + ring, k + ring + around, after + ring + around)]
+    return Sole(corner, np.concatenate([np.stack(face, axis=1) for face in faces]))
+
+
 def writable(record):
     """A recording with arrays of its own that a test may change before anybody reads them."""
     own = replace(record)
@@ -99,6 +112,32 @@ def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.
         warnings=(),
     )
     return gait, loads
+
+
+def rolled(sole, radius, length, force, *, speed=0.5, rate=120.0):
+    """A round body that rolls `length` [m] along x without slip, from the origin on: (Gait, loads)."""
+    samples = int(length / speed * rate) + 1
+    time = np.arange(samples) / rate
+    pose = np.zeros((1, samples, 7))
+    turned = time * speed / radius
+    pose[0, :, 0], pose[0, :, 2] = time * speed, radius
+    pose[0, :, 3], pose[0, :, 5] = np.cos(0.5 * turned), np.sin(0.5 * turned)
+    gait = Gait(
+        time=time,
+        com=pose[:, :, :3],
+        mass=[-force[2] / 9.81],
+        pose=pose,
+        limb_walker=np.zeros(1),
+        part_limb=np.zeros(1),
+        soles=[sole],
+        point=np.zeros((1, 3)),
+        point_part=np.zeros(1),
+        point_role=np.ones(1),
+        frame_rate=rate,
+    )
+    force = np.broadcast_to(np.asarray(force, float), (1, samples, 3)).copy()
+    at = pose[:, :, :3] - [0.0, 0.0, radius]
+    return gait, SimpleNamespace(touching=np.ones((1, samples), np.uint8), force=force, point=at, warnings=())
 
 
 def strides(length, *, speed=1.3, rate=60.0, y=0.0, shift=0.0, mass=75.0):

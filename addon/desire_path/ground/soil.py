@@ -164,7 +164,7 @@ _SOILS |= {
         crust_strength=3e5,
     )
 }  # it bears a fox, not a person
-PACKED, PACKED_BY = 498.0, 35e3  # density to which a foot packs snow, and its pressure: MODEL 6.14 [kg/m^3], [Pa]
+PACKED, PACKED_BY = 499.5, 35e3  # density to which a foot packs snow, and its pressure: MODEL 6.14 [kg/m^3], [Pa]
 
 
 def snow(density: float, depth: float = 0.3, **others: float) -> Soil:
@@ -178,16 +178,17 @@ def snow(density: float, depth: float = 0.3, **others: float) -> Soil:
         "young_modulus": PACKED_BY * depth / max(sinks, 0.01 * depth),
         "poisson_ratio": 0.0,
         "rest_angle": math.radians(38.0),
-        "wall_angle": math.radians(82.0),
-        "roughness": 0.2,
-        "grain_size": 0.02,
         "settle_time": 0.05,
     }
     return Soil(layer_depth=depth, snow_density=density, **{**usual, **others})
 
 
-# Snow by its density, MODEL 6.14: as it has just fallen, as wind has packed it, as feet and machines have.
-_SOILS |= {"powder-snow": snow(100.0), "wind-snow": snow(350.0), "trodden-snow": snow(450.0)}
+# Snow by its density, MODEL 6.14: as it has just fallen, as wind has packed it, as feet and machines have. For looks,
+# the edges of what is deep crumble a little.
+_SOILS |= {
+    name: snow(density, wall_angle=math.radians(85.5), roughness=0.2, grain_size=0.02)
+    for name, density in (("powder-snow", 100.0), ("wind-snow", 350.0), ("trodden-snow", 450.0))
+}
 BY_DEPTH = tuple(
     sorted(
         _SOILS, key=lambda name: _SOILS[name].young_modulus / _SOILS[name].layer_depth / (1.0 - _SOILS[name].rebound)
