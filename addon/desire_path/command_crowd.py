@@ -7,12 +7,19 @@ import os
 
 from .command_bake import bar
 from .crowd import scene as scenes
+from .crowd import trajectories
 from .crowd.crowd import Crowd
+from .crowd.trajectories import Recorded
 from .needs import Parser
 
 
 def _crowd(args: argparse.Namespace) -> None:
-    crowd = Crowd(scenes.read(args.scene), args.out)
+    scene = scenes.read(args.scene)
+    if args.trajectories is None:
+        crowd = Crowd(scene, args.out)
+    else:
+        recorded = Recorded(scene, trajectories.read(args.trajectories))
+        crowd = Crowd(recorded.scene, args.out, ways=recorded)
     told = crowd.run(lambda share: bar(share, "of the passages"))
     print(f"passages      {told['passages']}")
     print(f"detour        {told['detour']:.3f}")
@@ -24,4 +31,9 @@ def add(tasks: argparse._SubParsersAction[Parser]) -> None:
     crowd = tasks.add_parser("crowd", help="let a crowd walk between places, and wear the paths it chooses")
     crowd.add_argument("scene", help="places, ground and walkers (.json)")
     crowd.add_argument("--out", required=True, help="the folder: paths.csv, cover_final.exr, frames, crowd.json")
+    crowd.add_argument(
+        "--trajectories",
+        metavar="FILE",
+        help="walkers go as another program told: a table frame,id,x,y (.csv), or JuPedSim's (.sqlite)",
+    )
     crowd.set_defaults(task=_crowd)

@@ -33,6 +33,14 @@ class Passage:
     aside: tuple[float, float]  # where in the start's circle, of its radius 1
 
 
+def kinds_of(scene: Scene, first: int, count: int) -> list[int]:
+    """Which kind of walkers each passage from number `first` on is of; it depends on the seed and the number alone."""
+    shares = np.array([kind.share for kind in scene.walkers])
+    upto = np.cumsum(shares) / shares.sum()
+    chance = [np.random.default_rng([scene.seed, number, 2]).random() for number in range(first, first + count)]
+    return np.minimum(np.searchsorted(upto, chance, "right"), len(upto) - 1).tolist()
+
+
 class Choice:
     """The ground a crowd chooses on, and how.
 
@@ -40,6 +48,8 @@ class Choice:
     """
 
     def __init__(self, scene: Scene) -> None:
+        if sum(place.rate > 0.0 for place in scene.places) < 2:
+            raise DesirePathError("Nobody can go anywhere: give at least two places a rate above 0.")
         self.scene = scene
         self.names = [place.name for place in scene.places]
         self.blocked, self.paved, self.level = scene.lie()
@@ -50,8 +60,6 @@ class Choice:
         rates = np.outer(*(np.array([place.rate for place in scene.places]),) * 2)
         np.fill_diagonal(rates, 0.0)
         self._pairs = np.cumsum(rates.ravel()) / rates.sum()
-        shares = np.array([kind.share for kind in scene.walkers])
-        self._kinds = np.cumsum(shares) / shares.sum()
 
     def _goal(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
         """Cells around a place, and how far it is from them."""
@@ -72,14 +80,18 @@ class Choice:
         """A sentence for the first two places that no way joins."""
         used = [number for number, place in enumerate(self.scene.places) if place.rate > 0.0]
         for number in used[1:]:
-            if math.isinf(self.direct(used[0], number)):
+            if math.isinf(self._direct(used[0], number)):
                 first, other = self.scene.places[used[0]].name, self.scene.places[number].name
                 raise DesirePathError(
                     f"No way leads from '{first}' to '{other}', for obstacles lie all around one of them: leave a gap."
                 )
 
-    def direct(self, start: int, goal: int) -> float:
-        """How long the shortest way from place to place is, up to the goal's circle [m]; inf = there is none."""
+    def direct(self, passage: Passage) -> float:
+        """How long the shortest way between its places is [m]."""
+        return self._direct(passage.start, passage.goal)
+
+    def _direct(self, start: int, goal: int) -> float:
+        """From place to place, up to the goal's circle [m]; inf = there is no way."""
         x, y = self.scene.inside(self.scene.places[start])
         time = self.free[goal][int(y / self.scene.cell), int(x / self.scene.cell)]
         return float(time) - self.scene.places[goal].radius
@@ -87,10 +99,9 @@ class Choice:
     def passages(self, first: int, count: int) -> list[Passage]:
         """Those from number `first` on; each depends on the seed and its number alone."""
         found = []
-        for number in range(first, first + count):
+        for number, kind in enumerate(kinds_of(self.scene, first, count), first):
             chance = np.random.default_rng([self.scene.seed, number]).random(4)
             pair = min(int(np.searchsorted(self._pairs, chance[0], "right")), len(self._pairs) - 1)
-            kind = min(int(np.searchsorted(self._kinds, chance[1], "right")), len(self._kinds) - 1)
             far, turn = math.sqrt(chance[2]), 2.0 * math.pi * chance[3]
             start, goal = divmod(pair, len(self.scene.places))
             found.append(Passage(number, kind, start, goal, (far * math.cos(turn), far * math.sin(turn))))

@@ -54,7 +54,7 @@ class Ways(Protocol):
 
     def ways(self, load: np.ndarray, passages: list[Passage]) -> list[np.ndarray]: ...
 
-    def direct(self, start: int, goal: int) -> float: ...
+    def direct(self, passage: Passage) -> float: ...
 
 
 class Crowd:
@@ -126,7 +126,7 @@ class Crowd:
             at = (each.start, each.goal)
             self.trips[0][at] += 1.0
             self.trips[1][at] += float(np.hypot(*np.diff(walked, axis=0).T).sum())
-            self.trips[2][at] += self.ways.direct(*at)
+            self.trips[2][at] += self.ways.direct(each)
         self.done += count
         return b"".join(self._lines(each, walked) for each, walked in zip(passages, ways))
 

@@ -98,7 +98,7 @@ class Kind:
 class Scene:
     """A crowd and its ground; see the module."""
 
-    places: tuple[Place, ...]
+    places: tuple[Place, ...] = ()
     size: tuple[float, float] = (100.0, 100.0)  # of the ground along x and y [m]
     origin: tuple[float, float] = (0.0, 0.0)  # its lowest corner [m]
     cell: float = 0.5  # side of a cell [m] 0.05..0.5
@@ -143,8 +143,6 @@ class Scene:
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise DesirePathError(f"Two places are called '{twice}': give each a name of its own.")
-        if sum(place.rate > 0.0 for place in self.places) < 2:
-            raise DesirePathError("Nobody can go anywhere: give at least two places a rate above 0.")
 
     # ---- the ground in cells ---------------------------------------------------------------------------
 
