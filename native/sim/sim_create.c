@@ -76,5 +76,6 @@ void dp_sim_destroy(DpSim* sim)
     }
     for (int n = 0; n < MAX_SPECULATED; ++n) dp_lease_destroy(sim->speculation.lease[n]);
     dp_free(sim->scratch);
+    dp_free(sim->slide);
     dp_free(sim);
 }

@@ -152,6 +152,9 @@ struct DpSim
     int            groups;
     LimbSpan*      span;
 
+    DpCellRect* slide;  // prints that still slide though their limbs stand elsewhere (slides)
+    int         slides;
+
     Speculation speculation;
     PlantStage  stage;
     DpSimReport report;
@@ -249,7 +252,14 @@ DpStatus dp_carve_behind(DpSim* sim,
 DpStatus dp_release_step(DpSim* sim, int sample);
 DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample);
 
-// sim_press.c: one limb's step on its patch, and its settling
+// sim_press.c: one limb's step on its patch
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch);
+
+// sim_slide.c: how many sweeps soil slides in the interval from `sample`, for what slides goes one cell in each; all at
+// the end (sample < 0), or if it does not take time. What a limb's sole held slides. A limb begins a stance while its
+// last print still slides: where it stands elsewhere, that goes on by itself, in every step.
+int      dp_slide_sweeps(const DpSim* sim, const DpSoilPatch* patch, int sample);
 DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch);
+DpStatus dp_slide_leave(DpSim* sim, Limb* limb);
+DpStatus dp_slide_step(DpSim* sim, int sample);

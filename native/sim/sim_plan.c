@@ -179,8 +179,11 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
     dp_pressing_clear(sim);
     bool any = false;
     for (int l = 0; l < sim->cast.limbs; ++l) {
-        plan_limb(sim, &sim->limb[l], sample);
-        any = any || sim->limb[l].active;
+        Limb* limb = &sim->limb[l];
+        plan_limb(sim, limb, sample);
+        any = any || limb->active;
+        const DpStatus status = limb->begins && limb->flows ? dp_slide_leave(sim, limb) : DP_OK;
+        if (status != DP_OK) return status;
     }
     if (any) sim->groups = make_groups(sim);
     for (int l = 0; any && l < sim->cast.limbs; ++l) {

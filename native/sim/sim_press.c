@@ -7,11 +7,7 @@
 #include "sim/sim_inside.h"
 
 #define SLIDING_SWEEPS \
-    16                    // of one step: slides take time; all comes to rest when the foot has left
-#define FLOW_REACH 0.1    // what slides goes so far in a soil's flow_time [m]
-#define FLOW_ENDS 0.02    // .. until it is so near to its rest angle, and then at once [rad]
-#define SETTLE_MARGIN 8   // cells around trodden ground when loose soil comes to rest
-#define SETTLE_GROWTH 32  // cells more on each side when it wants to go further
+    16  // of one step: slides take time; all comes to rest when the foot has left
 
 // the ground as the limb's stance met it, in the patch's rows
 static const float* met_on(const DpSoilPatch* patch, const Limb* limb, WorkerScratch* scratch)
@@ -128,22 +124,6 @@ static DpStatus press_in_turn(DpSim* sim, Limb* limb, DpSoilPatch* patch, Worker
     return status;
 }
 
-static const DpSoil* middle_soil(const DpSoilPatch* patch)
-{
-    return &patch->soils[patch->kind[patch->ny / 2 * patch->row + patch->nx / 2]];
-}
-
-// How many sweeps soil slides in the interval from `sample`, for what slides goes one cell in each; all at the end
-// (sample < 0), or if it does not take time. MODEL 6.4
-static int sweeps_of(const DpSim* sim, const DpSoil* soil, int sample)
-{
-    if (!(soil->flow_time > 0.0f) || sample < 0) return sim->options.max_sweeps;
-    const double a_second = FLOW_REACH / ((double)soil->flow_time * sim->grid.cell);
-    const double from = floor(dp_motion_time(sim->motion, sample) * a_second);
-    const double to = floor(dp_motion_time(sim->motion, sample + 1) * a_second);
-    return (int)fmin(to - from, (double)sim->options.max_sweeps);
-}
-
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch)
 {
@@ -157,7 +137,7 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                                            : press_in_turn(sim, limb, patch, scratch, sample);
     if (status != DP_OK) return status;
 
-    DpSettled  settled;
+    DpSettled  settled = {.at_rest = true};
     const bool stands_here = scratch->imprint.i0 < scratch->imprint.i1;
     if (stands_here)
         pressing->at =
@@ -167,70 +147,14 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
     const int  sweeps = paper_heap || sim->options.max_sweeps < SLIDING_SWEEPS
                             ? sim->options.max_sweeps
                             : SLIDING_SWEEPS;
-    const int  flow = sweeps_of(sim, middle_soil(patch), sample);
-    status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
-                               sim->options.tolerance, flow < sweeps ? flow : sweeps,
-                               scratch->soil_scratch, &settled);
+    const int  flow = dp_slide_sweeps(sim, patch, sample);
+    if (flow > 0)
+        status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
+                                   sim->options.tolerance, flow < sweeps ? flow : sweeps,
+                                   scratch->soil_scratch, &settled);
     if (status != DP_OK) return status;
     limb->spills = settled.at_edge;
     limb->loosened += settled.loosened;
     limb->trodden = dp_cells_join(limb->trodden, limb->patch);
     return DP_OK;
-}
-
-// cells of a patch that begins where `at` does, in the world
-static DpCellRect in_world(DpCellRect cells, DpCellRect at)
-{
-    return (DpCellRect){at.i0 + cells.i0, at.i0 + cells.i1, at.j0 + cells.j0, at.j0 + cells.j1};
-}
-
-// Some sweeps over what slides; when little is left to go, all that are left.
-static DpStatus let_flow(const DpSim* sim, DpSoilPatch* patch, int sweeps, WorkerScratch* scratch,
-                         DpSettled* settled)
-{
-    const double tolerance = sim->options.tolerance;
-    DpSettled    flown = {.at_rest = true};
-    if (sweeps < sim->options.max_sweeps) {
-        const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, fmax(tolerance, FLOW_ENDS),
-                                                  sweeps, scratch->soil_scratch, &flown);
-        if (status != DP_OK || !flown.at_rest) {
-            *settled = flown;
-            return status;
-        }
-    }
-    const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, tolerance, sim->options.max_sweeps,
-                                              scratch->soil_scratch, settled);
-    settled->changed = dp_cells_join(settled->changed, flown.changed);
-    settled->loosened += flown.loosened;
-    return status;
-}
-
-// Let the rim slide that the sole held, in ever larger patches until nothing wants to leave; what takes its time
-// slides on in the next step.
-DpStatus dp_limb_settle(DpSim* sim, Limb* limb, int sample, WorkerScratch* scratch)
-{
-    DpCellRect at = limb->trodden;
-    if (dp_cells_empty(at)) return DP_OK;
-    at = dp_cells_grown(at, SETTLE_MARGIN);
-    for (;;) {
-        DpSoilPatch* patch = NULL;
-        DpStatus     status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
-        if (status != DP_OK) return status;
-        DpSettled settled;
-        const int sweeps = sweeps_of(sim, middle_soil(patch), sample);
-        status = let_flow(sim, patch, sweeps, scratch, &settled);
-        if (status != DP_OK) return status;
-        dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
-        limb->loosened += settled.loosened;
-        limb->flows = sweeps < sim->options.max_sweeps && !settled.at_rest;
-        if (middle_soil(patch)->flow_time > 0.0f && !dp_cells_empty(settled.changed)) {
-            const DpCellRect slid = in_world(settled.changed, at);  // all else lies still
-            limb->trodden = limb->flows ? slid : dp_cells_join(limb->trodden, slid);
-        }
-        if (!settled.at_edge) return DP_OK;
-        at = dp_cells_grown(at, SETTLE_GROWTH);
-        if (!limb->flows) continue;
-        limb->trodden = at;
-        return DP_OK;
-    }
 }

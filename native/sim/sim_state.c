@@ -14,12 +14,13 @@
 
 #define NAME "sim "
 #define SHOWN "show"  // whether it is remembered how soles laid the stems
-#define VERSION 2     // 1 tells nothing of walls and springs
+#define VERSION 3  // 2 tells nothing of prints that slide by themselves, 1 nor of walls and springs
 #define SHOWN_VERSION 1
 #define FARTHEST ((int64_t)1 << 40)  // cells
 #define WIDEST ((int64_t)1 << 24)    // cells along one side of what a limb presses on
 #define LARGEST ((int64_t)1 << 26)   // and in all
 #define MIN_LIMB 100                 // bytes of a limb are no fewer
+#define SLIDE_BYTES 32               // .. of a print that slides
 
 // ---- writing -----------------------------------------------------------------------------------
 
@@ -83,7 +84,7 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     double number[8];
     if (!sim || !writer || (sim->motion && dp_motion_is_live(sim->motion))) return DP_BAD_ARGUMENT;
     identity(sim, number);
-    dp_write_chunk(writer, NAME, VERSION);
+    dp_write_chunk(writer, NAME, sim->slides > 0 ? VERSION : 2);
     dp_write_doubles(writer, number, 8);
     dp_write_u64(writer, (uint64_t)sim->cast.walkers),
         dp_write_u64(writer, (uint64_t)sim->cast.parts);
@@ -92,6 +93,8 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     write_report(writer, &sim->report);
     dp_write_u64(writer, (uint64_t)sim->cast.limbs);
     for (int l = 0; l < sim->cast.limbs; ++l) write_limb(writer, &sim->limb[l], &sim->pressing[l]);
+    if (sim->slides > 0) dp_write_u64(writer, (uint64_t)sim->slides);
+    for (int k = 0; k < sim->slides; ++k) write_cells(writer, sim->slide[k]);
     dp_write_end(writer);
     dp_terrain_save(sim->terrain, writer);
     if (sim->stage.plants) {
@@ -113,6 +116,8 @@ typedef struct State
     int                  next, limbs;
     Limb*                limb;  // of which only what is kept is filled in (limbs)
     Pressing*            pressing;
+    DpCellRect*          slide;
+    int                  slides;
     DpSimReport          report;
     DpTerrainState*      terrain;
     DpPlantsState*       plants;
@@ -125,7 +130,7 @@ static void drop(State* state)
 {
     for (int l = 0; state->limb && l < state->limbs; ++l) dp_free(state->limb[l].met);
     for (int l = 0; state->pressing && l < state->limbs; ++l) dp_free(state->pressing[l].value);
-    dp_free(state->limb), dp_free(state->pressing);
+    dp_free(state->limb), dp_free(state->pressing), dp_free(state->slide);
     dp_terrain_state_destroy(state->terrain);
     dp_plants_state_destroy(state->plants);
     dp_grass_state_destroy(state->grass);
@@ -209,6 +214,20 @@ static DpSimReport read_report(DpStateReader* reader, uint32_t version)
     return report;
 }
 
+static DpStatus read_slides(DpStateReader* reader, State* state)
+{
+    const size_t count = dp_read_count(reader, INT32_MAX, SLIDE_BYTES);
+    if (count == 0 || reader->status != DP_OK) return reader->status;
+    state->slide = dp_alloc(count, sizeof *state->slide);
+    if (!state->slide) return DP_NO_MEMORY;
+    state->slides = (int)count;
+    for (size_t k = 0; k < count; ++k) {
+        state->slide[k] = read_cells(reader);
+        dp_read_check(reader, !dp_cells_empty(state->slide[k]));
+    }
+    return reader->status;
+}
+
 static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
 {
     double number[8], here[8];
@@ -231,6 +250,8 @@ static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
     if (!state->limb || !state->pressing) return DP_NO_MEMORY;
     for (int l = 0; l < state->limbs && room && reader->status == DP_OK; ++l)
         read_limb(reader, &state->limb[l], &state->pressing[l], &room);
+    const DpStatus slides = room && version > 2 ? read_slides(reader, state) : DP_OK;
+    if (slides == DP_NO_MEMORY) room = false;
     if (room) dp_read_end(reader);
     return room ? reader->status : DP_NO_MEMORY;
 }
@@ -247,6 +268,9 @@ static void take_limbs(DpSim* sim, State* state)
         dp_free(sim->pressing[l].value);
         sim->pressing[l] = state->pressing[l];
     }
+    dp_free(sim->slide);
+    sim->slide = state->slide, sim->slides = state->slides;
+    state->slide = NULL;
     state->limbs = 0;  // what they held is the simulation's now
 }
 

@@ -92,11 +92,13 @@ static DpStatus step_soil(DpSim* sim, int sample)
     const bool planned = sim->speculation.planned;
     const bool done = dp_speculate_take(sim);
     if (!planned) status = dp_step_plan(sim, sample);
+    if (status == DP_OK && sim->groups == 0) status = dp_slide_step(sim, sample);
     if (status != DP_OK || sim->groups == 0) return status;
     if (!done) status = press_limbs(sim, sample);
     if (status != DP_OK) return status;
     status = dp_release_step(sim, sample);
     if (status == DP_OK) status = settle_limbs(sim, sample);
+    if (status == DP_OK) status = dp_slide_step(sim, sample);
     count(sim);
     return status;
 }
@@ -118,6 +120,8 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
 DpStatus dp_sim_settle(DpSim* sim)
 {
     dp_pressing_clear(sim);
+    const DpStatus slid = dp_slide_step(sim, -1);
+    if (slid != DP_OK) return slid;
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         if (!limb->stands && !limb->flows) continue;

@@ -116,3 +116,42 @@ def test_a_foot_that_comes_down_again_leaves_nothing_behind():
         for side in (1, -1):
             drop = change - np.roll(change, side, axis)
             assert (drop[heap > 1e-4] <= slope * 0.01 + 1e-6).all()
+
+
+def test_a_print_slides_on_while_its_foot_stands_elsewhere(tmp_path):
+    gait, loads = gaits.strides(3.0)
+    soil, cell = replace(SLOW, flow_time=4.0), 0.01
+
+    def fresh(threads=1):
+        sim = Simulation(Ground.flat(), soil, cell, **for_simulation(threads=threads))
+        sim.load(gait, loads)
+        return sim
+
+    def heights(sim):
+        return sim.read("height_change", -100, -60, 480, 120).astype(float)
+
+    sim, (begins, ends) = fresh(), (70, 100)  # samples between which the first foot stands at 1.4 m, its print at 0
+    sim.run(begins)
+    before = heights(sim)
+    sim.run(ends)
+    moved = np.abs(heights(sim) - before)
+    assert moved[:, 70:130].max() > 1e-3, moved[:, 70:130].max()
+
+    half, end = (begins + ends) // 2, len(gait.time) - 1
+    one = fresh()
+    one.run(half)
+    one.save_state(tmp_path / "state")
+    again = fresh(5)
+    again.load_state(tmp_path / "state")
+    for each in (one, again):
+        each.run(end)
+    assert np.array_equal(heights(one), heights(again)) and one.report() == again.report()
+    one.settle()
+    report = one.report()
+    heaped = report["displaced_m3"] - report["pressed_heap_m3"] + report["loosened_m3"]
+    assert report["heaped_m3"] == pytest.approx(heaped, rel=1e-6)
+    change, heap = heights(one), one.read("heap", -100, -60, 480, 120)
+    slope = math.tan(SLOW.rest_angle + math.radians(0.11))
+    for axis in (0, 1):
+        drop = change - np.roll(change, 1, axis)
+        assert (drop[heap > 1e-4] <= slope * cell + 1e-6).all()
