@@ -188,7 +188,7 @@ def ground_options(command: Parser, spacing: str) -> None:
         "--ground",
         default="flat",
         help="flat, flat:HEIGHT, an EXR of heights [m] (channel height, Z, "
-        "V or Y), or a bake's maps_final.exr: its trail goes on",
+        "V or Y), a GeoTIFF of them (needs rasterio), or a bake's maps_final.exr: its trail goes on",
     )
     command.option(spacing, SAMPLES, type=float, help="distance of the EXR's samples [m], if it does not say")
 

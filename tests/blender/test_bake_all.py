@@ -1,14 +1,10 @@
 """All grounds of a scene are baked in one go; files are found, and messages can be copied."""
 
-import json
-
 import bpy
-import numpy as np
 from scenes import meshes, people
 from test_bake import refused
 
 from desire_path.blender import bake_all, bake_job, live, messages
-from desire_path.ground import maps
 
 FRAMES = 16
 
@@ -92,25 +88,6 @@ def test_a_stopped_one_leaves_the_whole_ones(folder):
     steps.close()
     jobs.play()
     assert beach.desire_path.bake_state == "FRESH" and field.desire_path.bake_state == "PARTIAL"
-
-
-def test_heights_are_exported(folder):
-    beach, _ = land("Beach", 0.0, folder)
-    meshes.activate(beach)
-    path = folder / "trail.png"
-    assert "bake it first" in refused(bpy.ops.wm.desire_path_export, filepath=str(path))
-    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    assert "ends with" in refused(bpy.ops.wm.desire_path_export, filepath="")
-    assert "ends with" in refused(bpy.ops.wm.desire_path_export, filepath=str(folder / "trail.tif"))
-    assert bpy.ops.wm.desire_path_export(format="HEIGHT16", filepath=str(path)) == {"FINISHED"}
-    told = json.loads((folder / "trail.json").read_text(encoding="utf-8"))
-    picture = bpy.data.images.load(str(path))
-    assert tuple(picture.size) == (told["columns"], told["rows"])
-    planes = maps.read(folder / "Beach" / "maps_final.exr").planes
-    now = planes["rest"] - planes["compression"] + planes["heap"]
-    assert (told["rows"], told["columns"]) == now.shape
-    assert abs(told["lowest"] - np.nanmin(now)) < 1e-6 and abs(told["highest"] - np.nanmax(now)) < 1e-6
-    assert told["lowest"] < 0.0 < told["highest"]
 
 
 def test_files_are_shown_and_messages_copied(folder):

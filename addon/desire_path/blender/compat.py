@@ -1,5 +1,8 @@
 """compat.py - what differs between Blender 3.4 and 5.2, asked for by feature, never by version."""
 
+import contextlib
+import sys
+
 import bpy
 
 from .drawing import gpu
@@ -347,3 +350,15 @@ def is_group(prop):
 def all_curves(animation):
     """The F-curves of the action an ID plays, none where it plays none."""
     return curves_played(animation) if animation.action is not None else []
+
+
+@contextlib.contextmanager
+def bundled_modules():
+    """Let modules that Blender brings (pxr and others) be imported in this block, by bpy as a module, too."""
+    path = list(sys.path)
+    if hasattr(bpy.utils, "expose_bundled_modules"):  # 4.4 and later
+        bpy.utils.expose_bundled_modules()
+    try:
+        yield
+    finally:
+        sys.path[:] = path

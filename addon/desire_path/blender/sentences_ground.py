@@ -290,6 +290,38 @@ GERMAN = {
     "{} is of no kind that is written: give it a name that ends with {}.": (
         "{} ist von keiner Art, die geschrieben wird: ihm einen Namen geben, der auf {} endet."
     ),
+    # ---- ground/geotiff.py
+    "GeoTIFF is read by the package rasterio, which is not there: pip install desire-path[geotiff], or pip install "
+    "rasterio.": (
+        "GeoTIFF wird mit dem Paket rasterio gelesen, das nicht da ist: pip install desire-path[geotiff], oder pip "
+        "install rasterio."
+    ),
+    "{} has more than 2^28 samples: cut out what is walked on.": (
+        "{} hat mehr als 2^28 Werte: ausschneiden, worauf gegangen wird."
+    ),
+    "{} is damaged or no GeoTIFF ({}): write it again, or choose another file.": (
+        "{} ist beschädigt oder kein GeoTIFF ({}): noch einmal schreiben, oder eine andere Datei wählen."
+    ),
+    "The heights of {} are in {}: write them in metres.": "Die Höhen von {} sind in {}: sie in Metern schreiben.",
+    "The samples of {} are not square or not along x and y: warp it, north up.": (
+        "Die Werte von {} liegen nicht in Quadraten oder nicht entlang x und y: umrechnen, Norden oben."
+    ),
+    "The samples of {} are {} m apart: give a map whose unit is a length.": (
+        "Die Werte von {} liegen {} m auseinander: eine Karte geben, deren Einheit eine Länge ist."
+    ),
+    "{} lies on a map in degrees: warp it to one in metres, as UTM (gdalwarp -t_srs).": (
+        "{} liegt auf einer Karte in Grad: auf eine in Metern umrechnen, etwa UTM (gdalwarp -t_srs)."
+    ),
+    # ---- ground/stage.py
+    "USD is written by the module pxr, which is not there: pip install desire-path[usd], or pip install usd-core, "
+    "or export from Blender 4.5 or later.": (
+        "USD wird mit dem Modul pxr geschrieben, das nicht da ist: pip install desire-path[usd], oder pip install "
+        "usd-core, oder aus Blender 4.5 oder neuer exportieren."
+    ),
+    "The plants in {} are damaged ({}): bake again.": "Die Pflanzen in {} sind beschädigt ({}): noch einmal backen.",
+    "The stage cannot be written to {} ({}): choose another folder or make room.": (
+        "Die Bühne lässt sich nicht nach {} schreiben ({}): einen anderen Ordner wählen oder Platz schaffen."
+    ),
     "{} cannot be so large: write .raw, or bake with a larger cell size.": (
         "{} kann nicht so groß sein: .raw schreiben, oder mit größeren Zellen backen."
     ),

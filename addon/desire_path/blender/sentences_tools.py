@@ -12,6 +12,23 @@ GERMAN = {
     ),
     "There are no files of '{}' yet: bake it first.": "Von '{}' gibt es noch keine Dateien: erst backen.",
     "'{}' is no ground, so there is nothing to free.": "'{}' ist kein Boden, so dass es nichts zu löschen gibt.",
+    # ---- blender/op_export.py
+    "There is no name to write to: give a filepath that ends with {}.": (
+        "Es fehlt ein Name für die Datei: einen filepath angeben, der auf {} endet."
+    ),
+    "{} x {} heights are written to {}.": "{} x {} Höhen sind nach {} geschrieben.",
+    "{} points and {} stems are written to {}.": "{} Punkte und {} Halme sind nach {} geschrieben.",
+    "{} frames are written to {}.": "{} Bilder sind nach {} geschrieben.",
+    "This Blender was built without Alembic: take one of blender.org, or export USD.": (
+        "Dieses Blender wurde ohne Alembic gebaut: eines von blender.org nehmen, oder USD exportieren."
+    ),
+    "'{}' is hidden, and so is not written: show it first.": (
+        "'{}' ist ausgeblendet und wird so nicht geschrieben: erst einblenden."
+    ),
+    "Alembic cannot be written to {} ({}).": "Alembic lässt sich nicht nach {} schreiben ({}).",
+    "Alembic cannot be written to {}: choose another folder or make room.": (
+        "Alembic lässt sich nicht nach {} schreiben: einen anderen Ordner wählen oder Platz schaffen."
+    ),
     # ---- blender/op_forces.py
     "Forces are shown in a viewport, and Blender runs without a window: draw them to a picture with python -m "
     "desire_path plot.": (

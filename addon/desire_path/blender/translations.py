@@ -24,7 +24,7 @@ GERMAN = {
         "Bake Trail": "Spur backen",
         "Cancel": "Abbrechen",
         "Copy Messages": "Meldungen kopieren",
-        "Trail of Desire Path (.png, .raw)": "Spur von Desire Path (.png, .raw)",
+        "Trail of Desire Path (.png, .usd, .abc)": "Spur von Desire Path (.png, .usd, .abc)",
         "Export Trail": "Spur exportieren",
         "Find Feet": "Füße finden",
         "Force Graph": "Kraftkurve",

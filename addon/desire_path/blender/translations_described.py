@@ -37,11 +37,19 @@ GERMAN = {
         "Was der aktive Läufer tut, in eine Datei schreiben, die sich ohne Blender backen lässt"
     ),
     "Where the recording is written": "Wohin die Aufnahme geschrieben wird",
-    "Write the baked heights of the active ground for game engines and makers of terrain": (
-        "Die gebackenen Höhen des aktiven Bodens für Spiele-Engines und Geländeprogramme schreiben"
+    "Write what was baked on the active ground for game engines, makers of terrain and other programs of pictures": (
+        "Was auf dem aktiven Boden gebacken ist, für Spiele-Engines, Gelände- und andere Bildprogramme schreiben"
     ),
     "What is written": "Was geschrieben wird",
-    "Where the heights are written: .png, .raw or .r16": "Wohin die Höhen geschrieben werden: .png, .raw oder .r16",
+    "Where it is written: .png, .raw or .r16; .usdc, .usda or .usd; .abc": (
+        "Wohin es geschrieben wird: .png, .raw oder .r16; .usdc, .usda oder .usd; .abc"
+    ),
+    "A mesh at the end of the walk with all maps, and the plants that were baked as a mesh": (
+        "Ein Netz am Ende des Gangs mit allen Karten, und die Pflanzen, die als Netz gebacken sind"
+    ),
+    "The ground and its plants as they move, in the frames of the scene": (
+        "Der Boden und seine Pflanzen, wie sie sich bewegen, in den Bildern der Szene"
+    ),
     "A grey picture or bare numbers; a .json beside it tells what a value is": (
         "Ein graues Bild oder bloße Zahlen; eine .json daneben sagt, was ein Wert ist"
     ),

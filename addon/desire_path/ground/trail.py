@@ -1,4 +1,4 @@
-"""Ground out of an OpenEXR image: heights of any writer, or a trail as a bake left it.
+"""Ground out of an OpenEXR image or a GeoTIFF: heights of any writer, or a trail as a bake left it.
 
 maps_final.exr, maps/..   rest, compression, heap and pressure_time by name: another walk goes on from there
 any other image           the channel height, Z, V, Y, or a grey picture
@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import Record, read_only
 from ..bounds import CELLS
 from ..errors import DesirePathError
-from . import maps
+from . import geotiff, maps
 
 LEFT = ("compression", "heap", "pressure_time")  # of a trail, beside the height before it
 HEIGHTS = ("height", "Z", "V", "Y")  # what a height may be called
@@ -123,6 +123,8 @@ def read(path: str | os.PathLike[str], spacing: float | None = None) -> Trail | 
     spacing: distance of the samples [m], if the file does not say
     """
     path = os.fspath(path)
+    if geotiff.is_one(path):
+        return geotiff.read(path, spacing)
     picture = maps.read(path)
     if any(name in picture.planes for name in ("rest", *LEFT)):
         return _trail(path, picture)
