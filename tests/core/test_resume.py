@@ -6,7 +6,6 @@ import random
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -92,10 +91,10 @@ WORLDS = {each.__name__: each for each in (soils, grown, tiles, trodden)}
 EVENTS = {"open", "os.rename", "os.link", "os.remove", "os.mkdir", "os.rmdir", "os.symlink", "os.truncate"}
 
 
-def child(world, folder, steps, last):
-    """Bake with a state after every frame; die at a number of steps in the folder, or when a frame is `last`. Prints
-    each frame, then how many steps it took, and its warnings."""
-    left = steps
+def child(world, folder, steps, last, calls):
+    """Bake with a state after every frame; die at a number of steps in the folder, at a number of calls of the thread
+    that bakes, or when a frame is `last`. Prints each frame, then how many steps and calls it took, and warnings."""
+    left, calls_left = steps, calls
 
     def count(event, words):
         nonlocal left
@@ -104,21 +103,28 @@ def child(world, folder, steps, last):
             if left == 0:
                 os.kill(os.getpid(), signal.SIGKILL)
 
+    def call(stack, event, of):
+        nonlocal calls_left
+        calls_left -= 1
+        if calls_left == 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+
     state.FIRST, state.SHARE = 0.0, 1e9
     bake = WORLDS[world](Path(folder))
-    print("begin", flush=True)
     sys.addaudithook(count)
+    sys.setprofile(call)
     for progress in bake.run():
         print(progress.frame, flush=True)
         if progress.frame == last:
             os.kill(os.getpid(), signal.SIGKILL)
-    print("steps", steps - left, *bake.report["warnings"], flush=True)
+    sys.setprofile(None)
+    print("steps", steps - left, calls - calls_left, *bake.report["warnings"], flush=True)
 
 
-def started(world, folder, steps=0, last=None):
+def started(world, folder, steps=0, last=None, calls=0):
     script = (
         f"import sys; sys.path[:0] = {[str(REPO / 'addon'), str(REPO)]!r}\n"
-        f"from tests.core.test_resume import child; child({world!r}, {str(folder)!r}, {steps}, {last})"
+        f"from tests.core.test_resume import child; child({world!r}, {str(folder)!r}, {steps}, {last}, {calls})"
     )
     return subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -144,13 +150,13 @@ def content(folder):
 
 
 def let_be(world, tmp_path):
-    """(files of the bake that nobody disturbed, how many steps it took)."""
+    """(files of the bake that nobody disturbed, how many steps and calls it took, what it printed)."""
     if world == "trodden":
         for _ in Bake(standing(at=(0.3, 0.0)), Ground.flat(), "mud", tmp_path / "before", cell_size=CELL).run():
             pass
     words, whole = left_by(started(world, tmp_path / "whole"))
     assert whole and not [name for name in content(tmp_path / "whole") if "state" in name or "part" in name]
-    return content(tmp_path / "whole"), int(words[-1].split()[1]), words
+    return content(tmp_path / "whole"), *map(int, words[-1].split()[1:3]), words
 
 
 def frames(words):
@@ -159,8 +165,8 @@ def frames(words):
 
 @pytest.mark.parametrize("world", WORLDS)
 def test_killed_at_any_moment_it_ends_as_if_it_was_let_be(tmp_path, world):
-    """Killed again and again in one folder: at frames, at steps that change the folder, at moments by chance."""
-    want, steps, words = let_be(world, tmp_path)
+    """Killed again and again in one folder: at frames, at steps that change the folder, at calls by chance."""
+    want, steps, calls, words = let_be(world, tmp_path)
     folder, chance, all_frames = tmp_path / "killed", random.Random(world), frames(words)
     begin = all_frames[0]
     for number in sorted(chance.sample(range(len(all_frames) // 2), 2)):
@@ -169,14 +175,10 @@ def test_killed_at_any_moment_it_ends_as_if_it_was_let_be(tmp_path, world):
         begin = all_frames[number] + 1
     for part in chance.sample(range(1, steps), 4):
         there, _ = left_by(started(world, folder, part))
-    for _ in range(3):
-        process = started(world, folder)
-        assert process.stdout.readline() == "begin\n"
-        time.sleep(chance.uniform(0.0, 0.6))
-        process.kill()
-        left_by(process)
+    for number in sorted(chance.sample(range(1, calls // 2), 3)):
+        there, _ = left_by(started(world, folder, calls=number))
     there, whole = left_by(started(world, folder))
-    assert whole and there[-1].split()[2:] == words[-1].split()[2:] and content(folder) == want
+    assert whole and there[-1].split()[3:] == words[-1].split()[3:] and content(folder) == want
 
 
 def stopped(folder, frames=20, world=soils):
