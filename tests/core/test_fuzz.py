@@ -2,7 +2,7 @@
 
 import itertools
 import random
-import time
+import signal
 
 import pytest
 
@@ -22,7 +22,12 @@ def raises(path):
 
 
 def takes_long(path):
-    time.sleep(60)
+    while True:
+        sum(range(1000))
+
+
+def waits(path):
+    signal.pause()
 
 
 def mumbles(path):
@@ -31,11 +36,18 @@ def mumbles(path):
 
 @pytest.mark.parametrize(
     "fault, words",
-    [(raises, "nobody caught this"), (takes_long, "took longer than 1 s"), (mumbles, "says 'line 4711'")],
+    [
+        (raises, "nobody caught this"),
+        (takes_long, "computed for longer than 0.5 s"),
+        (waits, "was stuck for 2 s"),
+        (mumbles, "says 'line 4711'"),
+    ],
 )
 def test_faults_are_found_and_their_files_kept(fault, words, tmp_path, monkeypatch):
     good = trampling.read
-    monkeypatch.setattr(parsers, "LONG", 1)
+    if fault in (takes_long, waits):
+        monkeypatch.setattr(parsers, "LONG", 0.5)
+        monkeypatch.setattr(parsers, "STUCK", 2 if fault is waits else parsers.STUCK)
     monkeypatch.setattr(
         trampling, "read", lambda path: fault(path) if b"25,86.3" not in path.read_bytes() else good(path)
     )

@@ -48,7 +48,8 @@ from desire_path.study import trampling  # noqa: E402
 from tests.fuzz import mutate  # noqa: E402
 from tests.scenes import gaits  # noqa: E402
 
-LONG = 5  # [s] for one file
+LONG = 5  # [s] of computing for one file
+STUCK = 300  # [s] of any time for one file
 MUCH = 400 << 20  # [bytes] for one file
 ROOM = 4 << 30  # [bytes] of address space that a parser has in all
 POOL = 64  # files that are damaged further: good ones, and damaged ones that were read
@@ -204,13 +205,18 @@ PARSERS = {
 
 
 def _late(number, stack):
-    raise Slow(f"took longer than {LONG} s")
+    raise Slow(f"computed for longer than {LONG} s" if number == signal.SIGPROF else f"was stuck for {STUCK} s")
+
+
+def _limit(computing, any_time):
+    signal.setitimer(signal.ITIMER_PROF, computing)
+    signal.setitimer(signal.ITIMER_REAL, any_time)
 
 
 def attempt(call):
     """What is wrong with how a call ends, and whether it read its file."""
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    signal.setitimer(signal.ITIMER_REAL, LONG)
+    _limit(LONG, STUCK)
     try:
         call()
         wrong, read = None, True
@@ -220,7 +226,7 @@ def attempt(call):
     except Exception:
         wrong, read = traceback.format_exc(limit=-4), False
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        _limit(0, 0)
     taken = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) << 10
     return wrong or (f"took {taken >> 20} MB" if taken > MUCH else None), read
 
@@ -231,7 +237,8 @@ def fuzz(name, runs, seed, place, finds, longest=math.inf, most=3):
     What was found, at most `most`, and how many files were tried.
     """
     end = time.monotonic() + longest
-    signal.signal(signal.SIGALRM, _late)
+    for limit in (signal.SIGPROF, signal.SIGALRM):
+        signal.signal(limit, _late)
     warnings.simplefilter("ignore")
     chance = random.Random(f"{name} {seed}")
     good, at, call, change = PARSERS[name](place)
