@@ -81,10 +81,33 @@ TEST(plants_are_touched_as_far_as_they_stand)
     dp_plants_destroy(plants);
 }
 
+// one that lies down is met where it lies: to the side to which it leans
+TEST(plants_are_touched_where_they_lie)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*         plants = lawn(&kind, DP_LANES, 1, 0.05, 1);
+    PlantBlock*       block = &plants->stand[0].block[0];
+    float             at[84], bottom[SOLE_SIDE * SOLE_SIDE];
+    for (int side = -1; side <= 1; side += 2) {
+        CHECK(dp_plants_read(plants, 0, 1, at, NULL, NULL) == DP_OK);
+        for (int p = 0; p < 28; ++p)
+            if (p % 7 > 1) at[3 * p] = 0.05f + 0.02f * (float)(side * (p % 7 - 1));
+        CHECK(dp_plants_write(plants, 0, 1, at, NULL, NULL) == DP_OK);
+        const DpPlantCollider foot =
+            sole(bottom, 0.005, 0.05 + 0.1 * side, 0.0, 0.0, 0.06, 0.06, 0.0);
+        const PlantPush push = push_of(&foot, 1e-4);
+        dp_plant_touch(&plants->stand[0], block, &push, 1, 1e-4);
+        CHECK(block->touched_lane[1]);
+        CHECK(!block->touched_lane[5]);
+    }
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(colliders_go_through_a_box);
     RUN(bad_colliders_are_told);
     RUN(plants_are_touched_as_far_as_they_stand);
+    RUN(plants_are_touched_where_they_lie);
     return check_done();
 }

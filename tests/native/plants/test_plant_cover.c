@@ -102,11 +102,34 @@ TEST(what_is_worn_rises_as_it_heals)
     }
 }
 
+// K / K_ref of one plant wherever the window's cells lie: beside it, at its root, beyond it. TRAIL (7)
+TEST(one_plant_covers_as_far_as_its_roots_go)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.root_radius = 0.22f, kind.full_density = 40.0f;
+    const double  radius = (double)kind.root_radius, k_ref = 40.0 * DP_PI * radius * radius / 3.0;
+    DpPlants*     plants = lawn(&kind, 1, 1, 1.0, 1);
+    float         strength[N * N], modulus[N * N];
+    DpPlantWindow around = {N, N, N, 0.05, 0.0, 0.0};
+    for (int place = 0; place < 9; ++place) {
+        around.x0 = -0.9 + 0.43 * (place % 3), around.y0 = -0.9 + 0.43 * (place / 3);
+        CHECK(dp_plants_cover(plants, &around, DP_COVER_FULL, strength, modulus) == DP_OK);
+        for (int k = 0; k < N * N; ++k) {
+            const double x = around.x0 + 0.05 * (k % N), y = around.y0 + 0.05 * (k / N);
+            const double want = fmax(1.0 - hypot(x, y) / radius, 0.0) / k_ref;
+            CHECK_NEAR(strength[k], want, 1e-6);
+            CHECK_NEAR(modulus[k], 10e6 * want, 10.0);
+        }
+    }
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(full_cover_is_1_half_broken_is_a_half_none_is_0);
     RUN(a_thin_stand_covers_less);
     RUN(paper_is_as_printed);
     RUN(what_is_worn_rises_as_it_heals);
+    RUN(one_plant_covers_as_far_as_its_roots_go);
     return check_done();
 }

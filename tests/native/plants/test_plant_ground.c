@@ -144,6 +144,33 @@ TEST(off_the_ground_plants_stand_on_their_own_plane)
     CHECK_NEAR(dp_plant_floor_at(&block, NULL, 0, 5.0, 6.0), 2.0, 1e-12);
 }
 
+// wherever the highest cell within reach is, and however many lie beside it
+TEST(ceilings_see_every_cell_around)
+{
+    static float        height[41 * 41];
+    const DpPlantKind   kind = dp_plant_kind_default();
+    const DpPlantGround ground = {
+        .nx = 41, .ny = 41, .row = 41, .cell = CELL, .x0 = -0.2, .y0 = -0.2, .height = height};
+    DpPlants*    plants = lawn(&kind, 1, 1, 0.1, 3);
+    PlantStand*  stand = &plants->stand[0];
+    const double span = (double)(stand->extent + kind.radius);
+    CHECK(span > 0.08 && span < 0.18);
+    int within = 0;
+    for (int k = 0; k < 41 * 41; ++k) {
+        const double x = -0.2 + CELL * (k % 41), y = -0.2 + CELL * (k / 41);
+        height[k] = 1.0f;
+        CHECK(dp_plant_ground_lane(stand, &stand->block[0], &ground, 0));
+        height[k] = 0.0f;
+        const float ceiling = stand->block[0].ceiling[0];
+        const bool  sees = fabs(x) <= span && fabs(y) <= span;
+        within += sees;
+        if (sees) CHECK(ceiling == 1.0f);
+        if (fabs(x) > span + CELL || fabs(y) > span + CELL) CHECK(ceiling == 0.0f);
+    }
+    CHECK(within > 200);
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(limp_stems_lie_still_over_a_rim);
@@ -151,5 +178,6 @@ int main(void)
     RUN(what_stands_over_all_ground_asks_for_none);
     RUN(of_two_grids_the_first_counts_and_functions_come_last);
     RUN(off_the_ground_plants_stand_on_their_own_plane);
+    RUN(ceilings_see_every_cell_around);
     return check_done();
 }

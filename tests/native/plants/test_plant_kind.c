@@ -1,5 +1,6 @@
 // Kinds by their table of numbers: defaults, ranges, and what is said of those out of them.
 #include "lawn.h"
+#include "plants/plant_inside.h"
 
 static const char* why(const DpPlantKind* kind)
 {
@@ -79,11 +80,27 @@ TEST(roots_that_cannot_be_planted_are_named)
     CHECK(dp_plants_check(NULL, root, NULL, 2, &reason) == DP_BAD_ARGUMENT);
 }
 
+// x'' + damping x' + swing^2 x = 0: it swings, or creeps at swing^2 / damping where damping is large
+TEST(stems_swing_or_creep_back)
+{
+    DpPlantKind  kind = dp_plant_kind_default();
+    const double swing = 2.0 * DP_PI * 1.5;
+    kind.sway = 1.5f, kind.damping = 4.0f;
+    CHECK_CLOSE(dp_plant_return_rate(&kind), swing, 1e-6);
+    CHECK_CLOSE(dp_plant_rise_rate(&kind), 2.0, 1e-6);  // swings die away as exp(-damping t / 2)
+    kind.damping = 200.0f;
+    CHECK_CLOSE(dp_plant_return_rate(&kind), swing * swing / 200.0, 1e-6);
+    CHECK_CLOSE(dp_plant_rise_rate(&kind), swing * swing / 200.0, 1e-6);
+    kind.damping = 0.0f;
+    CHECK_CLOSE(dp_plant_rise_rate(&kind), 0.3, 1e-6);
+}
+
 int main(void)
 {
     RUN(numbers_are_the_members_in_order);
     RUN(ranges_hold_their_ends_and_no_more);
     RUN(what_is_wrong_is_said);
     RUN(roots_that_cannot_be_planted_are_named);
+    RUN(stems_swing_or_creep_back);
     return check_done();
 }

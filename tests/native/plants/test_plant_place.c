@@ -56,9 +56,25 @@ TEST(fields_side_by_side_have_no_seam)
     CHECK(nearest >= sqrt(0.5 / 80.0) - 1e-6);
 }
 
+// cells of the look-up are wider than roots stand apart when few may come
+TEST(few_roots_keep_their_distance_too)
+{
+    float  root[2 * 100];
+    int    count = 0;
+    double nearest = 1e9;
+    CHECK(dp_plants_place(0, 0, 1, 1, 400.0, NULL, 0, 0, 9, root, 100, &count) == DP_OK);
+    CHECK(count == 100);
+    for (int a = 0; a < count; ++a)
+        for (int b = 0; b < a; ++b)
+            nearest = fmin(nearest, hypot((double)(root[2 * a] - root[2 * b]),
+                                          (double)(root[2 * a + 1] - root[2 * b + 1])));
+    CHECK(nearest >= sqrt(0.5 / 400.0) - 1e-6);
+}
+
 int main(void)
 {
     RUN(places_keep_their_distance);
     RUN(fields_side_by_side_have_no_seam);
+    RUN(few_roots_keep_their_distance_too);
     return check_done();
 }

@@ -53,9 +53,30 @@ TEST(far_from_the_origin_plants_come_to_rest_too)
     dp_plants_destroy(plants);
 }
 
+// what is above a broken bend gets nothing back, asleep or awake, what is below it does. MODEL 7.3
+TEST(above_a_break_nothing_comes_back)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.recover_rate = (float)(0.02 / 86400.0);
+    DpPlants*      plants = lawn(&kind, 1, 1, 1.0, 1);
+    DpPlantsReport told = {0};
+    double         strength[20], now[20];
+    for (int b = 0; b < 20; ++b) strength[b] = b % 5 == b / 5 ? 0.0 : 0.05;  // stem s at bend s
+    dp_plants_write(plants, 0, 0, NULL, NULL, strength);
+    for (int f = 0; f < 1200; ++f)
+        CHECK(dp_plants_step(plants, NULL, NULL, 0, 1.0 / 60, 1, &told) == DP_OK);
+    CHECK(told.awake == 0);
+    CHECK(dp_plants_advance_time(plants, 86400.0) == DP_OK);
+    dp_plants_read(plants, 0, 0, NULL, NULL, now);
+    for (int b = 0; b < 20; ++b)
+        CHECK_NEAR(now[b], b % 5 == b / 5 ? 0.0 : b % 5 > b / 5 ? 0.05 : 0.07, 1e-4);
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(sleepers_recover_exactly_what_their_time_gives);
     RUN(far_from_the_origin_plants_come_to_rest_too);
+    RUN(above_a_break_nothing_comes_back);
     return check_done();
 }

@@ -182,6 +182,24 @@ TEST(mirrored_to_the_bit)
     ground_free(&g[0]), ground_free(&g[1]);
 }
 
+TEST(what_cannot_be_carved_is_refused)
+{
+    Ground                 g = ground_make(20, 20, 0.01, sand());
+    const DpDescent* const descent = &straight;
+    DpCarved               carved;
+    ground_sole(&g, (BoxSole){.z = -0.1, .length = 0.1, .width = 0.1});
+    CHECK(dp_soil_carve(&g.patch, NULL, descent, 0.01, &carved) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_carve(&g.patch, &g.imprint, NULL, 0.01, &carved) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_carve(&g.patch, &g.imprint, descent, 0.01, NULL) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_carve(&g.patch, &g.imprint, descent, 0.0, &carved) == DP_BAD_ARGUMENT);
+    CHECK(dp_soil_carve(&g.patch, &g.imprint, descent, INFINITY, &carved) == DP_BAD_ARGUMENT);
+    DpSoilPatch bad = g.patch;
+    bad.row = bad.nx - 1;
+    CHECK(dp_soil_carve(&bad, &g.imprint, descent, 0.01, &carved) == DP_BAD_ARGUMENT);
+    CHECK(ground_most(&g, g.compression) <= 0.0);
+    ground_free(&g);
+}
+
 int main(void)
 {
     RUN(goes_down_to_the_body);
@@ -193,5 +211,6 @@ int main(void)
     RUN(cells_do_not_matter);
     RUN(no_ground_no_work);
     RUN(mirrored_to_the_bit);
+    RUN(what_cannot_be_carved_is_refused);
     return check_done();
 }

@@ -60,22 +60,24 @@ TEST(no_ground_stays_no_ground)
     dp_terrain_destroy(terrain);
 }
 
-// each of the three fields alone makes a trail; none makes no tile
+// each of the three fields alone makes a trail, wherever it is; none makes no tile
 TEST(any_field_alone_is_a_trail)
 {
     float* const field[] = {compression, heap, pressure_time};
-    for (int which = 0; which < 4; ++which) {
+    const int    places[] = {0, 39, 837, 1560, 1599};  // corners, and one between them
+    for (int k = 0; k < 20; ++k) {
+        const int      which = k / 5, at = places[k % 5];
         const DpGround ground = ground_flat(0.0);
         DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
         const DpTrail  trail = {0, 0, 40, 40, compression, heap, pressure_time};
         for (int f = 0; f < 3; ++f)
-            for (int n = 0; n < 40 * 40; ++n) field[f][n] = f == which && n == 837 ? 0.5f : 0.0f;
+            for (int n = 0; n < 40 * 40; ++n) field[f][n] = f == which && n == at ? 0.5f : 0.0f;
         CHECK(dp_terrain_lay(terrain, &trail) == DP_OK);
         CHECK(dp_terrain_tile_count(terrain) == (which < 3 ? 1 : 0));
         for (int f = 0; f < 3; ++f) {
             CHECK(dp_terrain_read(terrain, (DpField)(DP_FIELD_COMPRESSION + f), 0, 0, 40, 40,
                                   got) == DP_OK);
-            CHECK(got[837] == (f == which ? 0.5f : 0.0f));
+            CHECK(got[at] == (f == which ? 0.5f : 0.0f));
         }
         dp_terrain_destroy(terrain);
     }

@@ -151,6 +151,22 @@ TEST(bad_heights_are_refused)
     }
 }
 
+// many points at once are as each of them alone
+TEST(points_are_asked_for_one_by_one_or_all_at_once)
+{
+    float height[5 * 4];
+    for (int n = 0; n < 20; ++n) height[n] = (float)sin(2.3 * n) + 5.0f;
+    const DpGround ground = ground_heights(5, 4, -1.0, 2.0, 0.5, height);
+    DpTerrain*     terrain = ground_terrain(&ground, 0.0625, -1.0, 2.0);
+    double         xy[2 * 50], all[50];
+    unsigned       seed = 5;
+    for (int n = 0; n < 50; ++n)
+        xy[2 * n] = -1.0 + 2.0 * check_random(&seed), xy[2 * n + 1] = 2.0 + check_random(&seed);
+    dp_terrain_base_height(terrain, 50, xy, all);
+    for (int n = 0; n < 50; ++n) CHECK(all[n] == height_at(terrain, xy[2 * n], xy[2 * n + 1]));
+    dp_terrain_destroy(terrain);
+}
+
 int main(void)
 {
     RUN(heights_are_bilinear);
@@ -158,5 +174,6 @@ int main(void)
     RUN(holes_are_holes);
     RUN(normal_fits_the_slope);
     RUN(bad_heights_are_refused);
+    RUN(points_are_asked_for_one_by_one_or_all_at_once);
     return check_done();
 }

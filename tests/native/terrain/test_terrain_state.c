@@ -236,6 +236,24 @@ TEST(without_memory_all_stays)
     dp_terrain_destroy(walked), dp_terrain_destroy(other);
 }
 
+// the same points with other triangles, the last of them turned, are other ground
+TEST(a_mesh_of_other_triangles_is_refused)
+{
+    static const double  vertex[] = {-2, -2, 0, 2, -2, 0.1, 2, 2, 0.4, -2, 2, 0, 0, 0, 0.2};
+    static const int32_t face[2][9] = {{0, 1, 4, 1, 2, 4, 2, 3, 4}, {0, 1, 4, 1, 2, 4, 2, 3, 0}};
+    DpTerrain*           terrain[3];
+    for (int k = 0; k < 3; ++k) {
+        const DpGround ground = ground_mesh(5, vertex, 3, face[k / 2]);
+        terrain[k] = ground_terrain(&ground, 0.01, 0.0, 0.0);
+    }
+    tread(terrain[0], dp_cells(0, -50, 20, 20), 0.01f);
+    DpStateWriter kept = save(terrain[0]);
+    CHECK(take_back(terrain[1], kept.bytes, kept.size) == DP_OK);
+    CHECK(take_back(terrain[2], kept.bytes, kept.size) == DP_BAD_FILE);
+    dp_write_drop(&kept);
+    for (int k = 0; k < 3; ++k) dp_terrain_destroy(terrain[k]);
+}
+
 int main(void)
 {
     RUN(goes_on_to_the_bit);
@@ -243,5 +261,6 @@ int main(void)
     RUN(what_is_damaged_or_of_other_ground_is_refused);
     RUN(what_makes_no_sense_is_refused);
     RUN(without_memory_all_stays);
+    RUN(a_mesh_of_other_triangles_is_refused);
     return check_done();
 }

@@ -112,11 +112,34 @@ TEST(times_that_fall_and_grain_that_wanders_are_refused)
     CHECK(make(&terrain, row, when) == DP_BAD_ARGUMENT);
 }
 
+// ground of one soil, all of which changes
+TEST(slopes_follow_where_all_soils_change)
+{
+    const double     time[2] = {0.0, 1.0}, rest[3] = {0.3, 0.4, 0.5};
+    const DpGround   ground = ground_flat(0.0);
+    DpSoil           row[2] = {ground_soils[0], ground_soils[0]};
+    DpTerrainOptions options = ground_options(0.01, 0.0, 0.0);
+    DpTerrain*       terrain = NULL;
+    DpSoilPatch*     patch = NULL;
+    DpLease*         lease = dp_lease_create();
+    row[0].rest_angle = 0.3f, row[1].rest_angle = 0.5f;
+    options.soils = row, options.soil_count = 1, options.times = 2, options.time = time;
+    CHECK(dp_terrain_create(&terrain, &options, &ground) == DP_OK);
+    for (int k = 0; k < 3; ++k) {
+        dp_terrain_set_time(terrain, 0.5 * k);
+        CHECK(dp_terrain_acquire(terrain, lease, dp_cells(0, 0, 20, 20), &patch) == DP_OK);
+        CHECK_CLOSE(patch->rest_slope[5], tan(rest[k]), 1e-6);
+    }
+    dp_lease_destroy(lease);
+    dp_terrain_destroy(terrain);
+}
+
 int main(void)
 {
     RUN(numbers_go_evenly_from_row_to_row_and_stay_beyond);
     RUN(patches_are_of_the_time_at_hand);
     RUN(a_crust_may_come_later);
     RUN(times_that_fall_and_grain_that_wanders_are_refused);
+    RUN(slopes_follow_where_all_soils_change);
     return check_done();
 }

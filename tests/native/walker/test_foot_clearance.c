@@ -95,11 +95,27 @@ TEST(a_foot_that_hangs_rests_where_the_lowest_does)
     close_watch();
 }
 
+// of 33 votes one stray is less than a twentieth, and passed over; two of 34 are more. A stay is 20 votes at most.
+TEST(strays_are_passed_over)
+{
+    for (int strays = 1; strays <= 2; ++strays) {
+        open_watch();
+        lay(0, 0, 100, 0.01, 0.1);
+        lay(0, 110, 120, 0.02, 0.1);
+        for (int n = 0; n < strays; ++n) lay(0, 130 + 10 * n, 131 + 10 * n, -0.1, 0.1);
+        lay(1, 0, 20, -0.05, 0.1);
+        dp_watch_clearance(&w, clearance);
+        CHECK_NEAR(clearance[0], strays == 1 ? 0.01 : -0.1, 0.0);
+        close_watch();
+    }
+}
+
 int main(void)
 {
     RUN(the_middle_of_what_is_slow_and_low);
     RUN(a_long_stay_is_one_stay);
     RUN(who_is_never_slow_is_asked_where_he_might_land);
     RUN(a_foot_that_hangs_rests_where_the_lowest_does);
+    RUN(strays_are_passed_over);
     return check_done();
 }

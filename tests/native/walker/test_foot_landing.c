@@ -70,10 +70,27 @@ TEST(who_is_let_down_lands_as_it_moves)
     scene_free(&s);
 }
 
+// a body that falls freely, but since 0.1 s: its last samples count, as they do on the ground
+TEST(a_hop_is_no_fall)
+{
+    Scene     s = scene_make(TIMES, RATE, 1, 1);
+    uint8_t   on[TIMES] = {0};
+    const int last = TIMES - 1, stopped = last - 6;
+    for (int t = 0; t < TIMES; ++t) {
+        const double at = (t < stopped ? t : stopped) / RATE;
+        scene_put(&s, TIMES, 0, t, 0.0, 0.0, 6.0 - 0.5 * DP_GRAVITY * at * at);
+        scene_com(&s, t, 0.0, 0.0, 7.0 - 0.5 * DP_GRAVITY * at * at);
+        on[t] = t < last - 12;
+    }
+    CHECK_NEAR(landing(scene_gait(&s, TIMES, 1, 1), on, last).z, 0.0, 1e-9);
+    scene_free(&s);
+}
+
 int main(void)
 {
     RUN(a_step_lands_as_fast_as_it_is_then);
     RUN(a_fall_lands_as_fast_as_gravity_has_made_it);
     RUN(who_is_let_down_lands_as_it_moves);
+    RUN(a_hop_is_no_fall);
     return check_done();
 }

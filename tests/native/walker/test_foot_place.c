@@ -235,6 +235,22 @@ TEST(refuses_what_cannot_be)
     scene_free(&s);
 }
 
+// a part that has no tip is as near to the ground as its first point
+TEST(a_part_without_a_tip_has_a_ball)
+{
+    DpPlaceOptions options = dp_place_options_default();
+    const Plane    plane = {-0.2, 0.15, 3.0, 0.0, 0.0};
+    Placed         placed[2];
+    options.carry = true;
+    for (int k = 0; k < 2; ++k) {
+        Scene s = foot(0.03);
+        if (k) s.point_role[3] = DP_POINT_BALL;
+        CHECK(place(&s, &plane, &options, &placed[k]) == DP_OK);
+        scene_free(&s);
+    }
+    for (int n = 0; n < 2 * T * 7; ++n) CHECK_NEAR(placed[1].pose[n], placed[0].pose[n], 1e-9);
+}
+
 int main(void)
 {
     RUN(level_ground_changes_nothing);
@@ -245,5 +261,6 @@ int main(void)
     RUN(nothing_is_pushed_into_the_ground);
     RUN(beside_the_ground_what_was_last_is_held);
     RUN(refuses_what_cannot_be);
+    RUN(a_part_without_a_tip_has_a_ball);
     return check_done();
 }

@@ -128,6 +128,22 @@ TEST(a_crate_and_feet_over_no_ground_are_left_alone)
     scene_free(&c.scene);
 }
 
+// what falls by half of gravity on an average of a short gap is carried, what falls faster is not
+TEST(a_gap_at_an_end_needs_somebody_by_the_mean_of_its_fall)
+{
+    const double mean[2] = {-4.8, -5.0};
+    for (int n = 0; n < 4; ++n) {
+        Case      c = hovering(0.1);
+        const int begin = n / 2 ? TIMES - 5 : 0;
+        for (int t = 0; t < TIMES; ++t) c.on[AT(1, t)] = t < begin || t >= begin + 5;
+        for (int t = 0; t < 5; ++t) c.fall[begin + t] = mean[n % 2] + (t - 2.0);
+        support(&c);
+        CHECK(c.on[AT(0, begin + 2)] == (n % 2 == 0));
+        CHECK(touching(&c, 0) == (n % 2 == 0 ? 5 : 0));
+        scene_free(&c.scene);
+    }
+}
+
 int main(void)
 {
     RUN(what_is_about_as_low_and_as_slow_carries_too);
@@ -135,5 +151,6 @@ int main(void)
     RUN(a_stance_as_high_as_feet_may_be_does_not_come_and_go);
     RUN(gaps_that_need_somebody_get_somebody);
     RUN(a_crate_and_feet_over_no_ground_are_left_alone);
+    RUN(a_gap_at_an_end_needs_somebody_by_the_mean_of_its_fall);
     return check_done();
 }
