@@ -9,6 +9,7 @@ from .command_bake import bar
 from .crowd import scene as scenes
 from .crowd import trajectories
 from .crowd.crowd import Crowd
+from .crowd.feet import Feet
 from .crowd.trajectories import Recorded
 from .needs import Parser
 
@@ -20,10 +21,16 @@ def _crowd(args: argparse.Namespace) -> None:
     else:
         recorded = Recorded(scene, trajectories.read(args.trajectories))
         crowd = Crowd(recorded.scene, args.out, ways=recorded)
+    feet = Feet(scene, args.out) if scene.press else None  # before minutes of work
     told = crowd.run(lambda share: bar(share, "of the passages"))
     print(f"passages      {told['passages']}")
     print(f"detour        {told['detour']:.3f}")
     print(f"worn          {told['area_below_half_cover']:.0f} m^2 below half cover")
+    if feet is not None:
+        pressed = feet.press(lambda share: bar(share, "of the feet"))
+        print(f"pressed       {pressed['passages']} passages, {1000 * pressed['deepest_m']:.1f} mm deep")
+        if "cover" in pressed:
+            print(f"plants        {pressed['cover']:.0f} % cover left")
     print(f"written to    {os.path.abspath(args.out)}")
 
 

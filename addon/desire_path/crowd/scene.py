@@ -33,6 +33,7 @@ MAX_SIDE = 20_000  # cells
 MAX_CELL = 0.5  # how wide cells may be: wider ones merge ways that walkers keep apart [m]
 MAX_PASSAGES = 10_000_000
 MAX_PLACES = 1000
+MAX_PRESSED = 1 << 27  # cells
 MAX_SLOPE = 1.0  # steeper ground is an obstacle [-]
 Record = TypeVar("Record")
 
@@ -95,6 +96,32 @@ class Kind:
 
 
 @dataclass(frozen=True)
+class Press:
+    """Where the feet of a crowd press the ground, and which."""
+
+    box: tuple[float, float, float, float]  # rectangle x0, y0, x1, y1 [m]
+    cell: float = 0.02  # side of a cell [m] 0.001..0.2
+    soil: str = "soil"  # a name in SOILS or a soil's file
+    plants: tuple[str, ...] = ()  # KIND or KIND:DENSITY each
+
+    def check(self) -> Press:
+        cell = number(self.cell, "The side of a cell that feet press", 0.001, 0.2)
+        if not isinstance(self.box, tuple) or len(self.box) != 4:
+            raise DesirePathError("Feet press in a rectangle: write its box as [x0, y0, x1, y1] in metres.")
+        x0, y0, x1, y1 = (number(each, "The box in which feet press", -1e6, 1e6) for each in self.box)
+        if not (cell <= x1 - x0 and cell <= y1 - y0 and (x1 - x0) * (y1 - y0) <= MAX_PRESSED * cell**2):
+            raise DesirePathError(
+                f"Feet cannot press {x1 - x0:g} x {y1 - y0:g} m in cells of {cell:g} m: give x0, y0 below x1, y1, and "
+                f"up to {MAX_PRESSED:g} cells."
+            )
+        if not isinstance(self.plants, tuple) or not all(isinstance(each, str) for each in self.plants):
+            raise DesirePathError('Plants that feet press stand in a list: write ["carex:40"].')
+        if not isinstance(self.soil, str):
+            raise DesirePathError("The soil that feet press is no name: give that of a soil, or of its file.")
+        return self
+
+
+@dataclass(frozen=True)
 class Scene:
     """A crowd and its ground; see the module."""
 
@@ -113,6 +140,7 @@ class Scene:
     rest_days: float = 0.0  # without walkers, after all passages
     film_every: int = 0  # passages from picture to picture; 0 = none but the last
     seed: int = 0
+    press: Press | None = None  # where feet press in the end; None = nowhere
 
     def check(self) -> Scene:
         """Itself, if a crowd can walk there; else a sentence."""
@@ -131,6 +159,8 @@ class Scene:
         whole(self.film_every, "The number of passages from picture to picture", 0, MAX_PASSAGES)
         whole(self.seed, "The seed", 0, 2**63)
         self.ground.check()
+        if self.press is not None:
+            self.press.check()
         self._check_places()
         if not self.walkers or sum(kind.check().share for kind in self.walkers) <= 0.0:
             raise DesirePathError("Nobody walks here: give at least one kind of walkers a share above 0.")
@@ -224,6 +254,8 @@ def of(given: Any, folder: str = "") -> Scene:
         words["walkers"] = tuple(
             _record(Kind, each, "A kind of walkers") for each in _listed(given["walkers"], "Walkers")
         )
+    if given.get("press") is not None:
+        words["press"] = _record(Press, given["press"], "The press of a scene")
     words["ground"] = as_cover(given.get("ground", "meadow"))
     for name, what in (("obstacles", "Obstacles"), ("paved", "Paved ways")):
         words[name] = tuple(_listed(given.get(name, []), what))
