@@ -25,6 +25,7 @@ __getattr__, __dir__, __all__ = lazy.names(
         "Sole": "motion.gait",
         "Walker": "loads.walker",
         "place_feet": "placement.place",
+        "wade": "placement.wade",
         "Soil": "ground.soil",
         "SoilKeys": "ground.soil_keys",
         "SOILS": "ground.soil",

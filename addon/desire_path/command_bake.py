@@ -23,9 +23,11 @@ from .motion.scatter import Scatter
 from .needs import Need, Parser
 from .placement import path as paths
 from .placement.place import place_feet
+from .placement.wade import wade
 
 SOIL_HELP = f"one of {', '.join(SOILS)}, {', '.join(MEASURED)}, or a .json file that Soil.save or Save Soil wrote"
 KEYS_HELP = 'numbers of that soil that change over time, as {"young_modulus": [[0, 2e6], [5, 4e5]]}: seconds, values'
+TRIAL_CELL = 0.02  # how deep feet sink is tried in cells of this side, or those of the bake if they are larger [m]
 SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 
 
@@ -43,6 +45,7 @@ CHANCE = Need(
     "is of scattered passes and plants: add --along or --plants",
 )
 PAPER = Need(lambda args: args.heap == "paper", "is that of a paper heap: add --heap paper")
+WEIGHT = Need(lambda args: args.law != "carve", "is of walkers whom their weight lets sink: leave out --law carve")
 SAMPLES = Need(
     lambda args: args.ground is not None and not is_flat(args.ground),
     "is that of an EXR's samples: add --ground HILL.exr",
@@ -118,7 +121,17 @@ def bar(fraction: float, what: str) -> None:
 
 def _bake(args: argparse.Namespace) -> None:
     gait, ground = walk(args.walk), read_ground(args.ground, args.spacing)
-    press(args, _along(args, gait, ground), ground)
+    gait = _along(args, gait, ground)
+    press(args, _wading(args, gait, ground) if args.wade else gait, ground)
+
+
+def _wading(args: argparse.Namespace, gait: Gait, ground: Ground) -> Gait:
+    """The walk through ground as deep as it sinks there, tried in coarse cells."""
+    cell, origin = cells(args, ground)
+    options = SimulationOptions(
+        law=args.law, heap=args.heap, rim_width=args.rim_width, origin=origin, threads=args.threads
+    )
+    return wade(gait, Simulation(ground, read_soil(args), max(cell, TRIAL_CELL), options=options))
 
 
 def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
@@ -246,6 +259,13 @@ def _path_options(bake: Parser) -> None:
         action="store_true",
         help="turn the feet to the ground's slope first; a walk of a level floor is carried there. Along a path this "
         "is always done",
+    )
+    bake.option(
+        "--wade",
+        WEIGHT,
+        default=False,
+        action="store_true",
+        help="feet go through what they sink into, as through deep snow: they push ahead what they do not clear",
     )
     bake.add_argument("--along", metavar="PATH.csv", help="carry the walk along this path: columns x,y [m]")
     bake.option("--passes", ALONG, type=int, default=1, help="how often it goes along the path (1)")

@@ -183,6 +183,15 @@ def test_law_heap_and_rim_reach_the_bake(tmp_path, walk):
     assert (wide > 1e-4).sum() > 1.5 * (narrow > 1e-4).sum()
 
 
+def test_feet_wade_through_snow_when_told(tmp_path, walk):
+    words = ("--soil", "powder-snow", "--cell", "0.04", "--wade")
+    done = run("bake", walk, *words, "--out", tmp_path / "through")
+    assert done.returncode == 0, done.stderr
+    report = json.loads((tmp_path / "through" / "report.json").read_text())
+    assert [name.endswith("'s legs") for name in report["parameters"]["walkers"]] == [False, True]
+    assert report["deepest_m"] > 0.1
+
+
 @pytest.mark.parametrize(
     "words, told",
     [
@@ -193,6 +202,7 @@ def test_law_heap_and_rim_reach_the_bake(tmp_path, walk):
         (("--timing", "0.1", "--stride", "0.1"), "--timing tells"),
         (("--pause", "5"), "--pause needs a path"),
         (("--rim-width", "0.1"), "--heap paper"),
+        (("--wade", "--law", "carve"), "leave out --law carve"),
         (("--spacing", "0"), "--spacing is that of an EXR"),
         (("--spacing", "0.1", "--ground", "flat:1"), "--spacing is that of an EXR"),
         (("--seed", "5"), "--seed is of"),
