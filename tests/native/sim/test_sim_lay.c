@@ -67,8 +67,32 @@ TEST(what_finds_no_place_waits)
     stand_drop(&s);
 }
 
+// a patch that is acquired with no sole on it has room, and no cell of it is touched
+TEST(no_sole_stands_on_a_lease)
+{
+    static Stand s;
+    const DpSoil soil = dp_soil_default();
+    stand_make(&s, 1);
+    stand_load(&s, &soil, dp_sim_options_default());
+    WorkerScratch* scratch = &s.sim->scratch[0];
+    for (int k = 1; k <= 2; ++k) {  // a larger one after it
+        const int    nx = 30 * k, ny = 40 * k;
+        DpSoilPatch* patch = NULL;
+        CHECK(dp_limb_lease(s.sim, scratch, dp_cells(-10, -20, nx, ny), &patch) == DP_OK);
+        CHECK(patch->nx == nx && patch->ny == ny);
+        CHECK(scratch->imprint.bottom && scratch->imprint.cover && scratch->met);
+        for (int c = 0; c < patch->row * ny && scratch->imprint.ring; ++c) {
+            CHECK(scratch->imprint.ring[c] == DP_RING_FAR);
+            scratch->imprint.ring[c] = 0;
+            scratch->imprint.bottom[c] = scratch->imprint.cover[c] = scratch->met[c] = 1.0f;
+        }
+    }
+    stand_drop(&s);
+}
+
 int main(void)
 {
     RUN(what_finds_no_place_waits);
+    RUN(no_sole_stands_on_a_lease);
     return check_done();
 }
