@@ -14,6 +14,7 @@ import bpy
 from . import (
     sentences_bake,
     sentences_blender,
+    sentences_crowd,
     sentences_ground,
     sentences_phrases,
     sentences_tools,
@@ -29,6 +30,7 @@ _GERMAN = (
     sentences_ground,
     sentences_walker,
     sentences_tracks,
+    sentences_crowd,
     sentences_phrases,
 )
 LANGUAGES = {"de_DE": _GERMAN, "de": _GERMAN}  # newer Blenders name a language without its country
