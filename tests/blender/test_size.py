@@ -5,7 +5,7 @@ from scenes import meshes, people
 from test_people import CMU, ground_under, walk_over
 from test_playback import shown
 
-from desire_path.blender import sample
+from desire_path.blender import compat, sample
 from desire_path.errors import DesirePathError
 
 WALK = "cmu_12_01_walk.bvh"
@@ -85,6 +85,15 @@ def test_an_armature_at_rest_is_named():
     record(walker)
 
 
+def test_an_armature_that_is_edited_is_named():
+    walker = person()
+    meshes.activate(walker)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert "is in Edit Mode" in refused(lambda: record(walker))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    record(walker)
+
+
 def test_a_small_creature_has_the_contacts_of_a_person(folder):
     found = []
     for by, mass in ((1.0, 75.0), (0.04, 75.0 * 0.04**3)):
@@ -98,6 +107,23 @@ def test_a_small_creature_has_the_contacts_of_a_person(folder):
         found.append(walk_over(walker, ground, folder / f"{by}", mass))
     assert found[0]["contacts"] == found[1]["contacts"] > 3
     assert not any("tall" in each or "coarse" in each for each in found[1]["warnings"])
+
+
+def test_who_is_animated_on_twos_steps_as_on_ones(folder):
+    found = []
+    for name in ("ones", "twos"):
+        for each in list(bpy.data.objects):
+            bpy.data.objects.remove(each)
+        walker = person()
+        for curve in compat.curves_played(walker.animation_data) if name == "twos" else ():
+            stepped = curve.modifiers.new("STEPPED")
+            stepped.frame_step, stepped.frame_offset = 10.0, 2.0  # twelve poses a second
+        ground, _ = ground_under(walker, 0.0)
+        (folder / name).mkdir()
+        found.append(walk_over(walker, ground, folder / name))
+    assert any("are held for 10 frames each" in each for each in found[1]["warnings"])
+    assert abs(found[0]["contacts"] - found[1]["contacts"]) <= 1, (found[0]["contacts"], found[1]["contacts"])
+    assert abs(found[1]["pressed_m3"] / found[0]["pressed_m3"] - 1.0) < 0.1
 
 
 def test_the_last_pose_may_be_held(folder):

@@ -141,6 +141,8 @@ def _chosen(armature, shape):
 
 def poses(armature):
     """Refuse an armature that shows its rest pose whatever its keys say."""
+    if armature.type == "ARMATURE" and armature.data.is_editmode:
+        raise DesirePathError(f"'{armature.name}' is in Edit Mode, in which it stands still: leave Edit Mode first.")
     if armature.type == "ARMATURE" and armature.data.pose_position == "REST":
         raise DesirePathError(
             f"'{armature.name}' is set to Rest Position, in which it stands still: choose Pose Position "

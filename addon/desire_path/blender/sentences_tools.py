@@ -253,6 +253,9 @@ GERMAN = {
     "Bone '{}' of '{}' is both the {} foot and the {} foot: choose another for one of them.": (
         "Der Knochen '{}' von '{}' ist sowohl der Fuß {} als auch der Fuß {}: für einen davon einen anderen wählen."
     ),
+    "'{}' is in Edit Mode, in which it stands still: leave Edit Mode first.": (
+        "'{}' ist im Edit Mode, in dem es still steht: zuerst den Edit Mode verlassen."
+    ),
     "'{}' is set to Rest Position, in which it stands still: choose Pose Position in its Object Data properties.": (
         "'{}' ist auf Rest Position gestellt, in der es still steht: Pose Position in den Objektdaten wählen."
     ),

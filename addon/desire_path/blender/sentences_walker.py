@@ -104,6 +104,10 @@ GERMAN = {
     "A rate of {} samples a second cannot be used: give one above 0.": (
         "Eine Rate von {} Werten in der Sekunde geht nicht: eine über 0 angeben."
     ),
+    # ---- motion/drawn.py
+    "Poses of {} are held for {} frames each: prints are those of the motion between them.": (
+        "Posen von {} werden je {} Bilder lang gehalten: Abdrücke sind die der Bewegung dazwischen."
+    ),
     # ---- motion/jumps.py
     "{}: taken as a cut, over which nothing moves.": "{}: als Schnitt genommen, über den sich nichts bewegt.",
     "{}, and {} more times elsewhere: taken as cuts, over which nothing moves.": (

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..keywords import fields_of
-from ..motion import freeze, jumps, rotation, stays
+from ..motion import drawn, freeze, jumps, rotation, stays
 from ..motion import size as sizes
 from ..motion.gait import Gait, Sole
 from . import rigs, slope, tread
@@ -201,6 +201,12 @@ def gait_from_bones(
     leaps = jumps.between(time, com, np.array([bones.point(f.foot) for f in rig.feet]), frame_rate, time[0])
     cut = [sample for a, b, _ in leaps for sample in range(a + 1, b + 1)]
     warnings += jumps.sentences(name, [(*(frame_start + time[[a, b]] * frame_rate), size) for a, b, size in leaps])
+    matrix, lasts = drawn.moving(time, np.asarray(motion.matrix, float), cut)
+    if lasts:
+        motion = replace(motion, matrix=matrix)
+        bones = SampledBones(skeleton, motion)
+        com = mass_centre(bones, rig, leg)
+        warnings += drawn.sentences(name, lasts * frame_rate)
     bones.tell = ~jumps.alone(len(time), cut)
     own_leg = stretched_leg(bones, rig, leg)
     moving, moving_com, bones, again, rests = _moving(skeleton, motion, rig, bones, time, com, cut, own_leg / sizes.LEG)
