@@ -128,10 +128,38 @@ TEST(a_leg_pushes_stems_aside)
     dp_plants_destroy(plants);
 }
 
+// a heel as narrow as one stem comes down on each of them: it pushes that one, wherever it stands in its row
+TEST(each_stem_of_a_row_is_pushed)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    kind.width = 0.09f, kind.radius = 0.002f;
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    const float        root[3] = {0.0f, 0.0f, 0.0f}, heading = 0.0f;
+    float              at[3 * 96], bottom[SOLE_SIDE * SOLE_SIDE];
+    CHECK(shape.stems > 3 && shape.particles <= 96);
+    for (int stem = 0; stem < shape.stems; ++stem) {
+        DpPlants* plants = dp_plants_create(3);
+        int       stand = -1;
+        CHECK(dp_plants_add(plants, &kind, root, &heading, 1, &stand) == DP_OK);
+        CHECK(dp_plants_read(plants, 0, 0, at, NULL, NULL) == DP_OK);
+        const float*    foot = at + 3 * (stem * shape.rows + 1);
+        DpPlantCollider heel =
+            sole(bottom, 0.001, (double)foot[0], (double)foot[1], 0.08, 0.006, 0.006, 0.0);
+        heel.velocity = dp_vec3(0.0, 0.0, -0.5);
+        for (int f = 0; f < 4; ++f) {
+            for (int k = 0; k < SOLE_SIDE * SOLE_SIDE; ++k) bottom[k] -= 0.005f;
+            step(plants, &heel, 1, 0.01);
+            CHECK(inside(plants, &kind, 1, &heel) <= 1e-6);
+        }
+        dp_plants_destroy(plants);
+    }
+}
+
 int main(void)
 {
     RUN(a_boot_stretches_nothing);
     RUN(under_a_boot_grass_lies_flat_beside_it_it_leans_away_farther_it_stands);
     RUN(a_leg_pushes_stems_aside);
+    RUN(each_stem_of_a_row_is_pushed);
     return check_done();
 }

@@ -154,12 +154,56 @@ TEST(what_cannot_be_filmed_is_refused)
     CHECK(dp_bytes_live() == 0);
 }
 
+// how grass lies and what presses now, in a film as they are read
+TEST(films_show_how_grass_lies_and_what_presses)
+{
+    static const int   field[4] = {DP_FIELD_LEAN_X, DP_FIELD_LEAN_Y, DP_FIELD_CRUSHED,
+                                   DP_FIELD_PRESSURE};
+    static const char* name[4] = {"A", "B", "G", "R"};
+    static float       want[4][6 * DP_TILE * DP_TILE];
+    const int          nx = 3 * DP_TILE, ny = 2 * DP_TILE;
+    World              world;
+    Stride             s = stride_make(1, 3, 80.0, STRIDE_RATE);
+    DpPlantKind        kind = dp_plant_kind_default();
+    DpReel*            reel = NULL;
+    DpFilm*            film = NULL;
+    DpMapFile*         file = NULL;
+    const char*        failed = "";
+    DpFilmOptions options = {.tile_x = -1, .tile_y = -1, .tiles_x = 3, .tiles_y = 2, .fields = 4};
+    for (int f = 0; f < 4; ++f) options.field[f] = field[f], options.channel[f] = name[f];
+    CHECK(world_make(&world, &kind, 0.0, -0.3, 0.9, 0.1, 0.02, 2) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_reel_create(&reel, world.sim, 2) == DP_OK);
+    CHECK(dp_film_open(reel, &options, &film) == DP_OK);
+    CHECK(dp_sim_run(world.sim, (int)(0.8 * STRIDE_RATE)) == DP_OK);  // somebody stands
+    dp_grass_read(dp_sim_grass(world.sim), -DP_TILE, -DP_TILE, nx, ny, want[0], want[1], want[2]);
+    dp_sim_pressure(world.sim, -DP_TILE, -DP_TILE, nx, ny, want[3]);
+    CHECK(dp_film_write(film, path_of("lean", 0), 0.0, &failed) == DP_OK);
+    dp_film_close(film);
+    CHECK(dp_maps_read(path_of("lean", 0), &file) == DP_OK);
+    remove(path_of("lean", 0));
+    for (int c = 0; file && c < 4; ++c)
+        for (int f = 0; f < 4; ++f) {
+            if (strcmp(file->channel[c], name[f]) != 0) continue;
+            float most = 0.0f;
+            for (int k = 0; k < nx * ny; ++k) most = fmaxf(most, fabsf(want[f][k]));
+            CHECK(most > 0.05f);
+            CHECK(memcmp(file->value + (size_t)c * (size_t)(nx * ny), want[f], sizeof want[f]) ==
+                  0);
+        }
+    dp_map_file_destroy(file);
+    dp_reel_destroy(reel);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 int main(void)
 {
     folder_make(folder, sizeof folder, "film");
     RUN(parts_are_cut_from_the_whole);
     RUN(frames_for_playback_are_written_from_c);
     RUN(what_cannot_be_filmed_is_refused);
+    RUN(films_show_how_grass_lies_and_what_presses);
     FOLDER_REMOVE(folder);
     return check_done();
 }

@@ -109,10 +109,41 @@ TEST(what_cannot_be_planted_is_refused)
     world_drop(&world);
 }
 
+// Grass that was walked over is shown lying, though its stems may stand again; without anybody to lay it, it is not.
+TEST(what_was_trodden_is_shown_lying)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    Stride      s = stride_make(1, 3, 80.0, STRIDE_RATE);
+    World       world;
+    float       at[3 * 64], shown[3 * 64];
+    kind.degrade_rate = 0.2f;
+    CHECK(world_make(&world, &kind, -0.1, -0.2, 0.8, 0.05, 0.02, 2) == DP_OK);
+    CHECK(dp_sim_lay(world.sim) == DP_OK);
+    CHECK(walk(&world, &s) == DP_OK);
+    const DpPlantShape shape = dp_plant_shape(&kind);
+    int                lying = 0, untouched = 0;
+    for (int k = 0; k < world.grown; ++k) {
+        CHECK(dp_sim_shown(world.sim, 0, k, shown) == DP_OK);
+        CHECK(dp_sim_stands(world.sim, 0, k, at) == DP_OK);
+        const double root[2] = {(double)at[0], (double)at[1]};
+        float        crushed = 0.0f;
+        dp_grass_read(dp_sim_grass(world.sim), (long)floor(root[0] / 0.02),
+                      (long)floor(root[1] / 0.02), 1, 1, NULL, NULL, &crushed);
+        float top = 0.0f;
+        for (int p = 0; p < shape.particles; ++p) top = fmaxf(top, shown[3 * p + 2]);
+        lying += crushed > 0.4f && (double)top < 0.8 * (double)kind.height;
+        untouched += crushed == 0.0f && (double)top > 0.95 * (double)kind.height;
+    }
+    CHECK(lying > 5 && untouched > 5);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 int main(void)
 {
     RUN(stems_stand_on_the_ground_of_the_world);
     RUN(what_grows_later_covers_ground_that_is_there);
     RUN(what_cannot_be_planted_is_refused);
+    RUN(what_was_trodden_is_shown_lying);
     return check_done();
 }

@@ -185,6 +185,58 @@ TEST(who_is_held_presses_no_deeper)
     CHECK_CLOSE(deepest[1], deepest[0], 1e-6);
 }
 
+// A sole over an edge presses with a point that lies over no ground: it slips on the soil that is nearest to it, a band
+// along its way, not on that of the last cell of its patch.
+TEST(beside_an_edge_the_nearest_soil_counts)
+{
+    static float           height[31 * 61], weight[2 * 31 * 61];
+    const double           push = 0.25 * MASS * DP_GRAVITY;
+    static const double    mass = MASS;
+    static const int32_t   owner = 0;
+    const DpMesh           sole = {4, 2, BOX, FACES};
+    DpSoil                 soils[2] = {dp_soil_default(), dp_soil_default()};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soils, 2, 1, 0, NULL};
+    const DpSimOptions     chosen = dp_sim_options_default();
+    soils[1].shear_modulus = 0.01f, soils[1].settle_time = 0.05f;
+    for (int k = 0; k < 31 * 61; ++k) {  // from (-0.3, -0.3) to (0, 0.3)
+        const double y = CELL * (k / 31) - 0.3;
+        weight[31 * 61 + k] = y > 0.0 && y < 0.1 ? 1.0f : 0.0f;
+        weight[k] = 1.0f - weight[31 * 61 + k];
+    }
+    const DpGround ground = {.kind = DP_GROUND_HEIGHTS,
+                             .nx = 31,
+                             .ny = 61,
+                             .x0 = -0.3,
+                             .y0 = -0.3,
+                             .spacing = CELL,
+                             .heights = height,
+                             .kind_count = 2,
+                             .kind_weight = weight};
+    scene_make(&scene);
+    for (int t = 0; t < TIMES; ++t) {
+        scene.pose[7 * t] = 0.0, scene.point[3 * t] = 0.02;
+        scene.force[3 * t + 1] = push;
+    }
+    const DpGait gait = {.times = TIMES,
+                         .walkers = 1,
+                         .limbs = 1,
+                         .parts = 1,
+                         .time = scene.time,
+                         .mass = &mass,
+                         .pose = scene.pose,
+                         .limb_walker = &owner,
+                         .part_limb = &owner,
+                         .sole = &sole};
+    CHECK(dp_terrain_create(&scene.terrain, &options, &ground) == DP_OK);
+    CHECK(dp_sim_create(&scene.sim, scene.terrain, &chosen) == DP_OK);
+    CHECK(dp_sim_load(scene.sim, &gait, scene.touching, scene.force, scene.point) == DP_OK);
+    CHECK(dp_sim_run(scene.sim, 60) == DP_OK);
+    const double wanted = dp_soil_slip(&soils[1], push, MASS * DP_GRAVITY);
+    CHECK(wanted > 0.005);
+    CHECK_CLOSE(scene.sim->limb[0].slip.y, wanted, 0.01);
+    scene_drop(&scene);
+}
+
 int main(void)
 {
     RUN(a_sole_slips_once_and_never_back);
@@ -192,5 +244,6 @@ int main(void)
     RUN(soil_waits_for_a_border);
     RUN(half_the_weight_lays_all_ahead);
     RUN(who_is_held_presses_no_deeper);
+    RUN(beside_an_edge_the_nearest_soil_counts);
     return check_done();
 }

@@ -311,6 +311,27 @@ TEST(mirrored_to_the_bit)
     }
 }
 
+// a foot whose pressure lies beyond the patch lays soil as steep as the nearest cell of it rests
+TEST(beyond_the_patch_the_nearest_cell_tells_the_slope)
+{
+    double height[3];
+    for (int n = 0; n < 3; ++n) {
+        Ground      ground = ground_make(80, 60, 0.01, sand(12.0));
+        DpFootForce foot = ground_load(700.0);
+        touch(&ground, shoe, 1);
+        for (int j = 0; j < 60; ++j) {  // steep along one side
+            const size_t at = (size_t)(j * 80 + 79);
+            ground.rest_slope[at] = (float)tan(30.0 * DP_PI / 180.0);
+        }
+        foot.point.x = n == 0 ? 0.395 : n == 1 ? 0.42 : 0.0;
+        height[n] = 0.0;
+        CHECK(lay(&ground, foot, 1e-4, &rest, &height[n]) == DP_OK);
+        ground_free(&ground);
+    }
+    CHECK(height[1] == height[0]);
+    CHECK(height[0] > 1.2 * height[2]);  // T goes with the root of the slope: MODEL 6.3
+}
+
 int main(void)
 {
     RUN(keeps_volume);
@@ -325,5 +346,6 @@ int main(void)
     RUN(beside_a_pit);
     RUN(no_border);
     RUN(mirrored_to_the_bit);
+    RUN(beyond_the_patch_the_nearest_cell_tells_the_slope);
     return check_done();
 }

@@ -130,10 +130,40 @@ TEST(beyond_its_edge_the_ground_goes_on_in_its_plane)
     ground_free(&ground);
 }
 
+// what of a sole lies over no ground is met where the ground under the rest of it was met on average
+TEST(beyond_an_edge_the_mean_goes_on)
+{
+    Ground ground = ground_make(NX, NY, CELL, firm());
+    Sole*  sole = dp_alloc(1, sizeof *sole);
+    double met = 0.0, cover = 0.0;
+    ground_sole(&ground, (BoxSole){.z = -0.05, .length = 0.3, .width = 0.137});
+    for (int j = 0; j < NY; ++j)
+        for (int i = 0; i < NX; ++i) {
+            const int k = j * NX + i;
+            ground.compression[k] = 0.001f * (float)(j % 5),
+            ground.heap[k] = 0.002f * (float)(i % 3);
+            if (i >= NX / 2) {
+                ground.base_height[k] = NAN;
+                continue;
+            }
+            const double a = (double)ground.imprint.cover[k];
+            met += a * (double)(ground.compression[k] - ground.heap[k]), cover += a;
+        }
+    dp_columns_begin(sole, &ground.patch, &ground.imprint, dp_vec3(0, 0, 1));
+    CHECK(sole->beyond.is_there && cover > 100.0);
+    CHECK_NEAR(sole->beyond.met, met / cover, 1e-9);
+    CHECK_NEAR(sole->beyond.depth, 0.2, 1e-7);
+    CHECK_CLOSE(sole->beyond.stiffness, 4e5 / 0.2, 1e-6);
+    CHECK_NEAR(sole->beyond.base_height, 0.0, 0.0);
+    dp_free(sole);
+    ground_free(&ground);
+}
+
 int main(void)
 {
     RUN(a_column_is_what_the_patch_says_of_its_cell);
     RUN(a_large_sole_comes_in_rounds);
     RUN(beyond_its_edge_the_ground_goes_on_in_its_plane);
+    RUN(beyond_an_edge_the_mean_goes_on);
     return check_done();
 }

@@ -177,6 +177,49 @@ TEST(points_off_the_centres_of_cells)
     free(many);
 }
 
+// a quad whose corner `dent` lies inside, in each of the planes and either way round, with points before and between
+// its own: both triangles face as the quad does, and leave nothing out
+TEST(any_corner_of_a_quad_may_be_dented)
+{
+    static const float shape[4][2] = {
+        {4, 0}, {1, 1}, {0, 4}, {0, 0}};  // corner 1 is the dent; area 4
+    for (int n = 0; n < 24; ++n) {
+        const int dent = n % 4, plane = n / 4 % 3, back = n / 12;
+        float     point[3 * 10];
+        int32_t   corner[4];
+        const int own[4] = {7, 2, 9, 4};
+        double    sum[3] = {0.0}, size = 0.0, normal[2][3];
+        for (int k = 0; k < 30; ++k) point[k] = (float)(k * k % 17) - 8.0f;
+        for (int k = 0; k < 4; ++k) {
+            const int from = (k - dent + 5) % 4, at = back ? 3 - k : k;
+            corner[at] = own[k];
+            for (int d = 0; d < 2; ++d)
+                point[3 * own[k] + (plane + d) % 3] = shape[from][d] + 0.25f;
+            point[3 * own[k] + (plane + 2) % 3] = 3.0f;
+        }
+        const DpFaces faces = {10, 1, 4, point, corner, NULL, 4};
+        DpCut         cut;
+        CHECK(dp_mesh_cut(&faces, as_it_is, NULL, 1, &cut) == DP_OK);
+        CHECK(cut.triangle_count == 2);
+        for (int t = 0; t < 2; ++t) {
+            const double *a = cut.vertex + 3 * cut.triangle[3 * t],
+                         *b = cut.vertex + 3 * cut.triangle[3 * t + 1],
+                         *c = cut.vertex + 3 * cut.triangle[3 * t + 2];
+            for (int k = 0; k < 3; ++k) {
+                const int i = (k + 1) % 3, j = (k + 2) % 3;
+                normal[t][k] =
+                    0.5 * ((b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]));
+                sum[k] += normal[t][k];
+            }
+            size += sqrt(normal[t][0] * normal[t][0] + normal[t][1] * normal[t][1] +
+                         normal[t][2] * normal[t][2]);
+        }
+        CHECK_NEAR(fabs(sum[(plane + 2) % 3]), 4.0, 1e-9);
+        CHECK_NEAR(size, 4.0, 1e-9);
+        dp_cut_free(&cut);
+    }
+}
+
 int main(void)
 {
     RUN(faces_of_three_and_four_corners_become_triangles);
@@ -184,5 +227,6 @@ int main(void)
     RUN(bad_meshes_are_told);
     RUN(quads_are_known_by_their_edges);
     RUN(points_off_the_centres_of_cells);
+    RUN(any_corner_of_a_quad_may_be_dented);
     return check_done();
 }

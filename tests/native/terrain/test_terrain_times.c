@@ -134,6 +134,37 @@ TEST(slopes_follow_where_all_soils_change)
     dp_terrain_destroy(terrain);
 }
 
+// rough ground that was touched when its soil was another is as ground that is touched now
+TEST(ground_touched_early_is_as_rough_as_that_touched_late)
+{
+    DpSoil       row[2 * ROWS];
+    float        slope[2][300], wall[2][300];
+    DpTerrain*   terrain[2] = {NULL, NULL};
+    DpSoilPatch* patch = NULL;
+    rows_of(row);
+    for (int t = 0; t < ROWS; ++t) {
+        row[2 * t].roughness = 0.1f + 0.2f * (float)t;
+        row[2 * t].wall_angle = 1.0f + 0.1f * (float)t;
+    }
+    for (int k = 0; k < 2; ++k) {
+        DpLease* lease = dp_lease_create();
+        CHECK(make(&terrain[k], row, when) == DP_OK);
+        dp_terrain_set_time(terrain[k], 1.0);
+        if (k) CHECK(dp_terrain_touch(terrain[k], dp_cells(0, 0, 300, 20)) == DP_OK);
+        dp_terrain_set_time(terrain[k], 4.0);
+        CHECK(dp_terrain_acquire(terrain[k], lease, dp_cells(0, 0, 300, 20), &patch) == DP_OK);
+        memcpy(slope[k], patch->rest_slope, sizeof slope[k]);
+        memcpy(wall[k], patch->wall_slope, sizeof wall[k]);
+        dp_lease_destroy(lease);
+        dp_terrain_destroy(terrain[k]);
+    }
+    CHECK(memcmp(slope[0], slope[1], sizeof slope[0]) == 0);
+    CHECK(memcmp(wall[0], wall[1], sizeof wall[0]) == 0);
+    float low = INFINITY, high = 0.0f;
+    for (int i = 0; i < 300; ++i) low = fminf(low, slope[1][i]), high = fmaxf(high, slope[1][i]);
+    CHECK(high > 1.2f * low);
+}
+
 int main(void)
 {
     RUN(numbers_go_evenly_from_row_to_row_and_stay_beyond);
@@ -141,5 +172,6 @@ int main(void)
     RUN(a_crust_may_come_later);
     RUN(times_that_fall_and_grain_that_wanders_are_refused);
     RUN(slopes_follow_where_all_soils_change);
+    RUN(ground_touched_early_is_as_rough_as_that_touched_late);
     return check_done();
 }
