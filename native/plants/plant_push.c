@@ -210,8 +210,7 @@ static int sweep_block(const PlantStand* stand, const PlantBlock* block, const P
     return met;
 }
 
-#define TORN 0x40000000  // two neighbours are too far apart
-#define STEMS_KNOWN 30   // a bit for each of the first stems of a row; the others share the last
+#define STEMS_KNOWN 30  // a bit for each of the first stems of a row; the others share the last
 
 static int32_t stem_bit(int c)
 {
