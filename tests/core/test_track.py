@@ -155,6 +155,17 @@ def test_a_depth_is_pressed_at_once_whatever_the_soil(depth):
         assert found.max() == pytest.approx(depth, abs=1e-4) and press.strokes == 5
 
 
+@pytest.mark.parametrize("soil", ["fresh-snow", "deep-snow"])
+def test_walls_that_take_their_time_lie_still_before_the_next_mark(soil):
+    """Else every mark would wait for all those before it, and the ground between them be gone through each time."""
+    _, press = at_once(lay(LINE, "boot", Marks(spacing=2.0)), soil)
+    before = {name: press.read(name) for name in ("compression", "heap")}
+    assert before["compression"].max() > 0.05 and press.soils[0].flow_time > 0.0
+    press.wait(20.0)
+    for name, value in before.items():
+        np.testing.assert_array_equal(press.read(name), value, err_msg=name)
+
+
 def test_what_is_displaced_is_heaped_to_the_gram():
     _, press = at_once(lay(LINE, "boot", Marks(spacing=0.4), Drive(depth=0.05)), "dry-sand")
     press.sim.settle()

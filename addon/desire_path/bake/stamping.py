@@ -143,14 +143,14 @@ class TrackPress(LivePress):
         self._stand(step)
 
     def _stand(self, step: dict[int, np.ndarray]) -> None:
-        """Some feet come down at once, stand until the ground has yielded, and are lifted."""
+        """Some feet come down at once, stand until the ground has yielded, and are lifted; all lies still then."""
         count = len(self.bodies)
         pose, there, force, point = _nowhere(count)
         for number, at in step.items():
             pose[number], point[number], there[number] = at, at[:3], 1
             force[number, 2] = -(self.bodies[number].mass or 0.0) * GRAVITY
         nobody = np.zeros(count, np.uint8)
-        for seconds, present in ((LIFTS, there), (self._stands, there), (LIFTS, nobody)):
+        for seconds, present in ((LIFTS, there), (self._stands, there), (max(LIFTS, self.slides), nobody)):
             self._next(seconds, pose, present, force, point, present)
         self.sim.run(self._samples - 1)
         self._pressed += len(step)

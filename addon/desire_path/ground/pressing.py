@@ -37,6 +37,7 @@ STEP = 0.04  # how long a step takes, if nobody says [s]
 MAX_STEPS = 64  # that one move is cut into
 SWEPT = 12.0  # a body that carves is swept so far in a step [cells]
 MAX_CELLS = 1 << 20  # a body may cover
+SLIDES = 30.0  # walls that take their time come to rest in so many times what a slide of 0.1 m takes them
 SAMPLE = 0.0025  # undersides are sampled so closely, or four times a cell [m]
 GRAVITY = 9.81  # [m/s^2]
 
@@ -94,6 +95,7 @@ class Pressing:
         self.bodies = (bodies,) if isinstance(bodies, PressBody) else tuple(bodies)
         if not self.bodies:
             raise DesirePathError("There is no body to press the ground with: give one at least.")
+        self.slides = SLIDES * max(float(soil.flow_time) for soil in self.soils)  # until all lies still [s]
         self.window: tuple[int, int, int, int] | None = None
         self._before: list[tuple[tuple[int, int, int, int] | None, Trail | None]] = []  # of each stroke
         self._under = [(each.vertices, each.triangles) for each in self.bodies]  # what finds where a body stands
@@ -180,7 +182,7 @@ class Pressing:
         at, self._at = self._at, None
         nothing = np.zeros((len(at), 3))
         self._push(at, np.zeros(len(at), bool), nothing, nothing, STEP)
-        self.wait(STEP)
+        self.wait(max(STEP, self.slides))
 
     def wait(self, seconds: float = STEP) -> None:
         """Let time pass in which nothing presses: what takes its time slides on [s]."""
