@@ -11,10 +11,10 @@
 //     frame_rate_does_not_matter.
 //   Below 0.95 L0 the ground is rigid: it presses back 100 times as hard and yields no further.
 //   What of a sole stands over no ground carries its share, as if the ground went on: the rest of the sole
-//     does not get it. test_soil_compress.c, over_an_edge. Ground that lies lower, beside a step, is no
+//     does not get it. test_soil_compress_edge.c, over_an_edge. Ground that lies lower, beside a step, is no
 //     such edge: what stands on the step bears all of the load, as it would. over_a_step.
 //   `uniform` touches the ground as the contact met it, not its own print and rim: else the area, and with
-//     it the depth, would depend on nu (SOFT22 Fig. 7). test_soil_compress.c, met_ground_counts.
+//     it the depth, would depend on nu (SOFT22 Fig. 7). test_soil_compress_edge.c, met_ground_counts.
 //   A cell that the sole covers by the share a is pressed by a times its column, so that volume and stress
 //     do not depend on the cell. test_soil_compress.c, cells_do_not_matter.
 #include "base/wide.h"  // first: it says how loops may be widened

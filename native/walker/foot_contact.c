@@ -7,7 +7,7 @@
 //   clip's own resting clearance; one fixed height loses most contacts of real recordings.
 //   test_foot_contact.c, hovering_clip_touches.
 //   TRAIL (4): what comes down steeper than 45 degrees touches at any speed; falls and landings
-//   would begin after their impact otherwise. test_foot_contact.c, falling_ball_touches_in_time.
+//   would begin after their impact otherwise. test_foot_contact_fall.c, falling_ball_touches_in_time.
 //   TRAIL (4): limits tell that a foot stands, not since when; foot_edge.c moves the edges.
 //   test_foot_contact.c, the_ground_marks_the_edges.
 //   TRAIL (4): every point has a speed of its own, so "both touch" needs no case of its own.

@@ -9,7 +9,7 @@
 // Speeds are low-passed, which turns a sudden stop into a slope of at least a quarter of the
 // cut-off's period to either side and moves the fastest fall ahead of the stop. Lengths of slopes
 // that follow upon each other add as squares: what the filter added is taken out again where a foot
-// comes down from a flight and is stopped with the whole body. test_foot_contact.c,
+// comes down from a flight and is stopped with the whole body. test_foot_contact_fall.c,
 // a_sudden_stop_out_of_a_flight_is_timed.
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // Departures
 //   TRAIL (4): a body that nobody carries falls; where it does not, the foot that is lowest and
 //   slowest touches at its own height, as on a block that the ground does not show. Feet farther up
-//   hang from something else, a chair, a rope or wings, and press nothing. test_foot_contact.c,
+//   hang from something else, a chair, a rope or wings, and press nothing. test_foot_contact_fall.c,
 //   somebody_carries_what_does_not_fall, who_glides_stands_on_both_feet, who_hangs_presses_nothing.
 //   A rigid body has no feet to reach down with: lifted, it is carried by what lifts it.
 //   a_crate_on_a_rope_presses_nothing.

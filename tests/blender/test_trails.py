@@ -7,7 +7,9 @@ import bpy
 import numpy as np
 from scenes import meshes
 from test_bake import refused, scene, state
-from test_plants import everything, grown, picture, roots
+from test_plants import everything, roots
+from test_plants_image import picture
+from test_plants_seen import grown
 from test_playback import fresh
 
 from desire_path.bake import bake

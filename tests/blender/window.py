@@ -60,7 +60,7 @@ def dark(name):
     return int((found.reshape(-1, 4)[:, :3].max(axis=1) < 0.14).sum())
 
 
-def story():
+def a_ground_and_a_walker():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     ground = meshes.grid(120, 260, 0.01, -0.6, -2.2)
@@ -74,7 +74,9 @@ def story():
             area.spaces[0].context = "PHYSICS"
     yield 0.5
 
-    # ESC: what was baked stays and plays
+
+def esc_keeps_what_was_baked():
+    """ESC: what was baked stays and plays."""
     sim.Film.write_frame = slowly
     press_bake()
     yield from hands.until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.3)
@@ -91,7 +93,9 @@ def story():
     assert playback.modifier(ground) is not None and ground.desire_path.bake_state == "PARTIAL"
     yield 0.3
 
-    # the Cancel button, then once more to the end
+
+def cancelled_and_baked_to_the_end():
+    """The Cancel button, then once more to the end."""
     press_bake()
     yield from hands.until(lambda: bake_job.running() is None or bake_job.running().fraction > 0.6)
     assert bpy.ops.object.desire_path_cancel() == {"FINISHED"}
@@ -108,8 +112,10 @@ def story():
     yield from hands.until(lambda: state.last(ground) == state.Status("FRESH"))
     shot("done")
 
-    # a change is seen without anybody asking; Free asks, and nothing is lost before the answer
-    walker = bpy.data.objects["Walker"]
+
+def a_change_is_seen_and_free_asks():
+    """A change is seen without anybody asking; Free asks, and nothing is lost before the answer."""
+    ground, walker = bpy.data.objects["Ground"], bpy.data.objects["Walker"]
     walker.location.x = 0.1
     yield from hands.until(lambda: (state.last(ground) or state.Status("")).state == "OUTDATED")
     yield 0.5
@@ -129,7 +135,9 @@ def story():
     yield 0.5
     shot("walker")
 
-    # forces are drawn while they are shown, and gone with the file
+
+def forces_are_drawn():
+    """Forces are drawn while they are shown, and gone with the file."""
     bpy.context.scene.frame_set(30)
     view = next(area for area in window().screen.areas if area.type == "VIEW_3D")
     with bpy.context.temp_override(window=window(), area=view, region=view.regions[-1]):
@@ -143,9 +151,12 @@ def story():
     yield 0.5
     assert pixels("forces") > without + 100, "no arrow is seen"
     assert "contacts" in walker.desire_path.forces
+    return without
 
-    # the graph lies in the corner: paper, letters and curves, and goes again
-    before = dark("forces")
+
+def the_graph_lies_in_the_corner(without):
+    """The graph lies in the corner: paper, letters and curves, and goes again."""
+    before, walker = dark("forces"), bpy.data.objects["Walker"]
     assert bpy.ops.object.desire_path_forces_graph() == {"FINISHED"} and op_forces.shows_graph(walker)
     yield 0.5
     shot("graph")
@@ -166,6 +177,15 @@ def story():
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     assert not op_forces._handles and not op_forces._shown
     yield 0.5
+
+
+def story():
+    yield from a_ground_and_a_walker()
+    yield from esc_keeps_what_was_baked()
+    yield from cancelled_and_baked_to_the_end()
+    yield from a_change_is_seen_and_free_asks()
+    without = yield from forces_are_drawn()
+    yield from the_graph_lies_in_the_corner(without)
 
 
 hands.tell(story())

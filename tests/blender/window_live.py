@@ -110,7 +110,7 @@ def settled(before):
     return seen
 
 
-def story():
+def a_ground_and_a_walker():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     meshes.activate(meshes.grid(2, 2, 8.0, -4.0, -6.0))
@@ -128,7 +128,9 @@ def story():
     push("Scene")
     assert not live.begun()
 
-    # switched on, it bakes what was not baked yet; the file is listened to from now on
+
+def switched_on_it_bakes():
+    """Switched on, it bakes what was not baked yet; the file is listened to from now on."""
     ground().desire_path.auto_update = True
     push("Auto Update")
     assert live.begun()
@@ -137,7 +139,9 @@ def story():
     yield 1.0
     assert not bpy.app.timers.is_registered(live._tick), "it looks for ever"
 
-    # another soil, a mass, a key, the mesh and its place are baked again; no datablock is exchanged
+
+def changes_are_baked_again():
+    """Another soil, a mass, a key, the mesh and its place are baked again; no datablock is exchanged."""
     before, old = made(), playback.modifier(ground()).node_group
     begun = time.monotonic()
     ground().desire_path.soil = "mud"
@@ -159,14 +163,18 @@ def story():
         push("Change")
         yield from settled(before)
 
-    # undo and redo are followed, too
+
+def undo_and_redo_are_followed():
+    """Undo and redo are followed, too."""
     for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
         before = made()
         with bpy.context.temp_override(window=window()):
             assert step() == {"FINISHED"}
         yield from settled(before)
 
-    # while the animation plays, too
+
+def while_the_animation_plays():
+    """While the animation plays, too."""
     screen = window().screen
     with bpy.context.temp_override(window=window(), screen=screen, area=screen.areas[0]):
         bpy.ops.screen.animation_play()
@@ -178,7 +186,9 @@ def story():
         bpy.ops.screen.animation_cancel()
     yield 0.2
 
-    # a change while it bakes: it begins anew, and takes no key
+
+def a_change_while_it_bakes():
+    """A change while it bakes: it begins anew, and takes no key."""
     sim.Film.write_frame = slowly
     before = made()
     ground().desire_path.soil = "snow"
@@ -200,7 +210,9 @@ def story():
     sim.Film.write_frame = write_frame
     yield from settled(before)
 
-    # what takes longer is shown coarse first, which is in no file
+
+def what_takes_longer_is_coarse_first():
+    """What takes longer is shown coarse first, which is in no file."""
     sim.Film.write_frame, live.LONG = slowly, 0.2
     before = made()
     ground().desire_path.soil = "snow"
@@ -221,7 +233,9 @@ def story():
     yield from until(lambda: state.last(ground()) == state.Status("FRESH"))
     assert not any(map(playback.is_by_hand, ground().modifiers))
 
-    # a bake that was asked for has the right of way, one that is freed is not made again
+
+def a_bake_that_was_asked_for_goes_first():
+    """A bake that was asked for has the right of way, one that is freed is not made again."""
     sim.Film.write_frame = slowly
     ground().desire_path.soil = "snow"
     push("Snow")
@@ -241,20 +255,37 @@ def story():
     yield from until(lambda: state.last(ground()) == state.Status("NONE"))
     assert playback.modifier(ground()) is None
 
-    # drawing takes less than a millisecond of ours
+
+def drawing_takes_little():
+    """Drawing takes less than a millisecond of ours."""
     took = {}
     for module, name in ((panels, "draw"), (timeline, "spans")):
         took[name] = []
         setattr(module, name, timed(getattr(module, name), took[name]))
-    for area in screen.areas:
+    for area in window().screen.areas:
         area.tag_redraw()
     yield 1.0
     print({name: f"{1000 * min(each):.2f} ms" for name, each in took.items() if each}, flush=True)
 
-    # another file listens no more
+
+def another_file_listens_no_more():
+    """Another file listens no more."""
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield 0.5
     assert not live.begun() and not bpy.app.timers.is_registered(live._tick) and not timeline._handles
+
+
+def story():
+    yield from a_ground_and_a_walker()
+    yield from switched_on_it_bakes()
+    yield from changes_are_baked_again()
+    yield from undo_and_redo_are_followed()
+    yield from while_the_animation_plays()
+    yield from a_change_while_it_bakes()
+    yield from what_takes_longer_is_coarse_first()
+    yield from a_bake_that_was_asked_for_goes_first()
+    yield from drawing_takes_little()
+    yield from another_file_listens_no_more()
 
 
 hands.tell(story())

@@ -10,10 +10,9 @@ from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import Soil
 from desire_path.loads import walker
 from desire_path.motion import rotation
-from desire_path.motion.gait import BALL, HEEL, TIP, Sole
+from desire_path.motion.gait import BALL, HEEL, TIP
 from desire_path.rig import body, rigs, sole
-from desire_path.rig.body import Motion, Skeleton, Skin
-from tests.scenes.gaits import BOX_FACES
+from desire_path.rig.body import Motion, Skeleton
 
 NAMES = ("hips", "neck", "thigh.L", "shin.L", "foot.L", "toe.L", "thigh.R", "shin.R", "foot.R", "toe.R")
 PARENTS = (-1, 0, 0, 2, 3, 4, 0, 6, 7, 8)
@@ -155,14 +154,6 @@ def test_flat_soles_are_level_and_point_ahead(roll, facing):
         assert -0.03 < both[:, 2].min() < 0.03  # near where the ground of the clip is
 
 
-def test_what_soles_come_from_may_be_given_one_by_one():
-    bones = person()
-    motion = walk(bones)
-    with pytest.warns(DeprecationWarning, match=r"written gait_from_bones\(soles=SoleSource\(skin=\.\.\)\)"):
-        old = body.gait_from_bones(bones, motion, mass=70.0, frame_rate=120.0, skin=boots())
-    assert old == gait(bones, motion, skin=boots()) != gait(bones, motion)
-
-
 def test_parts_tile_without_a_gap():
     heel, toe = sole.built_in(-0.05, 0.15, 0.22, True)
     split = toe.vertices[:, 0] + 0.15
@@ -254,105 +245,6 @@ def test_feet_without_toe_bones_have_two_parts_of_the_same_foot():
 # ---- robustness ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "turn", [np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]), np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]])]
-)
-def test_any_rest_orientation(turn):
-    plain, turned = person(), person(turn=turn)
-    a, b = gait(plain, walk(plain)), gait(turned, walk(turned, turn=turn))
-    assert b.com == pytest.approx(a.com, abs=1e-9)
-    for part in range(4):
-        assert places(b, part)[40] == pytest.approx(places(a, part)[40], abs=2e-3)
-
-
-def retailed(bones, motion, parts, tail, length):
-    """The same joints and motion with the tails of some bones elsewhere."""
-    y = np.array(tail, float) / np.linalg.norm(tail)
-    x = np.cross(y, [0.3, 0.5, 0.81])
-    x /= np.linalg.norm(x)
-    turn = np.stack([x, y, np.cross(x, y)], axis=1)
-    rest, matrix, lengths = bones.rest.copy(), motion.matrix.copy(), bones.length.copy()
-    for k, name in enumerate(bones.names):
-        if name.startswith(parts):
-            own = rest[k, :3, :3].T @ turn
-            rest[k, :3, :3], matrix[:, k, :3, :3] = rest[k, :3, :3] @ own, matrix[:, k, :3, :3] @ own
-            lengths[k] = length
-    return replace(bones, rest=rest, length=lengths), Motion(motion.time, motion.bones, matrix)
-
-
-@pytest.mark.parametrize(
-    "toes, parts", [(True, ("foot", "toe")), (True, ("toe",)), (True, ("foot",)), (False, ("foot",))]
-)
-@pytest.mark.parametrize(
-    "tail, length",
-    [
-        ((0, 0, 1), 0.1),
-        ((0, 0, -1), 0.1),
-        ((0, 0, 1), 5.0),
-        ((1, 0, 0), 0.1),
-        ((-1, 0.2, 0.1), 0.2),
-        ((0, -1, 0), 5.0),
-        ((0, 1, 0), 0.1),
-        ((1, 1, 1), 0.2),
-    ],
-)
-def test_tails_of_bones_may_point_anywhere(toes, parts, tail, length):
-    bones = person(toes=toes)
-    want = gait(bones, walk(bones))
-    if not toes and tail[1] > 0.9:
-        return  # a foot of one bone that points back may be of a mirrored body
-    g = gait(*retailed(bones, walk(bones), parts, tail, length))
-    for part in range(4):
-        ahead = [rotation.matrix(each.pose[part, :, 3:])[..., 0] for each in (g, want)]
-        assert np.degrees(np.arccos(np.clip((ahead[0] * ahead[1]).sum(axis=1), -1, 1))).max() < (1 if toes else 10)
-        assert abs(g.pose[part, :, :3] - want.pose[part, :, :3]).max() < (1e-3 if toes else 0.045)
-        size = [np.ptp(each.soles[part].vertices[:, 0]) for each in (g, want)]
-        assert size[0] == pytest.approx(size[1], rel=0.02 if toes else 0.15)
-
-
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_upright_feet_of_a_mirrored_body_point_ahead(mirrored):
-    """Foot bones that stand tell no direction: left and right do, the other way round in a mirrored body."""
-    bones, motion = retailed(person(toes=False), walk(person(toes=False)), ("foot",), (0, 0, 1), 0.1)
-    if mirrored:
-        bones.rest[:, 0, 3] *= -1
-        motion.matrix[..., 0, 3] *= -1
-        bones = replace(bones, mirrored=True)
-    g = gait(bones, motion)
-    assert (rotation.matrix(g.pose[:, flat_sample(g), 3:])[:, 1, 0] < -0.9).all()
-
-
-@pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
-def test_any_scale(scale):
-    bones = person(scale=scale)
-    motion = walk(bones, scale=scale)
-    g = gait(bones, motion)
-    length = np.ptp(np.concatenate([places(g, 0)[40], places(g, 1)[40]])[:, 1])
-    assert length == pytest.approx(0.234 * scale, rel=0.1)
-    assert np.isfinite(g.pose).all()
-
-
-def test_scaled_matrices_leave_rotations_alone():
-    bones = person()
-    motion = walk(bones)
-    big = replace(motion, matrix=motion.matrix * np.array([2, 2, 2, 1.0]))
-    a, b = gait(bones, motion), gait(bones, big)
-    assert b.pose[:, :, 3:] == pytest.approx(a.pose[:, :, 3:], abs=1e-9)
-
-
-def test_a_still_pose_and_a_single_frame():
-    bones = person()
-    for count in (1, 2, 5, 60):
-        motion = Motion(np.arange(count) / 24, bones.names, np.tile(bones.rest, (count, 1, 1, 1)))
-        g = gait(bones, motion)
-        both = np.concatenate([places(g, 0)[0], places(g, 1)[0]])
-        assert both[:, 2].min() == pytest.approx(0.0, abs=0.04)
-        loads = walker.loads(g)
-        assert loads.touching.any()
-        total = -loads.force[:, :, 2].sum(axis=0) / (70 * 9.81)
-        assert total == pytest.approx(np.ones(count), abs=1e-6)
-
-
 def test_a_clip_that_walks_in_place_is_told():
     bones = person()
     motion = walk(bones)
@@ -421,104 +313,6 @@ def test_mass_centre_is_the_segments():
     rig = rigs.detect(bones)
     only_hips = rigs.Rig(rig.feet, rig.hips, ())
     assert gait(bones, motion, rig=only_hips).com[0, 0] == pytest.approx([0, 0, 1.0])
-
-
-# ---- skins -----------------------------------------------------------------------------------------------------
-
-
-def boots(depth=0.02):
-    """A skin of two boots: a box under each heel and toe, the heels with a tread, and a leg above."""
-    vertices, triangles, weights = [], [], {n: [] for n in ("foot.L", "toe.L", "foot.R", "toe.R", "shin.L")}
-    box = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-
-    def add(low, high, owner):
-        first = len(vertices)
-        vertices.extend((np.array(low) + box * (np.array(high) - low)).tolist())
-        triangles.extend((BOX_FACES + first).tolist())
-        for name in weights:
-            weights[name] += [1.0 if name == owner else 0.0] * 8
-
-    for side, mark in ((1, "L"), (-1, "R")):
-        a, b = sorted((0.05 * side, 0.15 * side))
-        add((a, -0.12, 0.0), (b, 0.07, 0.05), f"foot.{mark}")
-        add((a, -0.22, 0.0), (b, -0.12, 0.04), f"toe.{mark}")
-        add((a + 0.03, 0.02, -depth), (b - 0.03, 0.05, 0.0), f"foot.{mark}")
-    add((0.05, 0.0, 0.12), (0.15, 0.05, 0.5), "shin.L")
-    return Skin(np.array(vertices), np.array(triangles), {n: np.array(w) for n, w in weights.items()})
-
-
-def test_a_boot_leaves_a_boot_print():
-    bones = person()
-    g = gait(bones, walk(bones), skin=boots())
-    assert not g.warnings
-    for limb in (0, 1):
-        heel, toe = g.soles[2 * limb], g.soles[2 * limb + 1]
-        assert len(heel.triangles) == 24
-        lap = toe.vertices[:, 0].min()  # the toes reach back under the heel part, to the cut and no further
-        assert lap == pytest.approx(-sole.OVERLAP, abs=3e-3)
-        assert len(toe.triangles) > 12
-        t = flat_sample(g, limb)
-        h, f = places(g, 2 * limb)[t], places(g, 2 * limb + 1)[t]
-        assert np.ptp(np.concatenate([h, f])[:, 1]) == pytest.approx(0.29, abs=5e-3)
-        assert h[:, 2].min() == pytest.approx(-0.02, abs=2e-3)  # the tread, where the skin has it
-        assert f[:, 2].min() == pytest.approx(0.0, abs=2e-3)
-    marks = g.point[g.point_role == HEEL]
-    assert (marks[:, 0] < -0.02).all()
-
-
-def test_soles_of_few_faces_are_told():
-    bones = person()
-    boxes = gait(bones, walk(bones), skin=boots())
-    for cell in (0.004, 0.01):
-        said = sole.few_faces(boxes, cell)
-        assert len(said) == 1 and "foot.L and foot.R" in said[0] and "sole" in said[0]  # alike on both feet
-        faces, cells = (int(word) for word in said[0].split() if word.isdigit())
-        assert faces < 12 and cells == pytest.approx(0.1 * 0.29 / cell**2, rel=0.3)
-    assert not sole.few_faces(boxes, 0.08)  # such cells show no more than the faces do
-    built_in = gait(bones, walk(bones))
-    assert not sole.few_faces(built_in, 0.004)
-    fine = replace(boxes, soles=[finer(each) for each in boxes.soles])
-    assert not sole.few_faces(fine, 0.01)
-    solid = replace(boxes, part_name=["body"] * 4)  # a crate may have six sides
-    assert not sole.few_faces(solid, 0.01)
-
-
-def finer(shape):
-    """Every triangle cut into four."""
-    corner = np.asarray(shape.vertices, float)[shape.triangles]
-    middle = (corner + np.roll(corner, -1, axis=1)) / 2.0
-    parts = [
-        np.stack(each, axis=1)
-        for each in (
-            (corner[:, 0], middle[:, 0], middle[:, 2]),
-            (middle[:, 0], corner[:, 1], middle[:, 1]),
-            (middle[:, 2], middle[:, 1], corner[:, 2]),
-            (middle[:, 0], middle[:, 1], middle[:, 2]),
-        )
-    ]
-    vertices = np.concatenate(parts).reshape(-1, 3)
-    return Sole(vertices, np.arange(len(vertices), dtype="i4").reshape(-1, 3))
-
-
-def test_a_skin_without_toe_weights_is_split_at_the_ball():
-    bones = person(toes=False)
-    skin = boots()
-    fold = {
-        n: skin.weights[n] + (skin.weights[n.replace("foot", "toe")] if "foot" in n else 0)
-        for n in ("foot.L", "foot.R", "shin.L")
-    }
-    g = gait(bones, walk(bones), skin=replace(skin, weights=fold))
-    assert not g.warnings
-    assert len(g.soles[0].triangles) + len(g.soles[1].triangles) == 36
-    assert len(g.soles[1].triangles) >= 10
-
-
-def test_a_skin_without_feet_falls_back():
-    bones = person()
-    skin = boots()
-    g = gait(bones, walk(bones), skin=replace(skin, weights={"shin.L": skin.weights["shin.L"]}))
-    assert "built-in sole" in g.warnings[0]
-    assert len(g.soles[0].triangles) > 50
 
 
 def test_quaternions_come_back():

@@ -82,7 +82,7 @@ def test_every_section_of_the_model_is_pointed_to():
 
 
 def test_departures_and_oracles_name_tests_that_are_there():
-    """'test_soil_compress.c, over_an_edge': a file somewhere below tests/, and a name in it."""
+    """'test_soil_compress_edge.c, over_an_edge': a file somewhere below tests/, and a name in it."""
     files, count = {}, 0
     for path in kept():
         if path.name.startswith("test_"):

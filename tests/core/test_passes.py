@@ -1,9 +1,5 @@
 """A clip's cycle carried along a path: the feet stand still, passes differ, seeds repeat."""
 
-import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path as File
 
@@ -11,15 +7,11 @@ import numpy as np
 import pytest
 from scenes import bvh, ship_walk
 
-from desire_path.bake.bake import Bake, read_index
-from desire_path.bake.options import BakeOptions, BakeOutput
+from desire_path.bake.bake import Bake
 from desire_path.errors import DesirePathError
-from desire_path.ground import maps
-from desire_path.ground.options import SimulationOptions
-from desire_path.ground.plants import KINDS
-from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.sim import Ground
 from desire_path.loads import walker
-from desire_path.motion.gait import HEEL, Gait
+from desire_path.motion.gait import Gait
 from desire_path.motion.scatter import Scatter
 from desire_path.placement import cycle, passes, path
 from desire_path.placement.path import Path
@@ -30,11 +22,15 @@ REPO = File(__file__).resolve().parents[2]
 WALK = REPO / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"
 
 
-@pytest.fixture(scope="module")
-def walk():
+def recorded_walk():
     """The recorded walk at 60 frames a second."""
     skeleton, motion, rate = bvh.load(WALK, scale=0.056444, every=2)
     return body.gait_from_bones(skeleton, motion, mass=75.0, frame_rate=round(rate))
+
+
+@pytest.fixture(scope="module")
+def walk():
+    return recorded_walk()
 
 
 def in_place(gait):
@@ -257,92 +253,6 @@ def test_a_corner_is_pressed_as_deep_as_a_straight_path(walk, tmp_path):
     assert beside == pytest.approx(straight, abs=0.004) and sideways < push + 0.6
 
 
-# ---- ground ----------------------------------------------------------------------------------------------
-
-
-def test_a_walk_follows_the_height_of_its_path(walk):
-    gait = walk.along([(0, 0, 1.0), (6, 0, 2.2)])
-    ground = lambda xy: 1.0 + 0.2 * np.clip(xy[:, 0], 0, 6)
-    loads = walker.loads(gait, ground=ground)
-    flat = walker.loads(walk.along([(0, 0), (6, 0)]))
-    assert abs(loads.clearance).max() < 0.03
-    assert abs((loads.touching != 0).mean() - (flat.touching != 0).mean()) < 0.05
-    assert loads.mean[0] == pytest.approx(1.0, abs=0.05)
-
-
-def test_a_walk_follows_the_ground(walk):
-    ground = lambda xy: 0.5 + 0.15 * np.sin(xy[:, 0]) + 0.05 * xy[:, 1]
-    gait = walk.along([(0, 0), (8, 1)], 2, ground=ground)
-    loads = walker.loads(gait, ground=ground)
-    assert abs(loads.clearance).max() < 0.03 and loads.mean[0] == pytest.approx(1.0, abs=0.05)
-    assert not loads.warnings
-    at = walker.point_places(gait)
-    over = at[..., 2] - ground(at[..., :2].reshape(-1, 2)).reshape(at.shape[:2])
-    assert over[loads.touching[gait.point_part] != 0].max() < 0.2 and over.min() > -0.08
-
-
-def heels(gait, land):
-    """How high heels are over the ground while their toes carry, in the middle of stances (n,) [m]."""
-    loads = walker.loads(gait, ground=land.rest_height)
-    at = walker.point_places(gait)
-    over = at[..., 2] - land.rest_height(at[..., :2].reshape(-1, 2)).reshape(at.shape[:2])
-    found = []
-    for limb in range(len(gait.limb_walker)):
-        mine = gait.part_limb[gait.point_part] == limb
-        on = (loads.touching[gait.part_limb == limb] != 0).any(axis=0)
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], on, [0]])))
-        middle = [(a + b) // 2 for a, b in zip(edges[::2], edges[1::2]) if b - a > 0.4 * gait.rate()]
-        found += over[mine & (gait.point_role == HEEL)][:, middle].min(axis=0).tolist()
-    return np.array(found)
-
-
-@pytest.mark.parametrize("steep, high, low", [(0.0, 0.02, -0.02), (25.0, 0.12, 0.02), (-25.0, 0.02, -0.03)])
-def test_passes_up_a_hill_go_on_their_toes(walk, steep, high, low):
-    """TRAIL (2): heels stay up on slopes of more than 15 degrees, and only up the hill."""
-    step = np.linspace(-3.0, 9.0, 49)
-    hill = Ground.heights(np.broadcast_to(np.tan(np.radians(steep)) * step, (49, 49)), 0.25, -3.0, -6.0)
-    land = Simulation(hill)
-    gait = walk.along([(0, 0), (6, 0)], 3, back_and_forth=False, ground=hill)
-    there = heels(gait, land)
-    assert len(there) > 12 and np.quantile(there, 0.2) > low and np.quantile(there, 0.8) < high, there.round(3)
-    flat = heels(walk.along([(0, 0), (6, 0)], 3, back_and_forth=False, ground=land.rest_height), land)
-    assert np.median(abs(flat)) < 0.015  # by heights alone they lie flat
-
-
-def test_holes_in_the_ground_do_no_harm(walk):
-    ground = lambda xy: np.where(xy[:, 0] < 4, 0.3, np.nan)
-    gait = walk.along([(0, 0), (8, 0)], ground=ground).check()
-    assert abs(gait.com[0, :, 2] - walk.com[0, :, 2].mean() - 0.3).max() < 0.1
-    walk.along([(0, 0), (8, 0)], ground=lambda xy: np.full(len(xy), np.nan)).check()
-
-
-# ---- several walkers -------------------------------------------------------------------------------------
-
-
-def test_walkers_go_in_turn(walk):
-    heavy = replace(
-        walk, mass=[110.0], walker_name=("Heavy",), com=walk.com + (3, 0, 0), pose=walk.pose + np.eye(7)[0] * 3
-    )
-    both = Gait.join([walk, heavy]).along([(0, 0), (4, 0)], 3, seed=2).check()
-    alone = walk.along([(0, 0), (4, 0)], 3, seed=2)
-    assert len(both.pieces()) == 6 and len(passes.turns_of(both)) == 6
-    loads = walker.loads(both)
-    assert loads.mean == pytest.approx([1.0, 1.0], abs=0.03) and not loads.warnings
-    limbs = both.limb_walker[both.part_limb]
-    for n, (first, after) in enumerate(both.pieces()):
-        on = loads.touching[:, first:after].any(axis=1)
-        assert on[limbs == n % 2].all() and not on[limbs != n % 2].any()
-    first, after = both.pieces()[2]
-    assert np.array_equal(both.pose[:4, first:after], alone.pose[:, slice(*alone.pieces()[1])])
-    uneven = passes.in_turn([walk.along([(0, 0), (4, 0)], 3, pause=2.0), heavy.along([(0, 0), (0, 4)], 1)]).check()
-    assert [turn[2] for turn in passes.turns_of(uneven)] == [0, 1, 0, 0]
-    assert [turn[3] for turn in passes.turns_of(uneven)] == pytest.approx([0, 0, 2, 2])
-    again = passes.in_turn([both, walk.along([(0, 0), (4, 0)], 2)]).check()
-    assert [turn[2] for turn in passes.turns_of(again)] == [0, 2, 1, 2, 0, 1, 0, 1]
-    with pytest.raises(DesirePathError, match="different rates"):
-        passes.in_turn([alone, replace(heavy, frame_rate=48.0).along([(0, 0), (4, 0)])])
-
-
 def test_many_passes_are_made_at_once(walk):
     gait = walk.along([(0, 0), (5, 0)], 500)
     assert len(gait.cut) == 499 and gait.pose.nbytes < 100e6
@@ -414,130 +324,6 @@ def test_paths_are_read(tmp_path):
 def test_what_cannot_be_walked_gets_a_sentence(walk, bad, words):
     with pytest.raises(DesirePathError, match=words):
         walk.along(**{"path": [(0, 0), (5, 0)], **bad})
-
-
-# ---- a bake of passes, and the command line --------------------------------------------------------------
-
-
-def test_a_frame_may_be_a_pass(walk, tmp_path):
-    gait = walk.along([(0, 0), (2, 0)], 3, pause=1.0)
-    bake = Bake(gait, Ground.flat(), "mud", tmp_path / "passes", cell_size=0.02, options=BakeOptions(threads=1))
-    told = list(bake.run())
-    assert [progress.frame for progress in told] == [1, 2, 3] and told[-1].fraction == 1.0
-    index = read_index(tmp_path / "passes")
-    assert index.complete and index.frames == 3 and bake.report["passes"] == 3
-    pressed = [maps.read(index.path(n)).planes["B"] for n in range(4)]
-    assert not pressed[0].any()
-    assert all((b >= a - 1e-7).all() and b.sum() > a.sum() for a, b in zip(pressed, pressed[1:]))
-    names = sorted(path.name for path in (tmp_path / "passes" / "maps").iterdir())
-    assert names == ["pass_0001.exr", "pass_0002.exr", "pass_0003.exr"]
-    second = maps.read(tmp_path / "passes" / "maps" / "pass_0002.exr")
-    assert np.array_equal(second.planes["compression"], pressed[2])
-    assert second.notes["time"] == pytest.approx(gait.time[gait.cut[-1]] - gait.time[0], abs=1.1)
-
-    every = Bake(
-        gait,
-        Ground.flat(),
-        "mud",
-        tmp_path / "frames",
-        cell_size=0.02,
-        options=BakeOptions(threads=1),
-        output=BakeOutput(film="frames"),
-    )
-    for _ in every.run():
-        pass
-    last = read_index(tmp_path / "frames")
-    assert last.frames == int((gait.time[-1] - gait.time[0]) * 60 + 1e-6) + 1
-    final = [maps.read(tmp_path / name / "maps_final.exr").planes for name in ("passes", "frames")]
-    volume = [planes["compression"].sum() for planes in final]
-    assert volume[0] == pytest.approx(volume[1], rel=0.03)  # steps of 60 and of 120 a second
-    with pytest.raises(DesirePathError, match="no film"):
-        Bake(gait, Ground.flat(), output=BakeOutput(film="reel"))
-
-
-def test_no_print_is_drawn_from_the_end_of_a_pass_to_the_start_of_the_next(walk):
-    """Passes one way: a jump back over the whole path, and over bare ground to a second walker's path."""
-    line = [(0, 0), (2, 0)]
-    gait = walk.along(line, 2, back_and_forth=False, scatter=Scatter(lateral=0, timing=0, stride=0))
-    sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
-    sim.load(gait, walker.loads(gait))
-    sim.run(gait.cut[0] - 1)
-    window = sim.reach()
-    window = (window[0], window[2], window[1] - window[0], window[3] - window[2])
-    once = sim.read("pressure_time", *window)
-    sim.run(gait.cut[0])
-    assert once.any() and np.array_equal(sim.read("pressure_time", *window), once)
-    sim.run(len(gait.time) - 1)
-    twice = sim.read("pressure_time", *window)
-    assert ((twice > 0) == (once > 0)).all()
-
-
-def command(*words, cwd):
-    env = {**os.environ, "PYTHONPATH": str(REPO / "addon")}
-    return subprocess.run(
-        [sys.executable, "-m", "desire_path", *map(str, words)], capture_output=True, text=True, env=env, cwd=cwd
-    )
-
-
-def test_the_command_line_walks_passes(walk, tmp_path):
-    walk.save(tmp_path / "walk.npz")
-    (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n1.5,1.5\n")
-    replace(KINDS["carex"], strength=0.1, break_angle=2.0).save(tmp_path / "frail.json")
-    done = command(
-        "bake",
-        "walk.npz",
-        "--passes",
-        3,
-        "--along",
-        "path.csv",
-        "--plants",
-        "frail.json:30",
-        "--cell",
-        0.02,
-        "--soil",
-        "soil",
-        "--out",
-        "out",
-        cwd=tmp_path,
-    )
-    assert done.returncode == 0, done.stderr
-    report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert report["passes"] == 3 and report["contacts"] >= 9
-    assert not [each for each in report["warnings"] if "jumps" not in each]  # the clip begins with a pose alone
-    index = read_index(tmp_path / "out")
-    assert index.frames == 3 and index.lean
-    cover = [maps.read(index.path(n)).planes["G"].sum() for n in range(4)]
-    assert cover[0] >= cover[1] >= cover[2] >= cover[3] and cover[0] > cover[3]
-    final = maps.read(tmp_path / "out" / "maps_final.exr").planes
-    assert {"compression", "heap", "pressure_time", "plant_strength", "lean_x", "lean_y", "crushed"} <= set(final)
-
-
-def test_feet_are_placed_along_a_path_whether_asked_or_not(walk, tmp_path):
-    walk.save(tmp_path / "walk.npz")
-    (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n")
-    for more in ((), ("--place-feet",)):
-        done = command("bake", "walk.npz", "--along", "path.csv", *more, "--out", f"out{len(more)}", cwd=tmp_path)
-        assert done.returncode == 0, done.stderr
-    one, two = (maps.read(tmp_path / f"out{k}" / "maps_final.exr").planes["compression"] for k in (0, 1))
-    assert np.array_equal(one, two) and one.max() > 0.005
-
-
-@pytest.mark.parametrize(
-    "words, told",
-    [
-        (("--passes", 3), "--along"),
-        (("--along", "nothing.csv"), "nothing.csv"),
-        (("--along", "path.csv", "--passes", 0), "0 passes"),
-        (("--plants", "nettle"), "nettle"),
-        (("--plants", "carex:many"), "carex:many"),
-        (("--along", "path.csv", "--seed", -1), "seed of -1"),
-    ],
-)
-def test_bad_words_are_one_sentence(walk, tmp_path, words, told):
-    walk.save(tmp_path / "walk.npz")
-    (tmp_path / "path.csv").write_text("x,y\n0,0\n1.5,0\n")
-    done = command("bake", "walk.npz", *words, "--out", "out", cwd=tmp_path)
-    assert done.returncode == 1 and told in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
 # ---- the walk that comes with the package ----------------------------------------------------------------

@@ -11,6 +11,7 @@ from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import Soil
 from tests.core.test_soil_twins import Both, foot_of
 from tests.reference import soil as twin
+from tests.reference import soil_heaps as heaps
 from tests.scenes import gaits
 from tests.scenes.records import for_simulation
 
@@ -157,11 +158,11 @@ def test_a_bulge_is_that_of_its_twin(seed, push):
     uneven = (0.3 * both.random.standard_normal(both.shape)).astype(np.float32)
     patch = (*both.patch(), np.full(both.shape, np.inf, np.float32), uneven)
     bottom, cover = both.sole()
-    ring = twin.rings(cover > 0, 1).astype(np.int32)
+    ring = heaps.rings(cover > 0, 1).astype(np.int32)
     foot = foot_of(700.0, push)
     for volume in (1e-5, 3e-4):
         _native.soil_accumulate(patch, (bottom, cover, ring), foot, volume, 0, 0.05, 200.0, 0.0)
-        twin.accumulate_bulge(both.twin, ring, cover, foot, volume, 0.03, 200.0, uneven.astype(float))
+        heaps.accumulate_bulge(both.twin, ring, cover, foot, volume, 0.03, 200.0, uneven.astype(float))
     np.testing.assert_allclose(both.native["heap"], both.twin["heap"], rtol=2e-3, atol=2e-7)
 
 

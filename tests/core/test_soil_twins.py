@@ -7,6 +7,7 @@ import pytest
 
 from desire_path import _native
 from tests.reference import soil as twin
+from tests.reference import soil_heaps as heaps
 
 SOLE, UNIFORM = 0, 1
 REST, PAPER = 0, 1
@@ -116,7 +117,7 @@ def test_pressed_frame_by_frame_as_printed_trail_10_soft22_9_to_12(law, kind):
 @pytest.mark.parametrize("push, threshold", (((0, 0), 300.0), ((60, -25), 200.0), ((60, -25), 20.0), ((-9, 4), 90.0)))
 def test_border_cells_share_as_printed_trail_11_12_13(push, threshold):
     both, bottom, cover = flat_stand()
-    ring = twin.rings(cover > 0, 1).astype(np.int32)
+    ring = heaps.rings(cover > 0, 1).astype(np.int32)
     foot = foot_of(700.0, push, point=(-0.01, 0.015))
     volume = 3e-5
     _native.soil_accumulate(both.patch(), (bottom, cover, ring), foot, volume, PAPER, both.cell, threshold, 0.0)
@@ -201,11 +202,11 @@ def test_the_load_is_carried(seed):
 def test_accumulate_paper_trail_11_12_13(seed, push):
     both = Both(seed)
     bottom, cover = both.sole()
-    ring = twin.rings(cover > 0, 4).astype(np.int32)
+    ring = heaps.rings(cover > 0, 4).astype(np.int32)
     foot = foot_of(700.0, push)
     for volume in (1e-5, 3e-4):
         _native.soil_accumulate(both.patch(), (bottom, cover, ring), foot, volume, PAPER, 0.05, 200.0, 0.0)
-        twin.accumulate_paper(both.twin, ring, cover, foot, volume, 0.05, 200.0)
+        heaps.accumulate_paper(both.twin, ring, cover, foot, volume, 0.05, 200.0)
     both.same("heap", 1e-7)
 
 
@@ -214,7 +215,7 @@ def test_accumulate_paper_trail_11_12_13(seed, push):
 def test_accumulate_rest_is_the_envelope_of_cones(seed, push):
     both = Both(seed, holes=seed == 2)
     bottom, cover = both.sole()
-    ring = twin.rings(cover > 0, 1).astype(np.int32)
+    ring = heaps.rings(cover > 0, 1).astype(np.int32)
     foot = foot_of(700.0, push)
     i, j = round((0.01 - both.x0) / both.cell), round((-0.005 - both.y0) / both.cell)
     slope = float(both.native["rest_slope"][j, i])
@@ -222,7 +223,7 @@ def test_accumulate_rest_is_the_envelope_of_cones(seed, push):
     for volume in (1e-4, 4e-4, 1e-4):
         before = both.native["heap"].sum(dtype=float)
         height = _native.soil_accumulate(both.patch(), (bottom, cover, ring), foot, volume, REST, 0.04, 200.0, height)
-        expected = twin.accumulate_rest(both.twin, ring, cover, foot, volume, 200.0, slope)
+        expected = heaps.accumulate_rest(both.twin, ring, cover, foot, volume, 200.0, slope)
         assert (both.native["heap"].sum(dtype=float) - before) * both.cell**2 == pytest.approx(volume, rel=1e-5)
         # the kernel stops within 0.02 % of the volume and scales what it lays
         assert height == pytest.approx(expected, rel=0.001)

@@ -1,6 +1,5 @@
 """Tracks: where marks lie along a curve, how wheels roll, what presses by weight or by depth. MODEL 3.8"""
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -11,17 +10,14 @@ from desire_path import Ground, Simulation, Soil
 from desire_path.bake import stamping
 from desire_path.bake.stamping import TrackPress
 from desire_path.errors import DesirePathError
-from desire_path.ground import maps
 from desire_path.ground.options import SimulationOptions
 from desire_path.loads import checks, walker
 from desire_path.motion.points import point_places
 from desire_path.placement import stamps, track, tyre
 from desire_path.placement.marks import Drive, Marks, lay
 from desire_path.placement.pace import Pace
-from desire_path.placement.path import Path
 from desire_path.placement.track import Wheel
 from desire_path.rig import solid
-from tests.core.test_cli import run
 
 LINE = [(0.0, 0.0), (6.0, 0.0)]
 ARC = 4.0 * np.column_stack([np.sin(np.linspace(0, 1.5, 60)), 1.0 - np.cos(np.linspace(0, 1.5, 60))])  # to the left
@@ -263,19 +259,6 @@ def test_pictures_that_are_no_stamps_are_refused(given, says):
         stamps.Stamp.picture(*given)
 
 
-# ---- what they press ------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", stamps.STAMPS)
-def test_each_stamp_stands_where_it_is_put_and_nowhere_else(name):
-    """Every mark is one contact, all of the weight is carried, and nothing is odd."""
-    gait = track.stamped([(0.0, 0.0), (8 * stamps.STAMPS[name].spacing, 0.0)], name)
-    loads = walker.loads(gait)
-    on = np.diff((loads.touching != 0).astype(int), axis=1, prepend=0)
-    assert (on == 1).sum() == 9 and set(np.unique(loads.touching)) == {0, 1}
-    assert loads.mean[0] == pytest.approx(1.0, abs=0.02) and not loads.warnings
-
-
 def test_a_weight_sinks_as_it_does_on_feet():
     """Twice the weight goes twice as deep; all marks of a straight track are alike."""
     one, _, _ = pressed(track.stamped(LINE, "shoe", Marks(count=5), Drive(mass=40.0)))
@@ -416,120 +399,3 @@ def test_a_curve_that_is_none_is_refused(curve, says):
         with pytest.raises(DesirePathError, match=says) as told:
             make(curve)
         assert str(told.value).count(". ") == 0
-
-
-@pytest.mark.parametrize(
-    "given, says",
-    [
-        (dict(marks=Marks(spacing=0.0)), "spacing of 0 m"),
-        (dict(marks=Marks(spacing=np.nan)), "spacing of nan"),
-        (dict(marks=Marks(spacing=1e-6)), "larger spacing"),
-        (dict(marks=Marks(spacing=0.5, count=3)), "either"),
-        (dict(marks=Marks(count=0)), "0 marks"),
-        (dict(marks=Marks(width=-1.0)), "width of -1 m"),
-        (dict(marks=Marks(first="up")), "left or right"),
-        (dict(marks=Marks(size=0.0)), "size of 0"),
-        (dict(marks=Marks(scatter=2.0)), "scatter"),
-        (dict(drive=Drive(mass=-1.0)), "mass of -1 kg"),
-        (dict(drive=Drive(mass=1.0, depth=0.1)), "either"),
-        (dict(drive=Drive(depth=0.0)), "depth of 0 m"),
-        (dict(drive=Drive(speed=0.0)), "speed of 0"),
-        (dict(drive=Drive(end_speed=np.inf)), "speed of inf"),
-        (dict(drive=Drive(frame_rate=0.0)), "frames a second"),
-        (dict(stamp="slipper"), "no stamp 'slipper'"),
-        (dict(ground=lambda at: np.where(at[:, 0] < 3.0, 0.0, np.nan)), "leaves the ground at x 3"),
-        (dict(ground=np.nan), "ground is a height"),
-    ],
-)
-def test_numbers_that_make_no_track_are_refused(given, says):
-    with pytest.raises(DesirePathError, match=says):
-        track.stamped(LINE, **given)
-
-
-@pytest.mark.parametrize(
-    "wheel, says",
-    [
-        (Wheel(radius=0.0), "radius of 0 m"),
-        (Wheel(radius=np.nan), "radius of nan"),
-        (Wheel(width=-1.0), "width of -1 m"),
-        (Wheel(tread="spikes"), "no tread 'spikes'"),
-        (Wheel(gauge=-1.0), "gauge of -1 m"),
-    ],
-)
-def test_wheels_that_cannot_roll_are_refused(wheel, says):
-    with pytest.raises(DesirePathError, match=says):
-        track.rolled(LINE, wheel)
-
-
-def test_a_wheel_deeper_than_its_radius_is_refused():
-    with pytest.raises(DesirePathError, match="0.4 m deep"):
-        track.rolled(LINE, Wheel(radius=0.3), Drive(depth=0.4))
-
-
-# ---- the command ----------------------------------------------------------------------------------
-
-
-@pytest.fixture
-def curve(tmp_path):
-    path = tmp_path / "path.csv"
-    path.write_text("x,y\n0,0\n2,0\n3,1\n")
-    return path
-
-
-def test_track_bakes_a_folder(tmp_path, curve):
-    done = run("track", "--along", curve, "--stamp", "boot", "--spacing", 0.7, "--mass", 80, "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    length = Path([(0, 0), (2, 0), (3, 1)]).length
-    report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert report["contacts"] == int(length / 0.7) + 1 and report["deepest_m"] > 0.005 and not report["warnings"]
-    assert (tmp_path / "out" / "maps_final.exr").exists()
-
-
-def test_track_shows_stamps_that_come_down_one_by_one(tmp_path, curve):
-    more = ("--count", 3, "--film", "frames", "--cell", 0.02, "--frame-rate", 12)
-    done = run("track", "--along", curve, *more, "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    report = json.loads((tmp_path / "out" / "report.json").read_text())
-    assert report["contacts"] == 3 and len(list((tmp_path / "out" / "frames").glob("trail_*.exr"))) > 10
-
-
-def test_track_presses_a_picture(tmp_path, curve):
-    maps.write(tmp_path / "stamp.exr", {"Y": np.ones((30, 10))})
-    more = ("--stamp", tmp_path / "stamp.exr", "--stamp-length", 0.2, "--depth", 0.02, "--count", 2)
-    done = run("track", "--along", curve, *more, "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    assert json.loads((tmp_path / "out" / "report.json").read_text())["deepest_m"] == pytest.approx(0.02, abs=1e-4)
-    (tmp_path / "none.exr").write_text("no picture")
-    done = run("track", "--along", curve, "--stamp", tmp_path / "none.exr", "--out", tmp_path / "none")
-    assert done.returncode == 1 and "no flat OpenEXR image" in done.stderr and not (tmp_path / "none").exists()
-
-
-def test_track_rolls_a_pair_of_wheels(tmp_path, curve):
-    more = ("--wheel", 0.3, "--tyre-width", 0.15, "--tread", "bars", "--gauge", 1.2, "--depth", 0.02, "--cell", 0.02)
-    done = run("track", "--along", curve, *more, "--soil", "mud", "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    assert json.loads((tmp_path / "out" / "report.json").read_text())["deepest_m"] == pytest.approx(0.02, abs=0.002)
-
-
-@pytest.mark.parametrize(
-    "more, says",
-    [
-        (("--stamp", "slipper"), "no stamp 'slipper'"),
-        (("--spacing", "0"), "spacing of 0 m"),
-        (("--mass", "-3"), "mass of -3 kg"),
-        (("--wheel", "0"), "radius of 0 m"),
-        (("--wheel", "0.3", "--spacing", "1"), "--spacing is of stamps"),
-        (("--gauge", "1"), "--gauge is of wheels"),
-        (("--seed", "1"), "--seed is of chance"),
-    ],
-)
-def test_track_refuses_in_one_sentence(tmp_path, curve, more, says):
-    done = run("track", "--along", curve, *more, "--out", tmp_path / "out")
-    assert done.returncode == 1 and says in done.stderr and len(done.stderr.splitlines()) == 1
-    assert not (tmp_path / "out").exists()
-
-
-def test_track_refuses_an_empty_table(tmp_path):
-    (tmp_path / "none.csv").write_text("x,y\n")
-    done = run("track", "--along", tmp_path / "none.csv", "--out", tmp_path / "out")
-    assert done.returncode == 1 and "at least two rows" in done.stderr

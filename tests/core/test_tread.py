@@ -6,7 +6,8 @@ import pytest
 from desire_path.errors import DesirePathError
 from desire_path.rig import sole, sole_mesh
 from desire_path.rig.sole_mesh import Tread
-from tests.core.test_body import boots, flat_sample, gait, person, places, walk
+from tests.core.test_body import flat_sample, gait, person, places, walk
+from tests.core.test_body_skin import boots
 from tests.scenes.gaits import BOX_FACES
 
 
