@@ -79,8 +79,7 @@ class Reading:
 
 def read(scene, armature):
     """A Reading of what an armature does now."""
-    settings = armature.desire_path
-    land = settings.ground
+    settings, land = armature.desire_path, armature.desire_path.ground
     first, last = (
         moves.frames(scene, land, walkers(scene, land)) if land is not None else moves.frame_range(scene, armature)
     )
@@ -131,8 +130,7 @@ def limbs(gait, loads, scale, below=None):
 
 def arrows(forces, frame):
     """Lines of the arrows at a frame."""
-    t = forces.sample(frame)
-    lines = []
+    t, lines = forces.sample(frame), []
     for force, point in zip(forces.force[:, t], forces.point[:, t]) if t is not None else ():
         size = np.linalg.norm(force)
         if not np.isfinite(point).all() or size < 1e-3:
