@@ -7,7 +7,8 @@
 A change that alters results renews the file in the same commit, and that commit says why. Every world is computed
 under both contact laws and both heap laws by one worker, and by 2 or 5. `walk` is a recorded walk whose contacts and
 forces are found by every load model, and which is carried along a path and placed on a slope; `bake` is the same walk
-baked, in one go and broken off, frame by frame and pass by pass. worlds.py tells what the worlds hold.
+baked, in one go and broken off, frame by frame and pass by pass; `soils` is every soil that has a name, trodden by one
+worker and by 2, under both heap laws. worlds.py tells what the worlds hold.
 """
 
 from __future__ import annotations
@@ -26,9 +27,19 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(HERE)]
 
-from worlds import worlds  # noqa: E402
+from worlds import trodden, worlds  # noqa: E402
 
-from desire_path import Bake, BakeOptions, BakeOutput, Gait, Ground, Planting, _native, place_feet  # noqa: E402
+from desire_path import (  # noqa: E402
+    SOILS,
+    Bake,
+    BakeOptions,
+    BakeOutput,
+    Gait,
+    Ground,
+    Planting,
+    _native,
+    place_feet,
+)
 from desire_path.ground import maps  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.motion.scatter import Scatter  # noqa: E402
@@ -114,6 +125,22 @@ def compute(world, law, heap, threads):
     for name in sorted(told):
         found[f"report_{name}"] = f"{told[name]:.10g}"
     return found
+
+
+def soils():
+    """Digests of each soil that has a name, {name: {laws: 16 letters}}, and sentences about workers that disagree."""
+    found, told = {}, []
+    for name in SOILS:
+        found[name] = {}
+        for law, heap in zip(LAWS, HEAPS):
+            alone, other = (
+                digest(*(sim.read(each, *window) for each in FIELDS))
+                for sim, window in (trodden(name, law, heap, threads) for threads in (1, WORKERS[0]))
+            )
+            found[name][f"{law} {heap}"] = alone
+            if other != alone:
+                told.append(f"soils, {name}, {law} {heap}: {WORKERS[0]} workers compute {other}, one computes {alone}")
+    return found, told
 
 
 def rounded(array):
@@ -238,6 +265,9 @@ def all_worlds(names=()):
     if not names or "bake" in names:
         found["bake"], told = baked()
         complaints += told
+    if not names or "soils" in names:
+        found["soils"], told = soils()
+        complaints += told
     if not names or "bytes" in names:
         found["bytes"] = {"digest": {"of 1000 bytes": _native.digest(bytes(k % 251 for k in range(1000))).hex()[:32]}}
     return found, complaints
@@ -260,7 +290,9 @@ def compare(expected, found):
 
 def main(words=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("worlds", nargs="*", help="flat, hill, meadow, passes, walk, bake, bytes; default: all")
+    parser.add_argument(
+        "worlds", nargs="*", help="flat, hill, ragged, meadow, passes, walk, bake, soils, bytes; default: all"
+    )
     parser.add_argument("--write", action="store_true", help="renew expected.json")
     chosen = parser.parse_args(words)
     expected = json.loads(EXPECTED.read_text(encoding="utf-8")) if EXPECTED.exists() else {}

@@ -258,3 +258,13 @@ def _passes():
 def worlds():
     """name -> World"""
     return {"flat": _flat(), "hill": _hill(), "ragged": _ragged(), "meadow": _meadow(), "passes": _passes()}
+
+
+def trodden(soil, law, heap, threads):
+    """Level ground of one soil that two steps were taken on, one of them slipping: (Simulation, window that is read)."""
+    gait, loads = walk(1.0, push=(0.4, 0.2), sink=0.01)
+    sim = Simulation(Ground.flat(), soil, 0.02, options=SimulationOptions(law=law, heap=heap, threads=threads))
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    sim.settle()
+    return sim, (-48, -32, 128, 64)
