@@ -29,17 +29,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(HERE)]
 
 from worlds import trodden, worlds  # noqa: E402
 
-from desire_path import (  # noqa: E402
-    SOILS,
-    Bake,
-    BakeOptions,
-    BakeOutput,
-    Gait,
-    Ground,
-    Planting,
-    _native,
-    place_feet,
-)
+from desire_path import SOILS, Bake, BakeOptions, BakeOutput, Gait, Ground, Planting, _native, place_feet  # noqa: E402
 from desire_path.ground import maps  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.motion.scatter import Scatter  # noqa: E402

@@ -261,7 +261,7 @@ def worlds():
 
 
 def trodden(soil, law, heap, threads):
-    """Level ground of one soil that two steps were taken on, one of them slipping: (Simulation, window that is read)."""
+    """Level ground of one soil on which two slipping steps were taken: (Simulation, window that is read)."""
     gait, loads = walk(1.0, push=(0.4, 0.2), sink=0.01)
     sim = Simulation(Ground.flat(), soil, 0.02, options=SimulationOptions(law=law, heap=heap, threads=threads))
     sim.load(gait, loads)
