@@ -116,6 +116,18 @@ def test_paths_on_the_pages_are_there(page):
         assert (ROOT / path).exists(), f"{page} names {path}, which is not there"
 
 
+@pytest.mark.parametrize("page", ["README.md", "native/README.md", ".github/CONTRIBUTING.md"])
+def test_what_a_page_links_to_and_shows_is_there(page):
+    text = (ROOT / page).read_text("utf-8")
+    targets = re.findall(r"\]\(([^)\s#]+)", text) + re.findall(r'(?:src|href)="([^"#]+)', text)
+    near = [each for each in targets if "://" not in each and not each.startswith("mailto:")]
+    known = set(kept())
+    missing = [
+        each for each in near if not (path := (ROOT / page).parent / each).is_dir() and path.resolve() not in known
+    ]
+    assert not missing and (near or page != "README.md"), f"{page} shows {missing}"
+
+
 @pytest.mark.parametrize("page", ["native/README.md", "native/model.md"])
 def test_names_of_the_core_on_the_pages_are_there(page):
     sources = "".join(text for path, text in texts("native") if path.suffix in {".c", ".h"})
