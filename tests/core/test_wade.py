@@ -9,6 +9,7 @@ import desire_path
 from desire_path import DesirePathError, Ground, Simulation, SimulationOptions
 from desire_path.ground.soil import snow
 from desire_path.loads import walker
+from desire_path.motion.gait import Gait
 from desire_path.motion.tracks import TrackArray
 from desire_path.placement.wade import wade
 from tests.scenes import plates
@@ -90,6 +91,15 @@ def test_its_legs_are_called_its_own_and_carve(walk, waded):
     assert deep.min() >= 0.0 and 0.2 < deep.max() < 0.22
     again = wade(waded, trial())  # who carves has legs enough
     assert len(again.mass) == 3
+
+
+def test_only_those_who_are_told_wade(walk):
+    beside = walk.pose.copy()
+    beside[..., 1] += 1.5
+    both = Gait.join([walk, replace(walk, pose=beside, com=walk.com + [0.0, 1.5, 0.0], walker_name=("Other",))])
+    waded = wade(both, trial(), walkers=[1])
+    assert waded.walker_name == (*both.walker_name, "Other's legs")
+    assert wade(both, trial(), walkers=[]).walker_name == both.walker_name
 
 
 def test_walkers_who_go_in_turn_wade_in_turn(walk):

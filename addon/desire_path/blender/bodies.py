@@ -4,10 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..errors import DesirePathError
+from ..ground import parcels
+from ..ground.options import SimulationOptions
+from ..ground.sim import Simulation
 from ..motion.points import point_places
 from ..motion.recording import AUTO
+from ..placement import wade
 from . import physics
 
+TRIAL_CELL = 0.02  # how deep feet sink is tried in cells of this side, or larger ones [m]
 SUNK = 0.02  # what is moved deeper into the ground does not stand on it by its weight [m]
 
 
@@ -37,3 +43,19 @@ def _depth(gait, below):
     places = point_places(gait).reshape(-1, 3)
     deep = below.rest_height(places[:, :2]) - places[:, 2]
     return float(np.nanmax(deep)) if np.isfinite(deep).any() else 0.0
+
+
+def wading(walkers, gait, grounds, cell, law, origin):
+    """A recording with legs of the walkers who wade. grounds: the Parcels that are baked, cell: theirs [m]"""
+    wade_numbers = [number for number, obj in enumerate(walkers) if obj.desire_path.wade]
+    if not wade_numbers:
+        return gait
+    if len(parcels.storeys(grounds, gait)) > 1:
+        raise DesirePathError(
+            f"'{walkers[wade_numbers[0]].name}' walks over grounds of which one lies over the other, and wades through "
+            "one alone: untick Wade, or bake each ground by itself."
+        )
+    side = max(cell, TRIAL_CELL)
+    land, soils = parcels.sewn(grounds, side)
+    with Simulation(land, soils, side, options=SimulationOptions(law=law, origin=origin)) as trial:
+        return wade.wade(gait, trial, walkers=wade_numbers)

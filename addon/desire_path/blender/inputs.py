@@ -78,6 +78,7 @@ def taken(scene, company, folders, **more):
             )
         )
         yield
+    gait = bodies.wading(walkers, gait, parcels, cell, settings.law, origin)
     return Bake(
         gait,
         parcels,

@@ -242,6 +242,7 @@ def draw_walker(layout, context, obj):
         walked.prop(settings, "back_and_forth")
     if legged:
         column.prop(settings, "limbs")
+        column.prop(settings, "wade")
     column.prop(settings, "contact_law")
     column.prop(settings, "load_model")
     column.prop(settings, "subframes")

@@ -328,6 +328,10 @@ class DesirePathSettings(bpy.types.PropertyGroup):
             ("ALL", "All", "Every bone that a mesh hangs on, as of who falls; it carves, unless told otherwise"),
         ),
     )
+    wade: BoolProperty(
+        name="Wade",
+        description="Feet go through what they sink into, as through deep snow, and push ahead what they do not clear",
+    )
     contact_law: EnumProperty(
         name="Presses",
         description="How the walker presses the ground",

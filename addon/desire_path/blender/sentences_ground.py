@@ -210,6 +210,11 @@ GERMAN = {
         "Keine Bodenart hat '{}': eines von {} wählen, wie young_modulus=2e6."
     ),
     "'{}' is no number for a soil's {}: give one.": "'{}' ist keine Zahl für {} einer Bodenart: eine angeben.",
+    "A soil gives way as snow or as ground that was measured, not as both: set its snow_density to 0, or its "
+    "bekker_friction and bekker_cohesion.": (
+        "Ein Boden gibt nach wie Schnee oder wie vermessener Boden, nicht wie beides: snow_density auf 0 setzen, oder "
+        "bekker_friction und bekker_cohesion."
+    ),
     "There is no soil '{}': choose one of {}, or a .json file of one.": (
         "Es gibt keine Bodenart '{}': eine von {} wählen, oder eine .json-Datei von einer."
     ),

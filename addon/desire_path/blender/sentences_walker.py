@@ -264,6 +264,14 @@ GERMAN = {
     "{} walks beside the ground: move the walker or the ground so that one lies over the other.": (
         "{} geht am Boden vorbei: den Läufer oder den Boden verschieben, so dass einer über dem anderen liegt."
     ),
+    # ---- placement/wade.py
+    "Feet cannot be lifted by {} m: give 0 or more.": "Füße lassen sich nicht um {} m heben: 0 oder mehr angeben.",
+    # ---- blender/bodies.py
+    "'{}' walks over grounds of which one lies over the other, and wades through one alone: untick Wade, or bake each "
+    "ground by itself.": (
+        "'{}' geht über Böden, von denen einer über dem anderen liegt, und watet nur durch einen: Waten ausschalten, "
+        "oder jeden Boden für sich backen."
+    ),
     # ---- placement/settle_feet.py
     "No foot stands on ground that is pressed: bake the trail of this walk first.": (
         "Kein Fuß steht auf Boden, der eingedrückt ist: erst die Spur dieses Gangs backen."

@@ -119,6 +119,7 @@ GERMAN = {
         "Kind": "Art",
         "Limb": "Glied",
         "Limbs": "Gliedmaßen",
+        "Wade": "Waten",
         "Load": "Last",
         "Looking for Changes": "Sucht nach Änderungen",
         "Loose Layer": "Lockere Schicht",

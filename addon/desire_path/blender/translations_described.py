@@ -288,6 +288,9 @@ GERMAN = {
     ),
     "Which limbs of an armature press the ground": "Welche Glieder eines Skeletts den Boden pressen",
     "The feet that were found": "Die Füße, die gefunden wurden",
+    "Feet go through what they sink into, as through deep snow, and push ahead what they do not clear": (
+        "Füße gehen durch das, worin sie einsinken, wie durch tiefen Schnee, und schieben vor sich her, was im Weg ist"
+    ),
     "Every bone that a mesh hangs on, as of who falls; it carves, unless told otherwise": (
         "Jeder Knochen, an dem ein Netz hängt, wie bei Stürzenden; er schneidet ein, wenn nichts anderes gesagt ist"
     ),

@@ -80,7 +80,7 @@ def as_soil(soil: str | Soil) -> Soil:
         if soil.lower().endswith(".json"):
             return Soil.load(soil)
         raise DesirePathError(
-            f"There is no soil '{soil}': choose one of {', '.join((*SOILS, *MEASURED))}, or a .json file."
+            f"There is no soil '{soil}': choose one of {', '.join((*SOILS, *MEASURED))}, or a .json file of one."
         )
     return soil
 

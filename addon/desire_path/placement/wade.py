@@ -9,6 +9,7 @@ was recorded as its walker has sunk, and lifted while it swings; what is in its 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -102,12 +103,13 @@ def _depth(trial: Simulation, gait: Gait, loads: FootForce, parts: np.ndarray, f
     return out
 
 
-def wade(gait: Gait, trial: Simulation, lift: float | None = None) -> Gait:
+def wade(gait: Gait, trial: Simulation, lift: float | None = None, *, walkers: Collection[int] | None = None) -> Gait:
     """The recording with legs that carve their way through the ground which its walkers sink into; itself if none sinks
     by more than 3 cm. Their prints are as deep as before: to be used as the recording is, with ground and soil of
     the trial.
 
     trial: a new Simulation of that ground, in cells as coarse as one likes, which is stepped to its end
+    walkers: who wades, by their numbers; None: all, but for those who carve
     lift: by how much at most swinging feet are lifted above where they were recorded [m] >= 0; None: 0.35 of the leg
     """
     if lift is not None and not (math.isfinite(lift) and lift >= 0.0):
@@ -117,7 +119,10 @@ def wade(gait: Gait, trial: Simulation, lift: float | None = None) -> Gait:
     trial.load(gait, loads)
     trial.run(len(gait.time) - 1)
     lowered = tracks.blank(gait.pose, (), float, 0.0)
-    for limb in np.flatnonzero(~gait.carving()[gait.limb_walker]).tolist():
+    wades = ~gait.carving() & np.isin(
+        np.arange(len(gait.mass)), range(len(gait.mass)) if walkers is None else [*walkers]
+    )
+    for limb in np.flatnonzero(wades[gait.limb_walker]).tolist():
         parts, size = np.flatnonzero(gait.part_limb == limb), gait.leg[gait.limb_walker[limb]] / sizes.LEG
         own = [tracks.pieces(loads.touching, part) for part in parts.tolist()]
         for pieces in zip(*own):
@@ -128,11 +133,11 @@ def wade(gait: Gait, trial: Simulation, lift: float | None = None) -> Gait:
             down = HOLDS * _lowered(time, first, stances, RISE * math.sqrt(size), most)
             tracks.put(lowered, parts, np.arange(first, first + count), down[None])
     deepest = max(float(values.max(initial=0.0)) for values in tracks.values(lowered))
-    return gait if deepest < HOLDS * DEEP else _with_legs(gait, lowered)
+    return gait if deepest < HOLDS * DEEP else _with_legs(gait, lowered, wades)
 
 
-def _with_legs(gait: Gait, lowered: tracks.Array) -> Gait:
-    """The recording, and legs that go as much lower as told (P, T) [m]."""
+def _with_legs(gait: Gait, lowered: tracks.Array, wades: np.ndarray) -> Gait:
+    """The recording, and legs of those who wade (W,) that go as much lower as told (P, T) [m]."""
     pose = (
         gait.pose.alike([values.copy() for values in tracks.values(gait.pose)], None)
         if isinstance(gait.pose, tracks.TrackArray)
@@ -147,6 +152,6 @@ def _with_legs(gait: Gait, lowered: tracks.Array) -> Gait:
         walker_name=tuple(f"{name}'s legs" for name in gait.walker_name),
         contact_law=("carve",) * len(gait.mass),
         warnings=(),
-    ).only(np.flatnonzero(~gait.carving()))
+    ).only(np.flatnonzero(wades))
     laws = gait.contact_law or (AUTO,) * len(gait.mass)
     return Gait.join([replace(gait, contact_law=laws), legs])
