@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scenes import beasts, bvh, trials
 
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import SOILS
 from desire_path.loads import walker
 from desire_path.motion import size
 from desire_path.motion.gait import Gait
@@ -54,6 +56,19 @@ def test_contacts_and_forces_scale(name):
         assert [w.split(" of ")[0] for w in found.warnings] == [w.split(" of ")[0] for w in want.warnings]
         on, _ = walker.contacts(gait)
         assert np.array_equal(on != 0, found.touching != 0)
+
+
+def test_small_feet_change_ground_as_small_as_they_are():
+    """Cells of a sole's share: a walk of a twentieth reaches about as many as the walk it is made of."""
+    skeleton, motion, rate = clip("cmu_12_01_walk")
+    reach = []
+    for by in (1.0, 0.05):
+        gait = body.gait_from_bones(*scaled(skeleton, motion, by), mass=75.0 * by**3, frame_rate=rate / np.sqrt(by))
+        land = Simulation(Ground.flat(), replace(SOILS["soft-soil"], young_modulus=1.35e6 * by), 0.02 * by)
+        land.load(gait, walker.loads(gait, ground=land.rest_height))
+        i0, i1, j0, j1 = land.reach()
+        reach.append((i1 - i0, j1 - j0))
+    assert np.abs(np.subtract(*reach)).max() < 200, reach
 
 
 def test_recordings_of_before_tell_their_legs():
