@@ -71,6 +71,33 @@ def test_small_feet_change_ground_as_small_as_they_are():
     assert np.abs(np.subtract(*reach)).max() < 200, reach
 
 
+def test_prints_scale():
+    """Built-in soles of a creature of 1.7 cm and one of 30 m, on soil of their size, print what a person's do."""
+    skeleton, motion, rate = clip("cmu_12_01_walk")
+    found = []
+    for by in (1.0, 0.5, 0.01, 2.0, 17.0):
+        gait = body.gait_from_bones(*scaled(skeleton, motion, by), mass=75.0 * by**3, frame_rate=rate / np.sqrt(by))
+        soft = SOILS["soft-soil"]
+        soil = replace(
+            soft,
+            young_modulus=soft.young_modulus * by,
+            layer_depth=soft.layer_depth * by,
+            settle_time=soft.settle_time * np.sqrt(by),
+        )
+        gait = gait.resample(240.0 / np.sqrt(by))
+        land = Simulation(Ground.flat(), soil, 0.01 * by)
+        land.load(gait, walker.loads(gait, ground=land.rest_height))
+        land.run(len(gait.time) - 1)
+        i0, i1, j0, j1 = land.reach()
+        pressed, heap = (
+            land.read(name, i0, j0, i1 - i0, j1 - j0).astype(float) / by for name in ("compression", "heap")
+        )
+        found.append((pressed.max(), pressed.sum(), heap.sum()))
+    for each in found:  # cells of a tenth of a millimetre are looked at in one place, those of a person in many
+        assert each[:2] == pytest.approx(found[0][:2], rel=0.05)
+        assert each[2] == pytest.approx(found[0][2], rel=0.25)
+
+
 def test_recordings_of_before_tell_their_legs():
     """A file without them: by how high the mass centre rises over the feet."""
     skeleton, motion, rate = clip("walk 1.25 m/s")

@@ -42,6 +42,7 @@ OUTLINE = np.array(
     ]
 )
 
+PERSONS = (0.20, 0.32)  # feet of people are so long; lengths that follow are theirs, in share those of others [m]
 ROUND = 0.008  # the edge rises over this much [m]
 ARCH = 0.004  # the inner waist stands this high [m]
 INSETS = (0.0, 0.15, 0.45, 1.0)  # columns near the edge, in shares of ROUND
@@ -54,6 +55,11 @@ OVERLAP = 0.012  # the toe part reaches back under the heel part, so that a bent
 
 MAX_FACES = 4000  # under a foot: heavier meshes are thinned to the underside
 Faces: TypeAlias = tuple[np.ndarray, np.ndarray]  # vertices (V, 3) [m], triangles (F, 3)
+
+
+def size_of(length: float) -> float:
+    """How large a foot of this length [m] is beside those of people."""
+    return float(length / np.clip(length, *PERSONS)) if length > 0.0 else 1.0
 
 
 def _half_widths(u: float) -> tuple[np.ndarray, np.ndarray]:
@@ -72,7 +78,7 @@ def built_in(heel: float, ball: float, tip: float, left: bool, tread: str = "pla
     length = tip - heel
     split = (ball - heel) / length
     u_heel = np.unique(np.r_[OUTLINE[OUTLINE[:, 0] < split - 0.02, 0], split])
-    back = max(split - OVERLAP / length, 0.05)
+    back = max(split - OVERLAP * size_of(length) / length, 0.05)
     u_toe = np.unique(np.r_[back, back + 0.3 * (split - back), split, OUTLINE[OUTLINE[:, 0] > split + 0.02, 0]])
     if tread != "plain":
         fine = np.arange(0.5 * treads.STEP, 1.0, treads.STEP)
@@ -87,7 +93,8 @@ def _strip(
     stations: np.ndarray, heel: float, length: float, left: bool, origin: float, back: float | None, tread: str
 ) -> Sole:
     """A band of the sole as quads cut in two, nine columns wide, or more for a tread. `origin` becomes x = 0."""
-    radius = min(ROUND, 0.04 * length)
+    size = size_of(length)
+    radius = min(ROUND * size, 0.04 * length)
     sign = 1.0 if left else -1.0
     between = 1 if tread == "plain" else int(np.ceil(2.0 * OUTLINE[:, 1:].max() / treads.STEP))
     shares = np.arange(1, between + 1) / (between + 1.0)
@@ -105,7 +112,7 @@ def _strip(
             rise = np.maximum(rise, _edge_rise((u - back) * length, radius))
         waist = np.clip(1.0 - abs(u - 0.40) / 0.20, 0.0, 1.0)
         side = np.clip(-across / max(inner, 1e-9), 0.0, 1.0)  # the inner side only
-        rise = np.maximum(rise, ARCH * (waist * waist * (3 - 2 * waist)) * side)
+        rise = np.maximum(rise, ARCH * size * (waist * waist * (3 - 2 * waist)) * side)
         if tread != "plain":
             rise = rise + length * treads.grooves(tread, u, across, np.minimum(from_side, from_end) / length)
         rows.append(np.stack([np.full(len(across), heel + u * length - origin), sign * across * length, rise], axis=1))
@@ -160,7 +167,7 @@ def from_skin(
 
 def _lapped(heel: Faces, toe: Faces) -> Faces:
     """The toe part with a lap under the heel part, as the built-in sole has it."""
-    back = toe[0][:, 0].min() - OVERLAP
+    back = toe[0][:, 0].min() - OVERLAP * size_of(float(toe[0][:, 0].max() - heel[0][:, 0].min()))
     corners = [piece for corner in heel[0][heel[1]] for piece in _ahead(corner, back)]
     if not corners:
         return toe

@@ -105,7 +105,8 @@ def soles(laid: Laid, left: bool, ball: float) -> tuple[tuple[Sole, Sole], float
     edge = MIN_PART * (high - low)
     at = float(np.clip(ball, low + edge, high - edge))
     heel, _ = split(vertices, triangles, at)
-    _, toe = split(vertices, triangles, at - sole.OVERLAP)  # laps under, as the built-in sole does
+    lap = sole.OVERLAP * sole.size_of(float(high - low))  # under the heel part, as the built-in sole has it
+    _, toe = split(vertices, triangles, at - lap)
     return (Sole(*heel), Sole(toe[0] - (ball, 0.0, 0.0), toe[1])), -floor
 
 
