@@ -36,8 +36,7 @@ def press_bake():
 
 
 def shot(name):
-    with bpy.context.temp_override(window=window(), screen=window().screen):
-        bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
+    hands.screenshot(window(), FOLDER / f"{name}.png")
 
 
 def pixels(name):
@@ -57,7 +56,7 @@ def dark(name):
     found = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(found)
     bpy.data.images.remove(image)
-    return int((found.reshape(-1, 4)[:, :3].max(axis=1) < 0.14).sum())
+    return int((found.reshape(-1, 4)[:, :3].max(axis=1) < 0.17).sum())
 
 
 def a_ground_and_a_walker():

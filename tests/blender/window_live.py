@@ -53,8 +53,7 @@ def told():
 
 
 def shot(name):
-    with bpy.context.temp_override(window=window(), screen=window().screen):
-        bpy.ops.screen.screenshot(filepath=str(FOLDER / f"{name}.png"))
+    hands.screenshot(window(), FOLDER / f"{name}.png")
 
 
 def bars(name):

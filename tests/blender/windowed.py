@@ -14,7 +14,7 @@ def story(script, folder, width=900, height=900, seconds=600):
     it says `all seen`; returns that."""
     if not bpy.app.binary_path:
         raise Skip("bpy as a module has no window")
-    screen, display = _screen(width, height)
+    screen, display = _screen(width, height, folder)
     log = pathlib.Path(folder) / "log"
     size = [str(each) for each in (width, height)]
     words = ["--factory-startup", "--enable-event-simulate", "-noaudio", "-p", "0", "0", *size]
@@ -23,7 +23,12 @@ def story(script, folder, width=900, height=900, seconds=600):
         with open(log, "w", encoding="utf-8") as out:
             child = subprocess.Popen(
                 [bpy.app.binary_path, *words],
-                env={**os.environ, "PATH": "/usr/bin:/bin", "DISPLAY": f":{display}"},
+                env={
+                    **os.environ,
+                    "PATH": "/usr/bin:/bin",
+                    "DISPLAY": f":{display}",
+                    "DESIRE_PATH_SCREEN": f"{folder}/Xvfb_screen0",
+                },
                 stdout=out,
                 stderr=subprocess.STDOUT,
             )
@@ -41,11 +46,11 @@ def story(script, folder, width=900, height=900, seconds=600):
         screen.wait()
 
 
-def _screen(width, height):
-    """A screen that nobody sees: (its process, its number)."""
+def _screen(width, height, folder):
+    """A screen that nobody sees, whose picture is a file in a folder: (its process, its number)."""
     read, write = os.pipe()
     screen = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24"],
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder)],
         pass_fds=(write,),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

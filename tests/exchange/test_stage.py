@@ -64,8 +64,9 @@ def test_points_are_those_of_the_maps(bake, tmp_path, name, capsys):
         mesh.GetFaceVertexIndicesAttr().Get(), mesh.GetFaceVertexCountsAttr().Get(), len(got)
     )[0]
     corner = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 4)
-    a, b, c, _ = (got[corner[:, each]] for each in range(4))
-    assert len(corner) == (nx - 1) * (ny - 1) and (np.cross(b - a, c - a)[:, 2] > 0.0).all()
+    a, b, c, d = (got[corner[:, each]] for each in range(4))
+    assert len(corner) == (nx - 1) * (ny - 1)
+    assert all((np.cross(u - a, v - a)[:, 2] > 0.0).all() for u, v in ((b, c), (c, d)))
     normals = np.array(mesh.GetNormalsAttr().Get())
     assert np.allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-5) and normals[:, 2].min() < 0.999
 

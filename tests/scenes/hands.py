@@ -5,6 +5,7 @@
 A story is a generator that yields how long to wait [s]; `tell` runs it and closes Blender at its end.
 """
 
+import os
 import sys
 import time
 import traceback
@@ -81,8 +82,7 @@ class Hands:
         return region.x + seen.x, region.y + seen.y
 
     def shot(self, name):
-        with bpy.context.temp_override(window=self.window, screen=self.window.screen):
-            bpy.ops.screen.screenshot(filepath=str(self.folder / f"{name}.png"))
+        screenshot(self.window, self.folder / f"{name}.png")
         return self.pixels(name)
 
     def pixels(self, name):
@@ -93,6 +93,38 @@ class Hands:
         width, height = image.size
         bpy.data.images.remove(image)
         return found.reshape(height, width, 4)[:, :, :3]
+
+
+def screenshot(window, path):
+    """A picture of a window. Under some drivers Blender sees nothing but black in it: then it is what the screen shows,
+    in the file that DESIRE_PATH_SCREEN names (Xvfb -fbdir)."""
+    with bpy.context.temp_override(window=window, screen=window.screen):
+        bpy.ops.screen.screenshot(filepath=str(path))
+    taken, screen = bpy.data.images.load(str(path)), os.environ.get("DESIRE_PATH_SCREEN")
+    found = np.empty(len(taken.pixels), np.float32)
+    taken.pixels.foreach_get(found)
+    if screen and not found.reshape(-1, 4)[:, :3].any():
+        seen = on_screen(screen)
+        picture = bpy.data.images.new("screen", seen.shape[1], seen.shape[0])
+        picture.pixels.foreach_set(np.ascontiguousarray(seen, np.float32).ravel())
+        picture.filepath_raw, picture.file_format = str(path), "PNG"
+        picture.save()
+        bpy.data.images.remove(picture)
+    bpy.data.images.remove(taken)
+
+
+def on_screen(path):
+    """The picture in an XWD file of 32 bit a pixel: (height, width, 4) from below, 0..1."""
+    with open(path, "rb") as file:
+        data = file.read()
+    head = np.frombuffer(data, ">u4", 25)
+    size, width, height, first, bits, line, colours = (int(head[each]) for each in (0, 4, 5, 7, 11, 12, 19))
+    assert bits == 32, bits
+    start = size + 12 * colours
+    rows = np.frombuffer(data, np.uint8, height * line, start).reshape(height, line)[::-1, : 4 * width]
+    rows = rows.reshape(height, width, 4)
+    colour = rows[:, :, 2::-1] if first == 0 else rows[:, :, 1:]  # least or most significant byte first
+    return np.concatenate([colour / 255.0, np.ones((height, width, 1))], axis=2)
 
 
 def until(condition, seconds=180, pause=0.05, told=None):
