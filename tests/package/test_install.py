@@ -4,6 +4,7 @@ scripts/test package runs this, in about a minute. DESIRE_PATH_PY313 names a Pyt
 """
 
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -13,7 +14,16 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PY313 = os.environ.get("DESIRE_PATH_PY313", "")
-BLENDERS = {"3.4": None, "4.5": sys.executable, "5.2": PY313}
+OWN = os.environ.get("DESIRE_PATH_BLENDER") or "blender"  # of this machine
+
+
+def own_version():
+    """3.4 on Debian 12."""
+    told = subprocess.run([OWN, "--version"], env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True).stdout
+    return re.match(r"Blender (\d+\.\d+)", told)[1]
+
+
+BLENDERS = {own_version(): None, "4.5": sys.executable, "5.2": PY313}
 
 INSTALL = """
 import importlib
@@ -59,8 +69,8 @@ def zipped(tmp_path_factory):
 
 
 def blender_command(version, script, *words):
-    if version == "3.4":
-        return ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", str(script), "--", *words]
+    if BLENDERS[version] is None:
+        return [OWN, "-b", "--factory-startup", "--python-exit-code", "1", "-P", str(script), "--", *words]
     assert BLENDERS[version], "DESIRE_PATH_PY313 names no Python with bpy 5.2"
     return [BLENDERS[version], str(script), *words]
 
