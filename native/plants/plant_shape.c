@@ -63,11 +63,11 @@ static void rest_shape(PlantStand* stand)
     stand->bend_rate = (float)(swing * swing / lowest_mode(shape.rows - DP_PLANT_HELD));
 }
 
+// of two particles, the first in a row that is no higher
 static void add_edge(PlantStand* stand, int a, int b, double rate)
 {
     const int rows = stand->shape.rows;
-    const int held_a = a % rows < DP_PLANT_HELD, held_b = b % rows < DP_PLANT_HELD;
-    if (held_a && held_b) return;
+    if (b % rows < DP_PLANT_HELD) return;  // and so is a
     double d2 = 0.0;
     for (int d = 0; d < 3; ++d) {
         const double along = (double)stand->rest[3 * b + d] - (double)stand->rest[3 * a + d];
@@ -75,7 +75,7 @@ static void add_edge(PlantStand* stand, int a, int b, double rate)
     }
     PlantEdge* edge = &stand->edge[stand->edges++];
     *edge = (PlantEdge){.a = a, .b = b, .rest = (float)sqrt(d2), .rate = (float)rate};
-    edge->share_a = held_a ? 0.0f : held_b ? 1.0f : 0.5f;
+    edge->share_a = a % rows < DP_PLANT_HELD ? 0.0f : 0.5f;
     edge->share_b = 1.0f - edge->share_a;
 }
 

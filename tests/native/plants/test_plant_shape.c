@@ -1,5 +1,6 @@
 // What plants are made of, and the shape they return to.
 #include "lawn.h"
+#include "plants/plant_inside.h"
 
 TEST(the_papers_plant)
 {
@@ -68,10 +69,39 @@ TEST(curled_stems_bend_outward_and_never_roll_up)
     }
 }
 
+// what keeps two particles apart moves the one that is free, both alike where both are, and none that the ground holds
+TEST(the_ground_holds_what_it_holds)
+{
+    for (int form = 0; form < 2; ++form) {
+        DpPlantKind kind = dp_plant_kind_default();
+        kind.form = form;
+        DpPlants*         plants = lawn(&kind, 1, 1, 1.0, 1);
+        const PlantStand* stand = &plants->stand[0];
+        const int         rows = stand->shape.rows;
+        int               hung = 0;
+        for (int e = 0; e < stand->edges; ++e) {
+            const PlantEdge* edge = &stand->edge[e];
+            const bool       a = edge->a % rows < DP_PLANT_HELD, b = edge->b % rows < DP_PLANT_HELD;
+            const float *    from = stand->rest + 3 * edge->a, *to = stand->rest + 3 * edge->b;
+            CHECK(!b);
+            CHECK_NEAR(edge->share_a, a ? 0.0 : 0.5, 0.0);
+            CHECK_NEAR(edge->share_b, a ? 1.0 : 0.5, 0.0);
+            CHECK_CLOSE(edge->rest,
+                        dp_length(dp_vec3((double)(to[0] - from[0]), (double)(to[1] - from[1]),
+                                          (double)(to[2] - from[2]))),
+                        1e-6);
+            hung += a;
+        }
+        CHECK(hung > stand->shape.stems);  // stems on their feet, and diagonals from them
+        dp_plants_destroy(plants);
+    }
+}
+
 int main(void)
 {
     RUN(the_papers_plant);
     RUN(a_tuft_crosses);
     RUN(curled_stems_bend_outward_and_never_roll_up);
+    RUN(the_ground_holds_what_it_holds);
     return check_done();
 }
