@@ -11,6 +11,7 @@ from desire_path.blender import (
     soils,
     state,
     translations,
+    translations_crowd,
     translations_described,
     translations_said,
     translations_soil,
@@ -111,6 +112,7 @@ def test_no_word_is_told_that_nobody_says():
         *translations_soil.GERMAN,
         *translations_said.GERMAN,
         *translations_track.GERMAN,
+        *translations_crowd.GERMAN,
     }
     assert words <= known, sorted(words - known)
 

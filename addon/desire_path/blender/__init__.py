@@ -9,6 +9,7 @@ from . import (
     command_line,
     messages,
     op_bake,
+    op_crowd,
     op_export,
     op_forces,
     op_ground,
@@ -39,6 +40,7 @@ _CLASSES = (
     + op_walk_it.CLASSES
     + op_press.CLASSES
     + op_track.CLASSES
+    + op_crowd.CLASSES
     + op_material.CLASSES
     + soils.CLASSES
     + messages.CLASSES

@@ -4,6 +4,19 @@ Keys are the English sentences as templates; {} is what comes in, in the same or
 """
 
 GERMAN = {
+    # ---- blender/crowd.py
+    "A crowd goes between places: select two empties or more.": (
+        "Eine Menge geht zwischen Orten: zwei oder mehr Leerobjekte wählen."
+    ),
+    "The crowd has no ground: press Add Ground on a mesh first.": (
+        "Die Menge hat keinen Boden: erst bei einem Netz Boden hinzufügen drücken."
+    ),
+    "There are several grounds: select the one of the crowd, too.": (
+        "Es gibt mehrere Böden: auch den der Menge wählen."
+    ),
+    "{} passages on '{}', detour {}: the last ways are in '{}', all of them and the cover in {}.": (
+        "{} Gänge auf '{}', Umweg {}: die letzten Wege sind in '{}', alle, und die Decke, in {}."
+    ),
     # ---- crowd/choice.py
     "Nobody can go anywhere: give at least two places a rate above 0.": (
         "Niemand kann irgendwohin: mindestens zwei Orten eine Häufigkeit über 0 geben."

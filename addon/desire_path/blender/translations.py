@@ -9,7 +9,14 @@ why a button cannot be pressed (translations_said.py).
 import bpy
 
 from ..ground.soil import SOILS
-from . import soils, translations_described, translations_said, translations_soil, translations_track
+from . import (
+    soils,
+    translations_crowd,
+    translations_described,
+    translations_said,
+    translations_soil,
+    translations_track,
+)
 
 GERMAN = {
     "Operator": {
@@ -231,11 +238,18 @@ _MESSAGES = {
     **translations_soil.GERMAN,
     **translations_said.GERMAN,
     **translations_track.GERMAN,
+    **translations_crowd.GERMAN,
 }
 # newer Blenders name a language without its country
 TABLE = dict.fromkeys(
     ("de_DE", "de"),
-    catalogue({room: {**GERMAN[room], **translations_track.LABELS[room]} for room in GERMAN}, _MESSAGES),
+    catalogue(
+        {
+            room: {**GERMAN[room], **translations_track.LABELS[room], **translations_crowd.LABELS[room]}
+            for room in GERMAN
+        },
+        _MESSAGES,
+    ),
 )
 
 

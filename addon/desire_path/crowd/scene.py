@@ -16,7 +16,7 @@ import functools
 import json
 import math
 import os
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -191,6 +191,14 @@ class Scene:
     def inside(self, place: Place) -> tuple[float, float]:
         """x and y of a place from the ground's corner [m]."""
         return place.at[0] - self.origin[0], place.at[1] - self.origin[1]
+
+    def over(self, heights: np.ndarray) -> Scene:
+        """The same over heights that are given, in place of a file's: float64 (ny, nx) [m], NaN where there is none."""
+        if heights.shape != self.shape:
+            raise DesirePathError(f"Heights of shape {heights.shape} do not fit: they have to be {self.shape}.")
+        other = replace(self, heights="")
+        other.__dict__["relief"] = heights
+        return other
 
     @functools.cached_property
     def relief(self) -> np.ndarray:
