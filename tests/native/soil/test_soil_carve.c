@@ -196,7 +196,7 @@ TEST(what_cannot_be_carved_is_refused)
     DpSoilPatch bad = g.patch;
     bad.row = bad.nx - 1;
     CHECK(dp_soil_carve(&bad, &g.imprint, descent, 0.01, &carved) == DP_BAD_ARGUMENT);
-    CHECK(ground_most(&g, g.compression) <= 0.0);
+    CHECK(ground_max(&g, g.compression) <= 0.0);
     ground_free(&g);
 }
 
