@@ -186,6 +186,47 @@ TEST(its_depth_counts_from_the_highest_ground_on_its_way)
     stand_drop(&s);
 }
 
+// on a slope the highest place under the box lies at its corner; from probe to probe it may be higher by as far as these
+// lie apart, and by a cell
+TEST(its_depth_counts_from_the_highest_corner)
+{
+    static const float     height[4] = {-0.6f, 0.2f, -0.2f, 0.6f};  // 0.2 x + 0.1 y
+    static const double    mass = 70.0;
+    static const int32_t   owner = 0;
+    const DpSoil           soil = soil_of();
+    const DpMesh           sole = {4, 2, STAND_BOX, STAND_FACES};
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
+    const DpGround         slope = {.kind = DP_GROUND_HEIGHTS,
+                                    .nx = 2,
+                                    .ny = 2,
+                                    .x0 = -2.0,
+                                    .y0 = -2.0,
+                                    .spacing = 4.0,
+                                    .heights = height};
+    DpSimOptions           chosen = dp_sim_options_default();
+    stand_make(&s, 1);
+    move(0, 0.0, 0.0);
+    move(1, 0.3, 0.2);
+    const DpGait gait = {.times = TIMES,
+                         .walkers = 1,
+                         .limbs = 1,
+                         .parts = 1,
+                         .time = s.time,
+                         .mass = &mass,
+                         .pose = &s.pose[0][0][0],
+                         .limb_walker = &owner,
+                         .part_limb = &owner,
+                         .sole = &sole};
+    chosen.law = DP_CONTACT_CARVE;
+    CHECK(dp_terrain_create(&s.terrain, &options, &slope) == DP_OK);
+    CHECK(dp_sim_create(&s.sim, s.terrain, &chosen) == DP_OK);
+    CHECK(dp_sim_load(s.sim, &gait, &s.touching[0][0], &s.force[0][0][0], &s.point[0][0][0]) ==
+          DP_OK);
+    const double highest = 0.2 * 0.35 + 0.1 * 0.1;  // of -0.05 .. 0.35 by 0 .. 0.1
+    CHECK_NEAR(dp_carve_depth(s.sim, &s.sim->limb[0], 0), highest + 0.4 / 24.0 + CELL, 1e-5);
+    stand_drop(&s);
+}
+
 int main(void)
 {
     RUN(a_body_leaves_its_depth_and_displaces_2_nu);
@@ -195,5 +236,6 @@ int main(void)
     RUN(what_tips_presses_on_one_side);
     RUN(a_fast_body_leaves_no_gaps);
     RUN(its_depth_counts_from_the_highest_ground_on_its_way);
+    RUN(its_depth_counts_from_the_highest_corner);
     return check_done();
 }

@@ -1,5 +1,6 @@
 // tests of sim_planting.c: plants come onto the ground, are looked at, and rest. TRAIL 4.1
 #include "planted.h"
+#include "sim/sim_inside.h"
 
 #define HIGH 2000.25
 #define SLOPE 0.5
@@ -139,11 +140,63 @@ TEST(what_was_trodden_is_shown_lying)
     stride_drop(&s);
 }
 
+// ground that is smaller than a plant is level as far as that can tell
+TEST(on_a_speck_of_ground_stems_stand_level)
+{
+    const float        height[4] = {1.0f, 1.01f, 1.0f, 1.01f}, xy[2] = {0.01f, 0.01f};
+    const DpPlantKind* kind = kind_of(0.05f);
+    const DpSoil       soil = dp_soil_default();
+    const DpGround     speck = {
+            .kind = DP_GROUND_HEIGHTS, .nx = 2, .ny = 2, .spacing = 0.02, .heights = height};
+    const DpTerrainOptions options = {{0.005, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
+    const DpSimOptions     choice = dp_sim_options_default();
+    const DpPlantShape     shape = dp_plant_shape(kind);
+    World                  world = {.plants = dp_plants_create(1)};
+    float                  at[3 * 64];
+    CHECK(dp_terrain_create(&world.terrain, &options, &speck) == DP_OK);
+    CHECK(dp_sim_create(&world.sim, world.terrain, &choice) == DP_OK);
+    CHECK(dp_sim_plant(world.sim, world.plants) == DP_OK);
+    CHECK(dp_sim_grow(world.sim, kind, xy, 1, &world.stand, &world.grown) == DP_OK);
+    CHECK(world.grown == 1 && dp_sim_stands(world.sim, 0, 0, at) == DP_OK);
+    for (int stem = 0; stem < shape.stems; ++stem)
+        CHECK_NEAR(at[3 * (stem * shape.rows + 1) + 2], 1.005, 1e-5);
+    world_drop(&world);
+}
+
+// plants that stand before they come to a ground are as large as those that grow on it
+TEST(plants_may_stand_before_they_have_a_ground)
+{
+    const DpPlantKind*     kind = kind_of(0.05f);
+    const float            root[3] = {0.5f, 0.5f, 0.0f};
+    const DpSimOptions     choice = dp_sim_options_default();
+    const DpGround         flat = {.kind = DP_GROUND_FLAT};
+    const DpSoil           soil = dp_soil_default();
+    World                  world = {.plants = dp_plants_create(1)};
+    const DpTerrainOptions options = {{0.02, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
+    CHECK(dp_plants_add(world.plants, kind, root, NULL, 1, &world.stand) == DP_OK);
+    CHECK(dp_terrain_create(&world.terrain, &options, &flat) == DP_OK);
+    CHECK(dp_sim_create(&world.sim, world.terrain, &choice) == DP_OK);
+    CHECK(dp_stage_margin(world.sim) <= 0.0);
+    CHECK(dp_sim_plant(world.sim, world.plants) == DP_OK);
+    CHECK(world.sim->stage.extent >= (double)kind->height);
+    CHECK_NEAR(dp_stage_margin(world.sim),
+               fmin(dp_plants_extent(world.plants) + (double)kind->root_radius, 0.5), 1e-9);
+    DpPlantKind tall = *kind;
+    tall.height = 0.8f, tall.spacing = 0.1f;
+    CHECK(dp_plants_add(world.plants, &tall, root, NULL, 1, &world.stand) == DP_OK);
+    CHECK(dp_sim_grow(world.sim, kind, root, 1, &world.stand, &world.grown) == DP_OK);
+    CHECK(world.sim->stage.extent >= 0.8);
+    CHECK_NEAR(dp_stage_margin(world.sim), 0.5, 0.0);  // and no farther beside a sole
+    world_drop(&world);
+}
+
 int main(void)
 {
     RUN(stems_stand_on_the_ground_of_the_world);
     RUN(what_grows_later_covers_ground_that_is_there);
     RUN(what_cannot_be_planted_is_refused);
     RUN(what_was_trodden_is_shown_lying);
+    RUN(on_a_speck_of_ground_stems_stand_level);
+    RUN(plants_may_stand_before_they_have_a_ground);
     return check_done();
 }

@@ -341,6 +341,31 @@ TEST(no_memory_is_a_status)
     stride_drop(&s);
 }
 
+// soles that have let go rise from their prints to where they were recorded, as exp(-t / 0.1 s)
+TEST(soles_rise_from_their_prints)
+{
+    const DpPlantKind kind = dp_plant_kind_default();
+    Stride            s = stride_make(1, 2, 80.0, STRIDE_RATE);
+    World             world;
+    int               stood = 0, rose = 0;
+    CHECK(world_make(&world, &kind, -0.2, -0.3, 0.8, 0.2, 0.02, 1) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    for (int k = 1; k < s.gait.times; ++k) {
+        const double was = world.sim->limb[0].lowered;
+        CHECK(dp_sim_run(world.sim, k) == DP_OK);
+        const Limb* limb = &world.sim->limb[0];
+        if (limb->stands)
+            CHECK_NEAR(limb->lowered, limb->sink, 0.0);
+        else
+            CHECK_NEAR(limb->lowered, was * exp(-1.0 / STRIDE_RATE / 0.1), 1e-12);
+        stood += limb->stands && limb->lowered > 0.002;
+        rose += !limb->stands && was > 1e-4;
+    }
+    CHECK(stood > 20 && rose > 10);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 int main(void)
 {
     RUN(roots_hold_the_soil_and_brittle_ones_let_go);
@@ -355,5 +380,6 @@ int main(void)
     RUN(rest_grows_what_broke);
     RUN(roots_need_ground);
     RUN(no_memory_is_a_status);
+    RUN(soles_rise_from_their_prints);
     return check_done();
 }
