@@ -234,6 +234,30 @@ def test_library_overrides_keep_what_they_were_told(folder):
         bpy.ops.wm.save_as_mainfile(filepath=file)
 
 
+def test_numbers_of_a_soil_that_an_override_changed_are_kept(folder):
+    file, shot = str(folder / "library.blend"), str(folder / "shot.blend")
+    for known in (False, True):  # whether the library has numbers of its own
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        ground = meshes.grid(10, 10, 0.1)
+        meshes.activate(ground)
+        assert operator.desire_path_ground_add() == {"FINISHED"}
+        if known:
+            ground.desire_path.soil_numbers.young_modulus = 7e5
+        bpy.ops.wm.save_as_mainfile(filepath=file)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        with bpy.data.libraries.load(file, link=True) as (_, found):
+            found.objects = ["Ground"]
+        bpy.context.scene.collection.objects.link(found.objects[0])
+        ground = found.objects[0].override_create(remap_local_usages=True)
+        ground.desire_path.soil_numbers.young_modulus = 3e5
+        bpy.ops.wm.save_as_mainfile(filepath=shot)
+        for _ in range(2):
+            bpy.ops.wm.open_mainfile(filepath=shot)
+            numbers = next(each for each in bpy.context.scene.objects if each.override_library).desire_path.soil_numbers
+            assert numbers.changed and abs(numbers.young_modulus - 3e5) < 1.0, (known, numbers.young_modulus)
+            bpy.ops.wm.save_mainfile()
+
+
 def test_no_rig_to_speak_of():
     armature = bpy.data.armatures.new("Stick")
     obj = meshes.link(bpy.data.objects.new("Stick", armature))

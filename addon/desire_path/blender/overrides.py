@@ -15,22 +15,34 @@ KEPT = "desire_path_overrides"  # on a scene: what each of them was told, as JSO
 
 
 def at_risk():
-    """Overrides whose library says nothing of them."""
-    return [
-        obj
-        for obj in bpy.data.objects
-        if obj.override_library is not None
-        and obj.library is None
-        and obj.override_library.reference is not None
-        and not obj.override_library.reference.is_property_set("desire_path")
-        and (obj.desire_path.is_ground or obj.desire_path.is_walker)
-    ]
+    """(override, the names of what its library says nothing of) of every override that has some; None: of all."""
+    found = []
+    for obj in bpy.data.objects:
+        if obj.override_library is None or obj.library is not None or obj.override_library.reference is None:
+            continue
+        reference, settings = obj.override_library.reference, obj.desire_path
+        if not (settings.is_ground or settings.is_walker):
+            continue
+        if not reference.is_property_set("desire_path"):
+            found.append((obj, None))
+            continue
+        parts = [name for name, each in type(settings).__annotations__.items() if compat.is_group(each)]
+        unknown = [
+            name for name in parts if settings.is_property_set(name) and not reference.desire_path.is_property_set(name)
+        ]
+        found += [(obj, unknown)] if unknown else []
+    return found
 
 
 def keep():
     """Before the file is saved."""
     scenes = [scene for scene in bpy.data.scenes if scene.library is None]
-    kept = {obj.name: values_of(obj.desire_path) for obj in at_risk()}
+    kept = {
+        obj.name: values_of(obj.desire_path)
+        if names is None
+        else {name: values_of(getattr(obj.desire_path, name)) for name in names}
+        for obj, names in at_risk()
+    }
     for scene in scenes:
         if KEPT in scene:
             del scene[KEPT]
