@@ -275,7 +275,7 @@ def another_file_listens_no_more():
 
 
 def story():
-    yield from a_ground_and_a_walker()
+    a_ground_and_a_walker()
     yield from switched_on_it_bakes()
     yield from changes_are_baked_again()
     yield from undo_and_redo_are_followed()
