@@ -150,6 +150,14 @@ TEST(changed_tiles_are_told_once_and_in_order)
     CHECK(write_cells(terrain, 65, 66, 131, 132, 2.0f, 0.0f, 0.0f) == DP_OK);  // nothing new
     dp_terrain_changed(terrain, visit, &visits);
     CHECK(visits.count == 7);
+    for (int again = 1; again <= 2; ++again) {  // each of them is told of whenever it changes anew
+        visits.count = 0;
+        CHECK(write_cells(terrain, -1, 1, -1, 1, 3.0f * (float)again, 0.0f, 0.0f) == DP_OK);
+        dp_terrain_changed(terrain, visit, &visits);
+        CHECK(visits.count == 4);
+        for (int n = 0; n < visits.count; ++n)
+            CHECK(visits.tx[n] == tx[n] && visits.ty[n] == ty[n]);
+    }
     dp_terrain_destroy(terrain);
 }
 
