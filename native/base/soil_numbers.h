@@ -30,4 +30,5 @@
     X(bekker_friction, "N/m^(n+2)", 0.0, 1e12, 0.0,                                                \
       "k_phi, of ground measured by plates, in place of E_g; 0 = none")                            \
     X(bekker_cohesion, "N/m^(n+1)", 0.0, 1e12, 0.0, "k_c, of the same, over the contact's width")  \
-    X(bekker_power, "-", 0.05, 4.0, 1.0, "n, of the same, of the depth")
+    X(bekker_power, "-", 0.05, 4.0, 1.0, "n, of the same, of the depth")                           \
+    X(clod_size, "m", 0.0, 0.2, 0.0, "width of the largest crumbs shown; 0 = as of its look")

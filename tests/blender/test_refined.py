@@ -301,6 +301,11 @@ def test_details_are_those_of_the_soils(folder):
     bpy.ops.object.desire_path_bake()
     earth = compat.vectors(copy_of(ground).data, playback_tree.DETAIL)
     assert not earth[:, 0].any() and np.ptp(earth[:, 1]) > 0.003
+    each.soil_numbers.clods = 0.06  # where usual crumbs are 14 mm wide
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    clods = compat.vectors(copy_of(ground).data, playback_tree.DETAIL)
+    assert np.ptp(clods[:, 1]) > 3.0 * np.ptp(earth[:, 1])
 
 
 def test_a_copy_whose_ground_was_shaped_otherwise_since_is_outdated(folder):

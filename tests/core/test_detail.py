@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from desire_path.errors import DesirePathError
-from desire_path.ground.detail import DETAILS, Detail, details
+from desire_path.ground.detail import DETAILS, Detail, details, with_clods
 from tests.reference import detail as slow
 
 ALL = Detail(0.001, 0.006, 0.3, 0.002, 0.007, 0.007, 0.026, 0.002, 0.02)
@@ -33,6 +33,18 @@ def test_heights_and_shifts_are_of_mean_0_and_as_high_as_said():
     assert x.std() == pytest.approx(0.002, rel=0.04) and y.std() == pytest.approx(0.002, rel=0.04)
     assert vein.max() == pytest.approx(0.007 * (1 - slow.VEIN_MEAN), rel=0.02)
     assert abs(np.corrcoef(shown[:, :5].T) - np.eye(5)).max() < 0.02
+
+
+@pytest.mark.parametrize("name", ["sand", "mud", "earth"])
+def test_clods_are_as_wide_as_the_soil_says(name):
+    usual = DETAILS[name]
+    assert with_clods(usual, 0.0) is usual
+    its = with_clods(usual, 0.03)
+    crumb = details(places(200_000, 2.0), its)[:, 1]
+    under = crumb > crumb.min() + 1e-6
+    assert its.max_crumb == 0.015 and 0.09 < under.mean() < 0.26
+    assert its.min_crumb / its.max_crumb == pytest.approx(usual.min_crumb / usual.max_crumb)
+    assert with_clods(usual, 1e-5).max_crumb == 1e-4  # as fine as powder, and none finer
 
 
 def test_crumbs_cover_their_share_and_are_as_large_as_said():

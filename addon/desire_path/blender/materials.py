@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import disk
-from ..ground.detail import DETAILS
+from ..ground.detail import DETAILS, with_clods
 from . import axes, compat, cover, looks, plants, playback, playback_tree, soils
 
 SOILS = {  # soil -> (look, how wet)
@@ -44,7 +44,8 @@ def detail_of(settings):
     """What a soil is like below a cell, a Detail."""
     name = _soil_name(settings)
     look, wet = look_of(name)
-    return DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
+    usual = DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
+    return with_clods(usual, soils.soil_of(settings).clod_size)
 
 
 def _soil_name(settings):

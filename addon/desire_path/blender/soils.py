@@ -53,6 +53,7 @@ WORDS = {
     ),
     "bekker_cohesion": ("Bekker Cohesion", "Bekker's k_c of ground that was measured, in N/m^(n+1); 0 = none"),
     "bekker_power": ("Bekker Power", "Bekker's n: how sinkage grows with pressure"),
+    "clod_size": ("Clods [m]", "How large the crumbs of its rims are at most, in metres; 0 = as usual for its kind"),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
@@ -132,6 +133,14 @@ EASY = {
     "lump_size": units.length(
         "grain_size", "Lumps", "How far apart places are that differ", min=0.0, soft_max=0.1, precision=4
     ),
+    "clods": units.length(
+        "clod_size",
+        "Clods",
+        "How large the crumbs of its rims are at most, where details are shown; 0 = as usual for its kind",
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+    ),
     "settle_time": None,
     "slip": units.length(
         "shear_modulus",
@@ -203,7 +212,7 @@ def _number(name):
         min=of.low,
         max=of.high,
         precision=4
-        if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave", "crust_depth"}
+        if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave", "crust_depth", "clod_size"}
         else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",

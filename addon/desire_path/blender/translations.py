@@ -131,6 +131,8 @@ GERMAN = {
         "Looking for Changes": "Sucht nach Änderungen",
         "Loose Layer": "Lockere Schicht",
         "Lugs": "Stollen",
+        "Clods": "Brocken",
+        "Clods [m]": "Brocken [m]",
         "Lumps": "Klumpen",
         "Lumps [m]": "Klumpen [m]",
         "Mass": "Masse",

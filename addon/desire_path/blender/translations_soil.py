@@ -67,6 +67,12 @@ GERMAN = {
     "Bekker's k_c of ground that was measured, in N/m^(n+1); 0 = none": (
         "Bekkers k_c von gemessenem Boden, in N/m^(n+1); 0 = keines"
     ),
+    "How large the crumbs of its rims are at most, in metres; 0 = as usual for its kind": (
+        "Wie groß die Krümel seiner Ränder höchstens sind, in Metern; 0 = wie für seine Art üblich"
+    ),
+    "How large the crumbs of its rims are at most, where details are shown; 0 = as usual for its kind": (
+        "Wie groß die Krümel seiner Ränder höchstens sind, wo Einzelheiten gezeigt werden; 0 = wie für seine Art üblich"
+    ),
     "Bekker's n: how sinkage grows with pressure": "Bekkers n: wie das Einsinken mit dem Druck wächst",
     "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows": (
         "Wie voll Wasser er ist: feuchte Wände stehen, durchnässte rutschen; 0 = trocken, 1 = er fließt"

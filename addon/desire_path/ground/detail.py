@@ -20,6 +20,7 @@ from ..errors import DesirePathError
 from ..tables import check, table, with_numbers
 
 FAR = 1e9  # no ground lies farther out [m]
+CLODDY = 0.1  # share of a heap that clods lie on at least, where a soil says how large they are
 SHOWN = ("vein", "crumb", "grit", "stray_x", "stray_y", "threshold")  # what a point is like, in order
 
 
@@ -53,6 +54,22 @@ DETAILS: Mapping[str, Detail] = MappingProxyType(
         "packed-earth": Detail(0.0004, 0.006, 0.10, 0.0015, 0.003, fray=0.0012, fray_size=0.016),
     }
 )
+
+
+def with_clods(detail: Detail, clod_size: float) -> Detail:
+    """A detail whose largest crumbs are as wide as a soil's clod_size [m], the others in proportion; 0: as it is."""
+    if not clod_size > 0.0:
+        return detail
+    lowest = NUMBERS["max_crumb"].low
+    largest = max(0.5 * clod_size, lowest)
+    return Detail(
+        **asdict(detail)
+        | {
+            "crumb_share": max(detail.crumb_share, CLODDY),
+            "min_crumb": max(largest * detail.min_crumb / detail.max_crumb, lowest),
+            "max_crumb": largest,
+        }
+    )
 
 
 def details(points: np.ndarray, detail: Detail, seed: int = 0) -> np.ndarray:

@@ -23,7 +23,10 @@ from ..files import atomic_file
 from ..tables import check_some, is_number
 from .soil import NUMBERS, Soil, as_soil
 
-FIXED = {"grain_size": "places that differ would wander"}  # numbers that cannot change over time, and why
+FIXED = {  # numbers that cannot change over time, and why
+    "grain_size": "places that differ would wander",
+    "clod_size": "crumbs would jump",
+}
 _TAG, _VERSION = "desire_path_soil_keys", 1  # of a file
 _MAX_BYTES = 1 << 24  # bytes of a file
 
