@@ -112,6 +112,28 @@ def test_a_wheel_leaves_a_rut(folder):
     assert depth[np.abs(at[:, 0]) > 0.2].max() < 1e-5
 
 
+def test_what_renders_show_at_some_frames_only_presses_and_is_told_whatever_frame_is_shown(folder):
+    ground, obj = sand(folder), crate()
+    hops(obj)
+    scene = bpy.context.scene
+    for frame, off in ((1, False), (30, True)):
+        obj.hide_render = off
+        obj.keyframe_insert("hide_render", frame=frame)
+    depths = []
+    for shown in (1, 40):
+        scene.frame_set(shown)
+        assert obj.hide_render == (shown == 40)
+        depths.append(pressed_by(obj, ground, folder)[1].max())
+        told = json.loads(ground.desire_path.summary)["warnings"]
+        assert any("'Crate' is off in renders at some of the frames" in each for each in told), told
+    assert depths[0] == depths[1] > 0.0
+    for frame in (1, 30):
+        obj.hide_render = True
+        obj.keyframe_insert("hide_render", frame=frame)
+    meshes.activate(ground)
+    refused(bpy.ops.object.desire_path_bake, "'Crate' is off in renders")
+
+
 def people_curves(obj):
     action = obj.animation_data.action
     if hasattr(action, "layers"):

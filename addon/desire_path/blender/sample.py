@@ -239,7 +239,11 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None):
     scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
     frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
     if armature.type == "MESH":
-        return soil_keys.weighed(scene, _solid(scene, armature, frames, samples, rate, scale), armature, frame_end)
+        gait = _solid(scene, armature, frames, samples, rate, scale)
+        if len(set(off_in_renders(scene, armature, frames))) > 1:
+            late = f"'{armature.name}' is off in renders at some of the frames: it presses the ground at all of them."
+            gait = replace(gait, warnings=(*gait.warnings, late))
+        return soil_keys.weighed(scene, gait, armature, frame_end)
     with (
         looked_at(armature),
         still(armature),

@@ -265,6 +265,9 @@ GERMAN = {
     "'{}' is off in renders at some of the frames: '{}' wears it at all of them where it walks.": (
         "'{}' ist in manchen der Bilder beim Rendern aus: '{}' trägt es in allen, in denen es geht."
     ),
+    "'{}' is off in renders at some of the frames: it presses the ground at all of them.": (
+        "'{}' ist in manchen der Bilder beim Rendern aus: es drückt den Boden in allen."
+    ),
     "There is nobody to record: select the armature that walks, or a mesh that moves.": (
         "Es gibt niemanden aufzunehmen: das Skelett wählen, das geht, oder ein Netz, das sich bewegt."
     ),

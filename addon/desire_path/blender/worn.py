@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..rig import body
 from ..rig.sole_mesh import Tread
-from . import axes, compat, stack, wiring
+from . import axes, clock, compat, stack, wiring
 from .private import evaluated, off_in_renders, private_scene
 
 LOOKS = 5  # frames of the walk at which points are watched
@@ -108,7 +108,10 @@ def drawn(scene, obj, frames=None):
 def walks(scene, obj):
     """Whether a walker leaves prints: renders show it, or what hangs on it. An armature itself is never rendered."""
     if obj.type != "ARMATURE":
-        return drawn(scene, obj)
+        animation = obj.animation_data
+        keyed = compat.curve(animation, "hide_render") if animation and not animation.nla_tracks else None
+        times = [key.co.x * clock.stretch(scene) for key in keyed.keyframe_points] if keyed else []
+        return drawn(scene, obj, times or None)
     used = [each for each in scene.view_layers if each.use] or list(scene.view_layers)
     return any(_within(each.layer_collection, obj) for each in used) or any(
         drawn(scene, each) for each in hanging(scene, obj)
