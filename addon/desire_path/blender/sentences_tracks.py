@@ -1,4 +1,4 @@
-"""sentences_tracks.py - what is told of tracks of stamps and wheels, in other languages.
+"""sentences_tracks.py - what is told of paths and tracks of stamps and wheels, in other languages.
 
 Keys are the English sentences as templates; {} is what comes in, in the same order unless numbered.
 """
@@ -75,6 +75,21 @@ GERMAN = {
     "There is no vehicle '{}': choose one of {}, or a .json file of one.": (
         "Es gibt kein Fahrzeug '{}': eines von {} wählen, oder eine .json-Datei von einem."
     ),
+    # ---- placement/path.py
+    "The path has no length: give it at least two places that lie apart.": (
+        "Der Weg hat keine Länge: ihm mindestens zwei Orte geben, die auseinander liegen."
+    ),
+    "The path is no list of places: give rows of x, y or x, y, z in metres.": (
+        "Der Weg ist keine Liste von Orten: Zeilen aus x, y oder x, y, z in Metern geben."
+    ),
+    "The path has the shape {}: give at least two rows of x, y or x, y, z in metres.": (
+        "Der Weg hat die Form {}: mindestens zwei Zeilen aus x, y oder x, y, z in Metern geben."
+    ),
+    "Row {} of the path is not a finite place: mend it.": "Die Zeile {} des Wegs ist kein endlicher Ort: sie richten.",
+    "Row {} of the path lies {} m away: give places within {} m.": (
+        "Die Zeile {} des Wegs liegt {} m fort: Orte innerhalb von {} m geben."
+    ),
+    "Line {} of {} is not a place in numbers: mend it.": "Die Zeile {} von {} ist kein Ort in Zahlen: sie richten.",
     # ---- placement/stamps.py
     "The stamp's mesh has no faces, or one without its vertices: repair the mesh.": (
         "Das Netz des Stempels hat keine Flächen, oder eine ohne ihre Punkte: das Netz richten."

@@ -234,21 +234,6 @@ GERMAN = {
     "The walkers were recorded at different rates: resample them to one.": (
         "Die Läufer wurden mit verschiedenen Raten aufgenommen: sie auf eine bringen."
     ),
-    # ---- placement/path.py
-    "The path has no length: give it at least two places that lie apart.": (
-        "Der Weg hat keine Länge: ihm mindestens zwei Orte geben, die auseinander liegen."
-    ),
-    "The path is no list of places: give rows of x, y or x, y, z in metres.": (
-        "Der Weg ist keine Liste von Orten: Zeilen aus x, y oder x, y, z in Metern geben."
-    ),
-    "The path has the shape {}: give at least two rows of x, y or x, y, z in metres.": (
-        "Der Weg hat die Form {}: mindestens zwei Zeilen aus x, y oder x, y, z in Metern geben."
-    ),
-    "Row {} of the path is not a finite place: mend it.": "Die Zeile {} des Wegs ist kein endlicher Ort: sie richten.",
-    "Row {} of the path lies {} m away: give places within {} m.": (
-        "Die Zeile {} des Wegs liegt {} m fort: Orte innerhalb von {} m geben."
-    ),
-    "Line {} of {} is not a place in numbers: mend it.": "Die Zeile {} von {} ist kein Ort in Zahlen: sie richten.",
     # ---- placement/place.py
     "A {} of {} m cannot be used: give one above 0.": "{} von {} m geht nicht: mehr als 0 angeben.",
     "A toe slope of {} rad cannot be used: give 0 to {}.": (

@@ -214,11 +214,9 @@ def gait_from_bones(
     person = len(rig.feet) == 2 and bool(rig.hips)
     feet = [Foot(bones, f, leg, person, shapes.get(f.foot), len(rig.feet) > 2) for f in rig.feet]
     square = _square(bones, feet, up_rest, -1.0 if skeleton.mirrored else 1.0)
-    held = stays.still(moving_com, moving, own_leg / sizes.LEG)
-    held &= ~np.all([foot.low(~held) for foot in feet], axis=0)  # who stands on all feet shows them flat
-    for foot in feet:
-        foot.held, foot.size = held | rests, own_leg / sizes.LEG
-        if person and square is not None:
+    _hold(feet, stays.still(moving_com, moving, own_leg / sizes.LEG), rests, own_leg / sizes.LEG)
+    if person and square is not None:
+        for foot in feet:
             foot.face(square, up_rest)
     ahead_rest = _ahead(feet, up_rest, square)
     lefts = _lefts(bones, feet, np.cross(up_rest, ahead_rest))
@@ -249,6 +247,13 @@ def gait_from_bones(
         jump=np.array([(sample, 0) for sample in cut]),
         leg=np.array([own_leg]),
     ).check()
+
+
+def _hold(feet: Sequence[Foot], still: np.ndarray, rests: np.ndarray, size: float) -> None:
+    """Tell feet when their body keeps still (T,), and how large it is."""
+    still = still & ~np.all([foot.low(~still) for foot in feet], axis=0)  # who stands on all feet shows them flat
+    for foot in feet:
+        foot.held, foot.size = still | rests, size
 
 
 def _soled(
