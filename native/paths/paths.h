@@ -16,13 +16,13 @@
 #define DP_MAX_COST 1e20f  // of a metre; the least is 1 / DP_MAX_COST
 
 // A grid of numbers, row by row.
-typedef struct DpField
+typedef struct DpPathField
 {
     int          nx, ny;  // >= 1, and (nx + 8) (ny + 8) < 2^31
     double       cell;    // side of a cell                                [m]   1e-6..1e6
     const float* value;   // costs: of a metre, or +inf or NaN for an obstacle;
                           // times: of an arrival, +inf where there is none  (ny, nx)
-} DpField;
+} DpPathField;
 
 // Where walkers go to.
 typedef struct DpGoals
@@ -37,12 +37,12 @@ typedef struct DpGoals
 // @param time  (ny, nx), +inf in obstacles and where no path leads
 // DP_BAD_ARGUMENT: a size, a goal outside or in an obstacle, a start or a cost out of range.
 // On failure `time` stays as it is.
-DpStatus dp_paths_arrival(float* time, const DpField* cost, const DpGoals* goals);
+DpStatus dp_paths_arrival(float* time, const DpPathField* cost, const DpGoals* goals);
 
 // Where times fall steepest: unit vectors, 0 in obstacles, where no path leads and where it falls nowhere. MODEL 12.2
 // @param direction  (ny, nx, 2) [-]
 // DP_BAD_ARGUMENT: a size.
-DpStatus dp_paths_direction(float* direction, const DpField* time);
+DpStatus dp_paths_direction(float* direction, const DpPathField* time);
 
 // A path from a place to the goal. Zero it before; dp_free gives its points back.
 typedef struct DpPath
@@ -68,5 +68,5 @@ typedef struct DpStray
 // @param stray NULL: not at all
 // DP_BAD_ARGUMENT: a size, a step, an inertia. DP_NO_GROUND: it begins outside, in an obstacle or where no path leads.
 // On failure `path` stays empty.
-DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
-                          double step, const DpStray* stray);
+DpStatus dp_paths_descend(DpPath* path, const DpPathField* time, const float* pull, double x,
+                          double y, double step, const DpStray* stray);

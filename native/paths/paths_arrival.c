@@ -155,14 +155,14 @@ static DpStatus march(March* m)
     return more < 0 ? DP_NO_MEMORY : DP_OK;
 }
 
-static bool good_size(const DpField* field)
+static bool good_size(const DpPathField* field)
 {
     return field->value && field->nx >= 1 && field->ny >= 1 && field->cell >= 1e-6 &&
            field->cell <= 1e6 && ((int64_t)field->nx + 8) * ((int64_t)field->ny + 8) < INT32_MAX;
 }
 
 // costs with a rim of obstacles, and how wide buckets are
-static DpStatus lay_costs(March* m, const DpField* cost)
+static DpStatus lay_costs(March* m, const DpPathField* cost)
 {
     double sum = 0.0;
     size_t free = 0;
@@ -181,7 +181,7 @@ static DpStatus lay_costs(March* m, const DpField* cost)
     return DP_OK;
 }
 
-static DpStatus lay_goals(March* m, const DpField* cost, const DpGoals* goals)
+static DpStatus lay_goals(March* m, const DpPathField* cost, const DpGoals* goals)
 {
     for (int k = 0; k < goals->count; ++k) {
         const float   start = goals->start ? goals->start[k] : 0.0f;
@@ -198,7 +198,7 @@ static DpStatus lay_goals(March* m, const DpField* cost, const DpGoals* goals)
     return DP_OK;
 }
 
-DpStatus dp_paths_arrival(float* time, const DpField* cost, const DpGoals* goals)
+DpStatus dp_paths_arrival(float* time, const DpPathField* cost, const DpGoals* goals)
 {
     if (!good_size(cost) || goals->count < 1 || !goals->cell) return DP_BAD_ARGUMENT;
     March m = {.across = ((size_t)cost->nx + 2 * RIM + 3) / 4, .cell = cost->cell};

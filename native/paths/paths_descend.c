@@ -12,14 +12,14 @@ typedef struct Place
     double x, y;
 } Place;
 
-static bool good_size(const DpField* time)
+static bool good_size(const DpPathField* time)
 {
     return time->value && time->nx >= 1 && time->ny >= 1 && time->cell >= 1e-6 &&
            time->cell <= 1e6 && (int64_t)time->nx * time->ny < INT32_MAX;
 }
 
 // the time of a cell, +inf outside
-static double time_at(const DpField* time, int i, int j)
+static double time_at(const DpPathField* time, int i, int j)
 {
     if (i < 0 || j < 0 || i >= time->nx || j >= time->ny) return INFINITY;
     return (double)time->value[(size_t)j * (size_t)time->nx + (size_t)i];
@@ -39,7 +39,7 @@ static Place unit(double x, double y)
     return length > 0.0 ? (Place){x / length, y / length} : (Place){0.0, 0.0};
 }
 
-static Place down(const DpField* time, int i, int j)
+static Place down(const DpPathField* time, int i, int j)
 {
     const double here = time_at(time, i, j);
     if (!(here < (double)INFINITY)) return (Place){0.0, 0.0};
@@ -47,7 +47,7 @@ static Place down(const DpField* time, int i, int j)
                 -rise(time_at(time, i, j - 1), here, time_at(time, i, j + 1)));  // MODEL 12.2
 }
 
-DpStatus dp_paths_direction(float* direction, const DpField* time)
+DpStatus dp_paths_direction(float* direction, const DpPathField* time)
 {
     if (!good_size(time)) return DP_BAD_ARGUMENT;
     for (int j = 0; j < time->ny; ++j)
@@ -67,7 +67,7 @@ typedef struct Here
     Place  down, pull;
 } Here;
 
-static Here look(const DpField* time, const float* pull, Place at)
+static Here look(const DpPathField* time, const float* pull, Place at)
 {
     const double x = at.x / time->cell - 0.5, y = at.y / time->cell - 0.5;
     const int    i0 = (int)floor(x), j0 = (int)floor(y);
@@ -89,7 +89,7 @@ static Here look(const DpField* time, const float* pull, Place at)
     return (Here){sum / all, unit(e.x, e.y), {v.x / all, v.y / all}};
 }
 
-static double cell_time(const DpField* time, Place at)
+static double cell_time(const DpPathField* time, Place at)
 {
     const double x = floor(at.x / time->cell), y = floor(at.y / time->cell);
     if (!(x >= 0.0 && y >= 0.0 && x < time->nx && y < time->ny)) return INFINITY;
@@ -97,7 +97,7 @@ static double cell_time(const DpField* time, Place at)
 }
 
 // the middle of the best of four neighbours, and how much earlier it is; <= 0: none is
-static double best(const DpField* time, Place at, Place* middle)
+static double best(const DpPathField* time, Place at, Place* middle)
 {
     static const int to[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const int        i = (int)floor(at.x / time->cell), j = (int)floor(at.y / time->cell);
@@ -122,7 +122,7 @@ static bool add(DpPath* path, Place at)
 }
 
 // where a step leads; false: into an obstacle, or not down enough
-static bool step_to(Place* at, const DpField* time, Place e, double step, double highest)
+static bool step_to(Place* at, const DpPathField* time, Place e, double step, double highest)
 {
     const Place next = {at->x + step * e.x, at->y + step * e.y};
     if (!(cell_time(time, next) < (double)INFINITY)) return false;
@@ -153,7 +153,7 @@ static Place err(const Manner* manner, Place* heading, Place to, int n)
 
 // Steps fall by a least amount each, or else go from cell to cell until they have fallen below where that began: no path
 // goes in a circle.
-static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place at,
+static DpStatus go(DpPath* path, const DpPathField* time, const float* pull, Place at,
                    const Manner* manner)
 {
     const double step = manner->step;
@@ -179,8 +179,8 @@ static DpStatus go(DpPath* path, const DpField* time, const float* pull, Place a
     }
 }
 
-DpStatus dp_paths_descend(DpPath* path, const DpField* time, const float* pull, double x, double y,
-                          double step, const DpStray* stray)
+DpStatus dp_paths_descend(DpPath* path, const DpPathField* time, const float* pull, double x,
+                          double y, double step, const DpStray* stray)
 {
     const Place at = {x, y};
     Manner      manner = {.step = step, .stray = stray};

@@ -5,7 +5,7 @@
 
 // a field of float32 (ny, nx); false with an exception
 static bool open_field(DpBuffers* buffers, PyObject* object, const char* name, double cell,
-                       DpField* field)
+                       DpPathField* field)
 {
     DpShape      shape = {2, {-1, -1}};
     const float* value = dp_buffers_open(buffers, object, name, 'f', &shape, false);
@@ -14,7 +14,7 @@ static bool open_field(DpBuffers* buffers, PyObject* object, const char* name, d
         PyErr_Format(PyExc_ValueError, "%s: too many rows or columns", name);
         return false;
     }
-    *field = (DpField){(int)shape.n[1], (int)shape.n[0], cell, value};
+    *field = (DpPathField){(int)shape.n[1], (int)shape.n[0], cell, value};
     return true;
 }
 
@@ -27,7 +27,7 @@ static PyObject* arrival(PyObject* module, PyObject* arguments)
         return NULL;
     DpBuffers      buffers = {0};
     PyObject*      answer = NULL;
-    DpField        cost;
+    DpPathField    cost;
     DpShape        goal_shape = {1, {-1}};
     const int32_t* goal = NULL;
     const float*   start = NULL;
@@ -59,10 +59,10 @@ static PyObject* direction(PyObject* module, PyObject* arguments)
     double    cell;
     (void)module;
     if (!PyArg_ParseTuple(arguments, "OdO:direction", &times, &cell, &directions)) return NULL;
-    DpBuffers buffers = {0};
-    PyObject* answer = NULL;
-    DpField   time;
-    float*    out = NULL;
+    DpBuffers   buffers = {0};
+    PyObject*   answer = NULL;
+    DpPathField time;
+    float*      out = NULL;
     if (open_field(&buffers, times, "time", cell, &time))
         out = dp_buffers_open(&buffers, directions, "direction", 'f',
                               DP_SHAPE3(time.ny, time.nx, 2), true);
@@ -87,7 +87,7 @@ static PyObject* descend(PyObject* module, PyObject* arguments)
         return NULL;
     DpBuffers    buffers = {0};
     PyObject*    answer = NULL;
-    DpField      time;
+    DpPathField  time;
     const float* pull = NULL;
     if (!open_field(&buffers, times, "time", cell, &time)) goto done;
     if (pulls != Py_None) {

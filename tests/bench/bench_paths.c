@@ -14,7 +14,7 @@ int main(void)
     static const char* const what[] = {"even ground", "worn lines", "worn lines and obstacles"};
     float*                   cost = dp_alloc((size_t)N * N, sizeof *cost);
     float*                   time = dp_alloc((size_t)N * N, sizeof *time);
-    const DpField            field = {N, N, 0.25, cost};
+    const DpPathField        field = {N, N, 0.25, cost};
     const int32_t            goal = (N / 3) * N + 250;
     for (int kind = 0; cost && time && kind < 3; ++kind) {
         for (int j = 0; j < N; ++j)

@@ -7,10 +7,10 @@
 
 static float cost[N * N], out[N * N], other[N * N];
 
-static DpField even(float value)
+static DpPathField even(float value)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = value;
-    return (DpField){N, N, CELL, cost};
+    return (DpPathField){N, N, CELL, cost};
 }
 
 static void uneven(unsigned seed)
@@ -24,16 +24,16 @@ static void uneven(unsigned seed)
 
 TEST(exact_along_an_axis)
 {
-    const DpField field = even(2.0f);
-    const int32_t goal = 50 * N;
+    const DpPathField field = even(2.0f);
+    const int32_t     goal = 50 * N;
     CHECK(dp_paths_arrival(out, &field, &(DpGoals){1, &goal, NULL}) == DP_OK);
     for (int i = 0; i < N; ++i) CHECK_NEAR(out[50 * N + i], 2.0 * CELL * i, 1e-4);
 }
 
 TEST(round_a_circle)
 {
-    const DpField field = even(1.0f);
-    const int32_t goal = 50 * N + 50;
+    const DpPathField field = even(1.0f);
+    const int32_t     goal = 50 * N + 50;
     CHECK(dp_paths_arrival(out, &field, &(DpGoals){1, &goal, NULL}) == DP_OK);
     double worst = 0.0;
     for (int j = 0; j < N; ++j)
@@ -49,7 +49,7 @@ TEST(mirrors_and_turns_are_the_same_bits)
     const int32_t goal[2] = {50 * N + 50, 3 * N + 97};
     int32_t       aside[2];
     cost[goal[0]] = cost[goal[1]] = 1.0f;
-    const DpField field = {N, N, CELL, cost}, other_field = {N, N, CELL, turned};
+    const DpPathField field = {N, N, CELL, cost}, other_field = {N, N, CELL, turned};
     CHECK(dp_paths_arrival(out, &field, &(DpGoals){2, goal, NULL}) == DP_OK);
     for (int way = 1; way < 8; ++way) {
         for (int k = 0; k < N * N; ++k) {
@@ -77,7 +77,7 @@ TEST(mirrors_and_turns_are_the_same_bits)
 // costs that no bucket is made for: the order must not depend on buckets
 TEST(any_scale_of_costs_and_starts)
 {
-    DpField       field = even(1.0f);
+    DpPathField   field = even(1.0f);
     const int32_t goal[2] = {0, N - 1};
     const float   start[2] = {0.0f, 1e6f};  // too late for anybody
     field.ny = 1;
@@ -97,7 +97,7 @@ TEST(any_scale_of_costs_and_starts)
 
 TEST(a_start_holds_unless_another_is_earlier)
 {
-    DpField       field = even(1.0f);
+    DpPathField   field = even(1.0f);
     const int32_t goal[3] = {0, 8, 40};
     const float   start[3] = {1.0f, 5.0f, 3.0f};
     field.ny = 1;
@@ -109,7 +109,7 @@ TEST(a_start_holds_unless_another_is_earlier)
 
 TEST(bad_input_changes_nothing)
 {
-    DpField       field = even(1.0f);
+    DpPathField   field = even(1.0f);
     const int32_t good = 5, outside = N * N, before = -1, wall = 7;
     const float   late = NAN;
     out[0] = 42.0f;
@@ -127,7 +127,7 @@ TEST(bad_input_changes_nothing)
     cost[9] = 1.0f;
     field.cell = 0.0;
     CHECK(dp_paths_arrival(out, &field, &(DpGoals){1, &good, NULL}) == DP_BAD_ARGUMENT);
-    field = (DpField){65536, 65536, CELL, cost};
+    field = (DpPathField){65536, 65536, CELL, cost};
     CHECK(dp_paths_arrival(out, &field, &(DpGoals){1, &good, NULL}) == DP_BAD_ARGUMENT);
     CHECK(out[0] == 42.0f);
 }
@@ -135,8 +135,8 @@ TEST(bad_input_changes_nothing)
 TEST(memory_that_is_not_there)
 {
     uneven(3);
-    const DpField field = {N, N, CELL, cost};
-    const int32_t goal = 0;
+    const DpPathField field = {N, N, CELL, cost};
+    const int32_t     goal = 0;
     cost[0] = 1.0f;
     out[0] = 42.0f;
     int failed = 0;

@@ -10,11 +10,11 @@
 
 static float cost[N * N], time_[N * N], pull[2 * N * N], down[2 * N * N];
 
-static DpField field_to(int32_t goal)
+static DpPathField field_to(int32_t goal)
 {
-    const DpField from = {N, N, CELL, cost};
+    const DpPathField from = {N, N, CELL, cost};
     CHECK(dp_paths_arrival(time_, &from, &(DpGoals){1, &goal, NULL}) == DP_OK);
-    return (DpField){N, N, CELL, time_};
+    return (DpPathField){N, N, CELL, time_};
 }
 
 static int cell_of(const double* at)
@@ -26,7 +26,7 @@ TEST(directions_are_unit_vectors_to_the_goal)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
     cost[5 * N + 5] = INFINITY;
-    const DpField field = field_to(30 * N + 30);
+    const DpPathField field = field_to(30 * N + 30);
     CHECK(dp_paths_direction(down, &field) == DP_OK);
     CHECK(down[2 * (5 * N + 5)] == 0.0f && down[2 * (30 * N + 30)] == 0.0f);
     for (int k = 0; k < N * N; ++k) {
@@ -40,8 +40,8 @@ TEST(directions_are_unit_vectors_to_the_goal)
 TEST(a_path_is_straight_on_even_ground)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
-    const DpField field = field_to(40 * N + 50);
-    DpPath        path = {0};
+    const DpPathField field = field_to(40 * N + 50);
+    DpPath            path = {0};
     CHECK(dp_paths_descend(&path, &field, NULL, 2.2, 3.1, 0.25, NULL) == DP_OK);
     CHECK(cell_of(path.point + 2 * (path.count - 1)) == 40 * N + 50);
     CHECK_NEAR(0.25 * (path.count - 1), hypot(25.25 - 2.2, 20.25 - 3.1), 0.6);
@@ -63,7 +63,7 @@ TEST(every_path_ends_at_the_goal)
             const double turn = 6.3 * check_random(&seed), size = round % 3 ? 0.97 : 5.0;
             pull[2 * k] = (float)(size * cos(turn)), pull[2 * k + 1] = (float)(size * sin(turn));
         }
-        const DpField field = field_to(goal);
+        const DpPathField field = field_to(goal);
         for (int k = 0; k < N * N; k += 7) {
             if (!(time_[k] < INFINITY)) continue;
             DpPath path = {0};
@@ -83,8 +83,8 @@ TEST(where_there_is_no_path)
 {
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
     for (int k = 0; k < N; ++k) cost[20 * N + k] = INFINITY;
-    const DpField field = field_to(0);
-    DpPath        path = {0};
+    const DpPathField field = field_to(0);
+    DpPath            path = {0};
     CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 25.0, 0.25, NULL) == DP_NO_GROUND);
     CHECK(dp_paths_descend(&path, &field, NULL, 5.0, 10.2, 0.25, NULL) == DP_NO_GROUND);
     CHECK(dp_paths_descend(&path, &field, NULL, -0.1, 5.0, 0.25, NULL) == DP_NO_GROUND);
@@ -105,9 +105,9 @@ TEST(who_strays_comes_to_the_goal)
 {
     float turn[3] = {0.3f, 0.3f, 0.3f};
     for (int k = 0; k < N * N; ++k) cost[k] = 1.0f;
-    const DpField field = field_to(30 * N + 55);
-    const DpStray stray = {2.0, turn, 3}, still = {0.0, turn, 0}, wrong = {-1.0, NULL, 0};
-    DpPath        path = {0}, other = {0}, straight = {0};
+    const DpPathField field = field_to(30 * N + 55);
+    const DpStray     stray = {2.0, turn, 3}, still = {0.0, turn, 0}, wrong = {-1.0, NULL, 0};
+    DpPath            path = {0}, other = {0}, straight = {0};
     CHECK(dp_paths_descend(&path, &field, NULL, 2.25, 15.25, 0.25, &stray) == DP_OK);
     CHECK(cell_of(path.point + 2 * (path.count - 1)) == 30 * N + 55);
     CHECK(path.point[101] > 15.25 + 1.0);  // to the left of where it goes
