@@ -120,9 +120,9 @@ def test_what_renders_show_at_some_frames_only_presses_and_is_told_whatever_fram
         obj.hide_render = off
         obj.keyframe_insert("hide_render", frame=frame)
     depths = []
-    for shown in (1, 40):
-        scene.frame_set(shown)
-        assert obj.hide_render == (shown == 40)
+    for frame in (1, 40):
+        scene.frame_set(frame)
+        assert obj.hide_render == (frame == 40)
         depths.append(pressed_by(obj, ground, folder)[1].max())
         told = json.loads(ground.desire_path.summary)["warnings"]
         assert any("'Crate' is off in renders at some of the frames" in each for each in told), told
