@@ -25,7 +25,7 @@ from desire_path.crowd.tread import tread
 from desire_path.errors import DesirePathError
 from desire_path.ground import maps
 from desire_path.ground.sim import Ground
-from desire_path.paths.arrival import arrival, goal_around, way
+from desire_path.paths.arrival import arrival, descend, goal_around
 
 FOUR = [(3, 18, 1.0), (97, 30, 0.8), (66, 97, 0.6), (10, 90, 0.4)]
 RATES = [1, 0.5, 0.8, 0.5, 0.7, 0.4, 0.6, 0.4]
@@ -150,7 +150,7 @@ def test_corners_are_cut_below_the_critical_cost(k, cut):
     choice = Choice(scene)
     cost = choice.costs(np.zeros(scene.shape))
     cells, far = goal_around(cost, (45.0, 45.0), 0.9, 0.25)
-    walked = way(arrival(cost, cells, 0.25, far), (5.0, 5.0), 0.25)
+    walked = descend(arrival(cost, cells, 0.25, far), (5.0, 5.0), 0.25)
     assert (np.hypot(*(walked - (45.0, 5.0)).T).min() > 10.0) == cut
 
 

@@ -6,7 +6,7 @@ from reference import paths as slow
 
 from desire_path import _native
 from desire_path.errors import DesirePathError
-from desire_path.paths.arrival import arrival, direction, goal_around, way
+from desire_path.paths.arrival import arrival, descend, direction, goal_around, way
 from desire_path.paths.pull import pull, seen
 
 
@@ -77,7 +77,7 @@ def refracted(angle, ratio):
     time = arrival(cost, *_goal(cost, goal, 0.6, cell))
     beyond = np.arcsin(np.sin(angle) / ratio)
     start = (12.0 + 8.0 * np.tan(beyond), 20.0)
-    walked = way(time, start, cell)
+    walked = descend(time, start, cell)
     crossing = walked[np.argmin(np.abs(walked[:, 1] - 12.0)), 0]
     upper, lower = walked[walked[:, 1] > 13.0], walked[(walked[:, 1] < 11.0) & (walked[:, 1] > 5.0)]
     lean = [np.arctan2(*np.abs(part[-1] - part[0])) for part in (upper, lower)]
@@ -103,7 +103,7 @@ def test_a_strip_is_left_at_the_critical_angle(k, turn):
     off = -(x - 50.0) * along[1] + (y - 50.0) * along[0]
     cost = np.where(np.abs(off) < 1.0, 1.0, 1.0 + k)
     goal = np.array([50.0, 50.0]) + 18.0 * along + 18.0 * np.array([-along[1], along[0]])
-    walked = way(arrival(cost, *_goal(cost, goal, 2.0, cell)), np.array([50.0, 50.0]) - 40.0 * along, cell)
+    walked = descend(arrival(cost, *_goal(cost, goal, 2.0, cell)), np.array([50.0, 50.0]) - 40.0 * along, cell)
     away = (walked - 50.0) @ np.array([-along[1], along[0]])
     part = walked[(away > 3.0) & (away < 15.0)]
     lean = np.degrees(np.arccos((part[-1] - part[0]) @ along / np.linalg.norm(part[-1] - part[0])))
@@ -122,7 +122,7 @@ def test_times_go_around_an_obstacle():
     round_ = np.hypot(12.0 - 6.0, 10.0 - 6.0) + 0.2 + np.hypot(12.0 - x, y - 10.2)
     assert np.abs(time - round_)[behind].max() < 2.0 * cell
     assert np.isinf(time[100:102, :120]).all()
-    walked = way(time, (2.0, 15.0), cell)
+    walked = descend(time, (2.0, 15.0), cell)
     i, j = (walked / cell).astype(int).T
     assert np.isfinite(cost[j, i]).all()
     length = np.linalg.norm(np.diff(walked, axis=0), axis=1).sum()
@@ -136,7 +136,7 @@ def test_islands_have_no_time_and_no_way():
     assert np.isinf(time[:, 15:]).all() and np.isfinite(time[:, :15]).all()
     assert not direction(time, 0.5)[:, 15:].any()
     with pytest.raises(DesirePathError, match=r"No way leads from \(10, 5\).*island.*gap"):
-        way(time, (10.0, 5.0), 0.5)
+        descend(time, (10.0, 5.0), 0.5)
 
 
 def test_directions_follow_times():
@@ -172,7 +172,7 @@ def test_a_worn_line_gathers_ways_that_costs_alone_do_not():
     wear[50] = 1.0
     cost = np.ones((100, 100))
     time = arrival(cost, *_goal(cost, (47.0, 25.25), 1.5, 0.5))
-    alone, pulled = (way(time, (5.0, 29.0), 0.5, to) for to in (None, pull(wear, 0.5)))
+    alone, pulled = (descend(time, (5.0, 29.0), 0.5, to) for to in (None, pull(wear, 0.5)))
     aside = [np.interp(25.0, walked[:, 0], walked[:, 1]) - 25.25 for walked in (alone, pulled)]
     assert aside[0] > 1.5 and abs(aside[1]) < 0.6
 
@@ -190,8 +190,8 @@ def test_ways_are_those_of_the_twin(seed):
     for j, i in reached[rng.integers(0, len(reached), 12)]:
         start = ((i + rng.uniform(0.1, 0.9)) * cell, (j + rng.uniform(0.1, 0.9)) * cell)
         for more in ({}, {"turn": turn}, {"turn": turn, "inertia": 0.7}, {"inertia": 0.7}):
-            got = way(time, start, cell, to, 0.17, **more)
-            want = slow.way(time, start, cell, to, 0.17, **more)
+            got = descend(time, start, cell, to, 0.17, **more)
+            want = slow.descend(time, start, cell, to, 0.17, **more)
             assert got.shape == want.shape and np.allclose(got, want, rtol=0.0, atol=1e-9), (seed, start, more)
 
 
@@ -234,21 +234,21 @@ def test_ways_and_pulls_that_cannot_be_are_told():
     time = arrival(np.ones((10, 20)), [(0, 0)], 0.5)
     for start in ((-0.1, 1.0), (10.0, 1.0), (np.nan, 1.0), (1.0, np.inf)):
         with pytest.raises(DesirePathError, match="outside the field of 10 x 5 m"):
-            way(time, start, 0.5)
+            descend(time, start, 0.5)
     for step in (0.0, 0.6, np.nan):
         with pytest.raises(DesirePathError, match="m long"):
-            way(time, (1.0, 1.0), 0.5, step=step)
+            descend(time, (1.0, 1.0), 0.5, step=step)
     for strong in (1.0, np.nan):
         with pytest.raises(DesirePathError, match="keep it below 1"):
-            way(time, (1.0, 1.0), 0.5, np.full((10, 20, 2), strong))
+            descend(time, (1.0, 1.0), 0.5, np.full((10, 20, 2), strong))
     with pytest.raises(DesirePathError, match="does not fit"):
-        way(time, (1.0, 1.0), 0.5, np.zeros((10, 20)))
+        descend(time, (1.0, 1.0), 0.5, np.zeros((10, 20)))
     for turn in (np.full(3, np.nan), np.zeros((2, 2))):
         with pytest.raises(DesirePathError, match="no row of numbers"):
-            way(time, (1.0, 1.0), 0.5, turn=turn)
+            descend(time, (1.0, 1.0), 0.5, turn=turn)
     for inertia in (-1.0, np.nan, 1e9):
         with pytest.raises(DesirePathError, match="heading cannot be kept"):
-            way(time, (1.0, 1.0), 0.5, inertia=inertia)
+            descend(time, (1.0, 1.0), 0.5, inertia=inertia)
     for wear in (np.full((4, 4), 1.5), np.full((4, 4), np.nan)):
         with pytest.raises(DesirePathError, match=r"wear of cell \(0, 0\)"):
             pull(wear, 0.5)
@@ -267,3 +267,10 @@ def test_the_core_checks_its_door():
     with pytest.raises((ValueError, TypeError)):
         _native.descend(time, 0.5, np.zeros((4, 5), np.float32), 1.0, 1.0, 0.2, None, 0.0)
     assert len(bytes(_native.descend(time, 0.5, None, 1.0, 1.0, 0.2, None, 0.0))) == 16  # flat times: there it is
+
+
+def test_the_old_name_of_descending_is_told():
+    cost = np.ones((8, 8), np.float32)
+    time = arrival(cost, *_goal(cost, (2.0, 2.0), 0.5, 0.5))
+    with pytest.warns(DeprecationWarning, match="descend"):
+        np.testing.assert_array_equal(way(time, (1.0, 1.0), 0.5), descend(time, (1.0, 1.0), 0.5))

@@ -117,7 +117,7 @@ def look(time, pull, x, y, cell):
     return mean / total, unit(to), aside / total
 
 
-def way(time, start, cell, pull, step, turn=None, inertia=0.0):
+def descend(time, start, cell, pull, step, turn=None, inertia=0.0):
     """MODEL 12.3, MODEL 12.5, step by step."""
     ny, nx = time.shape
     points, heading, stuck = [tuple(map(float, start))], None, math.inf

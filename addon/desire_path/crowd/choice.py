@@ -1,6 +1,6 @@
-"""How walkers choose: fields of times and pull over the ground as it is, and the way of each. MODEL 12.5-12.7
+"""How walkers choose: fields of times and pull over the ground as it is, and the path of each. MODEL 12.5-12.7
 
-loads --Cover--> costs --arrival--> times --+--way--> one walker's way
+loads --Cover--> costs --arrival--> times --+--descend--> one walker's path
              +-> wear ---pull------> aside -+
 """
 
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import DesirePathError
-from ..paths.arrival import arrival, goal_around, way
+from ..paths.arrival import arrival, descend, goal_around
 from ..paths.pull import pull
 from .scene import Place, Scene
 
@@ -149,6 +149,6 @@ class Choice:
             i, j = math.floor(at[0] / scene.cell), math.floor(at[1] / scene.cell)
             if 0 <= j < time.shape[0] and 0 <= i < time.shape[1] and time[j, i] < math.inf:
                 break
-        walked = way(time, at, scene.cell, aside, step, turn=turn, inertia=INERTIA)
+        walked = descend(time, at, scene.cell, aside, step, turn=turn, inertia=INERTIA)
         near = np.hypot(*(walked - scene.inside(goal)).T) <= goal.radius
         return walked[: int(np.argmax(near)) + 1] if near.any() else walked

@@ -1,8 +1,8 @@
-"""How long it takes from everywhere to a goal, and which way that is. MODEL 12. Experimental: names may change.
+"""How long it takes from everywhere to a goal, and in which direction. MODEL 12. Experimental: names may change.
 
     costs, goals --arrival--> times --direction--> unit vectors
                                 |
-                wear --pull-----+--way--> the way of one walker
+                wear --pull-----+--descend--> the path of one walker
 
 Fields are grids with x along a row and y from row to row. Cell (i, j), column i of row j, has its centre at
 ((i + 0.5) cell, (j + 0.5) cell). A cost is that of a metre; times are in metres of cost 1.
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
+from warnings import warn
 
 import numpy as np
 
@@ -145,7 +146,7 @@ def direction(time: Any, cell: float) -> np.ndarray:
     return out
 
 
-def way(
+def descend(
     time: Any,
     start: Sequence[float],
     cell: float,
@@ -155,7 +156,7 @@ def way(
     turn: Any = None,
     inertia: float = 0.0,
 ) -> np.ndarray:
-    """The way of one walker from a place to the goal, down times of arrival(), pulled aside. MODEL 12.3, MODEL 12.5
+    """The path of one walker from a place to the goal, down times of arrival(), pulled aside. MODEL 12.3, MODEL 12.5
 
     start: x and y [m]; pull: of pull(), float (ny, nx, 2), or None; step: its length, cell / 100 to cell [m];
     None = half a cell
@@ -199,3 +200,9 @@ def way(
     return np.frombuffer(_native.descend(times, cell, pulls, x, y, step, turns, float(inertia)), np.float64).reshape(
         -1, 2
     )
+
+
+def way(*given: Any, **named: Any) -> np.ndarray:
+    """An old name of descend()."""
+    warn("way is an old name: ask arrival.descend.", DeprecationWarning, stacklevel=2)
+    return descend(*given, **named)
