@@ -154,7 +154,9 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
     assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy>=1.23"]
     assert sorted(line for line in needs if "extra ==" in line) == [
         'Requires-Dist: matplotlib>=3.6; extra == "plot"',
+        'Requires-Dist: rasterio>=1.3; extra == "geotiff"',
         'Requires-Dist: scipy>=1.9; extra == "fit"',
+        'Requires-Dist: usd-core>=23.11; extra == "usd"',
     ]
     data = ("walks/walk.npz", "walks/README.md", "py.typed", "_native.pyi")
     assert {f"desire_path/{each}" for each in data} <= set(names)
