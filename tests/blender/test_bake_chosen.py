@@ -147,6 +147,18 @@ def test_who_is_off_in_renders_does_not_walk_and_who_is_hidden_does(folder):
     refused(bpy.ops.object.desire_path_bake, "'Second' is off in renders")
 
 
+def test_who_walks_in_another_scene_is_named(folder):
+    ground, walker = scene(folder, frames=16)
+    other = bpy.data.scenes.new("Other")
+    other.collection.objects.link(walker)
+    bpy.context.scene.collection.objects.unlink(walker)
+    meshes.activate(ground)
+    words = "'Walker' walks on 'Ground' in the scene 'Other' only: link it to 'Scene', or bake there."
+    refused(bpy.ops.object.desire_path_bake, words)
+    bpy.data.objects.remove(walker)
+    refused(bpy.ops.object.desire_path_bake, "Nobody walks on 'Ground'")
+
+
 def test_copies_and_names_do_not_mix_bakes(folder):
     (folder / "here").mkdir()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "here" / "a.blend"))

@@ -18,7 +18,7 @@ from ..bake.output import check_idle
 from ..bounds import Limits
 from ..errors import DesirePathError
 from . import home, inputs, moves, paths, reach, recordings, replant, sample, trash
-from .chosen import absent, walkers
+from .chosen import absent, elsewhere, walkers
 from .home import folder
 from .ops import active
 from .show import lost, play, plays_on
@@ -70,7 +70,7 @@ class Job:
             raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
         there = walkers(scene, obj)
         if not there and not any(walkers(scene, each) for each in reach.others(scene, obj)):
-            raise DesirePathError(" ".join(absent(scene, obj)) or NOBODY.format(obj.name))
+            raise DesirePathError(" ".join(absent(scene, obj) + elsewhere(scene, obj)) or NOBODY.format(obj.name))
         self.warnings += absent(scene, obj)
         inputs.check((obj,), there)
         first, last = moves.follow(scene, obj, there)

@@ -1,5 +1,7 @@
 """chosen.py - which objects are grounds, and who walks on them."""
 
+import bpy
+
 from .late import worn
 
 WALKERS = {"ARMATURE", "MESH"}
@@ -23,9 +25,19 @@ def absent(scene, ground):
     ]
 
 
-def _chosen(scene, ground):
+def elsewhere(scene, ground):
+    """Sentences about walkers of a ground that other scenes show, and this one does not."""
     return [
-        obj
-        for obj in scene.objects
-        if obj.type in WALKERS and obj.desire_path.is_walker and obj.desire_path.ground == ground
+        f"'{obj.name}' walks on '{ground.name}' in the scene '{obj.users_scene[0].name}' only: link it to "
+        f"'{scene.name}', or bake there."
+        for obj in bpy.data.objects
+        if _walks_on(obj, ground) and obj.users_scene and scene not in obj.users_scene
     ]
+
+
+def _chosen(scene, ground):
+    return [obj for obj in scene.objects if _walks_on(obj, ground)]
+
+
+def _walks_on(obj, ground):
+    return obj.type in WALKERS and obj.desire_path.is_walker and obj.desire_path.ground == ground

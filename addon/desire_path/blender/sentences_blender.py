@@ -45,6 +45,9 @@ GERMAN = {
         "drückt, wenn es anders sein soll."
     ),
     # ---- blender/chosen.py
+    "'{}' walks on '{}' in the scene '{}' only: link it to '{}', or bake there.": (
+        "'{}' geht auf '{}' nur in der Szene '{}': mit '{}' verknüpfen, oder dort backen."
+    ),
     "'{}' is off in renders, by itself or by its collection, and leaves no prints.": (
         "'{}' ist beim Rendern aus, selbst oder durch seine Sammlung, und hinterlässt keine Abdrücke."
     ),
