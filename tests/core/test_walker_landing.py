@@ -142,6 +142,8 @@ def test_the_soil_under_each_foot_stops_it_in_its_own_time():
     soils = [Soil(settle_time=0.05), Soil(settle_time=0.2)]
     sim = Simulation(Ground.heights(np.zeros((21, 21)), 0.5, -5.0, -5.0, weight), soils, 0.02)
     assert sim.settle_time([(-2.0, 0.0), (2.0, 0.0), (-3.0, 1.0)]).tolist() == pytest.approx([0.05, 0.2, 0.05])
+    far = sim.settle_time([(4.0, 0.0), (9.0, 0.0), (-4.0, 0.0), (-7.0, 0.5)])  # beside the ground: of the nearest point
+    assert far.tolist() == pytest.approx([0.2, 0.2, 0.05, 0.05]) and sim.settle_time([(9.0, 0.0)]).shape == (1,)
     both = {}
     for x in (-2.0, 2.0):
         gait = stepping([0.0] * 6)

@@ -158,14 +158,20 @@ class Simulation:
         return height
 
     def settle_time(self, xy: ArrayLike) -> np.ndarray:
-        """tau of the soil at points xy (n, 2), float64 (n,) [s]; where it changes over time, as it is at first."""
+        """tau of the soil at points xy (n, 2), float64 (n,) [s]; where it changes over time, as it is at first. A point
+        beside the ground or over a hole has that of the nearest point which is on it, if any is.
+        """
         taus = np.array([rows(soil)[0].settle_time for soil in self.soils])
         if len(taus) == 1:
             return np.full(len(np.asarray(xy)), taus[0])
         cells, number = np.unique(
             np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0, return_inverse=True
         )
-        kinds = [int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()]
+        kinds = np.array([int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
+        on = np.flatnonzero([np.isfinite(self.read("rest", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
+        for beside in np.setdiff1d(np.arange(len(cells)), on) if len(on) else ():
+            away = ((cells[on] - cells[beside]) ** 2).sum(axis=1)
+            kinds[beside] = kinds[on[away.argmin()]]
         return taus[kinds][number.reshape(-1)]
 
     def normal(self, xy: Sequence[float], radius: float) -> tuple[float, float, float]:
