@@ -5,8 +5,11 @@ import numpy as np
 from scenes import meshes
 
 from desire_path.bake.bake import read_index
-from desire_path.blender import compat, playback, pressed
+from desire_path.blender import compat, op_crowd, playback, pressed, props_track
+from desire_path.crowd.covers import COVERS
 from desire_path.ground.sim import Ground
+from desire_path.placement import stamps, tyre
+from desire_path.placement.vehicle import VEHICLES
 
 
 def curve(*places, name="Track"):
@@ -152,6 +155,13 @@ def test_all_wheels_of_a_vehicle_are_shown_and_pressed(folder):
     kept = settings.vehicle, settings.kind
     refused("leaves the ground at", line, kind="WHEEL", vehicle="lorry")
     assert (settings.vehicle, settings.kind) == kept, "a refused vehicle is kept"
+
+
+def test_what_may_be_chosen_is_what_there_is(folder):
+    assert {each[0] for each in props_track.VEHICLES} == {"none", *VEHICLES}
+    assert {each[0] for each in props_track.TREADS} == set(tyre.TYRES)
+    assert {each[0] for each in props_track.STAMPS} == {"image", *stamps.STAMPS}
+    assert {each[0] for each in op_crowd.COVERS} == set(COVERS)
 
 
 def test_bad_tracks_are_refused_in_a_sentence(folder):

@@ -137,6 +137,12 @@ def test_no_vehicle_is_said(axles, words):
         Vehicle(axles)
 
 
+@pytest.mark.parametrize("mass, speed", [(-5.0, 2.0), (float("nan"), 2.0), ("heavy", 2.0), (90.0, 0.0), (90.0, True)])
+def test_what_a_vehicle_weighs_and_how_fast_it_is_are_numbers(mass, speed):
+    with pytest.raises(DesirePathError, match="The vehicle's (mass|speed) is"):
+        Vehicle((Axle(),), mass, speed)
+
+
 def test_a_bend_too_tight_is_said_before_anything_is_pressed():
     with pytest.raises(DesirePathError, match="bends too tightly .* draw it wider"):
         track.rolled([(0, 0), (8, 0), (8, 8)], VEHICLES["lorry"])

@@ -66,8 +66,7 @@ GERMAN = {
     "A vehicle's axles are a list of Axle: give it so.": (
         "Die Achsen eines Fahrzeugs sind eine Liste von Axle: so angeben."
     ),
-    "An axle's {} is {}: give a number from {} to {}.": "{} einer Achse ist {}: eine Zahl von {} bis {} angeben.",
-    "An axle's {} is {}: give a number of metres.": "{} einer Achse ist {}: eine Zahl in Metern angeben.",
+    "The {} is {}: give a number from {} to {}.": "{} ist {}: eine Zahl von {} bis {} angeben.",
     "An axle has {} tyres side by side: give 1 or {}.": "Eine Achse hat {} Reifen nebeneinander: 1 oder {} angeben.",
     "Dual tyres {} m wide do not fit in a gauge of {} m: widen it.": (
         "Zwillingsreifen von {} m Breite passen nicht in eine Spurweite von {} m: sie weiten."

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import record
+from ..motion.recording import MAX_MASS
 from . import tyre
 from .pace import ahead_of
 from .path import Path
@@ -64,6 +65,8 @@ class Vehicle:
     def __post_init__(self) -> None:
         given = self.axles if isinstance(self.axles, (list, tuple)) else ()
         object.__setattr__(self, "axles", tuple(map(_axle, given)))
+        _number("vehicle's mass", self.mass, 1e-6, MAX_MASS)
+        _number("vehicle's speed", self.speed, 1e-3, 1e3)
         if not 1 <= len(self.axles) <= MAX_AXLES:
             raise DesirePathError(f"A vehicle has {len(self.axles)} axles: give it from 1 to {MAX_AXLES}.")
         if [axle.behind for axle in self.axles if axle.behind == 0.0] != [0.0] or self.axles[0].behind != 0.0:
@@ -129,6 +132,11 @@ def _drawn(path: Path, base: float, farthest: float) -> tuple[np.ndarray, np.nda
     return along, np.array(body)
 
 
+def _number(name: str, value: object, least: float, most: float) -> None:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
+        raise DesirePathError(f"The {name} is {value!s:.40}: give a number from {least:g} to {most:g}.")
+
+
 def _axle(given: Axle | Mapping[str, Any]) -> Axle:
     """An axle whose numbers can be; from a file it is a mapping."""
     if isinstance(given, Mapping):
@@ -140,13 +148,10 @@ def _axle(given: Axle | Mapping[str, Any]) -> Axle:
         raise DesirePathError("A vehicle's axles are a list of Axle: give it so.")
     tyre.check(given.tread)
     for name, least, most in (("behind", 0.0, LONGEST), ("gauge", 0.0, LONGEST), ("share", 1e-6, 1e6)):
+        _number(f"axle's {name}", getattr(given, name), least, most)
+    for name in ("radius", "width"):  # how large they may be is the tyre's to say
         value = getattr(given, name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
-            raise DesirePathError(f"An axle's {name} is {value!s:.40}: give a number from {least:g} to {most:g}.")
-    for name in ("radius", "width"):
-        value = getattr(given, name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise DesirePathError(f"An axle's {name} is {value!s:.40}: give a number of metres.")
+        _number(f"axle's {name}", 0.0 if value != value else value, -math.inf, math.inf)
     if type(given.tyres) is not int or not 1 <= given.tyres <= MAX_TYRES:
         raise DesirePathError(f"An axle has {given.tyres!s:.40} tyres side by side: give 1 or {MAX_TYRES}.")
     if given.gauge > 0.0 and given.tyres > 1 and given.gauge < (BESIDE + 1.0) * given.width:
