@@ -148,8 +148,8 @@ GERMAN = {
     ),
     # ---- files/record.py
     "There is no {} at {}: check the path.": "In {1} ist nichts dergleichen ({0}): den Pfad prüfen.",
-    "The {} {} cannot be read ({}): choose a file that {}.save() wrote.": (
-        "{1} lässt sich nicht lesen ({0}, {2}): eine Datei wählen, die {3}.save() schrieb."
+    "The {} {} cannot be read ({}): check its name and whose file it is.": (
+        "{1} lässt sich nicht lesen ({0}, {2}): den Namen prüfen, und wem die Datei gehört."
     ),
     "{} is not a {}: save one with {}.save().": "{} ist etwas anderes ({}): eines mit {}.save() speichern.",
     "{} is not a {} of this version: save one with {}.save().": (

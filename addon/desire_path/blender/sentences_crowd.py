@@ -83,9 +83,6 @@ GERMAN = {
     "The heights of a scene are no name of a file: give that of an EXR.": (
         "Die Höhen einer Szene sind kein Dateiname: den einer EXR angeben."
     ),
-    "The scene {} cannot be read ({}): choose a JSON file.": (
-        "Die Szene {} kann nicht gelesen werden ({}): eine JSON-Datei wählen."
-    ),
     "The soil that feet press is no name: give that of a soil, or of its file.": (
         "Das Erdreich, das Füße drücken, ist kein Name: den eines Erdreichs angeben, oder seiner Datei."
     ),
@@ -93,7 +90,6 @@ GERMAN = {
         "Der Gang von Gehenden ist kein Dateiname: den einer Aufnahme (.npz) angeben."
     ),
     "There are {} places: give up to {}.": "Es gibt {} Orte: bis zu {} angeben.",
-    "There is no scene at {}: check the path.": "Es gibt keine Szene unter {}: den Pfad prüfen.",
     "Two places are called '{}': give each a name of its own.": (
         "Zwei Orte heißen '{}': jedem einen eigenen Namen geben."
     ),

@@ -221,9 +221,6 @@ GERMAN = {
     # ---- ground/soil_keys.py
     "Keys of a soil go by name: give {}.": "Keyframes einer Bodenart gehen nach Namen: {} geben.",
     "No soil has '{}': choose keys of {}.": "Keine Bodenart hat '{}': Keyframes von {} wählen.",
-    "The keys of the soil {} cannot be read ({}): choose a file that SoilKeys.save() wrote.": (
-        "Die Keyframes der Bodenart {} lassen sich nicht lesen ({}): eine Datei wählen, die SoilKeys.save() schrieb."
-    ),
     '{} holds no keys of a soil: write {"young_modulus": [[0, 2e6], [5, 4e5]]}, each key a time [s] and a value.': (
         '{0} enthält keine Keyframes einer Bodenart: {{"young_modulus": [[0, 2e6], [5, 4e5]]}} schreiben, jeder '
         "eine Zeit [s] und ein Wert."

@@ -22,7 +22,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import DesirePathError
-from ..files import atomic_file
+from ..files import record
 from ..ground.options import SimulationOptions
 from ..ground.sim import Ground, Simulation
 from .covers import Cover, as_cover, steep
@@ -277,15 +277,7 @@ def of(given: Any, folder: str = "") -> Scene:
 def read(path: str | os.PathLike[str]) -> Scene:
     """A checked Scene of a JSON file."""
     path = os.fspath(path)
-    try:
-        with atomic_file.reader(path) as file:
-            text = file.read(MAX_TEXT + 1)
-    except FileNotFoundError:
-        raise DesirePathError(f"There is no scene at {path}: check the path.") from None
-    except (OSError, ValueError) as error:
-        raise DesirePathError(
-            f"The scene {path} cannot be read ({getattr(error, 'strerror', None) or error}): choose a JSON file."
-        ) from None
+    text = record.text_of(path, "scene", MAX_TEXT)
     try:
         given = json.loads(text.decode("utf-8-sig")) if len(text) <= MAX_TEXT else None
     except (ValueError, RecursionError, MemoryError) as error:

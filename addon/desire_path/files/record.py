@@ -34,22 +34,27 @@ def save(record: Dataclass, path: str | os.PathLike[str], tag: str, version: int
         stream.write(text)
 
 
+def text_of(path: str | os.PathLike[str], what: str, limit: int = MAX_TEXT) -> bytes:
+    """The bytes of a file, one more than `limit` at most; DesirePathError where it cannot be read."""
+    try:
+        with atomic_file.reader(path) as file:
+            return bytes(file.read(limit + 1))
+    except FileNotFoundError:
+        raise DesirePathError(f"There is no {what} at {path}: check the path.") from None
+    except (OSError, ValueError) as error:
+        raise DesirePathError(
+            f"The {what} {path} cannot be read ({getattr(error, 'strerror', None) or error}): check its name and whose "
+            "file it is."
+        ) from None
+
+
 def load(kind: type[Record], path: str | os.PathLike[str], tag: str, version: int, what: str) -> Record:
     """A dataclass `kind` out of a file that `save` wrote; what it leaves out is as by default.
 
     Raises DesirePathError for any file that is none.
     """
     name = kind.__name__
-    try:
-        with atomic_file.reader(path) as file:
-            text = file.read(MAX_TEXT + 1)
-    except FileNotFoundError:
-        raise DesirePathError(f"There is no {what} at {path}: check the path.") from None
-    except (OSError, ValueError) as error:
-        raise DesirePathError(
-            f"The {what} {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
-            f"choose a file that {name}.save() wrote."
-        ) from None
+    text = text_of(path, what)
     try:
         given = json.loads(text.decode("utf-8")) if len(text) <= MAX_TEXT else None
     except (ValueError, RecursionError, MemoryError):

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DesirePathError
-from ..files import atomic_file
+from ..files import atomic_file, record
 from ..tables import check_some, is_number
 from .soil import NUMBERS, Soil, as_soil
 
@@ -76,14 +76,7 @@ class SoilKeys:
     @staticmethod
     def load(path: str | os.PathLike[str], soil: str | Soil) -> SoilKeys:
         """A soil with the keys of a file that save() wrote: `{"young_modulus": [[0, 2e6], [5, 4e5]]}` is one, too."""
-        try:
-            with atomic_file.reader(path) as file:
-                text = file.read(_MAX_BYTES + 1)
-        except (OSError, ValueError) as error:
-            raise DesirePathError(
-                f"The keys of the soil {path} cannot be read ({getattr(error, 'strerror', None) or error}): "
-                "choose a file that SoilKeys.save() wrote."
-            ) from None
+        text = record.text_of(path, "file of a soil's keys", _MAX_BYTES)
         try:
             given = json.loads(text.decode("utf-8")) if len(text) <= _MAX_BYTES else None
         except (ValueError, RecursionError, MemoryError):
