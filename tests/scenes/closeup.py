@@ -7,7 +7,6 @@ Writes FOLDER/SOIL.png. A recorded walker in boots with lugs crosses even ground
 2 mm and the material that Make Material gives it: all of it by the operators an animator presses.
 """
 
-import argparse
 import math
 import os
 import pathlib
@@ -20,7 +19,7 @@ from mathutils import Vector
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "addon"), str(HERE.parent)]
 
-from scenes import demo, mannequin, materials, meshes, noise, people  # noqa: E402
+from scenes import demo, mannequin, materials, meshes, noise, people, shots  # noqa: E402
 
 SOILS = ("deep-snow", "fresh-snow", "crust-snow", "dry-sand", "wet-sand", "mud", "wet-soil", "packed-earth", "soil")
 CELL, DETAIL = 0.005, 0.002  # [m]
@@ -131,27 +130,10 @@ def light_and_camera(scene, soil, at):
     scene.view_settings.exposure = setting(soil)[2]
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="closeup.py", description=__doc__.splitlines()[0])
-    parser.add_argument("folder", help="for the pictures")
-    parser.add_argument("--width", type=int, default=480)
-    parser.add_argument("--height", type=int, default=270)
-    parser.add_argument("--samples", type=int, default=64)
-    parser.add_argument("--soils", default=",".join(SOILS), help="names of presets, with commas between")
-    chosen = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:])
-    import desire_path
-
-    desire_path.register()
-    for soil in chosen.soils.split(","):
-        at = scene_of(soil)
-        scene = bpy.context.scene
-        light_and_camera(scene, soil, at)
-        scene.render.resolution_x, scene.render.resolution_y = chosen.width, chosen.height
-        scene.cycles.samples = chosen.samples
-        scene.render.image_settings.file_format = "PNG"
-        scene.render.filepath = str(pathlib.Path(chosen.folder).resolve() / f"{soil}.png")
-        bpy.ops.render.render(write_still=True)
+def make(soil):
+    at = scene_of(soil)
+    light_and_camera(bpy.context.scene, soil, at)
 
 
 if __name__ == "__main__":
-    main()
+    shots.take(__doc__, "--soils", SOILS, make, (480, 270, 64))

@@ -8,7 +8,6 @@ cross, gulls on a shore, a bicycle's tyres, a lorry and a tractor in mud. All of
 presses.
 """
 
-import argparse
 import math
 import pathlib
 import sys
@@ -21,7 +20,7 @@ from mathutils import Vector
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "addon"), str(HERE.parent)]
 
-from scenes import demo, materials, meshes, noise  # noqa: E402
+from scenes import demo, materials, meshes, noise, shots  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -165,26 +164,9 @@ def light_and_camera(scene, view):
     scene.view_settings.exposure = view.stops
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="tracks.py", description=__doc__.splitlines()[0])
-    parser.add_argument("folder", help="for the pictures")
-    parser.add_argument("--width", type=int, default=400)
-    parser.add_argument("--height", type=int, default=225)
-    parser.add_argument("--samples", type=int, default=48)
-    parser.add_argument("--scenes", default=",".join(VIEWS), help="which of them, with commas between")
-    chosen = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:])
-    import desire_path
-
-    desire_path.register()
-    for name in chosen.scenes.split(","):
-        scene = scene_of(VIEWS[name])
-        light_and_camera(scene, VIEWS[name])
-        scene.render.resolution_x, scene.render.resolution_y = chosen.width, chosen.height
-        scene.cycles.samples = chosen.samples
-        scene.render.image_settings.file_format = "PNG"
-        scene.render.filepath = str(pathlib.Path(chosen.folder).resolve() / f"{name}.png")
-        bpy.ops.render.render(write_still=True)
+def make(name):
+    light_and_camera(scene_of(VIEWS[name]), VIEWS[name])
 
 
 if __name__ == "__main__":
-    main()
+    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 48))
