@@ -23,6 +23,7 @@ MAX_PIXELS = 1 << 27  # of one frame
 SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
 CELL_BYTES = 60  # of memory, for each cell of a frame
 PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
+RESERVE = 6 << 20  # bytes of memory without which nothing is begun
 REST_BYTES = 0.028  # of a frame's file, for each cell of untouched ground
 PRINT_BYTES = 8.0  # of a frame's file, for each cell of a print
 STATES, STATE_BYTES = 2, 12.0  # of those that are kept to go on from, for each cell of a print
@@ -109,6 +110,15 @@ def _free(name: str, folder: str) -> float:
         return shutil.disk_usage(folder).free
     except OSError:
         return math.inf
+
+
+def check_reserve() -> None:
+    """MemoryError where the system gives nothing more.
+
+    Python and the core say in a sentence what they were refused; NumPy's loops over mixed types end the process when
+    they are refused their buffers, which are small. So these must be there before anything is begun.
+    """
+    bytearray(RESERVE)
 
 
 def frame_bytes(cells: float, pressed: float, lean: bool) -> float:

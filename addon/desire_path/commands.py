@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 
 from . import command_bake, command_crowd, command_export, command_track
+from .bounds import check_reserve
 from .command_bake import SAMPLES, SET_HELP, SOIL_HELP, bar, read_ground, read_kind, walk
 from .errors import DesirePathError
 from .files import atomic_file
@@ -189,6 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         args = _parser().parse_args(arguments)
         settled(args)
+        check_reserve()
         for path in (args.out, getattr(args, "contacts", None)):
             if path is not None and args.task in FILES:
                 atomic_file.check(path, "The result")  # before minutes of work

@@ -27,6 +27,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
+from ..bounds import check_reserve
 from ..errors import DesirePathError
 from ..ground.parcels import Parcel
 from ..ground.sim import Ground, Simulation, check_cell
@@ -127,6 +128,7 @@ class Bake(Plan):
             ) from None
 
     def _run(self) -> Iterator[Progress]:
+        check_reserve()
         check_cell(self.cell_size)
         check_walk(self.options.limits, self.gait, self.count, self.rate())
         with contextlib.ExitStack() as folders:
