@@ -7,7 +7,9 @@ follow from it in closed form.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -80,15 +82,17 @@ def snow(depth: float) -> Cover:
     return Cover(SINKING * 100.0 * depth / EFFORT, 1.0, 2.0, 2.13, renewal=0.05)
 
 
-COVERS: dict[str, Cover] = {
-    "meadow": Cover(0.3, 0.5, 150.0, 1.135, 1.02, 0.5),
-    "lawn": Cover(0.2, 0.5, 150.0, 1.135, 1.02, 0.5),
-    "brush": Cover(0.5, 0.5, 150.0, 1.135, 1.02, 0.5),
-    "sand": Cover(0.9),
-    "snow-15": snow(0.15),
-    "snow-25": snow(0.25),
-    "snow-35": snow(0.35),
-}
+COVERS: Mapping[str, Cover] = MappingProxyType(  # by name, to be read: ground of your own is a Cover
+    {
+        "meadow": Cover(0.3, 0.5, 150.0, 1.135, 1.02, 0.5),
+        "lawn": Cover(0.2, 0.5, 150.0, 1.135, 1.02, 0.5),
+        "brush": Cover(0.5, 0.5, 150.0, 1.135, 1.02, 0.5),
+        "sand": Cover(0.9),
+        "snow-15": snow(0.15),
+        "snow-25": snow(0.25),
+        "snow-35": snow(0.35),
+    }
+)
 
 
 def as_cover(given: Any) -> Cover:
