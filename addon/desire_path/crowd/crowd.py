@@ -162,6 +162,8 @@ class Crowd:
                 (REPORT, "The numbers"),
             ):
                 atomic_file.check(self.path(name), what)
+            atomic_file.sweep(self.folder, "|".join(map(re.escape, (STATE, REPORT, FINAL))))
+            atomic_file.sweep(self.path("frames"), FRAME.pattern)
             yield
         except OSError as problem:
             raise DesirePathError(

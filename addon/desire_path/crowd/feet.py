@@ -14,6 +14,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -76,6 +77,7 @@ class Feet:
         except (OSError, ValueError):
             raise DesirePathError(f"{self.folder} is no folder of a crowd: let one walk into it first.") from None
         try:
+            atomic_file.sweep(self.folder, "|".join(map(re.escape, (STATE, REPORT, FINAL))))
             return self._press(progress)
         finally:
             disk.unlock(handle, os.path.join(self.folder, LOCK))

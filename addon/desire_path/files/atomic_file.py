@@ -10,6 +10,7 @@ import contextlib
 import errno
 import json
 import os
+import re
 import stat
 import tempfile
 from collections.abc import Iterator
@@ -106,6 +107,18 @@ def file(
         if temporary is not None:
             with contextlib.suppress(OSError):
                 os.unlink(temporary)
+
+
+def sweep(folder: str | os.PathLike[str], names: str) -> None:
+    """Remove what a process that was killed left of files it had begun; nobody else may be writing them.
+
+    names: a regular expression of their names.
+    """
+    begun = re.compile(rf"(?:{names})\.\w{{8}}\.part")
+    with contextlib.suppress(OSError):
+        for each in os.scandir(folder):
+            if begun.fullmatch(each.name) and each.is_file(follow_symlinks=False):
+                os.unlink(each.path)
 
 
 def _sentence(what: str, path: str | os.PathLike[str], problem: Exception) -> str:
