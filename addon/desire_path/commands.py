@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import command_bake, command_crowd, command_export, command_track
+from . import command_bake, command_crowd, command_export, command_study, command_track
 from .bounds import check_reserve
 from .command_bake import SAMPLES, SET_HELP, SOIL_HELP, bar, read_ground, read_kind, walk
 from .errors import DesirePathError
@@ -23,6 +23,7 @@ from .needs import Need, Parser, settled
 from .study import calibrate, trampling
 from .version import VERSION
 
+TASKS = ("bake", "track", "crowd", "loads", "plot", "lane", "fit", "study", "export")
 IMPULSE = Need(lambda args: args.model == "impulse", "is that of the model impulse: add --model impulse")
 
 
@@ -118,7 +119,9 @@ def _load_options(task: Parser) -> None:
 def _parser() -> Parser:
     parser = Parser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
-    tasks = parser.add_subparsers(required=True, metavar="bake | track | crowd | loads | plot | lane | fit | export")
+    tasks = parser.add_subparsers(
+        required=True, metavar="bake | track | crowd | loads | plot | lane | fit | study | export"
+    )
     for add in (
         command_bake.add,
         command_track.add,
@@ -127,6 +130,7 @@ def _parser() -> Parser:
         _add_plot,
         _add_lane,
         _add_fit,
+        command_study.add,
         command_export.add,
     ):
         add(tasks)

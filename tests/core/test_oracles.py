@@ -10,7 +10,7 @@ from desire_path.ground.options import SimulationOptions
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import SOILS, Soil
 from desire_path.loads import walker
-from desire_path.motion.gait import Gait
+from desire_path.study import bodies
 from tests.scenes import gaits, slopes
 from tests.scenes.plain import plain
 
@@ -305,32 +305,9 @@ def test_a_foot_s_volume_does_not_depend_on_the_cell():
         assert report["pressed_m3"] == pytest.approx(runs[-1]["pressed_m3"], rel=0.03)
 
 
-def falling_sphere(mass=50.0, height=2.5, radius=0.15):
-    """A sphere dropped from `height`, sampled until 0.5 s after it lands, MODEL 11.11"""
-    rate = 240.0
-    fall = math.sqrt(2 * height / G)
-    time = np.arange(int((fall + 0.5) * rate) + 1) / rate
-    z = np.maximum(height - G * time**2 / 2, 0.0)
-    at = np.stack([0 * time, 0 * time, z + radius], axis=1)
-    pose = np.concatenate([at, np.tile([1.0, 0, 0, 0], (len(time), 1))], axis=1)
-    return Gait(
-        time=time,
-        com=at[None],
-        mass=[mass],
-        pose=pose[None],
-        limb_walker=[0],
-        part_limb=[0],
-        soles=[gaits.sphere(radius)],
-        point=[[0, 0, -radius]],
-        point_part=[0],
-        point_role=[1],
-        frame_rate=rate,
-    )
-
-
 def drop(mass=50.0, modulus=1e6, nu=0.35, law="sole"):
     soil = Soil(layer_depth=0.3, young_modulus=modulus, poisson_ratio=nu, settle_time=0.2, rest_angle=math.radians(30))
-    gait = falling_sphere(mass)
+    gait = bodies.dropped(mass, 2.5, 0.15)  # lands with 7 m/s, MODEL 11.11
     sim = Simulation(Ground.flat(), soil, 0.01, options=SimulationOptions(law=law))
     loads = walker.loads(gait, "impulse", ground=sim.rest_height, settle_time=soil.settle_time)
     sim.load(gait, loads)

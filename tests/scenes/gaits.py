@@ -9,45 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from desire_path.motion.gait import Gait, Sole
-
-# of a box whose corners are numbered x first, z last; out of it
-BOX_FACES = np.array(
-    [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ]
-)
-
-
-def box(length, width, height=0.02):
-    """A closed box, its underside at z = 0, centred; 12 triangles."""
-    x, y = length / 2, width / 2
-    corner = np.array([[sx * x, sy * y, z] for z in (0, height) for sy in (-1, 1) for sx in (-1, 1)])
-    return Sole(corner, BOX_FACES)
-
-
-def sphere(radius, rings=24):
-    """A sphere about its centre."""
-    up = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
-    round_ = np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)
-    corner = radius * np.array([[np.cos(u) * np.cos(r), np.cos(u) * np.sin(r), np.sin(u)] for u in up for r in round_])
-    n = 2 * rings
-    faces = []
-    for j in range(rings):
-        for i in range(n):
-            a, b = j * n + i, j * n + (i + 1) % n
-            faces += [[a, b, a + n], [b, b + n, a + n]]
-    return Sole(corner, np.array(faces))
+from desire_path.study import bodies
+from desire_path.study.bodies import BOX_FACES, box, sphere  # noqa: F401  (scenes are made of them)
 
 
 def wheel(radius, width, around=180):
@@ -77,41 +40,11 @@ def turn_z(angle):
     return np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
 
 
-def pressed(soles, poses, forces, *, seconds=0.6, rate=120.0, mass=75.0, lift=0.1):
-    """Rigid parts that stand still and press: (Gait, loads).
-
-    soles, poses (each 7 numbers), forces (each x y z [N]): one a limb. They stand for `seconds` [s],
-    then are lifted by 0.3 m within `lift` [s]. The mass centre stays where it is.
-    """
-    count = len(soles)
-    samples = int(round((seconds + lift) * rate)) + 1
-    time = np.arange(samples) / rate
-    stands = time < seconds + 1e-9
-    pose = np.repeat(np.asarray(poses, float)[:, None, :], samples, axis=1)
-    risen = np.clip((time - seconds) / lift, 0.0, 1.0)
-    pose[:, :, 2] += 0.3 * risen * risen * (3.0 - 2.0 * risen)
-    com = np.repeat(np.mean(poses, axis=0)[None, None, :3] + [0, 0, 0.9], samples, axis=1)
-    gait = Gait(
-        time=time,
-        com=com,
-        mass=[mass],
-        pose=pose,
-        limb_walker=np.zeros(count),
-        part_limb=np.arange(count),
-        soles=soles,
-        point=np.zeros((count, 3)),
-        point_part=np.arange(count),
-        point_role=np.ones(count),
-        frame_rate=rate,
-    )
-    force = np.asarray(forces, float)[:, None, :] * stands[None, :, None]
-    loads = SimpleNamespace(
-        touching=np.repeat(stands[None], count, axis=0).astype(np.uint8),
-        force=force,
-        point=pose[:, :, :3].copy(),
-        warnings=(),
-    )
-    return gait, loads
+def pressed(*args, **more):
+    """bodies.pressed(), with loads that a test may change."""
+    gait, loads = bodies.pressed(*args, **more)
+    own = {name: np.array(getattr(loads, name)) for name in ("touching", "force", "point")}
+    return gait, SimpleNamespace(**own, warnings=())
 
 
 def rolled(sole, radius, length, force, *, speed=0.5, rate=120.0):

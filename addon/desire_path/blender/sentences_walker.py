@@ -61,7 +61,7 @@ GERMAN = {
         "Bild {}; jenes zum Boden machen, wenn es Abdrücke bekommen soll."
     ),
     # ---- loads/plot.py
-    "Drawing forces needs Matplotlib, which is not here: install it with pip install desire-path[plot], or pip "
+    "Drawing needs Matplotlib, which is not here: install it with pip install desire-path[plot], or pip "
     "install matplotlib.": (
         "Kräfte zu zeichnen braucht Matplotlib, das nicht da ist: es mit pip install desire-path[plot] oder pip "
         "install matplotlib einrichten."

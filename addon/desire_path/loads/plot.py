@@ -45,18 +45,22 @@ def spans(touching: np.ndarray, time: np.ndarray) -> list[tuple[float, float]]:
     return [(float(time[first]) - half, float(time[last - 1]) + half) for first, last in zip(edges[::2], edges[1::2])]
 
 
-def figure(gait: Gait, loads: FootForce) -> Figure:
-    """A Matplotlib figure: a graph for each walker, a line for each foot, its contacts shaded."""
+def sheet(wide: float, high: float) -> Figure:
+    """An empty Matplotlib figure [inch], or the sentence that says how to get Matplotlib."""
     try:
-        new_figure = lazy.load(_figure).Figure
+        return lazy.load(_figure).Figure(figsize=(wide, high), layout="constrained")
     except ImportError:
         raise DesirePathError(
-            "Drawing forces needs Matplotlib, which is not here: install it with "
+            "Drawing needs Matplotlib, which is not here: install it with "
             "pip install desire-path[plot], or pip install matplotlib."
         ) from None
+
+
+def figure(gait: Gait, loads: FootForce) -> Figure:
+    """A Matplotlib figure: a graph for each walker, a line for each foot, its contacts shaded."""
     force, touching = foot_loads(gait, loads)
     walkers = len(gait.mass)
-    drawn: Figure = new_figure(figsize=(WIDE, 0.6 + HIGH * walkers), layout="constrained")
+    drawn = sheet(WIDE, 0.6 + HIGH * walkers)
     graphs = drawn.subplots(walkers, 1, sharex=True, squeeze=False)[:, 0]
     for w, graph in enumerate(graphs):
         limbs = np.flatnonzero(gait.limb_walker == w)
