@@ -169,6 +169,20 @@ def test_appended_grounds_leave_the_files_where_they_come_from(folder):
     assert files(folder / "desire_path") == kept
 
 
+def test_the_folder_of_the_file_itself_may_be_chosen(folder):
+    ground, _ = saved(folder / "one.blend", frames=8)
+    ground.desire_path.folder = "//"
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    wanted, _ = shown(ground, 8)
+    assert wanted[:, 2].min() < -0.004 and ground.desire_path.bake_state == "FRESH"
+    bpy.ops.wm.save_mainfile()
+    ground = opened(folder / "one.blend")
+    assert shown(ground, 8)[0].tobytes() == wanted.tobytes()
+    free()
+    bpy.ops.wm.save_mainfile()
+    assert all(name.startswith("one.blend") for name in os.listdir(folder))
+
+
 def test_moved_and_renamed_it_keeps_its_folder(folder):
     ground, _ = saved(folder / "here" / "one.blend", frames=8)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}

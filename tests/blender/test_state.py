@@ -116,6 +116,19 @@ def test_what_changes_nothing(folder):
     assert ground.desire_path.bake_state == "OUTDATED"
 
 
+def test_a_ground_of_two_scenes_is_told_of_by_the_one_where_somebody_walks(folder):
+    ground, walker = baked(folder)
+    other = bpy.data.scenes.new("Other")
+    other.collection.objects.link(ground)
+    other.render.fps = 48
+    bpy.context.window.scene = other
+    assert ground.desire_path.bake_state == "FRESH", ground.desire_path.missing
+    walker.delta_location.x = 0.01
+    assert ground.desire_path.bake_state == "OUTDATED" and "The walk has changed" in ground.desire_path.missing
+    bpy.data.objects.remove(walker)
+    assert ground.desire_path.bake_state == "OUTDATED" and "Nobody walks" in ground.desire_path.missing
+
+
 def test_transforms_that_are_applied_after_the_bake(folder):
     """The points of the ground have other numbers and lie where they lay: nothing is to be baked again."""
     hills = lambda x, y: 0.004 * np.sin(9 * x) * np.cos(7 * y)  # noqa: E731

@@ -309,4 +309,6 @@ def sequence(frames, name):
 
 def join(folder, *names):
     """Join below a folder that may begin with Blender's `//`."""
-    return "/".join((folder.replace("\\", "/").rstrip("/"),) + names)
+    above = folder.replace("\\", "/")
+    beside = above.startswith("//") and not above.strip("/")  # the .blend file itself, whose slashes are no end
+    return "//" + "/".join(names) if beside else "/".join((above.rstrip("/"), *names))

@@ -16,7 +16,7 @@ from ..bake.output import free
 from ..errors import DesirePathError
 from ..ground import mesh
 from ..ground.sim import Ground
-from . import axes, ground, home
+from . import axes, ground, home, playback
 
 HAND = "pressed"  # in a bake's inputs: it was pressed by hand
 TRACKS = "tracks"  # .. : tracks are in it, and what they were made from
@@ -41,7 +41,7 @@ def next_place(obj):
     """A place for what is to be kept next, as Blender writes paths."""
     number = 1
     while True:
-        place = f"{obj.desire_path.folder.rstrip('/')}/pressed_{number}"
+        place = playback.join(obj.desire_path.folder, f"pressed_{number}")
         if not os.path.lexists(bpy.path.abspath(place)):
             return place
         number += 1

@@ -72,9 +72,7 @@ def _changed(obj, index):
     """A sentence about what has changed since a bake; empty where nothing has."""
     if not index.inputs:
         return "This bake does not say what it was made from, as earlier versions did not: bake again."
-    scene = bpy.context.scene
-    if obj.name not in scene.objects:
-        scene = (obj.users_scene or (scene,))[0]
+    scene = _scene_of(obj)
     if pressed.HAND in index.inputs:
         if walkers(scene, obj):
             return f"'{obj.name}' is shown as it was pressed by hand, before anybody walks on it: bake it."
@@ -98,6 +96,13 @@ def _changed(obj, index):
     text = " and ".join(filter(None, (", ".join(changed[:-1]), changed[-1])))
     one = len(changed) == 1 and not changed[0].endswith("s")
     return f"{text.capitalize()} {'has' if one else 'have'} changed since the bake: bake again."
+
+
+def _scene_of(obj):
+    """The scene that tells about a ground: the one that is shown, unless somebody walks on it in another one only."""
+    shown = bpy.context.scene
+    there = sorted(obj.users_scene, key=lambda each: (not walkers(each, obj), each != shown))
+    return there[0] if there else shown
 
 
 # ---- for scripts ------------------------------------------------------------------------------------
