@@ -24,4 +24,5 @@
 #include "maps/maps.h"
 #include "refine/refine.h"
 #include "paths/paths.h"
+#include "spray/spray.h"
 #include "sim/sim.h"

@@ -14,6 +14,7 @@
 #include "plants/plants.h"
 #include "sim/sim_film.h"
 #include "soil/soil.h"
+#include "spray/spray.h"
 #include "terrain/terrain.h"
 #include "walker/walker.h"
 
@@ -46,6 +47,10 @@ typedef struct DpSimReport
     double rebounded;     // firm ground that came back                [m^3]
     long   broke;         // bends of stems that broke, and those above them [-]
     int    awake;         // plants that moved in the last step        [-]
+    double thrown;        // of spray: what ever came off              [m^3]
+    double stuck;         // .. what sticks to who walks or has walked [m^3]
+    double airborne;      // .. what flies                             [m^3]
+    double beside;        // .. what fell by the ground and is gone    [m^3]
 } DpSimReport;
 
 // The simulation borrows terrain (must outlive it) and copies the rest.
@@ -103,7 +108,14 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4]);
 // One that fails leaves its step half made: what can be done then is to load anew or to destroy.
 DpStatus dp_sim_run(DpSim* sim, int sample);
 
-// Let everything that is still loose come to rest.
+// From now on soil sticks to soles and flies off them, spray/spray.h; before the first step. Numbers out of their
+// range, or a second time: DP_BAD_ARGUMENT.
+DpStatus dp_sim_spray(DpSim* sim, const DpSprayNumbers* numbers);
+// What flies: how many grains, and one of them, in the world's frame.
+int     dp_sim_grains(const DpSim* sim);
+DpGrain dp_sim_grain(const DpSim* sim, int index);
+
+// Let everything that is still loose, or flies, come to rest.
 DpStatus dp_sim_settle(DpSim* sim);
 
 DpSimReport dp_sim_report(const DpSim* sim);

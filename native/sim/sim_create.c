@@ -62,6 +62,7 @@ void dp_sim_destroy(DpSim* sim)
 {
     if (!sim) return;
     dp_sim_forget(sim);
+    dp_cloud_destroy(sim->spray.cloud);
     dp_plant_display_destroy(sim->stage.display);
     dp_grass_destroy(sim->stage.grass);
     for (int b = 0; sim->scratch && b < sim->worker_count; ++b) {

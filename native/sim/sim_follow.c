@@ -7,6 +7,7 @@
 void dp_sim_forget(DpSim* sim)
 {
     dp_stage_drop(sim);
+    dp_spray_drop(&sim->spray);
     sim->speculation.planned = false, sim->speculation.count = 0;
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) dp_free(sim->limb[l].met);
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) dp_free(sim->pressing[l].value);
@@ -84,6 +85,7 @@ DpStatus dp_sim_follow(DpSim* sim, DpMotion* motion)
     sim->part_of_limb = sim->group = sim->order = sim->number = sim->start = NULL;
     sim->worker_sole = NULL, sim->worker_pose = NULL;
     sim->stage = dp_stage_empty(&old.stage);
+    dp_spray_leave(&sim->spray, &old.spray);
     DpStatus status = make_limbs(sim);
     if (status == DP_OK) status = dp_stage_fit(sim, sim->cast.parts, sim->cast.limbs);
     if (status != DP_OK) {

@@ -124,6 +124,17 @@ typedef struct Speculation
     DpLease*     lease[MAX_SPECULATED];
 } Speculation;
 
+// What sticks and what flies. All is 0 without spray.
+typedef struct SprayStage
+{
+    DpSprayNumbers numbers;
+    DpCloud*       cloud;  // NULL: nothing sticks
+    DpCoat**       coat;   // of parts that have pressed (parts)
+    int            parts;  // of the recording
+    long           thrown, beside,
+        carried_off;  // grains: come off, fallen by the ground, on walkers of before
+} SprayStage;
+
 struct DpSim
 {
     DpTerrain*   terrain;
@@ -157,6 +168,7 @@ struct DpSim
 
     Speculation speculation;
     PlantStage  stage;
+    SprayStage  spray;
     DpSimReport report;
 };
 
@@ -211,6 +223,19 @@ DpStatus dp_sim_display(const PlantStage* stage, DpPlantDisplay** display);
 // sim_plants.c: what plants do in a step, after the soil
 DpStatus dp_stage_settled(DpSim* sim, Limb* limb);
 DpStatus dp_stage_step(DpSim* sim, int sample, bool more);  // more: another step comes at once
+
+// sim_spray.c: what sticks and flies in a step, after its soil; all that flies comes down; what of it a report tells
+DpStatus dp_spray_step(DpSim* sim, int sample);
+DpStatus dp_spray_land(DpSim* sim);
+void     dp_spray_report(const SprayStage* spray, DpSimReport* report);
+
+// .. coats go, or go with the walkers of before
+void dp_spray_drop(SprayStage* spray);
+void dp_spray_leave(SprayStage* spray, const SprayStage* before);
+
+// .. a chunk of the state; without spray none is written or read
+void     dp_spray_save(const DpSim* sim, DpStateWriter* writer);
+DpStatus dp_spray_load(const DpSim* sim, DpStateReader* reader, SprayStage* state);
 
 // sim_plan.c: what every limb does in a step, and room for it on the terrain
 DpStatus dp_step_plan(DpSim* sim, int sample);

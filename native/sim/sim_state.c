@@ -105,6 +105,7 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
         dp_write_end(writer);
         if (sim->stage.display) dp_plant_display_save(sim->stage.display, writer);
     }
+    dp_spray_save(sim, writer);
     return writer->status;
 }
 
@@ -124,6 +125,7 @@ typedef struct State
     DpGrassState*        grass;
     DpPlantDisplay*      fresh;  // if stems were shown, and here they are not yet
     DpPlantDisplayState* display;
+    SprayStage           spray;
 } State;
 
 static void drop(State* state)
@@ -136,6 +138,8 @@ static void drop(State* state)
     dp_grass_state_destroy(state->grass);
     dp_plant_display_state_destroy(state->display);
     dp_plant_display_destroy(state->fresh);
+    dp_spray_drop(&state->spray);
+    dp_cloud_destroy(state->spray.cloud);
 }
 
 static DpCellRect read_cells(DpStateReader* reader)
@@ -311,6 +315,7 @@ DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size)
     DpStatus      status = read_sim(sim, &reader, &state);
     if (status == DP_OK) status = dp_terrain_load(sim->terrain, &reader, &state.terrain);
     if (status == DP_OK && sim->stage.plants) status = read_stage(&sim->stage, &reader, &state);
+    if (status == DP_OK) status = dp_spray_load(sim, &reader, &state.spray);
     if (status == DP_OK && reader.at != reader.size) status = DP_BAD_FILE;
     if (status != DP_OK) {
         drop(&state);
@@ -320,6 +325,10 @@ DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size)
     dp_terrain_restore(sim->terrain, state.terrain);  // asks plants for their cover
     state.terrain = NULL;
     take_limbs(sim, &state);
+    if (sim->spray.cloud) {
+        const SprayStage was = sim->spray;
+        sim->spray = state.spray, state.spray = was;
+    }
     sim->datum = dp_terrain_datum(sim->terrain);
     sim->next = state.next, sim->report = state.report;
     sim->speculation.planned = false, sim->speculation.count = 0;

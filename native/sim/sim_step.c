@@ -109,6 +109,7 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
     if (sample > dp_motion_samples(sim->motion) - 1) sample = dp_motion_samples(sim->motion) - 1;
     while (sim->next < sample) {
         DpStatus status = step_soil(sim, sim->next);
+        if (status == DP_OK) status = dp_spray_step(sim, sim->next);
         if (status == DP_OK && sim->stage.plants)
             status = dp_stage_step(sim, sim->next, sim->next + 1 < sample);
         if (status != DP_OK) return status;
@@ -120,6 +121,8 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
 DpStatus dp_sim_settle(DpSim* sim)
 {
     dp_pressing_clear(sim);
+    const DpStatus landed = dp_spray_land(sim);
+    if (landed != DP_OK) return landed;
     const DpStatus slid = dp_slide_step(sim, -1);
     if (slid != DP_OK) return slid;
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
@@ -142,5 +145,6 @@ DpSimReport dp_sim_report(const DpSim* sim)
     DpSimReport report = sim->report;
     double      pressed;
     dp_terrain_totals(sim->terrain, &report.heaped, &pressed, &report.deepest);
+    dp_spray_report(&sim->spray, &report);
     return report;
 }

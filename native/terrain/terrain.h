@@ -115,6 +115,24 @@ typedef struct DpTrail
 // is laid.
 DpStatus dp_terrain_lay(DpTerrain* terrain, const DpTrail* trail);
 
+// ---- little by little --------------------------------------------------------------------------
+
+// What was taken of a place [m^3]: of heaps, and of firm ground, of which no more goes than was pressed there.
+typedef struct DpDug
+{
+    double  heap, firm;
+    uint8_t kind;  // soil
+} DpDug;
+
+// Take a volume [m^3] from a square `width` wide [m], at least a cell, about (x, y); all of it, or false and nothing.
+bool dp_terrain_dig(DpTerrain* terrain, double x, double y, double width, double volume,
+                    DpDug* dug);
+// Lay it down as loose soil; *cells are those it lies on, *laid how much it is [m^3]: 0 where there is no ground.
+DpStatus dp_terrain_drop(DpTerrain* terrain, double x, double y, double width, double volume,
+                         DpCellRect* cells, double* laid);
+// Whether one of some cells stands higher over a neighbour than its soil may rest.
+bool dp_terrain_steep(const DpTerrain* terrain, DpCellRect cells);
+
 // ---- what grows on it ------------------------------------------------------------------------
 
 // alpha_veg [-] and E_v [Pa] of cells (ny, nx), the first with its centre at (x0, y0); a pure
