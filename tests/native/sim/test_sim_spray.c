@@ -1,4 +1,4 @@
-// tests of sim_spray.c: MODEL 6.15
+// tests of sim_spray.c: MODEL 6.15, MODEL 11.24
 #include "stand.h"
 
 #define NEWTON 700.0
