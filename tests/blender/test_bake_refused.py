@@ -1,5 +1,6 @@
 """What cannot be baked is said in a sentence, and nothing that was baked is lost."""
 
+import json
 import os
 import pathlib
 import signal
@@ -114,6 +115,27 @@ def test_bad_bones_and_folders(folder):
     ground.rotation_euler.x = 0.0
     assert operator.desire_path_bake() == {"FINISHED"}
     assert len(bpy.data.scenes) == 1
+
+
+def test_names_that_are_taken(folder):
+    ground, _ = scene(folder, frames=8, cell=0.03)
+    for name in ("compression", "heap"):
+        ground.vertex_groups.new(name=name).add((0, 1), 0.5, "REPLACE")
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    told = " ".join(json.loads(ground.desire_path.summary)["warnings"])
+    for name in ("compression", "heap"):
+        assert f"has a vertex group '{name}' of its own: it was left alone" in told, told
+        assert name not in ground.data.attributes and ground.vertex_groups[name].weight(1) == 0.5
+    assert "pressure_time" in ground.data.attributes and shown(ground, 8)[0][:, 2].min() < -0.004
+
+    for name in ("desire_path", "desire_path_lean"):
+        taken = ground.data.attributes.new(name, "FLOAT", "POINT")
+        group = ground.vertex_groups.new(name=name)
+        if name in ground.data.attributes:
+            refused(bpy.ops.object.desire_path_bake, f"attribute and a vertex group '{name}'", "rename or remove")
+        ground.vertex_groups.remove(group)
+        ground.data.attributes.remove(taken)
+    assert ground.desire_path.bake_state == "FRESH", ground.desire_path.missing
 
 
 def test_full_disk_keeps_what_was_baked(folder):

@@ -47,6 +47,9 @@ def fill(obj, surface, index, depth, planes, standing=()):
             if name in mesh.attributes:
                 warnings.append(f"'{obj.name}' has an attribute '{name}' of its own: it was left alone.")
                 continue
+            if name in obj.vertex_groups:  # no attribute may be called as one of them
+                warnings.append(f"'{obj.name}' has a vertex group '{name}' of its own: it was left alone.")
+                continue
             names.append(mesh.attributes.new(name, "FLOAT", "POINT").name)
             if name in value:  # else it is 0 all over, as it is made
                 mesh.attributes[name].data.foreach_set("value", value[name])

@@ -15,7 +15,7 @@ from ..ground import mesh as meshes
 from ..ground.sim import Ground, Simulation
 from ..placement import place
 from ..rig import slope
-from . import axes, compat, playback, sample, stack, wiring
+from . import axes, compat, playback, playback_tree, sample, stack, wiring
 from . import soils as soils_of
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
@@ -57,6 +57,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
     """
     if obj is None or obj.type != "MESH":
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
+    _name_taken(obj)
     scale = axes.unit_scale(scene)
     warnings, groups = [], _painted_groups(obj)
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
@@ -119,6 +120,16 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         meshes.mark(painted),
         finer,
     )
+
+
+def _name_taken(obj):
+    """Refuse a mesh on which what plays the prints cannot be stored: nodes find the vertex group in its place."""
+    for name in (playback_tree.ATTRIBUTE, playback_tree.LEAN):
+        if name in obj.vertex_groups and name in obj.data.attributes:
+            raise DesirePathError(
+                f"'{obj.name}' has both an attribute and a vertex group '{name}', by which prints are played: "
+                "rename or remove one of them."
+            )
 
 
 def _painted_groups(obj):

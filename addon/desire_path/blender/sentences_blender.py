@@ -55,6 +55,9 @@ GERMAN = {
     "The mesh of '{}' is linked from another file: no attributes were written.": (
         "Das Netz von '{}' ist aus einer anderen Datei verknüpft: es wurden keine Attribute geschrieben."
     ),
+    "'{}' has a vertex group '{}' of its own: it was left alone.": (
+        "'{}' hat eine eigene Vertex-Gruppe '{}': sie wurde in Ruhe gelassen."
+    ),
     "'{}' has an attribute '{}' of its own: it was left alone.": (
         "'{}' hat ein eigenes Attribut '{}': es wurde in Ruhe gelassen."
     ),
@@ -121,6 +124,10 @@ GERMAN = {
     # ---- blender/ground.py
     "There is no ground: select the mesh that is walked on.": (
         "Es gibt keinen Boden: das Netz wählen, auf dem gegangen wird."
+    ),
+    "'{}' has both an attribute and a vertex group '{}', by which prints are played: rename or remove one of them.": (
+        "'{}' hat ein Attribut und eine Vertex-Gruppe '{}', womit Abdrücke gezeigt werden: eines umbenennen oder "
+        "entfernen."
     ),
     "'{}' has no vertex group '{}' to paint a soil with: choose another group or remove the soil from the list.": (
         "'{}' hat keine Vertex-Gruppe '{}', um eine Bodenart damit zu malen: eine andere Gruppe wählen oder die "
