@@ -19,6 +19,8 @@
 #define STEEP 1.6  // its flanks rise so much from its edge, in its heights, up to a flat top
 #define FILLED 0.505208333  // its mean height over its pentagon, in its heights
 #define SHOWS 0.5           // a crumb shows where the heap is so high, in its radii
+#define FINEST 0.004        // no edge strays over less [m]
+#define ROUGH 0.7           // half as long waves of an edge are so high, by the longer ones
 #define VEIN 0.55           // a vein is where noise of variance 1 is nearer to 0
 #define VEIN_MEAN 0.1513    // mean of veins of height 1
 
@@ -42,6 +44,17 @@ static double wave(double x, double y, double length, uint32_t seed)
 static double waves(double x, double y, double length, uint32_t seed)
 {
     return (wave(x, y, length, seed) + 0.5 * wave(x, y, 0.5 * length, seed + 1)) / sqrt(1.25);
+}
+
+// waves of that length, and shorter by halves as long as they are seen; of variance 1
+static double strays(double x, double y, double length, uint32_t seed)
+{
+    double sum = 0.0, squares = 0.0, high = 1.0;
+    for (uint32_t k = 0; k == 0 || length > FINEST; ++k, length *= 0.5, high *= ROUGH) {
+        sum += high * wave(x, y, length, seed + k);
+        squares += high * high;
+    }
+    return sum / sqrt(squares);
 }
 
 // ---- crumbs ----------------------------------------------------------------------------------------
@@ -115,7 +128,7 @@ static void detail_at(const DpDetail* detail, const double* point, uint32_t seed
         grit = detail->grit_height * waves(x, y, detail->grit_size, seed + 1);
     if (detail->fray > 0.0)
         for (uint32_t k = 0; k < 2; ++k)
-            away[k] = detail->fray * waves(x, y, detail->fray_size, seed + 3 + 2 * k);
+            away[k] = detail->fray * strays(x, y, detail->fray_size, seed + 1000 + 100 * k);
     shown[0] = (float)vein;
     shown[1] = (float)crumbs(detail, x, y, seed + 7, &threshold);
     shown[2] = (float)grit;

@@ -47,6 +47,14 @@ def deepest(ground):
     return -compat.positions(seen(ground))[:, 2].min()
 
 
+def shortest(mesh):
+    """Length of the edges of which one in a hundred is shorter."""
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    at = compat.positions(mesh)[ends.reshape(-1, 2)].astype(float)
+    return np.quantile(np.linalg.norm(at[:, 0] - at[:, 1], axis=1), 0.01)
+
+
 def border(mesh):
     """Length of the edges that have one face."""
     edges = np.empty(len(mesh.loops), np.int32)
@@ -306,6 +314,27 @@ def test_details_are_those_of_the_soils(folder):
     bpy.ops.object.desire_path_bake()
     clods = compat.vectors(copy_of(ground).data, playback_tree.DETAIL)
     assert np.ptp(clods[:, 1]) > 3.0 * np.ptp(earth[:, 1])
+
+
+def test_walls_of_deep_prints_are_rough_and_cut_finer(folder):
+    ground = baked(folder, plane(), cell=0.01, soil="deep-snow", detail_size=0.008)
+    fine, copy = seen(ground), copy_of(ground).data
+    bare, shown = compat.positions(copy).astype(float), compat.positions(fine).astype(float)
+    depth = compat.colour_attribute(fine, playback_tree.ATTRIBUTE)[:, 2]
+    aside = np.linalg.norm((shown - bare)[:, :2], axis=1)
+    low, high = playback_tree.CUT
+    rough = compat.float_attribute(copy, playback_tree.WALL)[0]
+    assert not aside[depth < low].any() and (depth > high).sum() > 1000
+    assert 0.5 * rough < aside[depth > high].mean() < 3.0 * rough
+    finer = shortest(copy)
+    bpy.context.scene.frame_set(0)
+    assert np.array_equal(compat.positions(seen(ground)), compat.positions(copy))
+    # and no wall of sand is
+    ground.desire_path.soil = "dry-sand"
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    sand = copy_of(ground).data
+    assert playback_tree.WALL not in sand.attributes and finer < 0.6 * shortest(sand)
 
 
 def test_a_copy_whose_ground_was_shaped_otherwise_since_is_outdated(folder):

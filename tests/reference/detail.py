@@ -19,6 +19,15 @@ def waves(x, y, length, seed):
     return (wave(x, y, length, seed) + 0.5 * wave(x, y, length / 2, seed + 1)) / math.sqrt(1.25)
 
 
+def strays(x, y, length, seed, rough=0.7, finest=0.004):
+    """Waves by halves, until they are no longer than is seen."""
+    lengths = [length]
+    while lengths[-1] / 2 > finest:
+        lengths.append(lengths[-1] / 2)
+    high = [rough**k for k in range(len(lengths))]
+    return sum(each * wave(x, y, its, seed + k) for k, (each, its) in enumerate(zip(high, lengths))) / math.hypot(*high)
+
+
 def crumbs(x, y, share, least, most, seed):
     """(height less its mean, threshold of the largest crumb there)."""
     threshold, high, radii = 0.5 * least, 0.0, []
@@ -64,7 +73,7 @@ def detail(x, y, its, seed):
         its.vein_height * (near**2 - VEIN_MEAN) if its.vein_height else 0.0,
         high,
         its.grit_height * waves(x, y, its.grit_size, seed + 1),
-        its.fray * waves(x, y, its.fray_size, seed + 3),
-        its.fray * waves(x, y, its.fray_size, seed + 5),
+        its.fray * strays(x, y, its.fray_size, seed + 1000),
+        its.fray * strays(x, y, its.fray_size, seed + 1100),
         threshold,
     )

@@ -1,10 +1,11 @@
 """closeup.py - what a boot leaves in one soil after another, close by, under a low sun.
 
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/closeup.py -- FOLDER
-        [--width 480 --height 270 --samples 64 --soils dry-sand,mud]
+        [--width 480 --height 270 --samples 64 --soils dry-sand,mud@2]
 
-Writes FOLDER/SOIL.png. A recorded walker in boots with lugs crosses even ground of 5 mm cells, shown with details of
-2 mm and the material that Make Material gives it: all of it by the operators an animator presses.
+Writes FOLDER/SOIL.png. A recorded walker in boots with lugs crosses even ground of 5 mm cells, or of as many as stand
+behind the soil's name, shown with details of 2 mm and the material that Make Material gives it: all of it by the
+operators an animator presses.
 """
 
 import math
@@ -22,18 +23,18 @@ sys.path[:0] = [str(HERE.parents[1] / "addon"), str(HERE.parent)]
 from scenes import demo, mannequin, materials, meshes, noise, people, shots  # noqa: E402
 
 SOILS = ("deep-snow", "fresh-snow", "crust-snow", "dry-sand", "wet-sand", "mud", "wet-soil", "packed-earth", "soil")
-CELL, DETAIL = 0.005, 0.002  # [m]
-LUG = 0.008  # how high the lugs of the sole stand [m]
+CELL, DETAIL = 5.0, 0.002  # [mm], [m]
+LUG = 0.005  # how high the lugs of the sole stand [m]
 LENGTH = 0.31  # of the sole [m]
 STEPS = (140, 330)  # frames of the clip, at 120 a second
-# what a soil's name says: height of the ground's waves [m], sun above the horizon [degrees], exposure [stops]
+# what a soil's name says: height of waves [m], the sun above the horizon and round it [degrees], exposure [stops]
 LIGHT = {
-    "snow": (0.006, 23.0, -0.5),
-    "sand": (0.003, 18.0, 0.1),
-    "mud": (0.005, 24.0, 0.85),
-    "wet-soil": (0.004, 24.0, 1.15),
-    "earth": (0.004, 18.0, 0.85),
-    "soil": (0.004, 20.0, 0.85),
+    "snow": (0.006, 24.0, 44.0, 0.15),
+    "sand": (0.003, 18.0, 104.0, 0.1),
+    "mud": (0.005, 24.0, 104.0, 0.85),
+    "wet-soil": (0.004, 24.0, 104.0, 0.5),
+    "earth": (0.004, 18.0, 104.0, 0.35),
+    "soil": (0.004, 20.0, 104.0, 0.4),
 }
 
 
@@ -43,18 +44,18 @@ def setting(soil):
 
 def boot():
     """A sole with lugs under a left foot, the way the walker goes being -y."""
-    step = 0.003
+    step = 0.002
     share, inner, outer = mannequin.LAST[:, 0], mannequin.LAST[:, 1], mannequin.LAST[:, 2]
     along, aside = np.meshgrid(np.arange(0.0, LENGTH, step), np.arange(-0.07, 0.07, step), indexing="ij")
     u = along / LENGTH
     # how far from the rim; the inner side of a left foot lies to the right of the way it goes
     rim = np.minimum(np.interp(u, share, outer) * LENGTH - aside, aside + np.interp(u, share, inner) * LENGTH)
     rim = np.minimum(rim, np.minimum(along, LENGTH - along))
-    bar = (along + 0.35 * abs(aside)) % 0.034 < 0.020  # bars bent in the middle
-    split = abs(aside) > 0.006
-    edge = (rim < 0.014) & ((along % 0.034) < 0.022)
+    bar = (along + 0.35 * abs(aside)) % 0.030 < 0.021  # bars bent in the middle
+    split = abs(aside) > 0.004
+    edge = (rim < 0.014) & ((along % 0.030) < 0.021)
     heel = (u < 0.27) & (rim < 0.016)
-    inside = (rim > 0.022) & bar & split & ~((u > 0.27) & (u < 0.40))
+    inside = (rim > 0.021) & bar & split & ~((u > 0.27) & (u < 0.40))
     high = np.where(inside | edge | heel, 0.0, LUG)
     high += 0.012 * np.clip((u - 0.80) / 0.20, 0.0, 1.0) ** 2 + 0.004 * np.clip(1.0 - u / 0.08, 0.0, 1.0) ** 2
     mesh = bpy.data.meshes.new("Boot")
@@ -86,8 +87,8 @@ def walker():
     return obj, ankle[k], float(ankle[:, 2].min()) - mannequin.ANKLE
 
 
-def scene_of(soil):
-    """One soil with the prints in it; returns where to look [m]."""
+def scene_of(soil, cell):
+    """One soil with the prints in it, in cells of so many millimetres; returns where to look [m]."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     armature, stands, floor = walker()
@@ -102,12 +103,13 @@ def scene_of(soil):
     meshes.activate(ground)
     bpy.ops.object.desire_path_ground_add()
     settings = ground.desire_path
-    settings.soil, settings.cell_size, settings.detail_size = soil, CELL, DETAIL
+    settings.soil, settings.cell_size, settings.detail_size = soil, 0.001 * cell, DETAIL
     settings.folder = os.path.join(bpy.app.tempdir, "bake")
     meshes.activate(armature)
     bpy.ops.object.desire_path_walker_add()
     armature.desire_path.mass, armature.desire_path.sole, armature.desire_path.ground = demo.MASS, boot(), ground
     meshes.activate(ground)
+    settings.frame_start, settings.frame_end = STEPS
     bpy.ops.object.desire_path_bake()
     bpy.ops.object.desire_path_material_add()
     print(soil, settings.summary)
@@ -117,8 +119,7 @@ def scene_of(soil):
 
 def light_and_camera(scene, soil, at):
     sun = demo.add_sun()
-    turn = math.radians(104.0)
-    up = math.radians(setting(soil)[1])
+    up, turn = (math.radians(each) for each in setting(soil)[1:3])
     sun.location = at + 5.0 * Vector((math.cos(turn) * math.cos(up), math.sin(turn) * math.cos(up), math.sin(up)))
     demo.aim(sun, at)
     materials.sky(scene)
@@ -127,11 +128,12 @@ def light_and_camera(scene, soil, at):
     demo.cycles(scene)
     scene.cycles.use_fast_gi = False  # a hollow in snow is lit by its own walls
     scene.cycles.max_bounces, scene.cycles.diffuse_bounces = 5, 4
-    scene.view_settings.exposure = setting(soil)[2]
+    scene.view_settings.exposure = setting(soil)[3]
 
 
-def make(soil):
-    at = scene_of(soil)
+def make(name):
+    soil, _, cell = name.partition("@")
+    at = scene_of(soil, float(cell or CELL))
     light_and_camera(bpy.context.scene, soil, at)
 
 

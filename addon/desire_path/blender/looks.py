@@ -16,7 +16,7 @@ from . import compat, playback_tree, wiring
 
 TAG = "desire_path_look"  # custom property on node groups and materials that are ours: what they are made for
 SHARE = "desire_path_share_{}"  # float attribute of a painted soil, sum of all at most 1
-VERSION = 1  # of the groups: an old one in a file is left to its users
+VERSION = 2  # of the groups: an old one in a file is left to its users
 FRAYED = 34.0  # lumps in a metre at the border of two soils
 OUTPUTS = {
     "Color": "NodeSocketColor",
@@ -142,19 +142,20 @@ def _mud(n, spot):
 def _earth(n, spot):
     """Crumbs of dark earth, trodden flat and darker where feet went."""
     clods, crumbs = n.crumbs(spot.at, 42.0), n.crumbs(spot.at, 130.0)
-    lumps, grain = n.noise(spot.at, 30.0, 4.0, 0.6), n.noise(spot.at, 400.0, 2.0, 0.65)
+    lumps, grain = n.noise(spot.at, 30.0, 4.0, 0.6), n.noise(spot.at, 420.0, 3.0, 0.65)
     wide, pressed, loose = n.noise(spot.at, 1.7, 2.0), _pressed(n, spot, 0.008), _loose(n, spot)
-    colour = n.mix(n.between(grain, 0.35, 0.68), (0.072, 0.048, 0.029, 1.0), (0.150, 0.104, 0.066, 1.0))
-    colour = n.mix(n.between(lumps, 0.35, 0.62, 0.6, 0.0), colour, (0.046, 0.031, 0.019, 1.0))
-    colour = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.4), colour, (0.060, 0.043, 0.026, 1.0))
-    colour = n.mix(n.math("MULTIPLY", pressed, 0.6), colour, (0.046, 0.030, 0.019, 1.0))
+    colour = n.mix(n.between(grain, 0.3, 0.7), (0.150, 0.108, 0.070, 1.0), (0.262, 0.196, 0.132, 1.0))
+    colour = n.mix(n.between(lumps, 0.35, 0.65, 0.45, 0.0), colour, (0.120, 0.084, 0.053, 1.0))
+    colour = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.4), colour, (0.150, 0.112, 0.074, 1.0))
+    colour = n.mix(n.math("MULTIPLY", loose, 0.5), colour, (0.120, 0.080, 0.048, 1.0))
+    colour = n.mix(n.math("MULTIPLY", pressed, 0.6), colour, (0.100, 0.068, 0.042, 1.0))
     colour, rough, specular = _wetted(n, spot.wet, colour, 0.92, 0.1)
     rough = n.blend(n.math("MULTIPLY", pressed, spot.wet), rough, 0.3)
     flat = n.math("MULTIPLY_ADD", pressed, -0.8, 1.0)
     height = n.sum(
-        (n.math("MULTIPLY", flat, 0.0100), lumps),
-        (n.math("MULTIPLY", flat, 0.0055), clods),
-        (n.math("MULTIPLY", flat, n.math("MULTIPLY_ADD", loose, 0.0018, 0.0024)), crumbs),
+        (n.math("MULTIPLY", flat, 0.0060), lumps),
+        (n.math("MULTIPLY", flat, 0.0040), clods),
+        (n.math("MULTIPLY", flat, n.math("MULTIPLY_ADD", loose, 0.0018, 0.0020)), crumbs),
         (n.math("MULTIPLY_ADD", flat, 0.0009, 0.0003), grain),
     )
     return colour, rough, specular, 0.0, height

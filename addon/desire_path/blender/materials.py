@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import disk
-from ..ground.detail import DETAILS, with_clods
+from ..ground.detail import DETAILS, WALLS, with_clods
 from . import axes, compat, cover, looks, plants, playback, playback_tree, soils
 
 SOILS = {  # soil -> (look, how wet)
@@ -46,6 +46,11 @@ def detail_of(settings):
     look, wet = look_of(name)
     usual = DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
     return with_clods(usual, soils.soil_of(settings).clod_size)
+
+
+def wall_of(settings):
+    """How rough its high walls are, a deviation [m]."""
+    return WALLS.get(look_of(_soil_name(settings))[0].lower(), 0.0)
 
 
 def _soil_name(settings):

@@ -20,9 +20,15 @@ STRENGTH = "plant_strength"  # float attribute where plants grew
 GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 DETAIL = "desire_path_detail"  # vector attribute of a copy: heights of veins, crumbs and grit [m]
 STRAY = "desire_path_stray"  # vector attribute of a copy: how far prints are seen aside, which heap shows crumbs [m]
+WALL = "desire_path_wall"  # float attribute of a copy: deviation by which walls are rough [m]
 BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
 SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
 DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so far [m]
+SMOOTH = 0.35  # share of it that is left where a sole pressed
+CUT = (0.008, 0.040)  # walls are rough where it was pressed so deep [m]
+LUMP = 0.022  # how far the lumps of a wall lie apart [m]
+LEVEL = 0.4  # what lies level is so much less rough than walls are
+NOISE = 0.11  # deviation of Blender's noise, about 0.5
 ROUNDED = 0.01  # of a frame is lost where time is stretched
 COPY_NODE = "GeometryNodeObjectInfo"
 
@@ -112,6 +118,9 @@ def create(obj, shown, playing, into=None):
         grown = _grown(wire, standing, world, scale) if inside is not None else None
         geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
     geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset, **some).outputs[0]
+    if detailed and WALL in copy.data.attributes:
+        share = strengths.of_prints(wire, given, wire.between(split.outputs[2], *CUT))
+        geometry = _rough(wire, geometry, split.outputs[2], share, np.linalg.norm(world[:3, :3], axis=0) * scale)
 
     geometry = strengths.painted(wire, given, geometry, split.outputs[0], split.outputs[2])
 
@@ -146,9 +155,25 @@ def _detail(wire, baked, threshold):
     bare = wire.between(heap, *BARE, 1.0, 0.0)
     veins = wire.math("MULTIPLY", wire.between(baked[2], *SUCKED), bare)
     crumbs = wire.between(heap, threshold, wire.math("MULTIPLY", threshold, 2.0))
-    grit = wire.between(wire.math("MAXIMUM", baked[2], heap), *DISTURBED)
+    grit = wire.math("MAXIMUM", wire.between(heap, *DISTURBED), wire.between(baked[2], *DISTURBED, 0.0, SMOOTH))
     shares = wire.xyz(veins, crumbs, grit)
     return wire.vector("DOT_PRODUCT", wire.named(DETAIL, "FLOAT_VECTOR"), shares)
+
+
+def _rough(wire, geometry, compression, share, metres):
+    """Points of deep prints are moved by noise of the place where they stand, so that walls are lumpy. MODEL 8.3
+
+    share: of it that shows; metres: in a unit of the object along its axes
+    """
+    here = wire.vector("MULTIPLY", wire.add("GeometryNodeInputPosition").outputs[0], tuple(metres))
+    noise = wire.add(
+        "ShaderNodeTexNoise", {"noise_dimensions": "3D"}, Vector=here, Scale=1.0 / LUMP, Detail=2.0, Roughness=0.6
+    )
+    away = wire.vector("SUBTRACT", compat.socket(noise.outputs, "Color"), (0.5, 0.5, 0.5))
+    away = wire.vector("MULTIPLY", away, tuple(np.array((1.0, 1.0, LEVEL)) / (NOISE * metres)))
+    away = wire.vector("SCALE", away, scale=wire.math("MULTIPLY", wire.named(WALL), share))
+    deep = wire.math("GREATER_THAN", compression, CUT[0])
+    return wire.add("GeometryNodeSetPosition", Geometry=geometry, Selection=deep, Offset=away).outputs[0]
 
 
 def _in_place(wire, entry, copy):

@@ -19,6 +19,7 @@ from ..ground.detail import details
 from . import axes, compat, cover, ground, looks, materials, moves, playback, playback_tree, private, stack
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
+STEEP = 2.0  # slope of walls that are cut finer than the rest
 FINE = 1.5  # cells between points that show prints by themselves
 CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
 WRITTEN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "edge_creases"}
@@ -68,12 +69,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         index.cell,
         (index.x0, index.y0),
         axes.typed(settings.refine_size),
-        (
-            np.maximum(planes["compression"], planes["heap"]) > playback_tree.DISTURBED[0],
-            axes.typed(settings.detail_size),
-        )
-        if settings.detail_size
-        else None,
+        _fine(settings, planes, index.cell) if settings.detail_size else None,
     )
     wanted = _as_seen(scene, obj, surface, index, wanted)
     found = cut(scene, obj, surface, index.frame_start, wanted, into)
@@ -155,6 +151,17 @@ def cut(scene, obj, surface, frame, wanted, into=None, refined=None):
     return Cut(carrier, refined, dict(zip(groups, weights)), left)
 
 
+def _fine(settings, planes, cell):
+    """Where something finer than a cell is to be seen, and how long edges are there [m]: half as long on walls."""
+    size = axes.typed(settings.detail_size)
+    sizes = np.full(planes["compression"].shape, size)
+    if any(materials.wall_of(each) for each in (settings, *settings.painted)):
+        high = np.pad(planes["heap"] - planes["compression"], 1, mode="edge")
+        rise = np.maximum(np.abs(high[1:-1, 2:] - high[1:-1, :-2]), np.abs(high[2:, 1:-1] - high[:-2, 1:-1]))
+        sizes[rise > 2.0 * STEEP * cell] = 0.5 * size
+    return np.maximum(planes["compression"], planes["heap"]) > playback_tree.DISTURBED[0], sizes
+
+
 def _detail(carrier, surface, obj, weights, refined):
     """Write what a copy is like below a cell, by its soils."""
     settings, mesh = obj.desire_path, carrier.data
@@ -171,6 +178,9 @@ def _detail(carrier, surface, obj, weights, refined):
     for name, values in ((playback_tree.DETAIL, shown[:, :3]), (playback_tree.STRAY, shown[:, 3:])):
         values = np.ascontiguousarray(values, np.float32)
         mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
+    rough = sum(share / total * materials.wall_of(each) for share, each in zip(shares, (settings, *settings.painted)))
+    if rough.any():
+        mesh.attributes.new(playback_tree.WALL, "FLOAT", "POINT").data.foreach_set("value", rough.astype(np.float32))
 
 
 def held(scene, obj, place):

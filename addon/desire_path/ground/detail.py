@@ -47,13 +47,17 @@ class Detail:
 DETAILS: Mapping[str, Detail] = MappingProxyType(
     {
         "sand": Detail(0.00035, 0.006, 0.02, 0.0015, 0.0025, fray=0.0016, fray_size=0.020),
-        "wet-sand": Detail(0.0003, 0.008, 0.08, 0.0015, 0.003, fray=0.0011, fray_size=0.014),
+        "wet-sand": Detail(0.0003, 0.006, 0.10, 0.0015, 0.003, fray=0.0008, fray_size=0.012),
         "earth": Detail(0.0006, 0.007, 0.24, 0.002, 0.007, fray=0.0026, fray_size=0.018),
         "mud": Detail(0.0, 0.010, 0.0, vein_height=0.0035, vein_size=0.030, fray=0.0030, fray_size=0.050),
-        "snow": Detail(0.0006, 0.010, 0.22, 0.003, 0.009, fray=0.0030, fray_size=0.060),
-        "packed-earth": Detail(0.0004, 0.006, 0.10, 0.0015, 0.003, fray=0.0012, fray_size=0.016),
+        "snow": Detail(0.0010, 0.010, 0.24, 0.003, 0.011, fray=0.0050, fray_size=0.050),
+        "packed-earth": Detail(0.0004, 0.006, 0.14, 0.0015, 0.004, fray=0.0010, fray_size=0.012),
     }
 )
+
+WALLS = MappingProxyType(
+    {"snow": 0.0018, "earth": 0.0012, "mud": 0.0010}
+)  # deviation by which high walls are rough [m]
 
 
 def with_clods(detail: Detail, clod_size: float) -> Detail:

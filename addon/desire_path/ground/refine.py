@@ -138,14 +138,14 @@ def wishes(
     cell: float,
     corner: tuple,
     size: float = 0.0,
-    detail: tuple[np.ndarray, float] | None = None,
+    detail: tuple[np.ndarray, np.ndarray | float] | None = None,
 ) -> Wishes:
     """What a trail asks of the mesh that shows it: edges so short that nowhere the shown ground lies more than
     DEVIATION cells from the baked one, but none shorter than `size`.
 
     height: of the ground over the one before the walk, float (ny, nx) [m]; changed: where anything is to be seen,
     bool (ny, nx); corner: of cell (0, 0) (x, y) [m]; size: shortest edge [m], 0 = a cell; detail: where something finer
-    than a cell is to be seen, bool (ny, nx), and how long edges are there [m]
+    than a cell is to be seen, bool (ny, nx), and how long edges are there, a number or (ny, nx) [m]
     """
     finest = size if size > 0.0 else cell
     bend = _bend(height)
