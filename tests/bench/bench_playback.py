@@ -20,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 from scenes import exr, meshes  # noqa: E402
 
+import desire_path  # noqa: E402
 from desire_path.blender import compat, playback, playback_tree  # noqa: E402
 
 CELL, COUNT = 0.01, 24
@@ -49,6 +50,7 @@ def measure(obj):
 
 
 def main():
+    desire_path.register()
     words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
     for side in [int(w) for w in words if w.isdigit()] or [512, 1024]:
         with tempfile.TemporaryDirectory() as folder:
