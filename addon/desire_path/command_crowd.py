@@ -22,10 +22,10 @@ def _crowd(args: argparse.Namespace) -> None:
         recorded = Recorded(scene, trajectories.read(args.trajectories))
         crowd = Crowd(recorded.scene, args.out, ways=recorded)
     feet = Feet(scene, args.out) if scene.press else None  # before minutes of work
-    told = crowd.run(lambda share: bar(share, "of the passages"))
-    print(f"passages      {told['passages']}")
-    print(f"detour        {told['detour']:.3f}")
-    print(f"worn          {told['area_below_half_cover']:.0f} m^2 below half cover")
+    report = crowd.run(lambda share: bar(share, "of the passages"))
+    print(f"passages      {report['passages']}")
+    print(f"detour        {report['detour']:.3f}")
+    print(f"worn          {report['area_below_half_cover']:.0f} m^2 below half cover")
     if feet is not None:
         pressed = feet.press(lambda share: bar(share, "of the feet"))
         print(f"pressed       {pressed['passages']} passages, {1000 * pressed['deepest_m']:.1f} mm deep")

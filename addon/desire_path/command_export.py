@@ -38,17 +38,17 @@ def run(args: argparse.Namespace) -> None:
 
 
 def _heights(args: argparse.Namespace) -> None:
-    told = height16.write(args.bake, args.out, args.spacing)
-    print(f"samples       {told['columns']} x {told['rows']}, {told['spacing']:g} m apart")
-    print(f"heights       {told['lowest']:.6g} m to {told['highest']:.6g} m")
-    if told["holes"]:
-        print(f"holes         {told['holes']} samples without ground have the value 0")
+    report = height16.write(args.bake, args.out, args.spacing)
+    print(f"samples       {report['columns']} x {report['rows']}, {report['spacing']:g} m apart")
+    print(f"heights       {report['lowest']:.6g} m to {report['highest']:.6g} m")
+    if report["holes"]:
+        print(f"holes         {report['holes']} samples without ground have the value 0")
 
 
 def _stage(args: argparse.Namespace) -> None:
-    told = stage.write(args.bake, args.out, args.spacing)
-    print(f"ground        {told['points']} points, {told['faces']} faces")
-    print(f"maps          {', '.join(told['primvars']) or 'none'}")
-    print(f"plants        {told['stems']} stems" if told["stems"] else "plants        none were baked as a mesh")
-    if told["beside"]:
-        print(f"displacement  {told['beside']}")
+    report = stage.write(args.bake, args.out, args.spacing)
+    print(f"ground        {report['points']} points, {report['faces']} faces")
+    print(f"maps          {', '.join(report['primvars']) or 'none'}")
+    print(f"plants        {report['stems']} stems" if report["stems"] else "plants        none were baked as a mesh")
+    if report["beside"]:
+        print(f"displacement  {report['beside']}")

@@ -26,13 +26,13 @@ typedef struct WidePath
 } WidePath;
 
 // False when there is no such path.
-static bool wide_path(const char* path, WidePath* whole)
+static bool wide_path(const char* path, WidePath* wide)
 {
     static const wchar_t mark[] = L"\\\\?\\", mark_of_share[] = L"\\\\?\\UNC\\";
     wchar_t              given[LONGEST_PATH];
     if (MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, given, LONGEST_PATH) <= 0)
         return false;
-    wchar_t*    at = whole->text + 8;  // room for the longer mark
+    wchar_t*    at = wide->text + 8;  // room for the longer mark
     const DWORD length = GetFullPathNameW(given, LONGEST_PATH, at, NULL);
     if (length == 0 || length >= LONGEST_PATH) return false;
     const bool     marked = wcsncmp(at, L"\\\\?\\", 4) == 0 || wcsncmp(at, L"\\\\.\\", 4) == 0;
@@ -40,8 +40,8 @@ static bool wide_path(const char* path, WidePath* whole)
     const wchar_t* front = marked ? L"" : share ? mark_of_share : mark;
     wchar_t*       rest = share ? at + 2 : at;
     const size_t   size = wcslen(front), left = wcslen(rest) + 1;
-    memmove(whole->text + size, rest, left * sizeof *rest);
-    memcpy(whole->text, front, size * sizeof *front);
+    memmove(wide->text + size, rest, left * sizeof *rest);
+    memcpy(wide->text, front, size * sizeof *front);
     return true;
 }
 

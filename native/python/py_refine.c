@@ -4,23 +4,24 @@
 #include "refine/refine.h"
 
 // (valid, points, point_source, point_weight, triangles, source, weight, cut), Blocks after the first
-static PyObject* refined_result(PyObject* module, DpRefined* made, int given_triangles)
+static PyObject* refined_result(PyObject* module, DpRefined* refined, int given_triangles)
 {
-    const size_t fresh = (size_t)(made->points - made->given), count = (size_t)made->triangles;
-    void**       part[] = {(void**)&made->point,        (void**)&made->point_source,
-                           (void**)&made->point_weight, (void**)&made->triangle,
-                           (void**)&made->source,       (void**)&made->weight,
-                           (void**)&made->cut};
-    const size_t size[] = {3 * (size_t)made->points * sizeof *made->point,
-                           fresh * sizeof *made->point_source,
-                           3 * fresh * sizeof *made->point_weight,
-                           3 * count * sizeof *made->triangle,
-                           count * sizeof *made->source,
-                           9 * count * sizeof *made->weight,
+    const size_t fresh = (size_t)(refined->points - refined->given),
+                 count = (size_t)refined->triangles;
+    void**       part[] = {(void**)&refined->point,        (void**)&refined->point_source,
+                           (void**)&refined->point_weight, (void**)&refined->triangle,
+                           (void**)&refined->source,       (void**)&refined->weight,
+                           (void**)&refined->cut};
+    const size_t size[] = {3 * (size_t)refined->points * sizeof *refined->point,
+                           fresh * sizeof *refined->point_source,
+                           3 * fresh * sizeof *refined->point_weight,
+                           3 * count * sizeof *refined->triangle,
+                           count * sizeof *refined->source,
+                           9 * count * sizeof *refined->weight,
                            (size_t)given_triangles};
     PyObject*    result = PyTuple_New(8);
     if (!result) return NULL;
-    if (PyTuple_SetItem(result, 0, PyBool_FromLong(made->valid)) < 0) goto failed;
+    if (PyTuple_SetItem(result, 0, PyBool_FromLong(refined->valid)) < 0) goto failed;
     for (int k = 0; k < 7; ++k) {
         PyObject* block = dp_py_block(module, *part[k], size[k]);
         *part[k] = NULL;  // the block has it, or it is gone
@@ -42,7 +43,7 @@ static PyObject* refine(PyObject* module, PyObject* arguments)
         return NULL;
     DpBuffers      buffers = {0};
     PyObject*      answer = NULL;
-    DpRefined      made = {0};
+    DpRefined      refined = {0};
     DpShape        point_shape = {2, {-1, 3}}, face_shape = {2, {-1, 3}}, wish_shape = {2, {-1, 2}};
     const double*  point = dp_buffers_open(&buffers, points, "points", 'd', &point_shape, false);
     const int32_t* triangle =
@@ -59,12 +60,12 @@ static PyObject* refine(PyObject* module, PyObject* arguments)
         const DpWishes wishes = {corner, size, (int)wish_shape.n[0], block};
         Py_BEGIN_ALLOW_THREADS
         status = dp_refine(point, (int)point_shape.n[0], triangle, (int)face_shape.n[0], &wishes,
-                           max_triangles, &made);
+                           max_triangles, &refined);
         Py_END_ALLOW_THREADS
     }
-    answer = status == DP_OK ? refined_result(module, &made, (int)face_shape.n[0])
+    answer = status == DP_OK ? refined_result(module, &refined, (int)face_shape.n[0])
                              : dp_py_result(status, "refining a mesh");
-    dp_refined_free(&made);
+    dp_refined_free(&refined);
 done:
     dp_buffers_close(&buffers);
     return answer;

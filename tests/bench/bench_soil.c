@@ -116,7 +116,7 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     const int           rings = law == DP_HEAP_PAPER ? 2 + (int)(0.04 / cell) : 1;
     Cost                cost = {0};
     double              height = 0.0;
-    DpCellRect          reach = {0};
+    DpCellRect          region = {0};
     for (int f = 0; f < FRAMES; ++f) {
         const double u = (f + 0.5) / FRAMES;
         const DpPose pose = pose_at(u);
@@ -143,17 +143,17 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
         const int wide =
             2 + (int)((law == DP_HEAP_PAPER ? 0.05 : height / tan(degrees * DP_PI / 180.0)) / cell);
         const DpCellRect under = {w.imprint.i0, w.imprint.i1, w.imprint.j0, w.imprint.j1};
-        reach = dp_cells_join(reach, dp_cells_grown(under, wide));
+        region = dp_cells_join(region, dp_cells_grown(under, wide));
         t0 = bench_now();
         DpSettled settled;
-        dp_soil_stabilize(&w.patch, &w.imprint, &reach, TENTH, STANDING, scratch, &settled);
+        dp_soil_stabilize(&w.patch, &w.imprint, &region, TENTH, STANDING, scratch, &settled);
         cost.stabilize += bench_now() - t0;
         cost.sweeps += settled.sweeps;
-        reach = dp_cells_join(reach, settled.changed);
+        region = dp_cells_join(region, settled.changed);
     }
     DpSettled    settled;
     const double t0 = bench_now();
-    dp_soil_stabilize(&w.patch, NULL, &reach, TENTH, 100000, scratch, &settled);
+    dp_soil_stabilize(&w.patch, NULL, &region, TENTH, 100000, scratch, &settled);
     cost.liftoff = bench_now() - t0;
     cost.lift_sweeps = settled.sweeps;
     for (int k = 0; k < w.patch.nx * w.patch.ny; ++k) {

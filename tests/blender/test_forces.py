@@ -39,11 +39,11 @@ def test_one_who_stands_is_carried():
     for frame in (1, 12, 23.5, 24):
         found = shafts(forces, frame)
         assert len(found) == 2
-        assert abs(sum(v[2] for _, v in found) / forces.reach - 1.0) < 0.02  # body weight, upwards
+        assert abs(sum(v[2] for _, v in found) / forces.weight_length - 1.0) < 0.02  # body weight, upwards
         for (start, vector), x in zip(found, (0.10, -0.10)):
             assert abs(start[0] - x) < 0.03 and abs(start[2]) < 0.02
             assert np.abs(vector[:2]).max() < 0.1 * vector[2]
-    assert 0.4 < forces.reach < 0.8  # of a person of 1.7 m
+    assert 0.4 < forces.weight_length < 0.8  # of a person of 1.7 m
     assert not len(op_forces.arrows(forces, 0)) and not len(op_forces.arrows(forces, 26))
 
 
@@ -59,7 +59,7 @@ def test_arrows_are_what_the_loads_say():
         t = 2 * (frame - 1)
         found = shafts(forces, frame)
         counts.add(len(found))
-        total = -loads.force[:, t].sum(axis=0) / (75.0 * 9.81) * forces.reach
+        total = -loads.force[:, t].sum(axis=0) / (75.0 * 9.81) * forces.weight_length
         np.testing.assert_allclose(sum(v for _, v in found), total, atol=0.01)
     assert 1 in counts
     # heel and toe press as one, at the point that lies between theirs as their loads do
@@ -85,7 +85,7 @@ def test_in_the_scenes_units_and_on_its_ground():
     ground.desire_path.frame_start, ground.desire_path.frame_end = 1, 24
     bpy.context.view_layer.update()
     large, warnings = read(scene, obj)
-    assert abs(large.reach / plain.reach - 100.0) < 0.1 and not warnings
+    assert abs(large.weight_length / plain.weight_length - 100.0) < 0.1 and not warnings
     for (start, vector), (wanted, along) in zip(shafts(large, 12), shafts(plain, 12)):
         np.testing.assert_allclose(start, 100.0 * wanted + (0, 0, 30.0), atol=0.2)
         np.testing.assert_allclose(vector, 100.0 * along, atol=0.5)

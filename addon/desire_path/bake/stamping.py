@@ -88,31 +88,31 @@ class TrackPress(LivePress):
 
     def press(self, progress: Callable[[float], object] | None = None) -> TrackPress:
         """Press all tracks that are not pressed yet; progress is told the share that is. Returns itself."""
-        reach = self._widen()
+        radius = self._widen()
         for number in range(self._done, len(self.tracks)):
 
-            def told(share: float, before: int = number) -> None:
+            def report(share: float, before: int = number) -> None:
                 if progress is not None:
                     progress((before + share) / len(self.tracks))
 
             track = self.tracks[number]
             if isinstance(track, Laid):
-                self._stamp(self._marks[number], reach, told)
+                self._stamp(self._marks[number], radius, report)
             else:
-                self._roll(track, self._wheels[number], told)
+                self._roll(track, self._wheels[number], report)
             self._done = number + 1
         return self
 
     def _widen(self) -> list[float]:
         """The window reaches as far as tracks change the ground; returns how far each body reaches itself [m]."""
-        reach = [float(np.linalg.norm(body.vertices[:, :2], axis=1).max()) for body in self.bodies]
+        radius = [float(np.linalg.norm(body.vertices[:, :2], axis=1).max()) for body in self.bodies]
         boxes = []
         for number, track in enumerate(self.tracks):
             if isinstance(track, Laid):
                 places = np.array([pose[:2] for _, pose in self._marks[number]])
-                wide = max(reach[self._feet[kind][0]] for kind, _ in self._marks[number])
+                wide = max(radius[self._feet[kind][0]] for kind, _ in self._marks[number])
             else:
-                places, wide = np.asarray(track.pose)[..., :2].reshape(-1, 2), max(reach)
+                places, wide = np.asarray(track.pose)[..., :2].reshape(-1, 2), max(radius)
             boxes.append((*(places.min(axis=0) - wide - AROUND), *(places.max(axis=0) + wide + AROUND)))
         box = np.array(boxes)
         i0, i1, j0, j1 = self._clipped(self.sim.cells((*box[:, :2].min(axis=0), *box[:, 2:].max(axis=0))))
@@ -124,21 +124,21 @@ class TrackPress(LivePress):
             a0, a1, b0, b1 = self.window
             i0, i1, j0, j1 = min(i0, a0), max(i1, a1), min(j0, b0), max(j1, b1)
         self.window = (i0, i1, j0, j1)
-        return reach
+        return radius
 
     # ---- stamps ----------------------------------------------------------------------------------
 
     def _stamp(
-        self, marks: Sequence[tuple[Kind, np.ndarray]], reach: Sequence[float], told: Callable[[float], None]
+        self, marks: Sequence[tuple[Kind, np.ndarray]], radius: Sequence[float], report: Callable[[float], None]
     ) -> None:
         step: dict[int, np.ndarray] = {}  # the pose of each foot that presses
         for number, (kind, pose) in enumerate(marks):
             foot = next((each for each in self._feet[kind] if each not in step), None)
-            near = [HEAPS * (reach[self._feet[kind][0]] + reach[other]) for other in step]
+            near = [HEAPS * (radius[self._feet[kind][0]] + radius[other]) for other in step]
             if foot is None or _meets(pose, step.values(), near):
                 self._stand(step)
                 step, foot = {}, self._feet[kind][0]
-                told(number / len(marks))
+                report(number / len(marks))
             step[foot] = pose
         self._stand(step)
 
@@ -157,7 +157,7 @@ class TrackPress(LivePress):
 
     # ---- wheels ----------------------------------------------------------------------------------
 
-    def _roll(self, gait: Gait, wheels: range, told: Callable[[float], None]) -> None:
+    def _roll(self, gait: Gait, wheels: range, report: Callable[[float], None]) -> None:
         """Wheels roll along; each touches where it meets the ground, as that was or as it is then."""
         pose, there, force, point = _nowhere(len(self.bodies))
         touching = there.copy()
@@ -171,7 +171,7 @@ class TrackPress(LivePress):
                 force[number, 2] = -(body.mass or 0.0) * GRAVITY * touching[number]
             self._next(times[t] - times[t - 1] if t else LIFTS, pose, touching, force, point, there)
             self.sim.run(self._samples - 1)
-            told((t + 1) / len(times))
+            report((t + 1) / len(times))
         nobody = np.zeros_like(there)
         self._next(LIFTS, pose, nobody, 0.0 * force, point, nobody)
         self.sim.run(self._samples - 1)

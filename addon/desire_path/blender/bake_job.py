@@ -17,7 +17,7 @@ from ..bake.bake import read_index
 from ..bake.output import check_idle
 from ..bounds import Limits
 from ..errors import DesirePathError
-from . import home, inputs, moves, paths, reach, recordings, replant, sample, trash
+from . import home, inputs, moves, paths, recordings, replant, sample, trash, trodden
 from .chosen import absent, elsewhere, walkers
 from .home import folder
 from .ops import active
@@ -69,7 +69,7 @@ class Job:
         if not settings.is_ground:
             raise DesirePathError(f"'{obj.name}' is no ground yet: press Add Ground first.")
         there = walkers(scene, obj)
-        if not there and not any(walkers(scene, each) for each in reach.others(scene, obj)):
+        if not there and not any(walkers(scene, each) for each in trodden.others(scene, obj)):
             raise DesirePathError(" ".join(absent(scene, obj) + elsewhere(scene, obj)) or NOBODY.format(obj.name))
         self.warnings += absent(scene, obj)
         inputs.check((obj,), there)
@@ -97,14 +97,14 @@ class Job:
         there = [bpy.data.objects.get(name) for name in self.walkers]
         if None in there:
             raise DesirePathError("A walker was removed or renamed while it was to be recorded: bake again.")
-        company = yield from recordings.within(self.recordings, reach.company(scene, obj))
+        company = yield from recordings.within(self.recordings, trodden.company(scene, obj))
         if not company.walkers:
             raise DesirePathError(NOBODY.format(obj.name))
         self.grounds = [each.name for each in company.grounds]
         folders = [(home.claim(each), each.desire_path.bake_id) for each in company.grounds]
         for path, _ in folders:
             check_idle(path)
-        reach.follow(company)
+        trodden.follow(company)
         for each in company.walkers:
             sample.poses(each)
         steps = inputs.taken(scene, company, folders, wait=0.0)

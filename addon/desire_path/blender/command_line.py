@@ -34,29 +34,29 @@ def run(words):
         args = parser.parse_args(words)
     except SystemExit as end:
         return end.code or 0
-    told = {"file": os.path.abspath(args.file), "saved": False, "grounds": [], "warnings": [], "problems": []}
+    report = {"file": os.path.abspath(args.file), "saved": False, "grounds": [], "warnings": [], "problems": []}
     try:
         if args.report:
             atomic_file.check(args.report, "The report")
-        _bake(args, told)
+        _bake(args, report)
     except (DesirePathError, OSError, MemoryError, RuntimeError) as problem:
-        told["problems"].append(sentence(problem))
+        report["problems"].append(sentence(problem))
     try:
         if args.report:
-            atomic_file.write_json(args.report, told, "The report")
+            atomic_file.write_json(args.report, report, "The report")
     except DesirePathError as problem:
-        told["problems"].append(str(problem))
-    for each in told["warnings"]:
+        report["problems"].append(str(problem))
+    for each in report["warnings"]:
         print(f"Warning: {each}", file=sys.stderr)
-    for each in dict.fromkeys(told["problems"]):
+    for each in dict.fromkeys(report["problems"]):
         print(each, file=sys.stderr)
-    return 1 if told["problems"] else 0
+    return 1 if report["problems"] else 0
 
 
-def _bake(args, told):
+def _bake(args, report):
     if not os.path.isfile(args.file):
         raise DesirePathError(f"{args.file} is not there: give the path of a .blend file.")
-    bpy.ops.wm.open_mainfile(filepath=told["file"])
+    bpy.ops.wm.open_mainfile(filepath=report["file"])
     scene = bpy.data.scenes.get(args.scene) if args.scene else bpy.context.scene
     if scene is None:
         raise DesirePathError(f"There is no scene '{args.scene}' in {args.file}: give the name of one.")
@@ -75,13 +75,13 @@ def _bake(args, told):
     done = set()
     for name in asked:
         if name not in done:  # else it was baked with one that the same walk crosses
-            done |= _job(scene, name, told)
-    if args.save and told["grounds"]:
+            done |= _job(scene, name, report)
+    if args.save and report["grounds"]:
         bpy.ops.wm.save_mainfile()
-        told["saved"] = True
+        report["saved"] = True
 
 
-def _job(scene, name, told):
+def _job(scene, name, report):
     """Bake a ground, and those that the same walk crosses, and note what became of them; returns their names."""
     job = None
     try:
@@ -93,10 +93,10 @@ def _job(scene, name, told):
     except (DesirePathError, OSError, MemoryError) as problem:
         if job is not None and job.bake is not None:
             job.play()
-        told["problems"].append(f"'{name}' was not baked: {sentence(problem)}")
+        report["problems"].append(f"'{name}' was not baked: {sentence(problem)}")
         return {name}
-    told["warnings"] += [each for each in job.warnings if each not in told["warnings"]]
-    told["grounds"] += [{"name": each, "folder": home.folder(bpy.data.objects[each])} for each in job.grounds]
+    report["warnings"] += [each for each in job.warnings if each not in report["warnings"]]
+    report["grounds"] += [{"name": each, "folder": home.folder(bpy.data.objects[each])} for each in job.grounds]
     return {name, *job.grounds}
 
 

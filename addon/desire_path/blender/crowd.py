@@ -40,7 +40,7 @@ def _hull(obj, scale):
     return {"polygon": world[convex_hull_2d(world.tolist())].tolist()}
 
 
-def told(scene, chosen, land, numbers):
+def scene_of(scene, chosen, land, numbers):
     """(Scene, a Simulation of the ground) of the empties and meshes that were chosen."""
     scale = axes.unit_scale(scene)
     below = track.heights(track.surface_of(scene, land), land)
@@ -82,7 +82,7 @@ def folder_of(land):
 def walk(scene, chosen, numbers, progress):
     """Let a crowd walk; returns (a sentence, the curves of its last ways)."""
     land = choose_ground(scene, chosen)
-    given, below = told(scene, chosen, land, {**numbers, "ground": as_cover(numbers["ground"])})
+    given, below = scene_of(scene, chosen, land, {**numbers, "ground": as_cover(numbers["ground"])})
     folder = folder_of(land)
     report = Crowd(given, folder).run(progress)
     shown = _shown(scene, land, _last(os.path.join(folder, PATHS)), below)
@@ -102,7 +102,7 @@ def _last(path):
             ways.setdefault(int(number), []).append((float(x), float(y)))
             if len(ways) > SHOWN:
                 del ways[min(ways)]
-    return [np.array(way) for _, way in sorted(ways.items()) if len(way) > 1]
+    return [np.array(walked) for _, walked in sorted(ways.items()) if len(walked) > 1]
 
 
 def _shown(scene, land, ways, below):
@@ -110,11 +110,11 @@ def _shown(scene, land, ways, below):
     name, scale = f"{land.name} Crowd", axes.unit_scale(scene)
     data = bpy.data.curves.new(name, "CURVE")
     data.dimensions = "3D"
-    for way in ways:
-        height = np.nan_to_num(below.rest_height(way)) + ABOVE
+    for walked in ways:
+        height = np.nan_to_num(below.rest_height(walked)) + ABOVE
         spline = data.splines.new("POLY")
-        spline.points.add(len(way) - 1)
-        flat = np.column_stack([way / scale, height / scale, np.ones(len(way))])
+        spline.points.add(len(walked) - 1)
+        flat = np.column_stack([walked / scale, height / scale, np.ones(len(walked))])
         spline.points.foreach_set("co", flat.astype(np.float32).ravel())
     old = scene.objects.get(name)
     if old is None or old.type != "CURVE" or old.library is not None:

@@ -52,7 +52,7 @@ def create(name, collection, height, playing):
             "GeometryNodeSeparateGeometry",
             {"domain": "POINT"},
             Geometry=beside.outputs[0],
-            Selection=_touched(wire, field, here, tufts.reach(collection)),
+            Selection=_touched(wire, field, here, tufts.root_radius(collection)),
         )
         risen = wire.add(
             "GeometryNodeSetPosition", Geometry=parted.outputs[1], Offset=wire.xyz(z=field.ground(here)[0])

@@ -19,7 +19,7 @@ from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, playback, pressed, reach, recordings, soil_keys
+from . import axes, bodies, ground, paths, plants, playback, pressed, recordings, soil_keys, trodden
 
 ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
 ROUNDED = 4e-7  # rounding moves points no farther, in shares of their distance from the origin
@@ -29,7 +29,7 @@ def taken(scene, company, folders, **more):
     """Take them in steps, between which others may work; returns the Bake and the Surface of each ground it presses, by
     name.
 
-    company: the reach.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for Bake
+    company: the trodden.Company that is baked; folders: (path, id of its owner) of each of its grounds; more: for Bake
     """
     grounds, walkers, first, last = company.grounds, company.walkers, company.first, company.last
     settings = grounds[0].desire_path
@@ -96,7 +96,7 @@ def taken(scene, company, folders, **more):
 
 def now(scene, obj):
     """The marks of what a ground would be baked from now, and the Surface of each ground baked with it, by name."""
-    company = _all(reach.company(scene, obj))
+    company = _all(trodden.company(scene, obj))
     if not company.walkers:
         raise DesirePathError(f"Nobody walks on '{obj.name}' any more.")
     bake, found = _all(taken(scene, company, [(str(number), "") for number in range(len(company.grounds))]))

@@ -22,7 +22,7 @@ def add(level, sentence):
 def tell(operator, level, sentence):
     """Keep a sentence, and let an operator report it in the language of the interface."""
     add(level, sentence)
-    operator.report({level}, sentences.told(sentence))
+    operator.report({level}, sentences.translated(sentence))
 
 
 def text(obj=None):

@@ -62,12 +62,12 @@ class WM_OT_desire_path_export(Refusal, bpy.types.Operator):
             raise DesirePathError(f"There is no name to write to: give a filepath that ends with {kinds}.")
         path = bpy.path.abspath(self.filepath)
         if self.format == "HEIGHT16":
-            told = height16.write(place, path)
-            messages.tell(self, "INFO", f"{told['columns']} x {told['rows']} heights are written to {path}.")
+            report = height16.write(place, path)
+            messages.tell(self, "INFO", f"{report['columns']} x {report['rows']} heights are written to {path}.")
         elif self.format == "USD":
             with compat.bundled_modules():
-                told = stage.write(place, path)
-            messages.tell(self, "INFO", f"{told['points']} points and {told['stems']} stems are written to {path}.")
+                report = stage.write(place, path)
+            messages.tell(self, "INFO", f"{report['points']} points and {report['stems']} stems are written to {path}.")
         else:
             if os.path.splitext(path)[1].lower() not in KINDS["ALEMBIC"]:
                 raise DesirePathError(f"{path} is of no kind that is written: give it a name that ends with {kinds}.")
@@ -88,14 +88,14 @@ def alembic(context, obj, path):
     if obj not in shown:
         raise DesirePathError(f"'{obj.name}' is hidden, and so is not written: show it first.")
     with tempfile.TemporaryDirectory(prefix=".alembic-", dir=os.path.dirname(os.path.abspath(path))) as folder:
-        made = os.path.join(folder, "trail.abc")
+        exported = os.path.join(folder, "trail.abc")
         try:
             for each in chosen:
                 each.select_set(False)
             for each in shown:
                 each.select_set(True)
             bpy.ops.wm.alembic_export(
-                filepath=made, selected=True, start=scene.frame_start, end=scene.frame_end, as_background_job=False
+                filepath=exported, selected=True, start=scene.frame_start, end=scene.frame_end, as_background_job=False
             )
         except RuntimeError as problem:
             raise DesirePathError(f"Alembic cannot be written to {path} ({str(problem).strip()}).") from None
@@ -105,9 +105,9 @@ def alembic(context, obj, path):
             for each in chosen:
                 each.select_set(True)
             scene.frame_set(frame)
-        if not os.path.isfile(made):
+        if not os.path.isfile(exported):
             raise DesirePathError(f"Alembic cannot be written to {path}: choose another folder or make room.")
-        disk.replace(made, path)
+        disk.replace(exported, path)
     return scene.frame_end - scene.frame_start + 1
 
 

@@ -18,13 +18,13 @@ from bpy.props import StringProperty
 from . import soils
 from .chosen import WALKERS, walkers
 from .drawing import batch, gpu
-from .late import axes, force_graph, ground, json, moves, np, reach, report, ride, sample, walker
+from .late import axes, force_graph, ground, json, moves, np, report, ride, sample, trodden, walker
 from .messages import tell
 from .ops import Refusal, active
 
 COLOURS = {"force": (1.0, 0.62, 0.05, 1.0), "mass": (0.2, 0.8, 1.0, 1.0), "pressure": (0.3, 1.0, 0.35, 1.0)}
 WIDTH = 3.0  # of a line [pixel]
-REACH = 0.6  # an arrow of one body weight, in heights of the mass centre over the feet
+WEIGHT_LENGTH = 0.6  # an arrow of one body weight, in heights of the mass centre over the feet
 HEAD = 0.12  # of the arrow's length
 RING = 0.04  # radius of marks, in heights of the mass centre
 ROUND = 16  # sides of a ring
@@ -46,7 +46,7 @@ class Forces:
     pressure: np.ndarray  # where all feet press together in the scene's units, NaN in the air (T, 3)
     touching: np.ndarray  # (L, T) bool
     names: tuple  # of the limbs
-    reach: float  # length of one body weight in the scene's units
+    weight_length: float  # length of one body weight in the scene's units
     frame_start: int
     frame_rate: float
     carry: np.ndarray = None  # what a ground that moves has done since the first sample (T, 4, 4)
@@ -87,7 +87,7 @@ def read(scene, armature):
     below, yields = None, {}
     if land is not None:
         yields = {"settle_time": soils.soil_of(land.desire_path).settle_time}  # as when it is baked
-        shape, _, _ = reach.under(scene, armature, land, gait, first)
+        shape, _, _ = trodden.under(scene, armature, land, gait, first)
         gait = ground.walked(scene, [armature], gait, shape, first, last)
         below = shape.rest_height
     loads = walker.loads(gait, settings.load_model, ground=below, **yields)
@@ -119,7 +119,7 @@ def limbs(gait, loads, scale, below=None):
         report.pressure_centre(gait, loads, *range(count)) / scale,
         touching,
         gait.limb_name,
-        REACH * max(tall, 0.1) / scale,
+        WEIGHT_LENGTH * max(tall, 0.1) / scale,
         gait.frame_start,
         gait.frame_rate,
     )
@@ -136,12 +136,12 @@ def arrows(forces, frame):
         if not np.isfinite(point).all() or size < 1e-3:
             continue
         along = force / size
-        tip = point + forces.reach * force
+        tip = point + forces.weight_length * force
         side = np.cross(along, (1.0, 0.0, 0.0) if abs(along[0]) < 0.7 else (0.0, 1.0, 0.0))
         side /= np.linalg.norm(side)
         lines += [point, tip]
         for barb in (side, -side, np.cross(along, side), -np.cross(along, side)):
-            lines += [tip, tip - HEAD * forces.reach * size * (along - 0.4 * barb)]
+            lines += [tip, tip - HEAD * forces.weight_length * size * (along - 0.4 * barb)]
     return forces.lines(t, lines) if t is not None else _pairs(lines)
 
 
@@ -150,7 +150,7 @@ def mass_marks(forces, frame):
     t = forces.sample(frame)
     if t is None:
         return _pairs([])
-    centre, foot, size = forces.mass[t], forces.foot[t], RING / REACH * forces.reach
+    centre, foot, size = forces.mass[t], forces.foot[t], RING / WEIGHT_LENGTH * forces.weight_length
     lines = _ring(centre, size, (0, 2)) + _ring(centre, size, (1, 2)) + _ring(centre, size, (0, 1))
     if np.isfinite(foot):
         below = np.array((centre[0], centre[1], foot))
@@ -163,7 +163,7 @@ def pressure_marks(forces, frame):
     t = forces.sample(frame)
     if t is None:
         return _pairs([])
-    size = 0.5 * RING / REACH * forces.reach
+    size = 0.5 * RING / WEIGHT_LENGTH * forces.weight_length
     lines = []
     for point in forces.point[:, t]:
         if np.isfinite(point).all():

@@ -27,11 +27,11 @@ from .late import (
     place,
     playback,
     posing,
-    reach,
     recordings,
     sample,
     settle_feet,
     slope,
+    trodden,
     walker,
 )
 from .messages import tell
@@ -54,7 +54,7 @@ def frames_of(scene, armature, land):
 def read(scene, armature, land, frames, prints):
     """(the walk as it is, the walk as it should be, warnings); prints: feet go down into those that are baked."""
     gait = recordings.record(scene, armature, frames[0], frames[-1], samples=1)
-    below, beside, warnings = reach.under(scene, armature, land, gait, frames[0])
+    below, beside, warnings = trodden.under(scene, armature, land, gait, frames[0])
     if slope.steep(below, gait) and not place.carries(gait, below, 0):  # of a level floor its feet lay level
         gait = sample.record(scene, armature, frames[0], frames[-1], samples=1, land=below)
     placed = place.place_feet(gait, below)

@@ -235,7 +235,7 @@ class OBJECT_OT_desire_path_press(Refusal, bpy.types.Operator):
         text = KEYS.format(what)
         if self.follows:
             text = f"Follows the animation.    {text}"
-        text = sentences.told(text)
+        text = sentences.translated(text)
         context.workspace.status_text_set(text)
         for area in context.screen.areas:
             if area.type == "VIEW_3D":

@@ -22,9 +22,9 @@ from .late import (
     np,
     paths,
     place,
-    reach,
     recordings,
     size,
+    trodden,
     underfoot,
     watch,
     worn,
@@ -205,7 +205,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             return []
         frames = op_place.frames_of(scene, armature, land)
         gait = recordings.record(scene, armature, frames[0], frames[-1], samples=1)
-        below, _, _ = reach.under(scene, armature, land, gait, frames[0])
+        below, _, _ = trodden.under(scene, armature, land, gait, frames[0])
         if not place.carries(gait, below, 0):
             return []
         try:
@@ -238,10 +238,10 @@ class _Before:
         self.grounds = [(each, each.desire_path.is_ground, each.desire_path.cell_size) for each in meshes]
 
     def come_back(self):
-        for each, carried, (walks, trodden, placed, tread) in zip(self.who, self.carried, self.walkers):
+        for each, carried, (walks, land, placed, tread) in zip(self.who, self.carried, self.walkers):
             if forward.is_carried(each) and not carried:
                 forward.switch(each, False)
-            each.desire_path.is_walker, each.desire_path.ground = walks, trodden
+            each.desire_path.is_walker, each.desire_path.ground = walks, land
             each.desire_path.place_feet, each.desire_path.tread = placed, tread
         for each, is_ground, cell in self.grounds:
             each.desire_path.is_ground, each.desire_path.cell_size = is_ground, cell
@@ -255,17 +255,17 @@ class _Before:
 
 def look_like_soil(scene, lands):
     """Grounds that have no material get one of what they are made of; returns what is to be told."""
-    told = []
+    sentences = []
     for each in dict.fromkeys(lands):
         if any(slot.material is not None for slot in each.material_slots):
             continue
         try:
-            told.append(("INFO", materials.add(scene, each)))
+            sentences.append(("INFO", materials.add(scene, each)))
         except DesirePathError as problem:
-            told.append(("WARNING", str(problem)))
+            sentences.append(("WARNING", str(problem)))
             continue
         watch.renew(scene, each)
-    return told
+    return sentences
 
 
 def make_ground(context, gaits):

@@ -55,7 +55,7 @@ def draw_ground(layout, context, obj):
         passes = each.desire_path.passes if each.desire_path.path is not None else 1
         box.label(
             text=f"{each.name}, {weight(each.desire_path)}"
-            + (sentences.told(f", {passes} passes") if passes > 1 else ""),
+            + (sentences.translated(f", {passes} passes") if passes > 1 else ""),
             icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA",
         )
     if not there:
@@ -131,7 +131,7 @@ def _lines(layout, text, icon, width):
     """A sentence over several lines, since labels do not wrap, in the language of the interface."""
     column = layout.column(align=True)
     line = ""
-    for word in sentences.told(text).split():
+    for word in sentences.translated(text).split():
         if line and len(line) + 1 + len(word) > width:
             column.label(text=line, icon=icon)
             line, icon = word, "BLANK1"
@@ -207,8 +207,8 @@ def weight(settings):
     if settings.mass:
         return f"{settings.mass:g} kg"
     if settings.estimated_mass:
-        return sentences.told(f"about {settings.estimated_mass:.3g} kg")
-    return sentences.told("mass estimated when recorded")
+        return sentences.translated(f"about {settings.estimated_mass:.3g} kg")
+    return sentences.translated("mass estimated when recorded")
 
 
 def draw_walker(layout, context, obj):

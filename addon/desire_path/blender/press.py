@@ -34,7 +34,7 @@ class _Held:
     turn: np.ndarray  # its matrix where it was taken up (4, 4)
     shape: PressBody
     low: float  # its lowest point under its origin [m]
-    reach: float  # its farthest point from its origin [m]
+    radius: float  # its farthest point from its origin [m]
 
 
 def choose(context):
@@ -212,7 +212,8 @@ class Press:
     def _boxes(self, places):
         """Rectangles (x0, y0, x1, y1) that the objects reach into from places (x, y) [m]."""
         return [
-            (x - each.reach, y - each.reach, x + each.reach, y + each.reach) for each, (x, y) in zip(self.held, places)
+            (x - each.radius, y - each.radius, x + each.radius, y + each.radius)
+            for each, (x, y) in zip(self.held, places)
         ]
 
     def follow(self, seconds=0.04):

@@ -158,8 +158,8 @@ class View:
             self.at = None
             return
         at = np.array(boxes).reshape(-1, 2, 2).mean(axis=(0, 1))
-        way = np.zeros(2) if self.at is None else at - self.at
-        self.going = way if self.at is None else TURNS * way + (1.0 - TURNS) * self.going
+        moved = np.zeros(2) if self.at is None else at - self.at
+        self.going = moved if self.at is None else TURNS * moved + (1.0 - TURNS) * self.going
         self.at = at
 
     def _cells(self, box, wider):
@@ -230,9 +230,9 @@ class View:
         """Show the copy that was begun."""
         if self.cutting is None:
             return
-        (self.fine, wanted, made), self.cutting = self.cutting, None
+        (self.fine, wanted, cut), self.cutting = self.cutting, None
         found = refined.cut(
-            self.scene, self.object(), self.surface, self.scene.frame_current, wanted, self.copy, made.result()
+            self.scene, self.object(), self.surface, self.scene.frame_current, wanted, self.copy, cut.result()
         )
         if found is not None and self.copy is None:
             self.copy = found.carrier

@@ -96,13 +96,13 @@ def _motion(obj):
     """How an object is moved by its action, and where it is beside that."""
     animation = obj.animation_data
     action = animation.action if animation is not None else None
-    told = [obj.name_full, obj.delta_location[:], obj.delta_rotation_euler[:], obj.delta_rotation_quaternion[:]]
+    facts = [obj.name_full, obj.delta_location[:], obj.delta_rotation_euler[:], obj.delta_rotation_quaternion[:]]
     if action is None:
-        return tuple(told)
-    told += [action.name_full, action.get(sample.PLACED)]
+        return tuple(facts)
+    facts += [action.name_full, action.get(sample.PLACED)]
     for curve in compat.curves_played(animation):
         keys = np.empty((len(curve.keyframe_points), 2), np.float32)
         curve.keyframe_points.foreach_get("co", keys.ravel())
         cycles = [(each.cycles_before, each.cycles_after) for each in curve.modifiers if each.type == "CYCLES"]
-        told += [curve.data_path, curve.array_index, curve.extrapolation, keys.tobytes(), *cycles]
-    return tuple(told)
+        facts += [curve.data_path, curve.array_index, curve.extrapolation, keys.tobytes(), *cycles]
+    return tuple(facts)

@@ -59,12 +59,12 @@ def skeleton(armature, world, scale):
     size = axes.sizes(world)
     local = np.array([bone.matrix_local for bone in bones], np.float64)
     parents = [number[bone.parent.name] if bone.parent else -1 for bone in bones]
-    reach = (size @ local)[:, :3, 1] * np.array([bone.length for bone in bones])[:, None]
+    along = (size @ local)[:, :3, 1] * np.array([bone.length for bone in bones])[:, None]
     return body.Skeleton(
         tuple(number),
         np.array(parents, np.int32),
         axes.rigid(size @ local, scale),
-        np.linalg.norm(reach, axis=1) * scale,
+        np.linalg.norm(along, axis=1) * scale,
         bool(np.linalg.det(size[:3, :3]) < 0.0),
     )
 

@@ -36,7 +36,7 @@ _GERMAN = (
 LANGUAGES = {"de_DE": _GERMAN, "de": _GERMAN}  # newer Blenders name a language without its country
 
 
-def told(text):
+def translated(text):
     """A sentence, or several, in the language in which Blender tells its own, by the user's preferences."""
     view = bpy.context.preferences.view
     if not getattr(view, "use_translate_reports", view.use_translate_tooltips):
@@ -49,7 +49,7 @@ def said(language, text):
     """A text in a language, as "de_DE"; as it is where that is not known."""
     if language not in LANGUAGES or len(text) > LONGEST:
         return text
-    return words(language).told(text)
+    return words(language).translated(text)
 
 
 @functools.lru_cache(maxsize=2)
@@ -62,26 +62,26 @@ class Words:
     """Templates of sentences and phrases, with {} for what comes in, and the same in another language."""
 
     def __init__(self, table):
-        self.whole = {english: there for english, there in table.items() if "{}" not in english}
+        self.plain = {english: there for english, there in table.items() if "{}" not in english}
         self.open = sorted((Template(*each) for each in table.items() if "{}" in each[0]), key=lambda each: -each.says)
 
-    def told(self, text):
+    def translated(self, text):
         """A text in the other language, as far as it is known."""
         return self._one(text) or self._listed(text) or self._several(text)
 
     def _one(self, text):
         """A text that one template made, of those that did the one that says most; None where none did."""
-        if text in self.whole:
-            return self.whole[text]
-        return next(filter(None, (each.told(text, self.told) for each in self.open)), None)
+        if text in self.plain:
+            return self.plain[text]
+        return next(filter(None, (each.translated(text, self.translated) for each in self.open)), None)
 
     def _listed(self, text):
         """Known phrases, as "a, b and c"; None where one is not known."""
         parts = re.split(r"(, | and )", text)
-        found = [self.whole.get(each) or self.whole.get(each[:1].lower() + each[1:]) for each in parts[::2]]
+        found = [self.plain.get(each) or self.plain.get(each[:1].lower() + each[1:]) for each in parts[::2]]
         if None in found:
             return None
-        between = [each.replace(" and ", self.whole[" and "]) for each in parts[1::2]]
+        between = [each.replace(" and ", self.plain[" and "]) for each in parts[1::2]]
         return "".join(one + other for one, other in zip(found, [*between, ""]))
 
     def _several(self, text):
@@ -114,7 +114,7 @@ class Template:
         self.longest = max(self.pieces, key=len)
         self.says = sum(map(str.isalpha, english))
 
-    def told(self, text, value):
+    def translated(self, text, value):
         """In the other language, its values as value() tells them; None where it did not make a text."""
         if self.longest not in text:
             return None

@@ -196,7 +196,7 @@ GERMAN = {
         "'{}' ist in 3D-Ansichten abgeschaltet: es einschalten (das Bildschirmzeichen im Outliner) und es noch "
         "einmal versuchen."
     ),
-    # ---- blender/reach.py
+    # ---- blender/trodden.py
     "'{}' is linked from another file, and what is trodden of it stays as it is: make a library override of it.": (
         "'{}' ist aus einer anderen Datei verknüpft, und was davon betreten wird, bleibt, wie es ist: ein Library "
         "Override davon machen."

@@ -224,7 +224,7 @@ class _Evaluated:
     instances: np.ndarray  # where instances are (m, 3)
     world: np.ndarray  # (4, 4)
 
-    def reach(self, *more):
+    def area(self, *more):
         """Area of the rectangle of the world around points."""
         at = np.concatenate([self.points, *more])
         at = axes.points(self.world, at[np.isfinite(at).all(axis=1)], 1.0)
@@ -258,8 +258,8 @@ def _kind(was, now):
     extra = _added(was, now)
     if extra is not None and not len(extra) and not more:
         return "nothing"
-    within = was.reach(now.instances) <= SPREAD * was.reach()
-    if extra is not None and len(was.corners) and within and was.reach(extra) <= SPREAD * was.reach():
+    within = was.area(now.instances) <= SPREAD * was.area()
+    if extra is not None and len(was.corners) and within and was.area(extra) <= SPREAD * was.area():
         return "stands"
     return "instances" if more and not (within and len(now.corners)) else "shapes"
 

@@ -95,7 +95,7 @@ def _wheel(obj):
     return Wheel(radius, width, settings.tread, gauge)
 
 
-def made(scene, obj, below):
+def created(scene, obj, below):
     """What presses along a curve, Laid or a Gait of wheels. below: heights of the ground"""
     line = paths.waypoints(scene, obj)
     marks, drive = _numbers(obj, scene)
@@ -161,8 +161,8 @@ def _ruts(obj, line, below):
     gait = rolled(line, wheel.plain(), Drive(), below)
     points, edges = [], []
     for pose, sole in zip(np.asarray(gait.pose), gait.soles):
-        way = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1))]
-        at = np.interp(np.linspace(0.0, way[-1], max(int(way[-1] / RUT_STEP), 1) + 1), way, np.arange(len(way)))
+        along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1))]
+        at = np.interp(np.linspace(0.0, along[-1], max(int(along[-1] / RUT_STEP), 1) + 1), along, np.arange(len(along)))
         places = pose[at.astype(int), :2]
         ahead = np.gradient(places, axis=0) if len(places) > 1 else np.ones((1, 2))
         ahead /= np.maximum(np.linalg.norm(ahead, axis=1), 1e-9)[:, None]
@@ -202,7 +202,7 @@ def press_all(scene, land, sentences):
     surface = surface_of(scene, land)
     sentences += surface.warnings
     below = heights(surface, land)
-    laid = [made(scene, each, below) for each in curves]
+    laid = [created(scene, each, below) for each in curves]
     there = pressed.inputs(land)
     if pressed.MIXED in there:
         raise DesirePathError(

@@ -52,7 +52,7 @@ def store(mesh, name, kind, value):
     layer.data.foreach_set(key, np.ascontiguousarray(value, np.int32 if kind == "INT" else np.float32).ravel())
 
 
-def reach(collection):
+def root_radius(collection):
     """How far from a plant's middle its stems are rooted, at most [m]."""
     out = 0.0
     for obj in collection.objects:

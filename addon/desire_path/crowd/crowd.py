@@ -75,8 +75,8 @@ class Crowd:
 
     def _name(self) -> str:
         """A digest of all that the result depends on."""
-        told = json.dumps(asdict(replace(self.scene, press=None)), default=str)
-        parts = [told.encode(), np.packbits(self.ways.blocked).tobytes()]
+        numbers = json.dumps(asdict(replace(self.scene, press=None)), default=str)
+        parts = [numbers.encode(), np.packbits(self.ways.blocked).tobytes()]
         parts += [np.ascontiguousarray(self.scene.relief).tobytes(), getattr(self.ways, "digest", b"")]
         return _native.digest(b"".join(parts)).hex()
 

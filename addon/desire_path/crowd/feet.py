@@ -158,14 +158,14 @@ class Feet:
     # ---- files -------------------------------------------------------------------------------------------
 
     def _keep(self, about: dict[str, Any]) -> None:
-        told = {**about, "done": self._done, "last": self._last, "pressed": self.pressed}
-        states.write(os.path.join(self.folder, STATE), told, self.sim.state())
+        line = {**about, "done": self._done, "last": self._last, "pressed": self.pressed}
+        states.write(os.path.join(self.folder, STATE), line, self.sim.state())
 
     def _resume(self, about: dict[str, Any]) -> None:
         """Take up the state that was kept: the last passage is loaded again, not pressed."""
         try:
-            told, state = states.read(os.path.join(self.folder, STATE), about)
-            last = int(told["last"])
+            line, state = states.read(os.path.join(self.folder, STATE), about)
+            last = int(line["last"])
         except (states.Damaged, KeyError, ValueError):
             return
         for number, kind, points in self._passages():
@@ -173,7 +173,7 @@ class Feet:
                 gait = self._gaits[kind].along(list(self._through(number, points))[-1], 1, ground=self.sim)
                 self.sim.load(gait, walker.loads(gait, ground=self.sim.rest_height if self.scene.heights else None))
                 self.sim.restore(state)
-                self._done, self._last, self.pressed = int(told["done"]), last, int(told["pressed"])
+                self._done, self._last, self.pressed = int(line["done"]), last, int(line["pressed"])
                 return
 
     def _write(self) -> dict[str, Any]:
@@ -191,11 +191,11 @@ class Feet:
             "parameters": json.dumps(ground),
         }
         maps.write(os.path.join(self.folder, FINAL), planes, notes)
-        told = self.sim.report()
+        report = self.sim.report()
         report = {
             "version": VERSION,
             "passages": self.pressed,
-            "contacts": told["contacts"],
+            "contacts": report["contacts"],
             "deepest_m": float(planes["compression"].max()),
             **({"cover": cover(self.sim)} if self.sim.plants_count() else {}),
         }

@@ -45,7 +45,7 @@ def number(value: Any, what: str, low: float, high: float) -> float:
     return float(value)
 
 
-def whole(value: Any, what: str, low: int, high: int) -> int:
+def whole_number(value: Any, what: str, low: int, high: int) -> int:
     """A whole number in its range; else a sentence that begins with `what`."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         raise DesirePathError(f"{what} cannot be {str(value)[:40]}: give a whole number from {low} to {high}.")
@@ -152,12 +152,12 @@ class Scene:
                 f"Ground of {wide:g} x {high:g} m cannot be walked in cells of {cell:g} m: let each side have 1 to "
                 f"{MAX_SIDE} cells."
             )
-        whole(self.passages, "The number of passages", 1, MAX_PASSAGES)
+        whole_number(self.passages, "The number of passages", 1, MAX_PASSAGES)
         number(self.per_day, "The number of passages a day", 1e-3, 1e6)
-        whole(self.renewals, "The number of renewals", 1, 100_000)
+        whole_number(self.renewals, "The number of renewals", 1, 100_000)
         number(self.rest_days, "The number of days at rest", 0.0, 1e6)
-        whole(self.film_every, "The number of passages from picture to picture", 0, MAX_PASSAGES)
-        whole(self.seed, "The seed", 0, 2**63)
+        whole_number(self.film_every, "The number of passages from picture to picture", 0, MAX_PASSAGES)
+        whole_number(self.seed, "The seed", 0, 2**63)
         self.ground.check()
         if self.press is not None:
             self.press.check()

@@ -78,8 +78,8 @@ def write(source: str | os.PathLike[str], path: str | os.PathLike[str], spacing:
     """
     beside = check(path)
     grid, step, x, y = heights(source, spacing)
-    told, offset, scale = values(grid)
-    rows, columns = told.shape
+    coded, offset, scale = values(grid)
+    rows, columns = coded.shape
     about = {
         "format": "height16",
         "columns": columns,
@@ -89,11 +89,11 @@ def write(source: str | os.PathLike[str], path: str | os.PathLike[str], spacing:
         "y": y + step * (rows - 1),  # of the first row, the highest [m]
         "offset": offset,  # [m]
         "scale": scale,  # [m]
-        "lowest": offset + scale * int(told[np.isfinite(grid)].min()),  # [m]
-        "highest": offset + scale * int(told.max()),  # [m]
-        "holes": int(told.size - np.isfinite(grid).sum()),  # samples without ground: their value is 0
+        "lowest": offset + scale * int(coded[np.isfinite(grid)].min()),  # [m]
+        "highest": offset + scale * int(coded.max()),  # [m]
+        "holes": int(coded.size - np.isfinite(grid).sum()),  # samples without ground: their value is 0
     }
-    from_above = told[::-1]
+    from_above = coded[::-1]
     picture = os.fspath(path).lower().endswith(".png")
     if picture and max(rows, columns) > WIDEST:
         raise DesirePathError(f"{path} cannot be so large: write .raw, or bake with a larger cell size.")

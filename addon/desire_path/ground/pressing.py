@@ -380,7 +380,7 @@ class Pressing:
         gap = float((bottom - below - heap + pressed)[on].min())
         rest_gap = float((bottom - below)[on].min())
         j, i = np.nonzero(on)
-        reach = np.maximum(-(bottom - below)[on].astype(np.float64), 0.0) * cover[on] + 1e-9
-        x, y = ((reach * k).sum() / reach.sum() for k in (i, j))
+        weight = np.maximum(-(bottom - below)[on].astype(np.float64), 0.0) * cover[on] + 1e-9
+        x, y = ((weight * k).sum() / weight.sum() for k in (i, j))
         point = (ox + (i0 + 0.5 + x) * cell, oy + (j0 + 0.5 + y) * cell, base)
         return _Contact(gap, rest_gap, point)

@@ -133,7 +133,7 @@ class Simulation:
                 there = np.isfinite(self.rest_height(roots))
                 self._core.vary_plants(stand, np.ascontiguousarray(vigour[there]))
 
-    def _plant_reach(self) -> None:
+    def _plant_window(self) -> None:
         """Plant the tiles that the loaded recording can reach, as far as they are not planted yet."""
         i0, i1, j0, j1 = self.reach()
         cell, (ox, oy), bounds = self.cell_size, self.origin, self.bounds()
@@ -247,7 +247,7 @@ class Simulation:
             pose = np.ascontiguousarray(gait.pose)
             self._core.load(time, mass, pose, *cast, touching, force, point, laws_of(gait))
         if self.plantings:
-            self._plant_reach()
+            self._plant_window()
 
     def load_live(self, gait: Gait) -> None:
         """Follow poses as they are made: the walkers and soles of a Gait, whose own poses are not looked at.

@@ -212,7 +212,7 @@ def _plants(stage: Any, source: str | os.PathLike[str], place: tuple[float, floa
         foot = np.flatnonzero(found["along"] == 0.0)
         tip = np.append(foot[1:], len(rest)) - 1
         kind, kinds = found["kind"][foot], [str(name) for name in found["kinds"]]
-        whole = found["unbroken"][tip]
+        unbroken = found["unbroken"][tip]
     except (OSError, npz.Damaged, KeyError, IndexError, ValueError) as problem:
         raise DesirePathError(f"The plants in {folder} are damaged ({problem}): bake again.") from None
     instancer = UsdGeom.PointInstancer.Define(stage, "/Trail/Plants")
@@ -236,7 +236,7 @@ def _plants(stage: Any, source: str | os.PathLike[str], place: tuple[float, floa
     instancer.CreateScalesAttr(_array(np.repeat(long[:, None], 3, 1).astype(np.float32), Vt.Vec3fArray))
     api = UsdGeom.PrimvarsAPI(instancer)
     type_ = Sdf.ValueTypeNames.FloatArray
-    api.CreatePrimvar("unbroken", type_, UsdGeom.Tokens.vertex).Set(_array(whole.astype(np.float32), Vt.FloatArray))
+    api.CreatePrimvar("unbroken", type_, UsdGeom.Tokens.vertex).Set(_array(unbroken.astype(np.float32), Vt.FloatArray))
     return len(foot)
 
 
@@ -283,10 +283,10 @@ def _save(stage: Any, path: str | os.PathLike[str]) -> None:
     path = os.fspath(path)
     try:
         with tempfile.TemporaryDirectory(prefix=".stage-", dir=os.path.dirname(os.path.abspath(path))) as folder:
-            made = os.path.join(folder, "stage" + os.path.splitext(path)[1].lower())
-            if not stage.GetRootLayer().Export(made):
+            exported = os.path.join(folder, "stage" + os.path.splitext(path)[1].lower())
+            if not stage.GetRootLayer().Export(exported):
                 raise OSError("USD could not write it")
-            with atomic_file.file(path, "The stage") as file, open(made, "rb") as source:
+            with atomic_file.file(path, "The stage") as file, open(exported, "rb") as source:
                 shutil.copyfileobj(source, file, 1 << 22)
     except OSError as problem:
         why = problem.strerror or problem

@@ -32,7 +32,7 @@ def moving(time: np.ndarray, matrix: np.ndarray, cut: list[int]) -> tuple[np.nda
             continue
         found = matrix.copy() if found is matrix else found
         step = float(time[first + 1] - time[first])
-        found[first:after] = _between(matrix[first:after], _told(step, after - first, new, usual), usual)
+        found[first:after] = _between(matrix[first:after], _telling(step, after - first, new, usual), usual)
         held.append(usual * step)
     return found, float(np.median(held)) if held else 0.0
 
@@ -51,7 +51,7 @@ def _usual(lasts: np.ndarray, samples: np.ndarray) -> int:
     return int(np.median(short))
 
 
-def _told(step: float, count: int, new: np.ndarray, usual: int) -> np.ndarray:
+def _telling(step: float, count: int, new: np.ndarray, usual: int) -> np.ndarray:
     """Samples (of `count`, a step [s] apart) that tell of the motion: those at which poses begin, and all of a hold up
     to its last pose."""
     tells = [new]

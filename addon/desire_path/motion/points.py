@@ -30,8 +30,8 @@ def _tips(sole: Sole) -> np.ndarray:
     corners: np.ndarray = sole.vertices[np.unique(sole.triangles)].astype(float)
     if not len(corners):
         return corners
-    ways = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
-    tips = corners[(corners @ ways[ways.any(axis=1)].T).argmax(axis=0)]
+    directions = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
+    tips = corners[(corners @ directions[directions.any(axis=1)].T).argmax(axis=0)]
     every = np.concatenate([corners, sole.vertices[sole.triangles].astype(float).mean(axis=1)])
     size = max(SPACING * float(np.ptp(corners, axis=0).max()), 1e-30)
     number = np.floor((every - corners.min(axis=0)) / size)

@@ -13,7 +13,7 @@ from .arrival import check_cell, field
 SIGHT = 2.0  # sigma, how far wear is seen [m]
 STRENGTH = 0.5  # l, how far it pulls, against 1 for the direction [-]
 MIN_GRADIENT = 0.05  # g0, gradients below it pull less [m]
-REACH = 8.0  # sights beyond which nothing is seen
+MAX_SIGHTS = 8.0  # sights beyond which nothing is seen
 
 
 def seen(wear: Any, cell: float, sight: float = SIGHT) -> np.ndarray:
@@ -30,10 +30,10 @@ def seen(wear: Any, cell: float, sight: float = SIGHT) -> np.ndarray:
     if not 0.1 * cell <= sight <= 1e4 * cell:
         raise DesirePathError(f"A sight of {sight:g} m does not fit cells of {cell:g} m: give a tenth to 10,000 cells.")
     ny, nx = worn.shape
-    far = math.ceil(REACH * sight / cell)
+    far = math.ceil(MAX_SIGHTS * sight / cell)
     rows, columns = min(far, ny - 1), min(far, nx - 1)  # nothing lies farther apart than the field is large
     across = np.hypot(*np.meshgrid(np.arange(-columns, columns + 1), np.arange(-rows, rows + 1))) * cell
-    kernel = np.where(across <= REACH * sight, np.exp(-across / sight), 0.0) * cell**2  # MODEL 12.4
+    kernel = np.where(across <= MAX_SIGHTS * sight, np.exp(-across / sight), 0.0) * cell**2  # MODEL 12.4
     shape = (ny + 2 * rows, nx + 2 * columns)
     spectrum = np.fft.rfft2(worn.astype(np.float64), shape) * np.fft.rfft2(kernel, shape)
     return np.fft.irfft2(spectrum, shape)[rows : rows + ny, columns : columns + nx]

@@ -144,12 +144,11 @@ def _spacing(marks: Marks, usual: float, pace: Pace) -> float:
             raise DesirePathError(f"{marks.count} marks cannot be made: give a number from 1 to {MAX_MARKS}.")
         if marks.spacing is not None:
             raise DesirePathError("A track has either a spacing or a number of marks: leave one of them out.")
-        return pace.whole(1.0) / max(marks.count - 1, 1)
+        return pace.spacings(1.0) / max(marks.count - 1, 1)
     spacing = usual if marks.spacing is None else _above("spacing", marks.spacing, LONGEST)
-    if pace.whole(spacing) + 1.0 > MAX_MARKS:
-        raise DesirePathError(
-            f"This would be {pace.whole(spacing) + 1.0:.0f} marks, and {MAX_MARKS} are the most: give a larger spacing."
-        )
+    wanted = pace.spacings(spacing) + 1.0
+    if wanted > MAX_MARKS:
+        raise DesirePathError(f"This would be {wanted:.0f} marks, and {MAX_MARKS} are the most: give a larger spacing.")
     return spacing
 
 
@@ -201,6 +200,6 @@ def _above(name: str, value: float, maximum: float, unit: str = "m") -> float:
 
 def number_of(name: str, value: float, minimum: float, maximum: float, unit: str = "m") -> float:
     if not minimum <= value <= maximum:
-        told = f"{value:g} {unit}".strip()
-        raise DesirePathError(f"A track with a {name} of {told} is none: give one from {minimum:.3g} to {maximum:.3g}.")
+        text = f"{value:g} {unit}".strip()
+        raise DesirePathError(f"A track with a {name} of {text} is none: give one from {minimum:.3g} to {maximum:.3g}.")
     return float(value)

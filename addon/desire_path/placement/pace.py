@@ -31,14 +31,14 @@ class Pace:
         """Where it is then [m]."""
         return np.asarray(self.start * np.expm1(self.more * time) / self.more if self.more else self.start * time)
 
-    def whole(self, spacing: float) -> float:
+    def spacings(self, spacing: float) -> float:
         """How many spacings there are, each sqrt(speed / start) times as long as the first. MODEL 3.8"""
         first, last = math.sqrt(self.start), math.sqrt(self.end)
         return self.length * 2.0 * first / ((first + last) * spacing)
 
     def marks(self, spacing: float, count: int | None) -> np.ndarray:
         """Where marks lie (n,) [m]; as many as fit, or so many."""
-        k = np.arange(int(self.whole(spacing) + 1e-6) + 1 if count is None else count)
+        k = np.arange(int(self.spacings(spacing) + 1e-6) + 1 if count is None else count)
         first = math.sqrt(self.start)
         root = first + self.more * k * spacing / (2.0 * first)  # of the speed at each
         return np.asarray(k * spacing * (root + first) / (2.0 * first))
@@ -65,7 +65,7 @@ def land_of(ground: GroundHeights) -> Land:
     return lambda at: np.asarray(given(np.ascontiguousarray(at)), float)
 
 
-def slope_of(land: Land, at: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
+def slope_of(land: Land, at: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Heights (n,) and slopes (n, 2) of the ground at places; level where it ends so near."""
     high = land(at)
     if not np.isfinite(high).all():
@@ -73,13 +73,13 @@ def slope_of(land: Land, at: np.ndarray, reach: float) -> tuple[np.ndarray, np.n
         raise DesirePathError(
             f"The track leaves the ground at x {x:.3g} m, y {y:.3g} m: keep the curve on it, or make it larger."
         )
-    slope = [(land(at + step) - land(at - step)) / (2.0 * reach) for step in ((reach, 0.0), (0.0, reach))]
+    slope = [(land(at + by) - land(at - by)) / (2.0 * step) for by in ((step, 0.0), (0.0, step))]
     return high, np.nan_to_num(np.stack(slope, axis=1))
 
 
-def laid(place: np.ndarray, heading: np.ndarray, land: Land, reach: float) -> tuple[np.ndarray, np.ndarray]:
+def laid(place: np.ndarray, heading: np.ndarray, land: Land, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Places (n, 3) and rotations (n, 3, 3) of what lies flat on the ground."""
-    high, slope = slope_of(land, place, reach)
+    high, slope = slope_of(land, place, step)
     up = rotation.unit(np.column_stack([-slope, np.ones(len(slope))]))
     flat = ahead_of(heading)
     ahead = rotation.unit(np.column_stack([flat, (flat * slope).sum(axis=1)]))

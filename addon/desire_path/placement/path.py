@@ -17,8 +17,8 @@ ROUNDING = 0.3  # corners are rounded over about this length [m]
 STEP = 0.01  # distance of the curve's samples, where the path is not too long [m]
 MAX_SAMPLES = 400_000  # samples
 FARTHEST = 1e7  # a place may lie from the origin [m]
-FADED = 16.0  # a bend is felt so many reaches before it and after it
-FINE = 32  # samples in a reach
+FADED = 16.0  # a bend is felt so many lean lengths before it and after it
+FINE = 32  # samples in a lean length
 
 
 class Path:
@@ -74,18 +74,18 @@ class Path:
         """Curvature [1/m], positive to the left; straight beyond the ends."""
         return np.asarray(np.interp(s, self.s, self.bend, left=0.0, right=0.0))
 
-    def led(self, s: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
+    def led(self, s: np.ndarray, lean: float) -> tuple[np.ndarray, np.ndarray]:
         """Places (.., 2) [m] and headings (..) [rad] of a body whose feet go along the curve. MODEL 3.6
 
-        c - reach^2 c'' = p, bounded for any bend: c the body, p the curve; reach: speed sqrt(height / g) [m]. What
-        solves it is p weighted by exp(-|u| / reach), so the body leans into a bend before it and after it.
+        c - lean^2 c'' = p, bounded for any bend: c the body, p the curve; lean: speed sqrt(height / g) [m]. What
+        solves it is p weighted by exp(-|u| / lean), so the body leans into a bend before it and after it.
         """
         place, _ = self.at(s)
-        step = max(reach / FINE, self.length / MAX_SAMPLES)
-        count = int(FADED * reach / step) + 1
+        step = max(lean / FINE, self.length / MAX_SAMPLES)
+        count = int(FADED * lean / step) + 1
         every = np.arange(-count, int(self.length / step) + count + 2) * step
         heading = np.interp(every, self.s, self.heading)
-        weight = np.exp(-np.arange(count + 1) * step / reach) if reach > 0.0 else np.eye(1, count + 1)[0]
+        weight = np.exp(-np.arange(count + 1) * step / lean) if lean > 0.0 else np.eye(1, count + 1)[0]
         both = np.r_[weight[:0:-1], weight]
         ahead = np.r_[weight[:0:-1], 0.0, -weight[1:]] * (0.5 * step)
         inward = [np.interp(s, every, _weighted(run, ahead)) for run in (np.cos(heading), np.sin(heading))]

@@ -118,12 +118,12 @@ def rolled(
         raise DesirePathError(
             f"A wheel of radius {least:g} m cannot roll {depth:g} m deep: give it less depth, or more radius."
         )
-    way, wait = float(pace.time(path.length)), COMES_DOWN if depth > 0.0 else 0.0
+    duration, wait = float(pace.time(path.length)), COMES_DOWN if depth > 0.0 else 0.0
     wide = max(axle.gauge for axle in vehicle.axles)
     turns = max(pace.start, pace.end) * (1.0 + wide * abs(path.bend).max()) / least
-    time = _samples(-wait, way + wait, max(turns / ROLLS, 24.0), drive)
-    s = pace.place(np.clip(time, 0.0, way) if wait else time)
-    above = np.clip(np.maximum(-time, time - way) / COMES_DOWN, 0.0, 1.0) * (2.0 * depth) - depth
+    time = _samples(-wait, duration + wait, max(turns / ROLLS, 24.0), drive)
+    s = pace.place(np.clip(time, 0.0, duration) if wait else time)
+    above = np.clip(np.maximum(-time, time - duration) / COMES_DOWN, 0.0, 1.0) * (2.0 * depth) - depth
     mass = mass_of(drive, vehicle.mass) / sum(axle.share for axle in vehicle.axles)
     gaits = []
     for number, (axle, (place, heading)) in enumerate(zip(vehicle.axles, vehicle.steer(path, s)), 1):

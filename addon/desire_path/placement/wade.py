@@ -42,8 +42,8 @@ def _stances(stands: np.ndarray, first: int, deep: np.ndarray) -> list[_Stance]:
     edges = np.flatnonzero(np.diff(np.concatenate([[False], stands, [False]]).astype(int)))
     found = []
     for a, b in zip(edges[::2].tolist(), edges[1::2].tolist()):
-        told = deep[a:b][np.isfinite(deep[a:b])]
-        found.append(_Stance(first + a, first + b - 1, float(np.median(told)) if len(told) else 0.0))
+        known = deep[a:b][np.isfinite(deep[a:b])]
+        found.append(_Stance(first + a, first + b - 1, float(np.median(known)) if len(known) else 0.0))
     return found
 
 

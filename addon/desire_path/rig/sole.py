@@ -211,12 +211,12 @@ def coarse_cells(gait: Gait, cell: float) -> list[str]:
     """Sentences about walkers whose every foot is but a few cells [m] wide, with the cells that would show it."""
     if not (np.isfinite(cell) and cell > 0.0):
         return []  # the bake refuses it
-    warnings, told, carving = [], set[int](), gait.carving()
+    warnings, reported, carving = [], set[int](), gait.carving()
     for walker, name in enumerate(gait.walker_name):
         wide, parts = 0.0, np.flatnonzero(np.asarray(gait.limb_walker)[gait.part_limb] == walker).tolist()
-        if carving[walker] and all(id(gait.soles[part]) in told for part in parts):
+        if carving[walker] and all(id(gait.soles[part]) in reported for part in parts):
             continue  # legs of one who wades
-        told.update(id(gait.soles[part]) for part in parts)
+        reported.update(id(gait.soles[part]) for part in parts)
         for part in parts:
             lowest = gait.pose[part, gait.pose[part, :, 2].argmin(), 3:]
             lies = turned(lowest, np.asarray(gait.soles[part].vertices, float))

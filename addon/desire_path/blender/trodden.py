@@ -1,4 +1,4 @@
-"""reach.py - which grounds a walk reaches, and who else walks on those: what is baked together.
+"""trodden.py - which grounds a walk reaches, and who else walks on those: what is baked together.
 
     the active ground --walkers that tread it--> other grounds they tread --their walkers--> .. --> Company
 A terrain cut into objects is one ground to those who cross it. Grounds nobody goes over to are left alone.
