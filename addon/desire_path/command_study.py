@@ -19,13 +19,13 @@ def _figures(args: argparse.Namespace) -> None:
         if name not in FIGURES:
             raise DesirePathError(f"There is no figure '{name}': choose of {', '.join(FIGURES)}.")
     sheet(1.0, 1.0)  # before minutes of work
-    made = []
+    figures = []
     for done, name in enumerate(names):
         bar(done / len(names), "of the figures")
-        made.append(FIGURES[name]())
+        figures.append(FIGURES[name]())
     bar(1.0, "of the figures")
-    figure_page.write(args.out, made)
-    claims = [claim for figure in made for claim in figure.claims]
+    figure_page.write(args.out, figures)
+    claims = [claim for figure in figures for claim in figure.claims]
     for claim in claims:
         print(f"{'holds' if claim.holds else 'NOT SEEN':8}  {claim.source}: {claim.states} Here {claim.seen}.")
     print(f"{sum(claim.holds for claim in claims)} of {len(claims)} claims hold")

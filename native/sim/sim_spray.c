@@ -108,8 +108,8 @@ static DpStatus step_part(DpSim* sim, const Limb* limb, int part, int sample,
     DpCoat*      coat = spray->coat ? spray->coat[part] : NULL;
     if (!dp_limb_there(sim, limb, sample) || !dp_limb_there(sim, limb, sample + 1)) return DP_OK;
     if (!coat && !presses) return DP_OK;
-    const DpStatus made = coat ? DP_OK : coat_of(sim, part, &coat);
-    if (made != DP_OK) return made;
+    DpStatus status = coat ? DP_OK : coat_of(sim, part, &coat);
+    if (status != DP_OK) return status;
     DpCoatStep step = {.from = dp_limb_pose(sim, part, sample, 0.0),
                        .to = dp_limb_pose(sim, part, sample, 1.0),
                        .dt = dt,
@@ -119,8 +119,8 @@ static DpStatus step_part(DpSim* sim, const Limb* limb, int part, int sample,
                        .dig = dig,
                        .digger = sim};
     step.jumps = dp_length(dp_sub(step.to.at, step.from.at)) > MAX_SPEED * dt;
-    const int      before = dp_cloud_count(spray->cloud);
-    const DpStatus status = dp_coat_step(coat, &step, spray->cloud);
+    const int before = dp_cloud_count(spray->cloud);
+    status = dp_coat_step(coat, &step, spray->cloud);
     spray->thrown += dp_cloud_count(spray->cloud) - before;
     return status;
 }

@@ -123,20 +123,20 @@ typedef struct Flight
     double               dt;
 } Flight;
 
-// Where the way of a grain, from `from`, meets the ground; it ends below it.
+// Where the path of a grain, from `from`, meets the ground; it ends below it.
 static void stop(DpCloud* cloud, int n, DpVec3 from, const DpSprayGround* ground)
 {
-    const DpVec3 to = dp_vec3(cloud->x[n], cloud->y[n], cloud->z[n]), way = dp_sub(to, from);
+    const DpVec3 to = dp_vec3(cloud->x[n], cloud->y[n], cloud->z[n]), path = dp_sub(to, from);
     double       over = 0.0, under = 1.0;
     for (int k = 0; k < HALVINGS; ++k) {
         const double middle = 0.5 * (over + under);
-        const DpVec3 at = dp_add(from, dp_scale(way, middle));
+        const DpVec3 at = dp_add(from, dp_scale(path, middle));
         if (at.z <= ground->surface(ground->ground, at.x, at.y))
             under = middle;
         else
             over = middle;
     }
-    cloud->x[n] = from.x + under * way.x, cloud->y[n] = from.y + under * way.y;
+    cloud->x[n] = from.x + under * path.x, cloud->y[n] = from.y + under * path.y;
     cloud->state[n] = LANDED;
 }
 

@@ -137,7 +137,7 @@ static DpStatus shed(DpCoat* coat, int n, const DpCoatStep* step, DpVec3 from, D
                      DpCloud* cloud)
 {
     const DpSprayNumbers* numbers = &coat->numbers;
-    const DpVec3          way = dp_sub(to, from), velocity = dp_scale(way, 1.0 / step->dt);
+    const DpVec3          path = dp_sub(to, from), velocity = dp_scale(path, 1.0 / step->dt);
     const double          wide = numbers->fast_speed - numbers->slow_speed;
     const double loose = dp_clamp((dp_length(velocity) - numbers->slow_speed) / wide, 0.0, 1.0);
     if (!(loose > 0.0)) return DP_OK;
@@ -148,7 +148,7 @@ static DpStatus shed(DpCoat* coat, int n, const DpCoatStep* step, DpVec3 from, D
     if (after >= when) return DP_OK;
     const double   share = dp_clamp((before - when) / (before - after), 0.0, 1.0);
     const double   keeps = 1.0 - numbers->scatter * chance(coat, n, SCATTER_SEED);
-    const DpGrain  grain = {.at = dp_add(from, dp_scale(way, share)),
+    const DpGrain  grain = {.at = dp_add(from, dp_scale(path, share)),
                             .velocity = dp_scale(velocity, keeps),
                             .kind = coat->kind[n]};
     const DpStatus status = dp_cloud_add(cloud, &grain, share * step->dt);

@@ -144,6 +144,8 @@ def test_rooms_hold(tmp_path):
         ("addon/desire_path/rig/a.py", "def f():\n    import math\n", "a.py:2: import at the top"),
         ("addon/desire_path/rig/a.py", 'b = lazy.module("..bake.bake", __package__)\n', "may not come late"),
         ("addon/desire_path/rig/a.py", 'b = lazy.module("bpy")\n', "stays free of bpy"),
+        ("addon/desire_path/rig/a.py", "def f(told):\n    pass\n", "'told' names much"),
+        ("native/soil/a.c", "static int way;  // made\n", "'way' names much: say what it is, as velocity"),
     ],
 )
 def test_rooms_fall(tmp_path, path, text, words):

@@ -66,11 +66,11 @@ def _draw(place: Axes, figure: Figure) -> None:
     if figure.ticks:
         place.set_xticks(range(len(figure.ticks)), figure.ticks)
     place.set_title(figure.title, loc="left", fontsize="medium")
-    told = []
+    lines = []
     for claim in figure.claims:
         for text in (f"{claim.source}: {claim.states}", f"{'here' if claim.holds else 'NOT SEEN'}: {claim.seen}"):
-            told += textwrap.wrap(text, LETTERS, subsequent_indent="    ")
-    place.set_xlabel("\n".join([figure.x, "", *told]), loc="left", fontsize="x-small")
+            lines += textwrap.wrap(text, LETTERS, subsequent_indent="    ")
+    place.set_xlabel("\n".join([figure.x, "", *lines]), loc="left", fontsize="x-small")
     place.set_ylabel(figure.y, fontsize="small")
     place.tick_params(labelsize="small")
     place.legend(frameon=False, fontsize="x-small")

@@ -39,7 +39,7 @@ def forces() -> Figure:
     models = [("mass centre (Newton)", walker.loads(gait))]
     models += [(f"impulse, tau {tau:g} s", walker.loads(gait, "impulse", settle_time=tau)) for tau in TAUS]
     feet = [foot_loads(gait, loads)[0] for _, loads in models]
-    whole = [float(force.sum(axis=0).mean()) for force in feet]
+    total = [float(force.sum(axis=0).mean()) for force in feet]
     return Figure(
         "forces",
         "One foot of a walk",
@@ -50,8 +50,8 @@ def forces() -> Figure:
             Claim(
                 "SOFT22 (3)",
                 "Both feet together carry the weight.",
-                f"{whole[0]:.3f} body weights on average",
-                abs(whole[0] - 1.0) < 0.05,
+                f"{total[0]:.3f} body weights on average",
+                abs(total[0] - 1.0) < 0.05,
             ),
         ),
     )
@@ -171,7 +171,7 @@ def hill() -> Figure:
     runs = {"up": _hill(HILL), "level": _hill(0.0), "down": _hill(-HILL)}
     length = {name: run[0] for name, run in runs.items()}
     ahead = {name: run[1] for name, run in runs.items()}
-    told = ", ".join(f"{100 * each:.1f} cm {name}" for name, each in length.items())
+    found = ", ".join(f"{100 * each:.1f} cm {name}" for name, each in length.items())
     shifted = ", ".join(f"{100 * each:+.1f} cm {name}" for name, each in ahead.items())
     return Figure(
         "hill",
@@ -181,9 +181,9 @@ def hill() -> Figure:
         tuple(Curve(name, *_between(2.0, 4.0, run[2], 1e4 * run[3])) for name, run in runs.items()),
         (
             Claim(
-                "TRAIL Fig. 12", "Prints uphill are those of toes alone.", told, length["up"] < 0.75 * length["level"]
+                "TRAIL Fig. 12", "Prints uphill are those of toes alone.", found, length["up"] < 0.75 * length["level"]
             ),
-            Claim("TRAIL Fig. 12", "Prints downhill are longer.", told, length["down"] > 1.03 * length["level"]),
+            Claim("TRAIL Fig. 12", "Prints downhill are longer.", found, length["down"] > 1.03 * length["level"]),
             Claim(
                 "TRAIL Fig. 12",
                 "The heap lies behind uphill, ahead downhill.",
