@@ -35,6 +35,8 @@ __getattr__, __dir__, __all__ = lazy.names(
         "Ground": "ground.sim",
         "Simulation": "ground.sim",
         "SimulationOptions": "ground.options",
+        "Spray": "ground.spray",
+        "SPRAYS": "ground.spray",
         "Parcel": "ground.parcels",
         "Bake": "bake.bake",
         "BakeOptions": "bake.options",

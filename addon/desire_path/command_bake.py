@@ -17,6 +17,7 @@ from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
 from .ground.soil import MEASURED, SOILS, as_soil
 from .ground.soil_keys import AnySoil, SoilKeys
+from .ground.spray import SPRAYS, Spray, as_spray
 from .motion import jumps
 from .motion.gait import Gait
 from .motion.scatter import Scatter
@@ -44,6 +45,7 @@ CHANCE = Need(
     lambda args: bool(args.plants) or args.along is not None,
     "is of scattered passes and plants: add --along or --plants",
 )
+SPRAYED = Need(lambda args: args.spray is not None, "is one of a spray: add --spray sand")
 PAPER = Need(lambda args: args.heap == "paper", "is that of a paper heap: add --heap paper")
 WEIGHT = Need(lambda args: args.law != "carve", "is of walkers whom their weight lets sink: leave out --law carve")
 SAMPLES = Need(
@@ -78,6 +80,12 @@ def read_soil(args: argparse.Namespace) -> AnySoil:
     """The soil of the command line, with its keys."""
     soil = as_soil(args.soil).changed(args.soil_set)
     return SoilKeys.load(args.soil_keys, soil) if args.soil_keys else soil
+
+
+def read_spray(args: argparse.Namespace) -> Spray | None:
+    """What sticks and flies, by the command line."""
+    spray = as_spray(args.spray)
+    return spray.changed(args.spray_set) if spray else None
 
 
 def walk(path: str) -> Gait:
@@ -153,6 +161,7 @@ def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
             origin=origin,
             threads=args.threads,
             limits=limits,
+            spray=read_spray(args),
             load_model=args.model,
         ),
         output=BakeOutput(frame_start=args.frame_start, frame_end=args.frame_end, film=args.film),
@@ -174,6 +183,12 @@ def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
         f"{1000 * report['pressed_heap_m3']:.3f} l of loose heaps"
     )
     print(f"heaped        {1000 * report['heaped_m3']:.3f} l")
+    if "spray_thrown_m3" in report:
+        litres = {name: 1000 * report[f"spray_{name}_m3"] for name in ("thrown", "airborne", "beside", "stuck")}
+        print(
+            "thrown        {thrown:.3f} l, of which {airborne:.3f} l fly and {beside:.3f} l fell by the ground; "
+            "{stuck:.3f} l stick".format(**litres)
+        )
     print(f"seconds       {report['seconds']:.2f}")
     for warning in report["warnings"]:
         if warning not in bake.warnings:
@@ -241,6 +256,19 @@ def press_options(command: Parser) -> None:
     command.add_argument("--heap", choices=HEAPS, default="rest", help="how displaced soil is laid")
     command.option(
         "--rim-width", PAPER, type=float, default=0.04, metavar="METRES", help="how wide the rim of a paper heap is"
+    )
+    command.add_argument(
+        "--spray",
+        metavar="SPRAY",
+        help=f"soil sticks to soles and wheels and flies off them: {', '.join(SPRAYS)}, or a spray's file (.json)",
+    )
+    command.option(
+        "--spray-set",
+        SPRAYED,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="another number for that spray, as adhesion=0.004, in SI units; repeatable",
     )
     command.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
     command.add_argument(

@@ -64,6 +64,7 @@ extern PyMethodDef dp_py_maps_methods[];
 extern PyMethodDef dp_py_refine_methods[];
 extern PyMethodDef dp_py_paths_methods[];
 extern PyMethodDef dp_py_base_methods[];
+extern PyMethodDef dp_py_spray_methods[];
 
 // py_sim.c, py_frames.c: add a type to the module; 0 or -1 with an exception.
 int dp_py_sim_type(PyObject* module);

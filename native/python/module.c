@@ -6,7 +6,7 @@ static int fill(PyObject* module)
     PyMethodDef* const tables[] = {
         dp_py_walker_methods, dp_py_imprint_methods, dp_py_soil_methods, dp_py_kind_methods,
         dp_py_plants_methods, dp_py_terrain_methods, dp_py_maps_methods, dp_py_refine_methods,
-        dp_py_paths_methods,  dp_py_base_methods};
+        dp_py_paths_methods,  dp_py_base_methods,    dp_py_spray_methods};
     for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t)
         if (PyModule_AddFunctions(module, tables[t]) < 0) return -1;
     int (*const types[])(PyObject*) = {dp_py_block_type, dp_py_sim_type, dp_py_film_type};

@@ -51,6 +51,12 @@ PyObject* dp_py_load_tracks(PyObject* object, PyObject* args);
 PyObject* dp_py_load_live(PyObject* object, PyObject* args);
 PyObject* dp_py_push(PyObject* object, PyObject* args);
 
+// py_spray.c
+PyObject* dp_py_spray(PyObject* object, PyObject* numbers);
+PyObject* dp_py_grains(PyObject* object, PyObject* unused);
+PyObject* dp_py_read_grains(PyObject* object, PyObject* args);
+int       dp_py_add_spray(PyObject* numbers, const DpSimReport* report);  // to a dict; 0 or -1
+
 // py_state.c
 PyObject* dp_py_save_state(PyObject* object, PyObject* unused);
 PyObject* dp_py_load_state(PyObject* object, PyObject* bytes);

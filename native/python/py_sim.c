@@ -179,13 +179,15 @@ static PyObject* simulation_report(Simulation* self, PyObject* unused)
     if (!dp_py_enter(self)) return NULL;
     const DpSimReport r = dp_sim_report(self->sim);
     self->busy = false;
-    return Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:d,s:d,s:n,s:i,s:i,s:l}", "contacts",
-                         r.contacts, "off_ground", r.off_ground, "deepest_m", r.deepest,
-                         "pressed_m3", r.pressed, "pressed_heap_m3", r.pressed_heap, "displaced_m3",
-                         r.displaced, "heaped_m3", r.heaped, "loosened_m3", r.loosened,
-                         "rebounded_m3", r.rebounded, "tiles",
-                         (Py_ssize_t)dp_terrain_tile_count(self->terrain), "plants",
-                         dp_plants_count(self->plants, -1), "awake", r.awake, "broke", r.broke);
+    PyObject* report =
+        Py_BuildValue("{s:i,s:i,s:d,s:d,s:d,s:d,s:d,s:d,s:d,s:n,s:i,s:i,s:l}", "contacts",
+                      r.contacts, "off_ground", r.off_ground, "deepest_m", r.deepest, "pressed_m3",
+                      r.pressed, "pressed_heap_m3", r.pressed_heap, "displaced_m3", r.displaced,
+                      "heaped_m3", r.heaped, "loosened_m3", r.loosened, "rebounded_m3", r.rebounded,
+                      "tiles", (Py_ssize_t)dp_terrain_tile_count(self->terrain), "plants",
+                      dp_plants_count(self->plants, -1), "awake", r.awake, "broke", r.broke);
+    if (report && dp_sim_sprays(self->sim) && dp_py_add_spray(report, &r) < 0) Py_CLEAR(report);
+    return report;
 }
 
 static PyObject* simulation_read(Simulation* self, PyObject* args)
@@ -291,6 +293,14 @@ static PyMethodDef methods[] = {
      "reach() -> (i0, i1, j0, j1): cells the recording can change."},
     {"run", (PyCFunction)simulation_run, METH_VARARGS,
      "run(sample): step up to the state at this sample."},
+    {"spray", dp_py_spray, METH_O,
+     "spray(numbers by name): soil sticks to soles from now on and flies off them; once, before "
+     "the "
+     "first step."},
+    {"grains", dp_py_grains, METH_NOARGS, "grains() -> int: how many fly."},
+    {"read_grains", dp_py_read_grains, METH_VARARGS,
+     "read_grains(position (n, 3) f8, velocity (n, 3) f8, soil (n,) i4, name (n,) i4): all that "
+     "fly."},
     {"save_state", dp_py_save_state, METH_NOARGS,
      "save_state() -> Block: what the simulation has become, as bytes for load_state."},
     {"load_state", dp_py_load_state, METH_O,

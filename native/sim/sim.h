@@ -111,6 +111,7 @@ DpStatus dp_sim_run(DpSim* sim, int sample);
 // From now on soil sticks to soles and flies off them, spray/spray.h; before the first step. Numbers out of their
 // range, or a second time: DP_BAD_ARGUMENT.
 DpStatus dp_sim_spray(DpSim* sim, const DpSprayNumbers* numbers);
+bool     dp_sim_sprays(const DpSim* sim);
 // What flies: how many grains, and one of them, in the world's frame.
 int     dp_sim_grains(const DpSim* sim);
 DpGrain dp_sim_grain(const DpSim* sim, int index);

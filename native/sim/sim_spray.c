@@ -26,6 +26,11 @@ DpStatus dp_sim_spray(DpSim* sim, const DpSprayNumbers* numbers)
     return DP_OK;
 }
 
+bool dp_sim_sprays(const DpSim* sim)
+{
+    return sim->spray.cloud != NULL;
+}
+
 int dp_sim_grains(const DpSim* sim)
 {
     return sim->spray.cloud ? dp_cloud_count(sim->spray.cloud) : 0;

@@ -7,8 +7,8 @@
 A change that alters results renews the file in the same commit, and that commit says why. Every world is computed
 under both contact laws and both heap laws by one worker, and by 2 or 5. `walk` is a recorded walk whose contacts and
 forces are found by every load model, and which is carried along a path and placed on a slope; `bake` is the same walk
-baked, in one go and broken off, frame by frame and pass by pass; `soils` is every soil that has a name, trodden by one
-worker and by 2, under both heap laws. worlds.py tells what the worlds hold.
+baked, in one go and broken off, frame by frame, pass by pass and with spray; `soils` is every soil that has a name,
+trodden by one worker and by 2, under both heap laws. worlds.py tells what the worlds hold.
 """
 
 from __future__ import annotations
@@ -182,6 +182,7 @@ def baked():
     for name, walk, options in (
         ("frames", gait, {"frame_start": 20, "frame_end": 40, "soils": "soil", "plants": plants, "plant_mesh": True}),
         ("passes", lane(gait), {"soils": "snow", "law": "uniform", "heap": "paper", "load_model": "impulse"}),
+        ("spray", gait, {"frame_start": 20, "frame_end": 40, "soils": "dry-sand", "spray": "sand"}),
     ):
         by = [baked_files(walk, threads=1, **options), baked_files(walk, threads=2, broken=True, **options)]
         found[name] = by[0]
@@ -220,7 +221,7 @@ def baked_files(gait, *, broken=False, **options):
             for name, file in files.items()
             if file.suffix == ".exr" and not name.startswith("frames")
         }
-        for kind in ("trail", "lean"):
+        for kind in ("trail", "lean", *(["spray"] if "frames/spray_0000.exr" in files else [])):
             frames = [
                 read_file(file)
                 for name, file in files.items()

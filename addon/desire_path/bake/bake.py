@@ -3,6 +3,7 @@
     folder/frames/trail_0000.exr   the ground at rest (all zero)
     folder/frames/trail_0001.exr   the first frame, then one file a frame
     folder/frames/lean_0001.exr    with plants: how the grass lies, likewise from lean_0000.exr on
+    folder/frames/spray_0001.exr   with spray: what flies, likewise; see ground/spray.py
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps/pass_0001.exr      or after a pass, where a frame is a pass
@@ -31,6 +32,7 @@ from ..bounds import check_reserve
 from ..errors import DesirePathError
 from ..ground.parcels import Parcel
 from ..ground.sim import Ground, Simulation, check_cell
+from ..ground.spray import Spray, check_soles
 from ..keywords import fields_of
 from ..loads.force import FootForce
 from ..motion.gait import Gait
@@ -143,6 +145,9 @@ class Bake(Plan):
     def _into(self) -> Iterator[Progress]:
         seconds = {"total": time.perf_counter()}
         self.lost = lost_soles(self.gait, self.cell_size)
+        if isinstance(self.options.spray, Spray):
+            names = [f"the sole of bone {self.gait.bone(part)}" for part in range(len(self.gait.soles))]
+            check_soles(self.options.spray, self.gait.soles, names)
         sims, states = self._restored()
         seconds["loads"] = time.perf_counter() - seconds["total"]
         seconds["step"] = seconds["write"] = 0.0

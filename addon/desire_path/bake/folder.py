@@ -6,6 +6,7 @@ file holds.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import struct
@@ -23,6 +24,8 @@ _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
 INPUTS = "inputs"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
 SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
+SPRAY_SUMS = "spray_sums.txt"  # the same of what flies, each with how many grains
+ZIP_LINES = 16  # packed together in a file without tiles
 MAX_SIDE = 1 << 30  # cells of a frame
 AT_ONCE = 64  # frames are looked at
 MAX_FRAME = 1 << 31  # a frame's number may be
@@ -44,6 +47,7 @@ class FrameIndex:
     frames: int  # files that are there and whole, counted from trail_0001.exr on
     complete: bool
     lean: bool = False  # with lean_0000.exr .., how the grass lies
+    grain_size: float = 0.0  # > 0: with spray_0000.exr .., what flies: grains so wide [m]
     owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
     inputs: dict[str, Any] = field(default_factory=dict)  # words for what it was made from, as Bake was given them
 
@@ -60,6 +64,14 @@ class FrameIndex:
         """The same of how the grass lies, if `lean`."""
         return frame_path(self.folder, number, "lean")
 
+    def spray_path(self, number: int) -> str:
+        """The same of what flies, if `grain_size`: for ground.spray.read_frame."""
+        return frame_path(self.folder, number, "spray")
+
+    def most_grains(self) -> int:
+        """As many fly at most in any frame."""
+        return max((count for _, count in spray_sums(self.folder).values()), default=0)
+
 
 def frame_path(frames_folder: str, number: int, film: str = "trail") -> str:
     """trail_0001.exr or lean_0001.exr and so on."""
@@ -70,20 +82,22 @@ def frame_name(number: int, film: str = "trail") -> str:
     return f"{film}_{number:04d}.exr"
 
 
-def _films(lean: bool) -> tuple[str, ...]:
-    return ("trail", "lean") if lean else ("trail",)
+def _films(lean: bool, spray: bool) -> tuple[str, ...]:
+    return ("trail", *(["lean"] if lean else []), *(["spray"] if spray else []))
 
 
-def frames_there(frames_folder: str, lean: bool, up_to: int = MAX_FRAME) -> int:
+def frames_there(frames_folder: str, lean: bool, up_to: int = MAX_FRAME, spray: bool = False) -> int:
     """How many frames, up to number `up_to`, are whole, counted from number 1 on; -1 without the ground at rest."""
     number = -1
-    while number < up_to and all(_is_entire(frame_path(frames_folder, number + 1, film)) for film in _films(lean)):
+    while number < up_to and all(
+        _is_entire(frame_path(frames_folder, number + 1, film)) for film in _films(lean, spray)
+    ):
         number += 1
     return number
 
 
 def _is_entire(path: str) -> bool:
-    """Whether a tiled OpenEXR file is there to its end: its last tile ends where the file does. Files appear
+    """Whether an OpenEXR file is there to its end: its last tile, or lines, end where the file does. Files appear
     whole, but a disk that fails and a copy that stops leave less; what the tiles hold is not looked at."""
     try:
         with atomic_file.reader(path) as file:
@@ -102,15 +116,17 @@ def _is_entire(path: str) -> bool:
                 found[head[at:end]] = head[value : value + size]
                 at = value + size
             x0, y0, x1, y1 = struct.unpack("<4i", found[b"dataWindow"])
-            wide, high = struct.unpack_from("<2I", found[b"tiles"])
+            is_tiled = b"tiles" in found
+            wide, high = struct.unpack_from("<2I", found[b"tiles"]) if is_tiled else (x1 - x0 + 1, ZIP_LINES)
             tiles = -((x0 - x1 - 1) // wide) * -((y0 - y1 - 1) // high)
             if not 0 < 8 * tiles < long:
                 return False
             file.seek(at + 1)
             starts = struct.unpack(f"<{tiles}Q", file.read(8 * tiles))
-            file.seek(max(starts) + 16)  # behind the tile's place
+            before = 16 if is_tiled else 4  # the tile's place, or the line
+            file.seek(max(starts) + before)
             (size,) = struct.unpack("<i", file.read(4))
-            return min(starts) > at and max(starts) + 20 + size == long
+            return min(starts) > at and max(starts) + before + 4 + size == long
     except (OSError, ValueError, IndexError, KeyError, ZeroDivisionError, OverflowError, struct.error):
         return False
 
@@ -139,7 +155,23 @@ def _sum(path: str) -> str:
     return f"{len(content)}:{_native.digest(content).hex()}"
 
 
-def frames_sound(frames: str, lean: bool) -> tuple[int, dict[str, str], dict[str, str]]:
+def spray_sums(frames: str) -> dict[str, tuple[str, int]]:
+    """(checksum, how many fly) of frames of a spray by name, as they were written."""
+    found = {}
+    with contextlib.suppress(OSError, ValueError), atomic_file.reader(os.path.join(frames, SPRAY_SUMS)) as file:
+        for line in file:
+            name, checksum, count = line.decode("ascii").split()
+            found[name] = checksum, int(count)
+    return found
+
+
+def add_spray(frames: str, name: str, count: int) -> None:
+    """A frame of a spray is there, in which so many fly."""
+    with open(os.path.join(frames, SPRAY_SUMS), "a", encoding="ascii") as file:
+        file.write(f"{name} {_sum(os.path.join(frames, name))} {count}\n")
+
+
+def frames_sound(frames: str, lean: bool, spray: bool = False) -> tuple[int, dict[str, str], dict[str, str]]:
     """(how many frames are bit for bit what was written, from number 1 on, -1 without the ground at rest; their
     checksums by name; those of all files that were written)."""
     known: dict[str, str] = {}
@@ -152,9 +184,10 @@ def frames_sound(frames: str, lean: bool) -> tuple[int, dict[str, str], dict[str
                 known[name] = found
     except OSError:
         return -1, {}, {}
+    known.update({name: checksum for name, (checksum, _) in spray_sums(frames).items()})
     while True:
         next_ones = range(number + 1, number + 1 + AT_ONCE)
-        names = [[frame_name(each, film) for film in _films(lean)] for each in next_ones]
+        names = [[frame_name(each, film) for film in _films(lean, spray)] for each in next_ones]
         for several, good in zip(names, side_by_side(lambda of: all(is_sound(frames, n, known) for n in of), names)):
             if not good:
                 return number, sound, known
@@ -209,7 +242,8 @@ def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex
     if cell <= 0.0 or rate <= 0.0:
         raise ValueError
     count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
-    there = count if just_baked else max(0, frames_there(frames, lean, count))
+    size = _number(data.get("grain_size", 0.0))
+    there = count if just_baked else max(0, frames_there(frames, lean, count, size > 0.0))
     return FrameIndex(
         frames,
         cell,
@@ -223,6 +257,7 @@ def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex
         there,
         there == count,
         lean,
+        size,
         owner if isinstance(owner, str) else "",
         inputs if isinstance(inputs := data.get(INPUTS), dict) else {},
     )

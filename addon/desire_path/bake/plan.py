@@ -14,6 +14,7 @@ from ..core import _native
 from ..errors import DesirePathError
 from ..ground.parcels import Parcel
 from ..ground.soil_keys import rows
+from ..ground.spray import Spray
 from ..motion import jumps, size, tracks
 from ..motion.gait import AUTO, Gait
 from ..placement.passes import turns_of
@@ -164,6 +165,7 @@ class Plan:
             "rim_width": options.rim_width,
             "origin": options.origin,
             **({"plants": [planting.parameters() for planting in plants]} if plants else {}),
+            **({"spray": options.spray.parameters()} if isinstance(options.spray, Spray) else {}),
             **({"film": self.film} if self.film != "frames" else {}),
         }
 

@@ -23,6 +23,7 @@ VOLUMES = (  # of a run's ledger: heaped = displaced + loosened - pressed heaps 
     "loosened_m3",
     "rebounded_m3",
 )
+SPRAY = ("thrown_m3", "stuck_m3", "airborne_m3", "beside_m3")  # what came off, sticks, flies, fell by the ground
 OF_ONE = ("contacts", "deepest_m", *VOLUMES)
 
 
@@ -45,6 +46,7 @@ def summary(
         "contacts": total["contacts"],
         "deepest_m": max(each["deepest_m"] for each in found),
         **{name: total[name] for name in VOLUMES},
+        **({f"spray_{name}": total[name] for name in SPRAY} if plan.options.spray else {}),
         **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
         "seconds": round(seconds["total"], 3),
         "stages": {name: round(spent, 3) for name, spent in seconds.items()},

@@ -17,13 +17,26 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
-from ..ground import maps, plant_mesh
+from ..ground import maps, plant_mesh, spray
 from ..ground.parcels import Parcel
 from ..ground.sim import TILE, Simulation
 from ..loads.force import FootForce
 from ..version import VERSION
 from .contents import OWNER, index_data
-from .folder import FORMAT, INPUTS, SUMS, frame_path, frames_sound, is_sound, list_sums, order_sums
+from .folder import (
+    FORMAT,
+    INPUTS,
+    SPRAY_SUMS,
+    SUMS,
+    add_spray,
+    frame_name,
+    frame_path,
+    frames_sound,
+    is_sound,
+    list_sums,
+    order_sums,
+    spray_sums,
+)
 from .output import Output
 from .plan import Plan
 
@@ -41,6 +54,8 @@ class Share:
     ) -> None:
         self.plan, self.parcel, self.sim, self.loads, self.tiles = plan, parcel, sim, loads, tiles
         self.plants: Any = parcel.plants
+        found: Any = plan.options.spray
+        self.spray: spray.Spray | None = found
         self.out = Output(parcel.folder, parcel.owner)
         self.mesh: plant_mesh.Writer | None = None
         self.begun = False
@@ -81,8 +96,10 @@ class Share:
         try:
             self._keep(frame, states)
             self._write_json(("frames", "index.json"), self.index, "The index of the frames")
-            list_sums(fresh, self.sums)
+            list_sums(fresh, {name: found for name, found in self.sums.items() if not name.startswith("spray_")})
             self.films.list_files(os.path.join(fresh, SUMS))
+            if self.spray:
+                self._list_spray(fresh)
             if self.mesh:
                 self.mesh.open(os.path.join(fresh, PLANTS), frame)
             self.begun = True
@@ -105,7 +122,7 @@ class Share:
                 and (place == self.out.new or not old.get("complete"))
                 and all(old.get(name) == self.index.get(name) for name in ("signature", OWNER))
             ):
-                there, sums, known = frames_sound(os.path.join(place, "frames"), bool(self.plants))
+                there, sums, known = frames_sound(os.path.join(place, "frames"), bool(self.plants), bool(self.spray))
                 if there > self.found:
                     self.found, self.sums, self.place, listed = there, sums, place, known
         self.sound_to = self.found
@@ -123,11 +140,26 @@ class Share:
         self.sums = {name: found for name, found in self.sums.items() if name not in later}
         kept = [*self.sums, *states, *([PLANTS] if self.mesh and frame else [])]
         here = self.place == self.out.new
-        self.out.fresh(keep=[*kept, SUMS, "index.json"] if here else ())
+        self.out.fresh(keep=[*kept, SUMS, SPRAY_SUMS, "index.json"] if here else ())
         if self.place and not here:
             for name in kept:  # what is shown stays until the bake is whole
                 folder = "maps" if name.startswith(MAP_FILMS) else "frames"
                 _link(os.path.join(self.place, folder, name), self.out.path(folder, name))
+
+    def _list_spray(self, fresh: str) -> None:
+        """Begin the list of what flies with the frames that are there already."""
+        known = spray_sums(os.path.join(self.place, "frames")) if self.place else {}
+        path = os.path.join(fresh, SPRAY_SUMS)
+        with atomic_file.file(path, "The list of the spray", "w", False, encoding="ascii") as file:
+            file.writelines(f"{name} {of} {count}\n" for name, (of, count) in known.items() if name in self.sums)
+
+    def _write_spray(self, number: int, seconds: float) -> None:
+        """What flies; of several grounds, over this one."""
+        grains, folder, name = self.sim.grains(), self.out.path("frames"), frame_name(number, "spray")
+        if len(self.plan.parcels) > 1:
+            grains = grains.some(self.parcel.has(np.ascontiguousarray(grains.position[:, :2])))
+        spray.write_frame(os.path.join(folder, name), grains, seconds)
+        add_spray(folder, name, len(grains))
 
     def plants_known(self, frame: int) -> str | None:
         """Digest of the plants' mesh that was written up to a frame; None where none is."""
@@ -143,6 +175,8 @@ class Share:
         self.films.write_frame(fresh and frame_path(fresh, number), seconds)
         if self.plants:
             self.films.write_lean(fresh and frame_path(fresh, number, "lean"), seconds)
+        if self.spray and fresh:
+            self._write_spray(number, seconds)
         if self.mesh and number:
             self.mesh.add(self.sim)
 
@@ -243,6 +277,7 @@ class Share:
             "frame_rate": plan.frame_rate,
             "complete": False,
             **({"lean": True} if self.plants else {}),
+            **({"grain_size": self.spray.particle_size} if self.spray else {}),
             **({OWNER: self.out.owner} if self.out.owner else {}),
             **({INPUTS: self.parcel.inputs} if self.parcel.inputs else {}),
         }

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..bounds import Limits
 from ..errors import DesirePathError
 from ..motion.recording import CONTACT_LAWS
+from .spray import Spray, as_spray
 
 LAWS = CONTACT_LAWS[:2]  # how a sole presses by its load: one sink for the limb | one stress, as in TRAIL (10)
 HEAPS = ("rest", "paper")  # how displaced soil is laid: in its resting shape | TRAIL (12) and (16)
@@ -25,6 +26,9 @@ class SimulationOptions:
     origin: tuple[float, float] = (0.0, 0.0)  # where cells begin [m]
     threads: int = 0  # 0 = as many as the machine has, to 64; the result is the same for any number
     limits: Limits = Limits()  # how many plants, and how much memory for them
+    spray: str | Spray | None = (
+        None  # what sticks to soles and flies off them: a Spray, one's name or file; None: nothing
+    )
 
     def __post_init__(self) -> None:
         if self.law not in CONTACT_LAWS:
@@ -59,6 +63,7 @@ class SimulationOptions:
             raise DesirePathError(
                 f"Limits of {self.limits!r} are none: give Limits(), or leave them out for the usual ones."
             )
+        object.__setattr__(self, "spray", as_spray(self.spray))
         object.__setattr__(self, "rim_width", width)
         object.__setattr__(self, "origin", (x, y))
         object.__setattr__(self, "threads", int(self.threads))

@@ -28,7 +28,8 @@ from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
 from .options import HEAPS, LAWS, SimulationOptions
 from .planting import Plants, as_plantings, seed_of
-from .soil_keys import AnySoil, rows, table
+from .soil_keys import AnySoil, settle_times, table
+from .spray import Grains, Spray, grains_of
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -111,6 +112,8 @@ class Simulation:
                     "The ground has no area seen from above: it stands upright. Lay it down and bake again."
                 ) from None
             raise DesirePathError(f"The ground cannot be used: {problem}.") from None
+        if isinstance(options.spray, Spray):
+            self._core.spray(options.spray.parameters())
         if self.plantings:
             self._core.open_plants(seed_of(self.plantings))
         if ground.trail is not None:
@@ -161,18 +164,8 @@ class Simulation:
         """tau of the soil at points xy (n, 2), float64 (n,) [s]; where it changes over time, as it is at first. A point
         beside the ground or over a hole has that of the nearest point which is on it, if any is.
         """
-        taus = np.array([rows(soil)[0].settle_time for soil in self.soils])
-        if len(taus) == 1:
-            return np.full(len(np.asarray(xy)), taus[0])
-        cells, number = np.unique(
-            np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64), axis=0, return_inverse=True
-        )
-        kinds = np.array([int(self.read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
-        on = np.flatnonzero([np.isfinite(self.read("rest", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
-        for beside in np.setdiff1d(np.arange(len(cells)), on) if len(on) else ():
-            away = ((cells[on] - cells[beside]) ** 2).sum(axis=1)
-            kinds[beside] = kinds[on[away.argmin()]]
-        return taus[kinds][number.reshape(-1)]
+        at = np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64)
+        return settle_times(self.soils, self.read, at)
 
     def normal(self, xy: Sequence[float], radius: float) -> tuple[float, float, float]:
         """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
@@ -391,6 +384,10 @@ class Simulation:
         elif self.plantings:
             self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
         return out
+
+    def grains(self) -> Grains:
+        """What flies now; nothing, where the options have no spray."""
+        return grains_of(self._core)
 
     def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int) -> Film:
         """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""

@@ -12,7 +12,7 @@ import json
 import math
 import os
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -129,6 +129,22 @@ def _times(keys: Iterable[Sequence[tuple[float, float]]]) -> list[float]:
     for pairs in keys:
         most |= Counter(time for time, _ in pairs)
     return sorted(most.elements())
+
+
+def settle_times(
+    soils: Sequence[AnySoil], read: Callable[[str, int, int, int, int], np.ndarray], at: np.ndarray
+) -> np.ndarray:
+    """tau of the soil in some cells at (n, 2) [s], as Simulation.settle_time tells it; read: Simulation.read."""
+    taus = np.array([rows(soil)[0].settle_time for soil in soils])
+    if len(taus) == 1:
+        return np.full(len(at), taus[0])
+    cells, number = np.unique(at, axis=0, return_inverse=True)
+    kinds = np.array([int(read("soil", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
+    on = np.flatnonzero([np.isfinite(read("rest", i, j, 1, 1)[0, 0]) for i, j in cells.tolist()])
+    for beside in np.setdiff1d(np.arange(len(cells)), on) if len(on) else ():
+        away = ((cells[on] - cells[beside]) ** 2).sum(axis=1)
+        kinds[beside] = kinds[on[away.argmin()]]
+    return taus[kinds][number.reshape(-1)]
 
 
 def rows(soil: AnySoil) -> list[Soil]:
