@@ -18,6 +18,7 @@
 #include "motion/motion.h"
 #include "imprint/imprint.h"
 #include "soil/soil.h"
+#include "carry/carry.h"
 #include "plants/plants.h"
 #include "grass/grass.h"
 #include "terrain/terrain.h"

@@ -115,6 +115,12 @@ typedef struct DpSoilPatch
 
     const uint32_t*
         plate;  // piece of a crust in which a cell lies, 0 = none; NULL = no crust, MODEL 6.12
+
+    float*
+               coat;  // what soles have left on top, of each soil that sticks (coats, coat_stride); NULL = none [m]
+    size_t     coat_stride;
+    const int* coat_soil;     // which soil each is of (coats)
+    const int* coat_of_soil;  // coat of each soil, -1 = it does not stick (soil_count)
 } DpSoilPatch;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

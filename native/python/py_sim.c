@@ -190,6 +190,24 @@ static PyObject* simulation_report(Simulation* self, PyObject* unused)
     return report;
 }
 
+static PyObject* simulation_carried(Simulation* self, PyObject* unused)
+{
+    (void)unused;
+    if (!dp_py_enter(self)) return NULL;
+    const int* soil = NULL;
+    const int  count = dp_terrain_coats(self->terrain, &soil);
+    PyObject*  all = PyTuple_New(count);
+    for (int k = 0; all && k < count; ++k) {
+        const DpSimCarried c = dp_sim_carried(self->sim, k);
+        PyObject*          one = Py_BuildValue("(iddd)", soil[k], c.taken, c.carried, c.left);
+        if (one && PyTuple_SetItem(all, k, one) == 0) continue;
+        Py_DECREF(all);
+        all = NULL;
+    }
+    self->busy = false;
+    return all;
+}
+
 static PyObject* simulation_read(Simulation* self, PyObject* args)
 {
     int       field;
@@ -197,7 +215,7 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     PyObject* out_object;
     if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
     const bool pressure = field == DP_FIELD_PRESSURE;
-    if (!pressure && (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE)) {
+    if (!pressure && !dp_terrain_knows(self->terrain, field)) {
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
@@ -215,8 +233,8 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
         if (pressure)
             dp_sim_pressure(self->sim, i0, j0, (int)shape.n[1], (int)shape.n[0], out);
         else
-            status = dp_terrain_read(self->terrain, (DpField)field, i0, j0, (int)shape.n[1],
-                                     (int)shape.n[0], out);
+            status = dp_terrain_read(self->terrain, field, i0, j0, (int)shape.n[1], (int)shape.n[0],
+                                     out);
         Py_END_ALLOW_THREADS
         self->busy = false;
         result = dp_py_because(status, "reading a map",
@@ -309,6 +327,8 @@ static PyMethodDef methods[] = {
      "settle(): let everything that is loose come to rest."},
     {"report", (PyCFunction)simulation_report, METH_NOARGS,
      "report() -> dict: contacts, depths [m] and volumes [m^3] so far."},
+    {"carried", (PyCFunction)simulation_carried, METH_NOARGS,
+     "carried() -> ((soil, taken, carried, left), ..): of each soil that sticks [m^3]."},
     {"read", (PyCFunction)simulation_read, METH_VARARGS,
      "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
     {"lay", (PyCFunction)simulation_lay, METH_VARARGS,

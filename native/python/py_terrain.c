@@ -178,7 +178,16 @@ static PyObject* fields(PyObject* module, PyObject* none)
     return rows;
 }
 
+static PyObject* soil_fields(PyObject* module, PyObject* none)
+{
+    (void)module, (void)none;
+    return Py_BuildValue("(ii)", DP_FIELD_SURFACE, DP_FIELD_COAT);
+}
+
 PyMethodDef dp_py_terrain_methods[] = {
+    {"soil_fields", soil_fields, METH_NOARGS,
+     "soil_fields() -> (surface, carried): numbers of the fields of soil 0, from which others "
+     "count."},
     {"fields", fields, METH_NOARGS,
      "fields() -> ((name, number, unit, equation, meaning), ..): what a simulation can be read "
      "by."},

@@ -8,6 +8,7 @@
 // its sole; a limb that has let go lets its rim come to rest. Limbs whose patches do not overlap are
 // worked on at once; the result is the same for any number of workers.
 #pragma once
+#include "carry/carry.h"
 #include "grass/grass.h"
 #include "base/stream.h"
 #include "motion/motion.h"
@@ -120,6 +121,14 @@ DpGrain dp_sim_grain(const DpSim* sim, int index);
 DpStatus dp_sim_settle(DpSim* sim);
 
 DpSimReport dp_sim_report(const DpSim* sim);
+
+// What became of one of the soils that stick (dp_terrain_coats): taken up since the start, on soles now, and left on the
+// ground [m^3]; taken = carried + left.
+typedef struct DpSimCarried
+{
+    double taken, carried, left;
+} DpSimCarried;
+DpSimCarried dp_sim_carried(const DpSim* sim, int coat);
 
 // ---- stop and go on ------------------------------------------------------------------------------
 

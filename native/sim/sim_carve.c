@@ -163,6 +163,8 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
         dp_soil_carve(patch, &scratch->imprint, &descent, dp_sim_interval(sim, sample), &carved);
     if (status != DP_OK || carved.pressed.area <= 0.0) return status;
     count(limb, &carved);
+    status = dp_limb_carry(sim, limb, patch, scratch, poses);
+    if (status != DP_OK) return status;
 
     const double      cut = carved.cut_firm + carved.cut_loose;
     const double      volume = carved.pressed.displaced + cut;

@@ -43,8 +43,8 @@ static void fill_tile(const DpFilm* film, int index, float* value)
     const long   ty = film->tile_y + index / film->tiles_x;
     for (int f = 0; f < film->fields; ++f) {
         const int axis = film->field[f] - DP_FIELD_LEAN_X;
-        if (axis < 0) {
-            dp_terrain_tile(sim->terrain, tx, ty, (DpField)film->field[f], value + f, film->fields);
+        if (dp_terrain_knows(sim->terrain, film->field[f])) {
+            dp_terrain_tile(sim->terrain, tx, ty, film->field[f], value + f, film->fields);
             continue;
         }
         float cell[TILE_CELLS];
@@ -216,8 +216,7 @@ const DpFieldInfo* dp_sim_fields(int* count)
 bool dp_film_shows(const DpSim* sim, int field)
 {
     if (field >= DP_FIELD_LEAN_X && field <= DP_FIELD_CRUSHED) return dp_sim_grass(sim) != NULL;
-    return field == DP_FIELD_PRESSURE ||
-           (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE);
+    return field == DP_FIELD_PRESSURE || dp_terrain_knows(sim->terrain, field);
 }
 
 static bool are_known(const DpSim* sim, const DpFilmOptions* options)
@@ -264,10 +263,9 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
     for (int f = 0; f < options->fields; ++f) {
         const int field = created->field[f] = options->field[f];
         created->of_soles = created->of_soles || field == DP_FIELD_PRESSURE;
-        created->of_grass =
-            created->of_grass || (field >= DP_FIELD_LEAN_X && field != DP_FIELD_PRESSURE);
-        created->of_ground =
-            created->of_ground || (field < DP_FIELD_LEAN_X && field != DP_FIELD_PLANT_STRENGTH);
+        const bool of_terrain = dp_terrain_knows(reel->sim->terrain, field);
+        created->of_grass = created->of_grass || (!of_terrain && field != DP_FIELD_PRESSURE);
+        created->of_ground = created->of_ground || (of_terrain && field != DP_FIELD_PLANT_STRENGTH);
     }
     const DpStatus status = begin(created, options);
     if (status != DP_OK) {

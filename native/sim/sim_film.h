@@ -8,7 +8,7 @@
 #include "maps/maps.h"
 #include "terrain/terrain.h"
 
-#define DP_FILM_FIELDS 16
+#define DP_FILM_FIELDS 48
 
 // Fields beyond the terrain's own, as terrain_fields.h has those.
 #define DP_SIM_FIELDS(X)                                                                \

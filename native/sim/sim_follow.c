@@ -9,7 +9,10 @@ void dp_sim_forget(DpSim* sim)
     dp_stage_drop(sim);
     dp_spray_drop(&sim->spray);
     sim->speculation.planned = false, sim->speculation.count = 0;
-    for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) dp_free(sim->limb[l].met);
+    for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
+        dp_free(sim->limb[l].met);
+        dp_carry_destroy(sim->limb[l].carry);
+    }
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) dp_free(sim->pressing[l].value);
     void* const blocks[] = {sim->limb,        sim->pressing,   sim->part_of_limb, sim->group,
                             sim->order,       sim->number,     sim->start,        sim->span,
@@ -87,6 +90,7 @@ DpStatus dp_sim_follow(DpSim* sim, DpMotion* motion)
     sim->stage = dp_stage_empty(&old.stage);
     dp_spray_leave(&sim->spray, &old.spray);
     DpStatus status = make_limbs(sim);
+    if (status == DP_OK) status = dp_carry_fit(sim);
     if (status == DP_OK) status = dp_stage_fit(sim, sim->cast.parts, sim->cast.limbs);
     if (status != DP_OK) {
         sim->motion = NULL;  // it stays the caller's
@@ -94,6 +98,7 @@ DpStatus dp_sim_follow(DpSim* sim, DpMotion* motion)
         *sim = old;
         return status;
     }
+    dp_carry_gone(&old, &sim->gone);
     dp_sim_forget(&old);
     sim->speculation.planned = false, sim->speculation.count = 0;
     for (int b = 0; b < sim->worker_count; ++b) {

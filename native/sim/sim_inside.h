@@ -23,6 +23,7 @@ typedef struct Limb
     DpCellRect   trodden;  // cells its patches covered during this stance
     float*       met;      // `uniform`: heap - compression on `met_at` as this stance met them [m]
     DpCellRect   met_at;
+    DpCarry*     carry;  // what sticks to it; NULL: no soil does
 
     // this step's work and what came of it
     DpCellRect patch;   // cells this step's patch covers
@@ -135,6 +136,12 @@ typedef struct SprayStage
         carried_off;  // grains: come off, fallen by the ground, on walkers of before
 } SprayStage;
 
+// What limbs that are not followed any more took up, and carried away, of each soil that sticks [m^3].
+typedef struct Gone
+{
+    double taken[DP_MAX_COATS], carried[DP_MAX_COATS];
+} Gone;
+
 struct DpSim
 {
     DpTerrain*   terrain;
@@ -152,7 +159,8 @@ struct DpSim
 
     Limb*     limb;
     Pressing* pressing;  // of every limb
-    int       next;      // first interval not yet stepped: from sample `next` to `next + 1`
+    Gone      gone;
+    int       next;  // first interval not yet stepped: from sample `next` to `next + 1`
 
     WorkerScratch* scratch;  // one per worker (options.workers)
     int            worker_count;
@@ -276,6 +284,15 @@ DpStatus dp_carve_behind(DpSim* sim,
 // sim_release.c: what no sole stands on any more comes back, on the cells of limbs that are active, or of one
 DpStatus dp_release_step(DpSim* sim, int sample);
 DpStatus dp_release_limb(DpSim* sim, Limb* limb, DpCellRect cells, int sample);
+
+// sim_carry.c: stores for the limbs where soil sticks; what a limb that has pressed takes up and leaves, `poses` as in its
+// scratch; what those take that lift
+DpStatus dp_carry_fit(DpSim* sim);
+void     dp_carry_gone(const DpSim* sim, Gone* gone);  // limbs go, with what sticks to them
+DpStatus dp_limb_carry(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                       int poses);
+DpStatus dp_carry_lifts(DpSim* sim);
+DpStatus dp_limb_lifts(DpSim* sim, Limb* limb);
 
 // sim_press.c: one limb's step on its patch
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,

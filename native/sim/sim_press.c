@@ -101,6 +101,8 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     limb->rebounded -= pressed.elastic;
     limb->loose += pressed.loose;
     limb->deepest = fmax(limb->deepest, pressed.deepest);
+    status = dp_limb_carry(sim, limb, patch, scratch, limb->part_count);
+    if (status != DP_OK) return status;
 
     const DpSoil* soil = soil_under(patch, foot.point);
     const double  half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)

@@ -9,10 +9,12 @@
 // worked out is dropped and the step is made in its turn: the result is the same to the bit.
 #include "sim/sim_inside.h"
 
-// Limbs whose patches meet have to press one after the other: not ahead.
+// Limbs whose patches meet have to press one after the other: not ahead. Nor what soil sticks to, since what it holds
+// would have to be taken back.
 static int pressing(DpSim* sim, Limb** limb)
 {
     int count = 0;
+    if (dp_terrain_coats(sim->terrain, NULL) > 0) return 0;
     for (int g = 0; g < sim->groups; ++g) {
         int in_group = 0;
         for (int k = sim->start[g]; k < sim->start[g + 1]; ++k) {

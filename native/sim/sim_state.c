@@ -16,6 +16,8 @@
 #define SHOWN "show"  // whether it is remembered how soles laid the stems
 #define VERSION 3  // 2 tells nothing of prints that slide by themselves, 1 nor of walls and springs
 #define SHOWN_VERSION 1
+#define CARRIED "crry"  // what sticks to the limbs, where soil does
+#define CARRIED_VERSION 1
 #define FARTHEST ((int64_t)1 << 40)  // cells
 #define WIDEST ((int64_t)1 << 24)    // cells along one side of what a limb presses on
 #define LARGEST ((int64_t)1 << 26)   // and in all
@@ -97,6 +99,13 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     for (int k = 0; k < sim->slides; ++k) write_cells(writer, sim->slide[k]);
     dp_write_end(writer);
     dp_terrain_save(sim->terrain, writer);
+    if (dp_terrain_coats(sim->terrain, NULL) > 0) {
+        dp_write_chunk(writer, CARRIED, CARRIED_VERSION);
+        dp_write_doubles(writer, sim->gone.taken, DP_MAX_COATS);
+        dp_write_doubles(writer, sim->gone.carried, DP_MAX_COATS);
+        for (int l = 0; l < sim->cast.limbs; ++l) dp_carry_save(sim->limb[l].carry, writer);
+        dp_write_end(writer);
+    }
     if (sim->stage.plants) {
         dp_plants_save(sim->stage.plants, writer);
         dp_grass_save(sim->stage.grass, writer);
@@ -120,6 +129,7 @@ typedef struct State
     DpCellRect*          slide;
     int                  slides;
     DpSimReport          report;
+    Gone                 gone;
     DpTerrainState*      terrain;
     DpPlantsState*       plants;
     DpGrassState*        grass;
@@ -130,7 +140,10 @@ typedef struct State
 
 static void drop(State* state)
 {
-    for (int l = 0; state->limb && l < state->limbs; ++l) dp_free(state->limb[l].met);
+    for (int l = 0; state->limb && l < state->limbs; ++l) {
+        dp_free(state->limb[l].met);
+        dp_carry_destroy(state->limb[l].carry);
+    }
     for (int l = 0; state->pressing && l < state->limbs; ++l) dp_free(state->pressing[l].value);
     dp_free(state->limb), dp_free(state->pressing), dp_free(state->slide);
     dp_terrain_state_destroy(state->terrain);
@@ -260,12 +273,32 @@ static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
     return room ? reader->status : DP_NO_MEMORY;
 }
 
+// What sticks to the limbs, where soil does.
+static DpStatus read_carried(const DpSim* sim, DpStateReader* reader, State* state)
+{
+    const int coats = dp_terrain_coats(sim->terrain, NULL);
+    if (coats == 0) return DP_OK;
+    dp_read_chunk(reader, CARRIED, CARRIED_VERSION);
+    for (int k = 0; k < DP_MAX_COATS; ++k) state->gone.taken[k] = dp_read_number(reader, 0.0, 1e30);
+    for (int k = 0; k < DP_MAX_COATS; ++k)
+        state->gone.carried[k] = dp_read_number(reader, 0.0, 1e30);
+    for (int l = 0; l < state->limbs && reader->status == DP_OK; ++l) {
+        DpStatus status = dp_carry_create(&state->limb[l].carry, coats, sim->grid.cell);
+        if (status == DP_OK) status = dp_carry_load(state->limb[l].carry, reader);
+        if (status != DP_OK) return status;
+    }
+    dp_read_end(reader);
+    return reader->status;
+}
+
 static void take_limbs(DpSim* sim, State* state)
 {
+    sim->gone = state->gone;
     for (int l = 0; l < state->limbs; ++l) {
         Limb *      limb = &sim->limb[l], was = *limb;
         const Limb* kept = &state->limb[l];
         dp_free(was.met);
+        dp_carry_destroy(was.carry);
         *limb = *kept;
         limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
         limb->law = was.law, limb->boxed = -1;
@@ -314,6 +347,7 @@ DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size)
     DpStateReader reader = dp_read_open(bytes, size);
     DpStatus      status = read_sim(sim, &reader, &state);
     if (status == DP_OK) status = dp_terrain_load(sim->terrain, &reader, &state.terrain);
+    if (status == DP_OK) status = read_carried(sim, &reader, &state);
     if (status == DP_OK && sim->stage.plants) status = read_stage(&sim->stage, &reader, &state);
     if (status == DP_OK) status = dp_spray_load(sim, &reader, &state.spray);
     if (status == DP_OK && reader.at != reader.size) status = DP_BAD_FILE;

@@ -96,7 +96,8 @@ static DpStatus step_soil(DpSim* sim, int sample)
     if (status != DP_OK || sim->groups == 0) return status;
     if (!done) status = press_limbs(sim, sample);
     if (status != DP_OK) return status;
-    status = dp_release_step(sim, sample);
+    status = dp_carry_lifts(sim);
+    if (status == DP_OK) status = dp_release_step(sim, sample);
     if (status == DP_OK) status = settle_limbs(sim, sample);
     if (status == DP_OK) status = dp_slide_step(sim, sample);
     count(sim);
@@ -130,7 +131,8 @@ DpStatus dp_sim_settle(DpSim* sim)
         if (!limb->stands && !limb->flows) continue;
         limb->stands = limb->flows = false;
         limb->loosened = limb->rebounded = 0.0;
-        DpStatus status = dp_release_limb(sim, limb, limb->trodden, -1);
+        DpStatus status = dp_limb_lifts(sim, limb);
+        if (status == DP_OK) status = dp_release_limb(sim, limb, limb->trodden, -1);
         if (status == DP_OK) status = dp_limb_settle(sim, limb, -1, &sim->scratch[0]);
         sim->report.loosened += limb->loosened;
         sim->report.rebounded += limb->rebounded;

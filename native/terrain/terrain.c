@@ -48,6 +48,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
         for (size_t s = 0; s < soils; ++s) created->soils[s] = dp_wet_soil(&options->soils[s]);
         status = dp_times_keep(created, options);
         if (status == DP_OK && !dp_rough_soils(created)) status = DP_NO_MEMORY;
+        if (status == DP_OK) status = dp_coats_find(created);
     }
     if (status != DP_OK) {
         dp_terrain_destroy(created);
@@ -71,6 +72,7 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_free(terrain->time);
     dp_free(terrain->slope);
     dp_free(terrain->wall);
+    dp_free(terrain->coat_of_soil);
     dp_free(terrain);
 }
 

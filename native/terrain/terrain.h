@@ -63,6 +63,10 @@ const DpSoil* dp_terrain_soils(
 // From now on soils are as they are at a time [s], MODEL 6.10; before the first row and after the last they stay. What
 // is pressed stays as it is. No patch may be out.
 void dp_terrain_set_time(DpTerrain* terrain, double time);
+#define DP_MAX_COATS 16  // soils that stick; more: DP_BAD_ARGUMENT
+// How many soils stick to soles, now or at another time, and which; how much of each lies on the ground as coats [m^3].
+int    dp_terrain_coats(const DpTerrain* terrain, const int** soils);
+double dp_terrain_coat_volume(const DpTerrain* terrain, int coat);
 // Whether some soil comes back when a sole lifts, now or at another time.
 bool dp_terrain_springs(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.
@@ -158,6 +162,11 @@ typedef enum DpField
 {
     DP_TERRAIN_FIELDS(DP_FIELD_NUMBER, DP_FIELD_NUMBER)
 } DpField;
+// Beyond those: how much of what is seen is of soil k, 0..1, and how thick soles have left it [m] >= 0.
+#define DP_FIELD_SURFACE 1000
+#define DP_FIELD_COAT 2000
+#define DP_FIELD_OF_SOIL 255  // k from 0 to less than this
+bool dp_terrain_knows(const DpTerrain* terrain, int field);
 
 typedef struct DpFieldInfo
 {
@@ -170,7 +179,7 @@ const DpFieldInfo* dp_terrain_fields(int* count);
 
 // Copy a rectangle of cells (nx, ny from cell i0, j0) into out (ny, nx). Untouched cells read 0
 // (base height, modulus and kind are computed from the ground). Cells that there cannot be: DP_BAD_ARGUMENT.
-DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
+DpStatus dp_terrain_read(const DpTerrain* terrain, int field, long i0, long j0, int nx, int ny,
                          float* out);
 
 // Tiles changed since the last call: calls visit(context, tx, ty) in ascending (ty, tx) order and
@@ -179,8 +188,7 @@ typedef void (*DpTileVisit)(void* context, long tx, long ty);
 void dp_terrain_changed(DpTerrain* terrain, DpTileVisit visit, void* context);
 
 // A field of all of a tile, row 0 = lowest y: cell (i, j) at out[(j * DP_TILE + i) * stride].
-void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
-                     int stride);
+void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, int field, float* out, int stride);
 
 // Heights of the current surface over the datum, h0 - compression + heap [m], NaN = no ground, of a rectangle of
 // cells whose tiles were touched; out (ny, nx).

@@ -120,6 +120,9 @@ struct DpTerrain
     bool    rough;     // some soil differs from place to place
     bool    springs;   // some soil comes back when a sole lifts
     bool    crusts;    // some soil has a crust
+    int     coats;     // soils that stick to soles, now or at another time
+    int     coat_soil[DP_MAX_COATS];
+    int*    coat_of_soil;  // of each soil, -1 = none
     Source  source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
@@ -172,6 +175,30 @@ static inline uint32_t* tile_plates(const DpTerrain* terrain, Tile* tile)
     return (uint32_t*)(void*)(tile_waves(terrain, tile) +
                               (terrain->rough && terrain->row ? 2 * TILE_CELLS : 0));
 }
+
+// grids of a tile before those of the coats
+static inline size_t tile_grids(const DpTerrain* terrain)
+{
+    return (terrain->cover ? 2u : 0u) + (terrain->rough ? ROUGH_GRIDS : 0u) +
+           (terrain->springs ? 1u : 0u) + (terrain->rough && terrain->row ? 2u : 0u) +
+           (terrain->crusts ? 1u : 0u);
+}
+
+// what soles left on a tile, of each soil that sticks (coats, TILE_CELLS), kept as the fields are
+static inline float* tile_coats(const DpTerrain* terrain, Tile* tile)
+{
+    return tile->plant + tile_grids(terrain) * TILE_CELLS;
+}
+
+static inline const float* tile_coats_in(const DpTerrain* terrain, const Tile* tile)
+{
+    return tile->plant + tile_grids(terrain) * TILE_CELLS;
+}
+
+// terrain_coats.c: which soils stick; more than there can be: DP_BAD_ARGUMENT. What lies on top of a row of a tile's cells.
+DpStatus dp_coats_find(DpTerrain* terrain);
+void     dp_coats_row(const DpTerrain* terrain, const Tile* tile, size_t at, int count, int field,
+                      const uint8_t* kind, float* out);
 
 // terrain_rough.c: the pieces of a crust, of a tile whose kinds are known
 void dp_plate_tile(const DpTerrain* terrain, Tile* tile);

@@ -91,6 +91,9 @@ static void copy_in(const DpTerrain* terrain, Tile* tile, const TilePart* part, 
             memcpy(grid[SPRING] + to, tile_spring(terrain, tile) + at, wide * sizeof(float));
         if (terrain->crusts)
             memcpy(grid[PLATES] + to, tile_plates(terrain, tile) + at, wide * sizeof(float));
+        for (int k = 0; k < terrain->coats; ++k)
+            memcpy(lease->patch.coat + (size_t)k * lease->patch.coat_stride + to,
+                   tile_coats(terrain, tile) + (size_t)k * TILE_CELLS + at, wide * sizeof(float));
         if (!terrain->cover) continue;
         const float* roots = tile->plant + TILE_CELLS + at;
         for (size_t i = 0; i < wide; ++i) modulus[to + i] += roots[i];  // TRAIL (9), E_v
@@ -110,7 +113,8 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
 
     const int    row = (int)((nx + ROW_STEP - 1) / ROW_STEP * ROW_STEP);
     const size_t room = (size_t)row * (size_t)ny;
-    if (!dp_make_room(&lease->grid, room, FLOAT_GRIDS * sizeof *lease->grid) ||
+    const size_t grids = FLOAT_GRIDS + (size_t)terrain->coats;
+    if (!dp_make_room(&lease->grid, room, grids * sizeof *lease->grid) ||
         !dp_make_room(&lease->kind, room, sizeof *lease->kind))
         return DP_NO_MEMORY;
     float* grid[FLOAT_GRIDS];
@@ -131,6 +135,10 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
                                   .uneven = terrain->rough ? grid[UNEVEN] : NULL,
                                   .spring = terrain->springs ? grid[SPRING] : NULL,
                                   .plate = terrain->crusts ? (uint32_t*)(void*)grid[PLATES] : NULL,
+                                  .coat = terrain->coats ? lease->grid + FLOAT_GRIDS * room : NULL,
+                                  .coat_stride = room,
+                                  .coat_soil = terrain->coat_soil,
+                                  .coat_of_soil = terrain->coat_of_soil,
                                   DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};
     lease->patch = acquired;
     lease->i0 = cells.i0;
@@ -191,6 +199,11 @@ void dp_terrain_commit(DpTerrain* terrain, DpLease* lease, DpCellRect within)
                 if (terrain->springs)
                     memcpy(tile_spring(terrain, tile) + to, lease->patch.spring + from,
                            (size_t)part.nx * sizeof(float));
+                for (int k = 0; k < terrain->coats; ++k)
+                    differs |=
+                        copy_row(tile_coats(terrain, tile) + (size_t)k * TILE_CELLS + to,
+                                 lease->patch.coat + (size_t)k * lease->patch.coat_stride + from,
+                                 tile->base_height + to, part.nx) != 0;
             }
             if (differs) dp_tile_mark(terrain, tile);
         }

@@ -8,7 +8,7 @@
 typedef struct Reading
 {
     const DpTerrain* terrain;
-    DpField          field;
+    int              field;
     DpCellRect       cells;
     long             tx0, ty0;
     int              tiles_x;
@@ -26,7 +26,7 @@ const DpFieldInfo* dp_terrain_fields(int* count)
 }
 
 // the grid of a tile that a field is copied from; NULL where it is worked out from the soil
-static const float* grid_of(const Tile* tile, const float* base_height, DpField field)
+static const float* grid_of(const Tile* tile, const float* base_height, int field)
 {
 #define GRID_OF(ID, name, number, unit, equation, meaning) \
     if (field == DP_FIELD_##ID) return tile->name;
@@ -48,18 +48,19 @@ typedef struct View
 } View;
 
 // whether an untouched tile has to be computed for it; ground that is not painted is soil 0 all over
-static bool comes_from_ground(const DpTerrain* terrain, DpField field)
+static bool comes_from_ground(const DpTerrain* terrain, int field)
 {
-    return field == DP_FIELD_BASE_HEIGHT || (terrain->source.kind_count > 0 &&
-                                             (field == DP_FIELD_MODULUS || field == DP_FIELD_KIND));
+    return field == DP_FIELD_BASE_HEIGHT ||
+           (terrain->source.kind_count > 0 &&
+            (field == DP_FIELD_MODULUS || field == DP_FIELD_KIND || field >= DP_FIELD_SURFACE));
 }
 
-static bool is_of_plants(DpField field)
+static bool is_of_plants(int field)
 {
     return field == DP_FIELD_MODULUS || field == DP_FIELD_PLANT_STRENGTH;
 }
 
-static void open_view(View* view, const DpTerrain* terrain, long tx, long ty, DpField field)
+static void open_view(View* view, const DpTerrain* terrain, long tx, long ty, int field)
 {
     const Tile* tile = dp_tile_find(terrain, tx, ty);
     const bool  grows = terrain->cover && is_of_plants(field);
@@ -78,7 +79,7 @@ static void open_view(View* view, const DpTerrain* terrain, long tx, long ty, Dp
     }
 }
 
-static void read_row(const View* view, DpField field, size_t at, int count, float* out)
+static void read_row(const View* view, int field, size_t at, int count, float* out)
 {
     const Tile*  tile = view->tile;
     const bool   there = tile || field == DP_FIELD_BASE_HEIGHT;
@@ -98,6 +99,9 @@ static void read_row(const View* view, DpField field, size_t at, int count, floa
     } else if (field == DP_FIELD_HEIGHT_CHANGE && tile) {
         for (int i = 0; i < count; ++i)
             out[i] = tile->heap[at + (size_t)i] - tile->compression[at + (size_t)i];
+        dp_coats_row(terrain, tile, at, count, field, kind, out);
+    } else if (field >= DP_FIELD_SURFACE) {
+        dp_coats_row(terrain, tile, at, count, field, kind, out);
     } else if (field == DP_FIELD_KIND) {
         for (int i = 0; i < count; ++i) out[i] = (float)kind[i];
     } else if (field == DP_FIELD_MODULUS) {
@@ -138,11 +142,11 @@ bool dp_terrain_has(long i0, long j0, long nx, long ny)
     return are_numbers(i0, nx) && are_numbers(j0, ny);
 }
 
-DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long j0, int nx, int ny,
+DpStatus dp_terrain_read(const DpTerrain* terrain, int field, long i0, long j0, int nx, int ny,
                          float* out)
 {
     if (!dp_terrain_has(i0, j0, nx, ny)) return DP_BAD_ARGUMENT;
-    if (field < DP_FIELD_COMPRESSION || field > DP_FIELD_HEIGHT_CHANGE) return DP_BAD_ARGUMENT;
+    if (!dp_terrain_knows(terrain, field)) return DP_BAD_ARGUMENT;
     Reading reading = {terrain, field, dp_cells(i0, j0, nx, ny), dp_tile_of(i0), dp_tile_of(j0),
                        0,       out};
     reading.tiles_x = (int)(dp_tile_of(i0 + nx - 1) - reading.tx0 + 1);
@@ -152,8 +156,7 @@ DpStatus dp_terrain_read(const DpTerrain* terrain, DpField field, long i0, long 
     return DP_OK;
 }
 
-void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, DpField field, float* out,
-                     int stride)
+void dp_terrain_tile(const DpTerrain* terrain, long tx, long ty, int field, float* out, int stride)
 {
     View view;
     open_view(&view, terrain, tx, ty, field);

@@ -110,6 +110,10 @@ static void look_at(void* context, int index, int worker)
     (void)worker;
     for (int k = 0; k < KEPT_FIELDS; ++k)
         if (memcmp(tile_kept_in(tile, k), nothing, sizeof nothing) != 0) kept |= KEPT_TRAIL;
+    for (int k = 0; k < terrain->coats; ++k)
+        if (memcmp(tile_coats(terrain, terrain->sorted[index]) + k * TILE_CELLS, nothing,
+                   sizeof nothing) != 0)
+            kept |= KEPT_TRAIL;
     if (terrain->cover) {
         float fresh[2 * TILE_CELLS];
         dp_tile_cover(terrain, tile->tx, tile->ty, fresh);
@@ -140,6 +144,9 @@ void dp_terrain_save(const DpTerrain* terrain, DpStateWriter* writer)
             dp_write_runs(writer, tile_kept_in(tile, k), TILE_CELLS);
         if (terrain->springs && (kept[t] & KEPT_TRAIL))
             dp_write_runs(writer, tile_spring(terrain, terrain->sorted[t]), TILE_CELLS);
+        for (int k = 0; k < terrain->coats && (kept[t] & KEPT_TRAIL); ++k)
+            dp_write_runs(writer, tile_coats(terrain, terrain->sorted[t]) + k * TILE_CELLS,
+                          TILE_CELLS);
         if (kept[t] & KEPT_COVER) dp_write_runs(writer, tile->plant, 2 * TILE_CELLS);
     }
     dp_write_end(writer);
@@ -181,6 +188,8 @@ static Tile* read_tile(const DpTerrain* terrain, DpStateReader* reader, const Ti
         read_field(reader, tile_kept(tile, k), TILE_CELLS);
     if (tile && terrain->springs && (*kept & KEPT_TRAIL))
         read_spring(reader, tile_spring(terrain, tile));
+    for (int k = 0; tile && k < terrain->coats && (*kept & KEPT_TRAIL); ++k)
+        read_field(reader, tile_coats(terrain, tile) + k * TILE_CELLS, TILE_CELLS);
     if (tile && (*kept & KEPT_COVER)) read_field(reader, tile->plant, 2 * TILE_CELLS);
     return tile;
 }

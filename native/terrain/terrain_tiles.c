@@ -119,10 +119,8 @@ static void fill_tile(void* context, int index, int worker)
 
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 {
-    const size_t grids = (terrain->cover ? 2u : 0u) + (terrain->rough ? ROUGH_GRIDS : 0u) +
-                         (terrain->springs ? 1u : 0u) + (terrain->rough && terrain->row ? 2u : 0u) +
-                         (terrain->crusts ? 1u : 0u);
-    Tile* tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
+    const size_t grids = tile_grids(terrain) + (size_t)terrain->coats;
+    Tile*        tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
     if (tile) tile->tx = tx, tile->ty = ty;
     return tile;
 }

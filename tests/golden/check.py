@@ -30,7 +30,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(HERE)]
 from worlds import trodden, worlds  # noqa: E402
 
 from desire_path import SOILS, Bake, BakeOptions, BakeOutput, Gait, Ground, Planting, _native, place_feet  # noqa: E402
-from desire_path.ground import maps  # noqa: E402
+from desire_path.ground import maps, materials  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.motion.scatter import Scatter  # noqa: E402
 
@@ -105,13 +105,13 @@ def compute(world, law, heap, threads):
             if names:
                 found[f"{kind}s"] = digest(np.array([read_file(name) for name in names]))
         found["maps"] = read_file(f"{folder}/maps.exr")
-    for name in FIELDS + (LEAN if planted else ()):
+    for name in (*FIELDS, *(LEAN if planted else ()), *materials.fields(sim.soils)):
         found[name] = digest(sim.read(name, *world.window))
     found["pressure"] = digest(*pressure)
     found["normal"] = digest(np.array([sim.normal((x, 0.02), 0.05) for x in (0.1, 0.3, 0.7)]))
     if planted:
         found["stems"], found["stems_rested"] = digest(*stems), digest(*plants_of(sim, world.shown))
-    told = sim.report()
+    told = sim.report() | {f"{name}_{what}": v for name, of in sim.carried().items() for what, v in of.items()}
     for name in sorted(told):
         found[f"report_{name}"] = f"{told[name]:.10g}"
     return found

@@ -1,8 +1,9 @@
-"""Five small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
+"""Six small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
 core is the same on every machine: no sine, no random generator, nothing that a library computes its own way.
 
     flat     level ground that walkers cross side by side; one slips, one is held in mid-step
     hill     painted heights with a hole, steeper in places than soil stays, far from the origin
+    road     soft ground that sticks beside a hard road, walked there and back
     meadow   three kinds of plants on level ground, trodden, shown, broken and left to recover
     ragged   two soils whose walls slide, that differ from place to place, come back and bulge; prints over prints
     passes   a painted mesh with a trail on it, walked one way and back, with grass and a rest between
@@ -255,9 +256,31 @@ def _passes():
     return World(make, [there, back, there], (-64, -64, 192, 128), (-1, -1, 3, 2), rest=86400.0)
 
 
+def _road():
+    weight = np.stack([np.array([[1.0, 0.0], [1.0, 0.0]]), np.array([[0.0, 1.0], [0.0, 1.0]])])
+    ground = Ground.heights(np.zeros((2, 2)), 2.4, -0.5, -1.2, kind_weight=weight)
+    soils = [
+        Soil(young_modulus=5e5, poisson_ratio=0.35, rest_angle=0.3, adhesion=0.005, rebound=0.1),
+        Soil(young_modulus=5e8, adhesion=0.001),
+    ]
+
+    def make(law, heap, threads):
+        return Simulation(ground, soils, 0.01, options=SimulationOptions(law=law, heap=heap, threads=threads))
+
+    there, back = walk(1.8, start=(-0.4, 0.0)), walk(1.8, start=(1.6, 0.05), way=(-1.0, 0.0), mass=95.0)
+    return World(make, [there, back], (-64, -64, 320, 128), (-1, -1, 5, 2))
+
+
 def worlds():
     """name -> World"""
-    return {"flat": _flat(), "hill": _hill(), "ragged": _ragged(), "meadow": _meadow(), "passes": _passes()}
+    return {
+        "flat": _flat(),
+        "hill": _hill(),
+        "ragged": _ragged(),
+        "road": _road(),
+        "meadow": _meadow(),
+        "passes": _passes(),
+    }
 
 
 def trodden(soil, law, heap, threads):

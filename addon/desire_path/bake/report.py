@@ -15,7 +15,7 @@ from .share import Share
 RIGID = 0.94  # share of the layer: pressed this deep, soil is nearly as deep as it can be
 RIGID_GROUND = "A print reaches the rigid ground under the soil: check the walker's mass, or choose a firmer soil."
 BESIDE = "reach over its edge, and leave no print there"  # also of those that are counted step by step
-VOLUMES = (  # of a run's ledger: heaped = displaced + loosened - pressed heaps [m^3], MODEL 11.3
+VOLUMES = (  # of a run's ledger: heaped + carried + left = displaced + loosened - pressed heaps [m^3], MODEL 11.3
     "pressed_m3",
     "pressed_heap_m3",
     "heaped_m3",
@@ -24,6 +24,7 @@ VOLUMES = (  # of a run's ledger: heaped = displaced + loosened - pressed heaps 
     "rebounded_m3",
 )
 SPRAY = ("thrown_m3", "stuck_m3", "airborne_m3", "beside_m3")  # what came off, sticks, flies, fell by the ground
+CARRIED = ("carried_m3", "left_m3")  # of soils that stick: on soles at the end, and where they left it [m^3]
 OF_ONE = ("contacts", "deepest_m", *VOLUMES)
 
 
@@ -40,6 +41,7 @@ def summary(
         warnings.append(RIGID_GROUND)
     if total["off_ground"] and not any(BESIDE in each for each in warnings):
         warnings.append(f"Feet on the ground {BESIDE}: make the ground larger, or move it under the walk.")
+    stick = [soil for sim in sims for soil in sim.carried().values()]
     planted = any(parcel.plants for parcel in plan.parcels)
     return {
         "passes": len(plan.passes),
@@ -47,6 +49,7 @@ def summary(
         "deepest_m": max(each["deepest_m"] for each in found),
         **{name: total[name] for name in VOLUMES},
         **({f"spray_{name}": total[name] for name in SPRAY} if plan.options.spray else {}),
+        **({name: sum(soil[name] for soil in stick) for name in CARRIED} if stick else {}),
         **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
         "seconds": round(seconds["total"], 3),
         "stages": {name: round(spent, 3) for name, spent in seconds.items()},

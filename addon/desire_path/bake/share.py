@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
-from ..ground import maps, plant_mesh, spray
+from ..ground import maps, materials, plant_mesh, spray
 from ..ground.parcels import Parcel
 from ..ground.sim import TILE, Simulation
 from ..loads.force import FootForce
@@ -294,7 +294,8 @@ class Share:
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
 
     def _fields(self) -> tuple[maps.Map, ...]:
-        return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ())
+        more = tuple(maps.Map(name, *field[1:]) for name, field in materials.fields(self.sim.soils).items())
+        return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ()) + more
 
     def _start_maps(self) -> dict[str, np.ndarray]:
         strength = self.sim.read("plant_strength", *self.window)

@@ -15,9 +15,10 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from ..errors import DesirePathError
+from ..ground import materials
 from ..ground.options import SimulationOptions
 from ..ground.pressing import AROUND, GRAVITY, TOUCH, PressBody
-from ..ground.sim import Ground
+from ..ground.sim import Ground, as_soils
 from ..ground.soil import Soil
 from ..motion.gait import Gait
 from ..placement import tyre
@@ -55,7 +56,8 @@ class TrackPress(LivePress):
             raise DesirePathError("There is no mark to press: lay a track first.")
         self._done = self._pressed = 0
         self._feet: dict[Kind, list[int]] = {kind: [] for marks in self._marks.values() for kind, _ in marks}
-        self._kinds = list(self._feet) * max(AT_ONCE // max(len(self._feet), 1), 1)  # of each foot
+        of_each = 1 if materials.sticky(as_soils(soils)) else AT_ONCE // max(len(self._feet), 1)  # one foot carries on
+        self._kinds = list(self._feet) * max(of_each, 1)
         for number, kind in enumerate(self._kinds):
             self._feet[kind].append(number)
         soles = {kind: self._body(kind) for kind in self._feet}

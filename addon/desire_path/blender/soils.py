@@ -54,6 +54,11 @@ WORDS = {
     "bekker_cohesion": ("Bekker Cohesion", "Bekker's k_c of ground that was measured, in N/m^(n+1); 0 = none"),
     "bekker_power": ("Bekker Power", "Bekker's n: how sinkage grows with pressure"),
     "clod_size": ("Clods [m]", "How large the crumbs of its rims are at most, in metres; 0 = as usual for its kind"),
+    "adhesion": ("Sticks [m]", "How thick it sticks to a sole or wheel that lifts, in metres; 0 = not at all"),
+    "release_pressure": (
+        "Comes Off At [Pa]",
+        "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther",
+    ),
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
@@ -141,6 +146,14 @@ EASY = {
         soft_max=0.1,
         precision=4,
     ),
+    "sticks": units.length(
+        "adhesion",
+        "Sticks",
+        "How thick it sticks to a sole or wheel that lifts, to be left along the way; 0 = not at all",
+        min=0.0,
+        soft_max=0.02,
+        precision=4,
+    ),
     "settle_time": None,
     "slip": units.length(
         "shear_modulus",
@@ -212,7 +225,17 @@ def _number(name):
         min=of.low,
         max=of.high,
         precision=4
-        if name in {"layer_depth", "shear_modulus", "settle_time", "grain_size", "heave", "crust_depth", "clod_size"}
+        if name
+        in {
+            "layer_depth",
+            "shear_modulus",
+            "settle_time",
+            "grain_size",
+            "heave",
+            "crust_depth",
+            "clod_size",
+            "adhesion",
+        }
         else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",

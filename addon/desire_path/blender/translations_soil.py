@@ -73,6 +73,15 @@ GERMAN = {
     "How large the crumbs of its rims are at most, where details are shown; 0 = as usual for its kind": (
         "Wie groß die Krümel seiner Ränder höchstens sind, wo Einzelheiten gezeigt werden; 0 = wie für seine Art üblich"
     ),
+    "How thick it sticks to a sole or wheel that lifts, in metres; 0 = not at all": (
+        "Wie dick er an einer Sohle oder einem Rad haftet, die sich heben, in Metern; 0 = gar nicht"
+    ),
+    "How thick it sticks to a sole or wheel that lifts, to be left along the way; 0 = not at all": (
+        "Wie dick er an einer Sohle oder einem Rad haftet, die sich heben, und unterwegs zurückbleibt; 0 = gar nicht"
+    ),
+    "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther": (
+        "Druck, unter dem das meiste, was haftet, auf anderem Boden abgeht, in Pascal: mehr trägt es weiter"
+    ),
     "Bekker's n: how sinkage grows with pressure": "Bekkers n: wie das Einsinken mit dem Druck wächst",
     "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows": (
         "Wie voll Wasser er ist: feuchte Wände stehen, durchnässte rutschen; 0 = trocken, 1 = er fließt"

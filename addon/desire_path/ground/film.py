@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ..errors import DesirePathError
 from . import maps
-from .fields import FIELDS
+from .fields import FIELDS, Field
 
 
 class Closed:
@@ -24,14 +24,16 @@ class Film:
     Files are written while the next steps run: OSError tells of one before, see Simulation.flush().
     """
 
-    def __init__(self, core: Any) -> None:
-        self._core = core
+    def __init__(self, core: Any, fields: Mapping[str, Field] = FIELDS) -> None:
+        self._core, self._fields = core, fields
 
     def open_maps(self, names: Sequence[str], notes: Iterable[tuple[str, str | float]]) -> None:
         """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
         and notes (name, text or number)."""
-        shown = (maps.PICTURE, FIELDS[names[0]].number)
-        self._core.open_maps((shown, *((maps.channel(name), FIELDS[name].number) for name in names)), tuple(notes))
+        shown = (maps.PICTURE, self._fields[names[0]].number)
+        self._core.open_maps(
+            (shown, *((maps.channel(name), self._fields[name].number) for name in names)), tuple(notes)
+        )
 
     def list_files(self, path: str | os.PathLike[str]) -> None:
         """Add each file of frames and maps from now on, when it is there, to the list in this file: its name, how many

@@ -21,9 +21,9 @@ from ..keywords import fields_of
 from ..motion.recording import CONTACT_LAWS
 from ..motion.tracks import TrackArray
 from ..version import VERSION
-from . import rectangle_cells, state_file, trail
+from . import materials, rectangle_cells, state_file, trail
 from .cast import cast_of, laws_of, pressing_of, tracks_of
-from .fields import FIELDS, LEAN
+from .fields import LEAN, Field
 from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
 from .options import HEAPS, LAWS, SimulationOptions
@@ -86,6 +86,7 @@ class Simulation:
         self.cell_size = float(cell_size)
         self.origin = options.origin
         self.soils = as_soils(soils)
+        self.fields: Mapping[str, Field] = materials.all_fields(self.soils)  # what read() knows, by name
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
         self.warnings: list[str] = []  # sentences about what could not be taken as it was given
@@ -361,6 +362,10 @@ class Simulation:
         """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
         return self._core.report()
 
+    def carried(self) -> dict[str, dict[str, float]]:
+        """Of each soil that sticks to soles: `taken_m3` so far = `carried_m3` on them now + `left_m3` on the ground."""
+        return materials.carried(self.soils, self._core.carried())
+
     def read(
         self, name: str, i0: Any, j0: int | None = None, nx: int | None = None, ny: int | None = None
     ) -> np.ndarray:
@@ -368,19 +373,20 @@ class Simulation:
         (i0, j0) on.
 
         name: one of maps.MAPS or maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa].
+        Where a soil sticks: surface_<soil>, how much of what is seen it is, and carried_<soil> [m].
         """
         if j0 is nx is ny is None:
             i0, i1, j0, j1 = self.cells(i0)
             nx, ny = i1 - i0, j1 - j0
         elif j0 is None or nx is None or ny is None:
             raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
-        if name not in FIELDS:
-            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(FIELDS)}.")
+        if name not in self.fields:
+            raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(self.fields)}.")
         if nx < 1 or ny < 1:
             raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
         out = np.zeros((int(ny), int(nx)), np.float32)
         if name not in LEAN:
-            self._core.read(FIELDS[name].number, int(i0), int(j0), out)
+            self._core.read(self.fields[name].number, int(i0), int(j0), out)
         elif self.plantings:
             self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
         return out
@@ -391,7 +397,7 @@ class Simulation:
 
     def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int) -> Film:
         """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""
-        return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"))
+        return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"), self.fields)
 
     def flush(self) -> None:
         """Wait until all frames and maps are written; OSError when one could not be."""

@@ -1,0 +1,82 @@
+// What soles have left on the ground, and which soil is seen. MODEL 6.16
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "terrain/terrain_inside.h"
+
+#define COVERS 0.002  // so thick a coat hides what lies below [m]
+
+static bool sticks(const DpTerrain* terrain, int soil)
+{
+    bool any = terrain->soils[soil].adhesion > 0.0f;
+    for (int t = 0; t < terrain->times; ++t)
+        any = any || terrain->row[t * terrain->soil_count + soil].adhesion > 0.0f;
+    return any;
+}
+
+DpStatus dp_coats_find(DpTerrain* terrain)
+{
+    terrain->coat_of_soil = dp_alloc((size_t)terrain->soil_count, sizeof *terrain->coat_of_soil);
+    if (!terrain->coat_of_soil) return DP_NO_MEMORY;
+    for (int s = 0; s < terrain->soil_count; ++s) {
+        const bool one = sticks(terrain, s);
+        if (one && terrain->coats == DP_MAX_COATS) return DP_BAD_ARGUMENT;
+        terrain->coat_of_soil[s] = one ? terrain->coats : -1;
+        if (one) terrain->coat_soil[terrain->coats++] = s;
+    }
+    return DP_OK;
+}
+
+int dp_terrain_coats(const DpTerrain* terrain, const int** soils)
+{
+    if (soils) *soils = terrain->coat_soil;
+    return terrain->coats;
+}
+
+double dp_terrain_coat_volume(const DpTerrain* terrain, int coat)
+{
+    double sum = 0.0;
+    for (size_t t = 0; t < terrain->tiles; ++t) {
+        const float* lies = tile_coats(terrain, terrain->sorted[t]) + (size_t)coat * TILE_CELLS;
+        for (int n = 0; n < TILE_CELLS; ++n) sum += (double)lies[n];
+    }
+    return sum * terrain->grid.cell * terrain->grid.cell;
+}
+
+bool dp_terrain_knows(const DpTerrain* terrain, int field)
+{
+    if (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE) return true;
+    const int soil = field - (field >= DP_FIELD_COAT ? DP_FIELD_COAT : DP_FIELD_SURFACE);
+    return soil >= 0 && soil < terrain->soil_count;
+}
+
+// thickness of all coats of a cell [m]
+static double thickness(const DpTerrain* terrain, const float* lies)
+{
+    double sum = 0.0;
+    for (int k = 0; k < terrain->coats; ++k) sum += (double)lies[(size_t)k * TILE_CELLS];
+    return sum;
+}
+
+void dp_coats_row(const DpTerrain* terrain, const Tile* tile, size_t at, int count, int field,
+                  const uint8_t* kind, float* out)
+{
+    const bool   surface = field >= DP_FIELD_SURFACE && field < DP_FIELD_COAT;
+    const int    soil = field - (surface ? DP_FIELD_SURFACE : DP_FIELD_COAT);
+    const int    own = field == DP_FIELD_HEIGHT_CHANGE ? -1 : terrain->coat_of_soil[soil];
+    const float* coats = tile && terrain->coats ? tile_coats_in(terrain, tile) + at : NULL;
+    for (int i = 0; i < count; ++i) {
+        const float* lies = coats ? coats + i : NULL;
+        const double all = lies ? thickness(terrain, lies) : 0.0;
+        const double part = lies && own >= 0 ? (double)lies[(size_t)own * TILE_CELLS] : 0.0;
+        if (field == DP_FIELD_HEIGHT_CHANGE) {
+            if (all > 0.0) out[i] = (float)((double)out[i] + all);
+            continue;
+        }
+        const double hides = fmin(all / COVERS, 1.0);  // MODEL 6.16
+        const double seen =
+            (kind[i] == soil ? 1.0 - hides : 0.0) + (all > 0.0 ? hides * part / all : 0.0);
+        out[i] = (float)(surface ? seen : part);
+    }
+}
