@@ -49,12 +49,13 @@ static inline void step(DpPlants* plants, const DpPlantCollider* c, int count, d
     CHECK(dp_plants_step(plants, NULL, c, count, dt, 1, &told) == DP_OK);
 }
 
-// the longest stem edge against its rest length, the longest of the others, and the farthest that a
-// particle is from its rest place, over all plants
+// the longest stem edge against its rest length, the longest of the others, the farthest that a particle is from its
+// rest place, and the shortest stem edge, over all plants
 typedef struct Strain
 {
     double stem, across, away, lowest;
     bool   finite;
+    double shortest;
 } Strain;
 
 static inline Strain strain_of(const DpPlants* plants, const DpPlantKind* kind, int plants_count)
@@ -64,7 +65,7 @@ static inline Strain strain_of(const DpPlants* plants, const DpPlantKind* kind, 
     const double       wide =
         shape.stems_a_sheet > 1 ? (double)kind->width / (shape.stems_a_sheet - 1) : 0.0;
     float* at = dp_alloc((size_t)shape.particles, 3 * sizeof(float));
-    Strain s = {0.0, 0.0, 0.0, 1e9, true};
+    Strain s = {0.0, 0.0, 0.0, 1e9, true, 1e9};
     for (int k = 0; k < plants_count; ++k) {
         CHECK(dp_plants_read(plants, 0, k, at, NULL, NULL) == DP_OK);
         for (int c = 0; c < 3 * shape.particles; ++c) s.finite = s.finite && isfinite(at[c]);
@@ -76,6 +77,7 @@ static inline Strain strain_of(const DpPlants* plants, const DpPlantKind* kind, 
                 const double l = dp_length(
                     dp_vec3((double)(a[3] - a[0]), (double)(a[4] - a[1]), (double)(a[5] - a[2])));
                 s.stem = fmax(s.stem, gap > 0.0 ? l / gap : l);
+                s.shortest = fmin(s.shortest, gap > 0.0 ? l / gap : l);
             }
             if (r >= 2 && p / shape.rows % shape.stems_a_sheet + 1 < shape.stems_a_sheet) {
                 const float* b = a + 3 * shape.rows;

@@ -366,6 +366,23 @@ TEST(soles_rise_from_their_prints)
     stride_drop(&s);
 }
 
+// a sole that was recorded over the ground, higher than plants are, meets them where it is lowered to
+TEST(plants_are_met_where_the_sole_stands)
+{
+    const DpPlantKind kind = tough();
+    Stride            s = stride_make(1, 1, 80.0, 60.0);
+    World             world;
+    for (int p = 0; p < s.gait.parts; ++p)
+        for (int t = 0; t < s.gait.times; ++t) s.pose[7 * (p * s.gait.times + t) + 2] += 0.25;
+    CHECK(world_make(&world, &kind, -0.5, -0.5, 1.3, 0.08, 0.01, 1) == DP_OK);
+    CHECK(dp_sim_load(world.sim, &s.gait, s.touching, s.force, s.point) == DP_OK);
+    CHECK(dp_sim_run(world.sim, 16) == DP_OK);  // in the middle of the stance
+    CHECK(world.sim->stage.extent < 0.25 && world.sim->limb[0].lowered > 0.25);
+    CHECK(world.sim->stage.soles > 0 && dp_sim_report(world.sim).awake > 0);
+    world_drop(&world);
+    stride_drop(&s);
+}
+
 int main(void)
 {
     RUN(roots_hold_the_soil_and_brittle_ones_let_go);
@@ -381,5 +398,6 @@ int main(void)
     RUN(roots_need_ground);
     RUN(no_memory_is_a_status);
     RUN(soles_rise_from_their_prints);
+    RUN(plants_are_met_where_the_sole_stands);
     return check_done();
 }

@@ -109,6 +109,51 @@ TEST(who_only_begins_to_carry_slips_little)
     scene_drop(&scene);
 }
 
+// On a slope of 20 degrees the weight alone shears the soil, downhill along it.
+TEST(on_a_slope_the_weight_pushes_downhill)
+{
+    const double   steep = tan(20.0 * DP_PI / 180.0), weight = MASS * DP_GRAVITY;
+    const float    high = (float)(4.0 * steep);
+    const float    heights[] = {0.0f, high, 0.0f, high};  // from x = -2 to 2
+    const DpGround hill = {.kind = DP_GROUND_HEIGHTS,
+                           .nx = 2,
+                           .ny = 2,
+                           .x0 = -2.0,
+                           .y0 = -2.0,
+                           .spacing = 4.0,
+                           .heights = heights};
+    DpSoil         soil = dp_soil_default();
+    soil.shear_modulus = 0.01f, soil.settle_time = 0.05f;
+    const double wanted =
+        dp_soil_slip(&soil, weight * sin(20.0 * DP_PI / 180.0), weight * cos(20.0 * DP_PI / 180.0));
+    scene_make(&scene);
+    for (int t = 0; t < TIMES; ++t) scene.pose[7 * t + 2] = scene.point[3 * t + 2] = 2.05 * steep;
+    load(&scene, &soil, &hill, DP_HEAP_REST);
+    CHECK(dp_sim_run(scene.sim, 60) == DP_OK);
+    const DpVec3 slip = scene.sim->limb[0].slip;
+    CHECK(wanted > 1e-3);
+    CHECK_CLOSE(dp_length(slip), wanted, 0.01);
+    CHECK_CLOSE(slip.z, steep * slip.x, 1e-3);
+    CHECK(slip.x < 0.0);
+    scene_drop(&scene);
+}
+
+// A foot that is pulled up presses nothing, and shears nothing.
+TEST(who_is_pulled_up_leaves_no_print)
+{
+    DpSoil soil = dp_soil_default();
+    soil.shear_modulus = 0.01f, soil.settle_time = 0.05f;
+    scene_make(&scene);
+    for (int t = 0; t < TIMES; ++t) scene.force[3 * t] = 50.0, scene.force[3 * t + 2] = 100.0;
+    load(&scene, &soil, &flat, DP_HEAP_REST);
+    CHECK(dp_sim_run(scene.sim, 60) == DP_OK);
+    CHECK(dp_sim_report(scene.sim).pressed == 0.0 && dp_sim_report(scene.sim).deepest == 0.0);
+    CHECK(dp_sim_report(scene.sim).off_ground ==
+          0);  // there is ground under it, on which it does not press
+    CHECK(dp_length(scene.sim->limb[0].slip) == 0.0);
+    scene_drop(&scene);
+}
+
 // An island just as large as the sole has no border. What is displaced waits until the sole, which is
 // drawn aside, leaves some of the island free.
 TEST(soil_waits_for_a_border)
@@ -271,6 +316,8 @@ int main(void)
 {
     RUN(a_sole_slips_once_and_never_back);
     RUN(who_only_begins_to_carry_slips_little);
+    RUN(on_a_slope_the_weight_pushes_downhill);
+    RUN(who_is_pulled_up_leaves_no_print);
     RUN(soil_waits_for_a_border);
     RUN(half_the_weight_lays_all_ahead);
     RUN(who_is_held_presses_no_deeper);

@@ -45,6 +45,24 @@ TEST(ground_comes_back_once_nobody_stands_there)
     stand_drop(&stand);
 }
 
+// Ground that is settled with soles still on it comes back as where they have lifted.
+TEST(settled_ground_comes_back)
+{
+    const DpSoil soil = springy();
+    stand_make(&stand, 2);
+    stand_on(&stand, 0, 0, 60, 0.05, 0.05, NEWTON);
+    stand_on(&stand, 1, 0, 120, 0.10, 0.05, NEWTON);
+    stand_load(&stand, &soil, dp_sim_options_default());
+    CHECK(dp_sim_run(stand.sim, 50) == DP_OK);
+    const DpSimReport before = dp_sim_report(stand.sim);
+    CHECK(before.rebounded == 0.0 && before.deepest > 0.0);
+    CHECK(dp_sim_settle(stand.sim) == DP_OK);
+    const DpSimReport after = dp_sim_report(stand.sim);
+    CHECK_CLOSE(after.deepest, (1.0 - BACK) * before.deepest, 1e-5);
+    CHECK_CLOSE(after.rebounded, BACK * after.pressed, 1e-5);
+    stand_drop(&stand);
+}
+
 // The same load again goes down to where it was, and what had come back counts as taken back.
 TEST(the_same_load_again_presses_what_came_back)
 {
@@ -83,6 +101,7 @@ TEST(a_sole_that_is_held_keeps_its_print)
 int main(void)
 {
     RUN(ground_comes_back_once_nobody_stands_there);
+    RUN(settled_ground_comes_back);
     RUN(the_same_load_again_presses_what_came_back);
     RUN(a_sole_that_is_held_keeps_its_print);
     return check_done();

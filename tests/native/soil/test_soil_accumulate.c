@@ -183,6 +183,51 @@ TEST(nobody_ahead)
     ground_free(&ground);
 }
 
+// MODEL 6.7: what is pushed ahead by a face flows off at its sides, so that its heap is highest in the middle; one that
+// is pressed aside under a load is as high as it says all along
+TEST(what_a_face_pushes_is_highest_in_the_middle)
+{
+    double mid[2], side[2];
+    for (int face = 0; face < 2; ++face) {
+        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, face != 0};
+        Ground              ground = ground_make(120, 80, 0.01, sand(30.0));
+        touch(&ground, (BoxSole){.length = 0.20, .width = 0.20}, 6);
+        DpFootForce foot = ground_load(700.0);
+        foot.force.x = 400.0;
+        double height = 0.0;
+        CHECK(lay(&ground, foot, 6e-4, &ahead, &height) == DP_OK);
+        CHECK_CLOSE(ground_sum(&ground, ground.heap), 6e-4, 1e-6);
+        mid[face] = (double)ground.heap[39 * 120 + 70];
+        side[face] = (double)ground.heap[31 * 120 + 70];
+        if (!face) CHECK_CLOSE(height, ground_max(&ground, ground.heap), 0.02);
+        ground_free(&ground);
+    }
+    CHECK(mid[0] < 1.5 * side[0]);
+    CHECK(mid[1] > 1.5 * side[1] && mid[1] > mid[0]);
+}
+
+// a face at the edge of the ground that pushes over it: its soil lies around it as if it pushed nowhere
+TEST(a_face_with_nobody_ahead_lays_evenly)
+{
+    float* laid[2];
+    for (int push = 0; push < 2; ++push) {
+        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, true};
+        Ground              ground = ground_make(60, 60, 0.01, sand(20.0));
+        for (int j = 0; j < 60; ++j)
+            for (int i = 30; i < 60; ++i) ground.base_height[j * 60 + i] = NAN;
+        touch(&ground, (BoxSole){.x = -0.05, .length = 0.10, .width = 2.0}, 1);
+        DpFootForce foot = ground_load(700.0);
+        foot.force.x = 400.0 * push;
+        double height = 0.0;
+        CHECK(lay(&ground, foot, 1e-4, &ahead, &height) == DP_OK);
+        laid[push] = ground.heap;
+        ground.heap = NULL;
+        ground_free(&ground);
+    }
+    CHECK(memcmp(laid[0], laid[1], 60 * 60 * sizeof(float)) == 0);
+    dp_free(laid[0]), dp_free(laid[1]);
+}
+
 // TRAIL (12): shares on the rim
 TEST(paper_falls_off)
 {
@@ -341,6 +386,8 @@ int main(void)
     RUN(anisotropy);
     RUN(push_lays_ahead);
     RUN(nobody_ahead);
+    RUN(what_a_face_pushes_is_highest_in_the_middle);
+    RUN(a_face_with_nobody_ahead_lays_evenly);
     RUN(paper_falls_off);
     RUN(full_patch);
     RUN(beside_a_pit);

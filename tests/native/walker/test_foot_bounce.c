@@ -99,10 +99,49 @@ TEST(who_still_stands_has_not_left)
     scene_free(&s);
 }
 
+// Whether the end of a contact that lasts `force` [of the weight] moves, seen to end at a sample: by how many samples.
+static int moved_end(const double* force, int seen)
+{
+    static uint8_t on[N], air[N];
+    static double  height[N];
+    Scene          s = scene_make(N, RATE, 1, 1);
+    double         z = 2.0, v = 0.0;
+    for (int t = 0; t < N; ++t) {
+        scene_com(&s, t, 0.0, 0.0, z);
+        v += (force[t] - 1.0) * DP_GRAVITY / RATE;
+        z += v / RATE;
+        on[t] = t < seen;
+    }
+    double* scratch = dp_alloc(dp_walker_fly_scratch(N), sizeof(double));
+    CHECK(scratch != NULL);
+    dp_walker_bounces(scene_gait(&s, N, 1, 1), 0, 1.0 / 60.0, RATE, on, air, height, scratch);
+    int end = 0;
+    while (end < N && on[end]) ++end;
+    dp_free(scratch);
+    scene_free(&s);
+    return end - seen;
+}
+
+// A weight is gone when half of what was carried in the last tenth of a second is: what was carried long before
+// does not count, and who has let most of it go has left.
+TEST(half_of_what_was_carried_in_the_end_is_gone)
+{
+    static double force[N];
+    for (int t = 0; t < N; ++t) {  // a stamp half a second before the step off the box
+        force[t] = t < 240 ? 1.0 : 0.0;
+        if (t >= 60 && t < 108) force[t] += 3.0 * sin(2.0 * DP_PI * (t - 60) / 48.0);
+    }
+    CHECK(moved_end(force, 238) >= 1);
+    for (int t = 0; t < N; ++t)  // the last third of what goes within 0.1 s
+        force[t] = t < 216 ? 2.0 : fmax(2.0 * (240 - t) / 24.0, 0.0);
+    CHECK(moved_end(force, 234) == 0);
+}
+
 int main(void)
 {
     RUN(momentum_ends_a_bounce);
     RUN(within_half_a_frame);
     RUN(who_still_stands_has_not_left);
+    RUN(half_of_what_was_carried_in_the_end_is_gone);
     return check_done();
 }

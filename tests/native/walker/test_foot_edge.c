@@ -114,11 +114,41 @@ TEST(a_contact_ends_when_the_ball_is_lifted_hardest)
     scene_free(&s);
 }
 
+// who does not come down as it touches has no stop to be timed, whatever it does next
+TEST(what_rises_as_it_touches_begins_there)
+{
+    Scene s = scene_make(TIMES, RATE, 1, 1);
+    for (int t = 0; t < TIMES; ++t) {
+        height[t] = t < STOP ? 0.1 : 0.005, speed[t] = 0.0, on[t] = t >= STOP;
+        rise[t] = t == STOP ? 0.1 : t > STOP && t < STOP + 10 ? -0.2 : 0.1;
+    }
+    move_edges(&s);
+    CHECK(begins() == STOP);
+    scene_free(&s);
+}
+
+// a touch that is shorter than what the filter added stays one, and none comes after it
+TEST(a_short_touch_stays)
+{
+    Scene s = scene_make(TIMES, RATE, 1, 1);
+    come_down(0.3);
+    const int at = fastest();
+    for (int t = at + 2; t < TIMES; ++t) on[t] = 0;
+    for (int t = 0; t < TIMES; ++t) height[t] = 0.005;
+    move_edges(&s);
+    int touched = 0;
+    for (int t = 0; t < TIMES; ++t) touched += on[t];
+    CHECK(touched == 1 && on[at + 1]);
+    scene_free(&s);
+}
+
 int main(void)
 {
     RUN(a_step_begins_when_its_fall_is_fastest);
     RUN(a_sudden_stop_out_of_a_flight_begins_later);
     RUN(a_fast_fall_is_timed_by_its_height);
     RUN(a_contact_ends_when_the_ball_is_lifted_hardest);
+    RUN(what_rises_as_it_touches_begins_there);
+    RUN(a_short_touch_stays);
     return check_done();
 }
