@@ -127,10 +127,15 @@ def bar(fraction: float, what: str) -> None:
         print(line, end="" if fraction < 1 else "\n", file=sys.stderr, flush=True)
 
 
-def _bake(args: argparse.Namespace) -> None:
+def walked(args: argparse.Namespace) -> tuple[Gait, Ground]:
+    """The walk as it is to be pressed, and the ground."""
     gait, ground = walk(args.walk), read_ground(args.ground, args.spacing)
     gait = _along(args, gait, ground)
-    press(args, _wading(args, gait, ground) if args.wade else gait, ground)
+    return _wading(args, gait, ground) if args.wade else gait, ground
+
+
+def _bake(args: argparse.Namespace) -> None:
+    press(args, *walked(args))
 
 
 def _wading(args: argparse.Namespace, gait: Gait, ground: Ground) -> Gait:
@@ -142,16 +147,16 @@ def _wading(args: argparse.Namespace, gait: Gait, ground: Ground) -> Gait:
     return wade(gait, Simulation(ground, read_soil(args), max(cell, TRIAL_CELL), options=options))
 
 
-def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
-    """Bake a motion on a ground as it was asked for, and tell of it."""
+def bake_of(args: argparse.Namespace, gait: Gait, ground: Ground, folder: str) -> Bake:
+    """The bake of a motion on a ground as it was asked for."""
     limits = Limits.read(args.limit)
     plants = [_planting(text, args.seed) for text in args.plants]
     cell, origin = cells(args, ground)
-    bake = Bake(
+    return Bake(
         gait,
         ground,
         read_soil(args),
-        args.out,
+        folder,
         cell_size=cell,
         plants=plants,
         options=BakeOptions(
@@ -166,6 +171,11 @@ def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
         ),
         output=BakeOutput(frame_start=args.frame_start, frame_end=args.frame_end, film=args.film),
     )
+
+
+def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
+    """Bake a motion on a ground as it was asked for, and tell of it."""
+    bake = bake_of(args, gait, ground, args.out)
     try:
         check_idle(args.out)
     except DesirePathError as problem:
@@ -198,6 +208,12 @@ def press(args: argparse.Namespace, gait: Gait, ground: Ground) -> None:
 
 def add(tasks: argparse._SubParsersAction[Parser]) -> None:
     bake = tasks.add_parser("bake", help="press a recorded walk into ground and write EXR files")
+    bake_options(bake)
+    bake.set_defaults(task=_bake)
+
+
+def bake_options(bake: Parser) -> None:
+    """Which walk is pressed into which ground, and how."""
     bake.add_argument("walk", help="a recording (.npz), from object.desire_path_record or Gait.save")
     ground_options(bake, "--spacing")
     press_options(bake)
@@ -207,7 +223,6 @@ def add(tasks: argparse._SubParsersAction[Parser]) -> None:
         choices=FILMS,
         help="a playback frame for every scene frame, or for every pass; passes, if there are several",
     )
-    bake.set_defaults(task=_bake)
 
 
 def ground_options(command: Parser, spacing: str) -> None:

@@ -1,4 +1,4 @@
-"""python -m desire_path: bake a recording, a track or a crowd, list or draw forces, where there is no Blender."""
+"""python -m desire_path: bake a recording, a track or a crowd, on a farm too, list or draw forces, without Blender."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import command_bake, command_crowd, command_export, command_study, command_track
+from . import command_bake, command_crowd, command_export, command_farm, command_study, command_track
 from .bounds import check_reserve
 from .command_bake import SAMPLES, SET_HELP, SOIL_HELP, bar, read_ground, read_kind, walk
 from .errors import DesirePathError
@@ -120,12 +120,13 @@ def _parser() -> Parser:
     parser = Parser(prog="python -m desire_path", description=__doc__)
     parser.add_argument("--version", action="version", version=VERSION)
     tasks = parser.add_subparsers(
-        required=True, metavar="bake | track | crowd | loads | plot | lane | fit | study | export"
+        required=True, metavar="bake | track | crowd | farm | loads | plot | lane | fit | study | export"
     )
     for add in (
         command_bake.add,
         command_track.add,
         command_crowd.add,
+        command_farm.add,
         _add_loads,
         _add_plot,
         _add_lane,

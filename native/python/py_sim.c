@@ -323,6 +323,13 @@ static PyMethodDef methods[] = {
      "save_state() -> Block: what the simulation has become, as bytes for load_state."},
     {"load_state", dp_py_load_state, METH_O,
      "load_state(bytes): go on from there, in a simulation made alike, before its first step."},
+    {"join_state", dp_py_join_state, METH_VARARGS,
+     "join_state(bytes, tiles (n, 2) i4, walkers (W,) u1): take some tiles and the limbs of some "
+     "walkers of a state of the same ground, pressed in parts."},
+    {"begin_at", dp_py_begin_at, METH_VARARGS,
+     "begin_at(sample): go on from there, before the first step."},
+    {"list_tiles", dp_py_list_tiles, METH_VARARGS,
+     "list_tiles(out (n, 2) i4): x and y of all tiles, rising by (y, x)."},
     {"settle", (PyCFunction)simulation_settle, METH_NOARGS,
      "settle(): let everything that is loose come to rest."},
     {"report", (PyCFunction)simulation_report, METH_NOARGS,

@@ -86,6 +86,9 @@ DpStatus dp_sim_stands(const DpSim* sim, int stand, int plant, float* position);
 // Time passes without walkers [s]: plants regain strength and grow again.
 DpStatus dp_sim_pass_time(DpSim* sim, double seconds);
 
+// How many walkers the motion that is followed has; 0 while none is.
+int dp_sim_walkers(const DpSim* sim);
+
 // Follow a motion (motion/motion.h), which is the simulation's from now on. A limb that is held, as
 // DP_HELD in `touching` says, stays in its print and presses no deeper. Pressed prints stay: motions
 // may follow each other on the same ground. On failure both are as they were.
@@ -140,3 +143,20 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer);
 // whole. Taken steps, or a live motion: DP_BAD_ARGUMENT. Damaged bytes, or those of another: DP_BAD_FILE.
 // On failure all is as it was.
 DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size);
+
+// What is taken of a state by dp_sim_join_state.
+typedef struct DpStatePart
+{
+    const int32_t* tile;  // x and y of each, rising by (y, x) (tiles, 2)
+    size_t         tiles;
+    const uint8_t* walkers;  // whose limbs are taken (walkers)
+} DpStatePart;
+
+// Take some tiles and limbs of a state, in a simulation as dp_sim_load_state wants it, but that tiles may be there, from
+// states of the same ground that was pressed in parts which do not meet. What its report tells is not taken. On planted
+// ground, where prints slide that no limb stands on, or of tiles that are not in it or are there already:
+// DP_BAD_ARGUMENT. On failure all is as it was.
+DpStatus dp_sim_join_state(DpSim* sim, const void* bytes, size_t size, const DpStatePart* part);
+// Before the first step: go on from this sample, as if nothing had happened until then. Not of a live motion, or beyond
+// its samples: DP_BAD_ARGUMENT.
+DpStatus dp_sim_begin_at(DpSim* sim, int sample);

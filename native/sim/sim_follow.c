@@ -130,3 +130,17 @@ DpStatus dp_sim_push(DpSim* sim, double time, const uint8_t* present, const DpLo
     if (status == DP_OK && dp_terrain_tile_count(sim->terrain) == 0) set_datum(sim);
     return status;
 }
+
+int dp_sim_walkers(const DpSim* sim)
+{
+    return sim->cast.walkers;
+}
+
+DpStatus dp_sim_begin_at(DpSim* sim, int sample)
+{
+    if (!sim || !sim->motion || sim->next > 0 || dp_motion_is_live(sim->motion) || sample < 0 ||
+        sample >= dp_motion_samples(sim->motion))
+        return DP_BAD_ARGUMENT;
+    sim->next = sample;
+    return DP_OK;
+}

@@ -291,24 +291,28 @@ static DpStatus read_carried(const DpSim* sim, DpStateReader* reader, State* sta
     return reader->status;
 }
 
+// What a limb held in the state is the simulation's afterwards.
+static void take_limb(DpSim* sim, State* state, int l)
+{
+    Limb *limb = &sim->limb[l], was = *limb;
+    dp_free(was.met);
+    dp_carry_destroy(was.carry);
+    *limb = state->limb[l];
+    limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
+    limb->law = was.law, limb->boxed = -1;
+    dp_free(sim->pressing[l].value);
+    sim->pressing[l] = state->pressing[l];
+    state->limb[l].met = NULL, state->pressing[l].value = NULL;
+    state->limb[l].carry = NULL;
+}
+
 static void take_limbs(DpSim* sim, State* state)
 {
     sim->gone = state->gone;
-    for (int l = 0; l < state->limbs; ++l) {
-        Limb *      limb = &sim->limb[l], was = *limb;
-        const Limb* kept = &state->limb[l];
-        dp_free(was.met);
-        dp_carry_destroy(was.carry);
-        *limb = *kept;
-        limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
-        limb->law = was.law, limb->boxed = -1;
-        dp_free(sim->pressing[l].value);
-        sim->pressing[l] = state->pressing[l];
-    }
+    for (int l = 0; l < state->limbs; ++l) take_limb(sim, state, l);
     dp_free(sim->slide);
     sim->slide = state->slide, sim->slides = state->slides;
     state->slide = NULL;
-    state->limbs = 0;  // what they held is the simulation's now
 }
 
 // The halves of plants, grass and stems as they are shown.
@@ -370,4 +374,27 @@ DpStatus dp_sim_load_state(DpSim* sim, const void* bytes, size_t size)
         sim->stage.swept[n].sample = -1;
     drop(&state);
     return DP_OK;
+}
+
+DpStatus dp_sim_join_state(DpSim* sim, const void* bytes, size_t size, const DpStatePart* part)
+{
+    if (!sim || !bytes || !part || !sim->motion || sim->next > 0 || sim->stage.plants ||
+        sim->spray.cloud || dp_terrain_coats(sim->terrain, NULL) > 0 ||
+        dp_motion_is_live(sim->motion))
+        return DP_BAD_ARGUMENT;
+    State         state = {0};
+    DpStateReader reader = dp_read_open(bytes, size);
+    DpStatus      status = read_sim(sim, &reader, &state);
+    if (status == DP_OK) status = dp_terrain_load(sim->terrain, &reader, &state.terrain);
+    if (status == DP_OK && reader.at != reader.size) status = DP_BAD_FILE;
+    if (status == DP_OK && state.slides > 0) status = DP_BAD_ARGUMENT;
+    if (status == DP_OK)
+        status = dp_terrain_join(sim->terrain, state.terrain, part->tile, part->tiles);
+    if (status == DP_OK) {
+        state.terrain = NULL;
+        for (int l = 0; l < state.limbs; ++l)
+            if (part->walkers[sim->limb[l].walker]) take_limb(sim, &state, l);
+    }
+    drop(&state);
+    return status;
 }

@@ -215,6 +215,12 @@ DpStatus dp_terrain_load(const DpTerrain* terrain, DpStateReader* reader, DpTerr
 // bare ground; those that are gone are not told of.
 void dp_terrain_restore(DpTerrain* terrain, DpTerrainState* state);
 void dp_terrain_state_destroy(DpTerrainState* state);  // not taken; NULL is fine
+// Take some tiles (count, 2) of it, x and y of each, rising by (y, x), and none that the terrain has; the state is gone
+// afterwards. Tiles it does not hold, or that are there, or planted ground: DP_BAD_ARGUMENT, and all is as it was.
+DpStatus dp_terrain_join(DpTerrain* terrain, DpTerrainState* state, const int32_t* tile,
+                         size_t count);
+// All tiles there are (dp_terrain_tile_count, 2), x and y of each, rising by (y, x).
+void dp_terrain_list(const DpTerrain* terrain, int32_t* tile);
 
 // ---- a mesh as other programs keep it ----------------------------------------------------------
 

@@ -136,6 +136,19 @@ struct DpTerrain
     atomic_size_t marks;
 };
 
+// terrain_state.c: what a state tells of a tile
+typedef enum Kept
+{
+    KEPT_TRAIL = 1,  // kept fields follow
+    KEPT_COVER = 2   // strength and E_v, too
+} Kept;
+
+struct DpTerrainState
+{
+    DpTerrain ground;  // the terrain's own but for its tiles
+    uint8_t*  kept;    // what was kept of each
+};
+
 // the kept grids of a tile, in the order of their fields
 #define TILE_KEPT(ID, name, number, unit, equation, meaning) tile->name,
 static inline float* tile_kept(Tile* tile, int k)

@@ -14,18 +14,6 @@
 #define VERSION 1
 #define MIN_TILE 17  // bytes of a tile are no fewer
 
-typedef enum Kept
-{
-    KEPT_TRAIL = 1,  // kept fields follow
-    KEPT_COVER = 2   // strength and E_v, too
-} Kept;
-
-struct DpTerrainState
-{
-    DpTerrain ground;  // the terrain's own but for its tiles
-    uint8_t*  kept;    // what was kept of each
-};
-
 // ---- which ground this is ------------------------------------------------------------------------
 
 static uint64_t fold(uint64_t sum, const void* bytes, size_t count)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..ground import parcels as fields
 from ..ground.sim import Simulation
-from ..ground.soil_keys import rows
+from ..ground.soil_keys import AnySoil, rows
 from ..version import VERSION
 from .plan import Plan
 from .share import Share
@@ -33,30 +33,55 @@ def summary(
 ) -> dict[str, Any]:
     """Of all grounds together. seconds: spent, by stage; before, after: sentences beside those about the grounds."""
     found = [sim.report() for sim in sims]
-    total = {name: sum(each[name] for each in found) for name in found[0]}
     left = [each for sim in sims for each in sim.warnings]
     warnings = list(dict.fromkeys([*before, *left, *after]))
-    layers = [min(row.layer_depth for soil in sim.soils for row in rows(soil)) for sim in sims]
-    if any(each["deepest_m"] >= RIGID * layer for layer, each in zip(layers, found)):
-        warnings.append(RIGID_GROUND)
-    if total["off_ground"] and not any(BESIDE in each for each in warnings):
-        warnings.append(f"Feet on the ground {BESIDE}: make the ground larger, or move it under the walk.")
-    stick = [soil for sim in sims for soil in sim.carried().values()]
+    layers = [layer_of(sim.soils) for sim in sims]
     planted = any(parcel.plants for parcel in plan.parcels)
     return {
         "passes": len(plan.passes),
-        "contacts": total["contacts"],
-        "deepest_m": max(each["deepest_m"] for each in found),
-        **{name: total[name] for name in VOLUMES},
-        **({f"spray_{name}": total[name] for name in SPRAY} if plan.options.spray else {}),
-        **({name: sum(soil[name] for soil in stick) for name in CARRIED} if stick else {}),
-        **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
+        **happened(found, planted, bool(plan.options.spray), carried(sims)),
         "seconds": round(seconds["total"], 3),
         "stages": {name: round(spent, 3) for name, spent in seconds.items()},
-        "warnings": warnings,
+        "warnings": [*warnings, *hints(found, layers, warnings)],
         "version": VERSION,
         "parameters": plan.parameters(plan.parcels[0]),
     }
+
+
+def layer_of(soils: Sequence[AnySoil]) -> float:
+    """How deep the thinnest of some soils ever is [m]."""
+    return min(row.layer_depth for soil in soils for row in rows(soil))
+
+
+def carried(sims: Sequence[Simulation]) -> dict[str, float]:
+    """How much sticks to soles and was carried on, of all soils that stick; empty: none does."""
+    stick = [soil for sim in sims for soil in sim.carried().values()]
+    return {name: sum(soil[name] for soil in stick) for name in CARRIED} if stick else {}
+
+
+def happened(
+    found: Sequence[Mapping[str, Any]], planted: bool, sprayed: bool, carried: Mapping[str, float]
+) -> dict[str, Any]:
+    """What several Simulations tell of themselves, together, and what is carried()."""
+    total = {name: sum(each[name] for each in found) for name in found[0]}
+    return {
+        "contacts": total["contacts"],
+        "deepest_m": max(each["deepest_m"] for each in found),
+        **{name: total[name] for name in VOLUMES},
+        **({f"spray_{name}": total[name] for name in SPRAY} if sprayed else {}),
+        **carried,
+        **({"plants": total["plants"], "broken_bends": total["broke"]} if planted else {}),
+    }
+
+
+def hints(found: Sequence[Mapping[str, Any]], layers: Sequence[float], warnings: Sequence[str]) -> list[str]:
+    """Sentences about what they tell, beside those there are; layers: as deep as each can be pressed [m]."""
+    more = []
+    if any(each["deepest_m"] >= RIGID * layer for layer, each in zip(layers, found)):
+        more.append(RIGID_GROUND)
+    if any(each["off_ground"] for each in found) and not any(BESIDE in each for each in warnings):
+        more.append(f"Feet on the ground {BESIDE}: make the ground larger, or move it under the walk.")
+    return more
 
 
 def of_share(plan: Plan, share: Share, shares: Sequence[Share], in_all: dict[str, Any]) -> dict[str, Any]:

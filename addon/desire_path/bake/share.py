@@ -19,7 +19,7 @@ from ..errors import DesirePathError
 from ..files import atomic_file
 from ..ground import maps, materials, plant_mesh, spray
 from ..ground.parcels import Parcel
-from ..ground.sim import TILE, Simulation
+from ..ground.sim import TILE, Film, Simulation
 from ..loads.force import FootForce
 from ..version import VERSION
 from .contents import OWNER, index_data
@@ -90,8 +90,7 @@ class Share:
     def begin(self, frame: int, states: Sequence[str]) -> None:
         """Open its films and its files after a frame, 0 = the begin; what was found and still counts is kept, so the
         files named in `states`."""
-        self.films = self.sim.open_frames(*self.tiles)
-        self.films.open_maps([entry.name for entry in self._fields()], self._notes())
+        self.films = self.open_films()
         fresh = self.out.path("frames")
         try:
             self._keep(frame, states)
@@ -189,15 +188,25 @@ class Share:
     def end(self) -> None:
         """The first and the last maps."""
         self.films.write_maps(self.out.path("maps_final.exr"), self.plan.time(self.plan.frame_end))
+        self.write_start(self.out.path("maps_start.exr"))
+        self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
+        if self.mesh:
+            self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
+
+    def write_start(self, path: str) -> None:
+        """The map before the first step, after look()."""
         notes: list[tuple[str, str | float]] = [
             ("time", 0.0),
             *((f"unit_{name}", unit) for name, unit in START.items()),
             *self._notes(),
         ]
-        maps.write(self.out.path("maps_start.exr"), self.start, notes)
-        self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
-        if self.mesh:
-            self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
+        maps.write(path, self.start, notes)
+
+    def open_films(self) -> Film:
+        """A film of it, whose maps have its fields and notes."""
+        films = self.sim.open_frames(*self.tiles)
+        films.open_maps([entry.name for entry in self.fields()], self._notes())
+        return films
 
     def conclude(self, report: dict[str, Any]) -> None:
         """The bake is whole: write its report and say so in its index."""
@@ -291,9 +300,10 @@ class Share:
             ("originY", index["y0"]),
             ("parameters", json.dumps(self.plan.parameters(self.parcel))),
         ]
-        return notes + [(f"unit_{entry.name}", entry.unit) for entry in self._fields()]
+        return notes + [(f"unit_{entry.name}", entry.unit) for entry in self.fields()]
 
-    def _fields(self) -> tuple[maps.Map, ...]:
+    def fields(self) -> tuple[maps.Map, ...]:
+        """Those of its maps."""
         more = tuple(maps.Map(name, *field[1:]) for name, field in materials.fields(self.sim.soils).items())
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ()) + more
 
