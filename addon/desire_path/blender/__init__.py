@@ -9,6 +9,7 @@ from . import (
     command_line,
     messages,
     op_bake,
+    op_balance,
     op_crowd,
     op_export,
     op_forces,
@@ -36,6 +37,7 @@ _CLASSES = (
     + op_export.CLASSES
     + op_forces.CLASSES
     + op_place.CLASSES
+    + op_balance.CLASSES
     + op_plants.CLASSES
     + op_walk_it.CLASSES
     + op_press.CLASSES

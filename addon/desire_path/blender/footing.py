@@ -73,7 +73,8 @@ def _at(move, points):
 class Plan:
     """Which bones are keyed, and how each moves in the world."""
 
-    def __init__(self, scene, armature, found, gait, placed, frames):
+    def __init__(self, scene, armature, found, gait, placed, frames, lean=None):
+        """lean: how the body turns about its mass centre (T, 3, 3); None = as the ground turns it."""
         self.armature = armature
         self.move = {}  # bone -> (T, 4, 4), in the order in which they are keyed
         self.keyed = {}  # bone -> "location", "rotation" or both
@@ -110,7 +111,7 @@ class Plan:
             if bones[name].parent is not None:
                 names[bones[name].parent.name] = None
         self.bones = posing.look(scene, armature, list(names), frames)
-        self._carry(gait, placed)
+        self._carry(gait, placed, lean)
         for limb, (foot, target) in enumerate(zip(self.feet, self.targets)):
             self._foot(limb, foot, target, gait, placed)
 
@@ -122,6 +123,13 @@ class Plan:
         names = (target, foot.foot) if target is not None else (foot.thigh, foot.shank, foot.foot)
         return any(posing.holders(self.armature, name) is not None for name in names if name)
 
+    def _turns(self, name):
+        """May keys turn and move a bone?"""
+        if not name or posing.holders(self.armature, name) is not None:
+            return False
+        bone, data = self.armature.pose.bones[name], self.armature.data.bones[name]
+        return not (data.use_connect or any(bone.lock_location) or any(bone.lock_rotation))
+
     def hangs(self, foot):
         """Does a foot hang on a leg of two bones that keys can move?"""
         return bool(
@@ -131,12 +139,16 @@ class Plan:
             and under(self.armature, foot.shank, foot.thigh)
         )
 
-    def _carry(self, gait, placed):
+    def _carry(self, gait, placed, lean):
         """Roots rise and lean with the body, and come down as far as legs are too short."""
         centre = gait.com[0] / self.bones.scale
-        lean = place.tilt(gait, placed)
-        if lean is not None and any(any(self.armature.pose.bones[root].lock_rotation) for root in self.roots):
-            lean = None
+        carrying = self.roots
+        if lean is None:
+            lean = place.tilt(gait, placed)
+            if any(any(self.armature.pose.bones[root].lock_rotation) for root in self.roots):
+                lean = None
+        elif self._turns(self.hips):
+            carrying = [self.hips]
         level = np.tile(np.eye(3), (len(centre), 1, 1))
         self.body = posing.turned(level if lean is None else lean, centre, placed.com[0] / self.bones.scale)
         down = np.zeros(len(centre))
@@ -146,7 +158,7 @@ class Plan:
             goal = _at(self._foot_move(limb, gait, placed), self.heads(foot.foot))
             down = np.maximum(down, leg.drop(*(self.carried(n) for n in (foot.thigh, foot.shank, foot.foot)), goal))
         self.body[:, 2, 3] -= gait.by_piece(lambda part: leg.eased(part, round(EASE * gait.frame_rate)), down)
-        for root in self.roots:
+        for root in carrying:
             self._key(root, self.body, "location", *(("rotation",) if lean is not None else ()))
 
     def carried(self, name):

@@ -255,6 +255,9 @@ def draw_walker(layout, context, obj):
         feet = layout.column(align=True)
         feet.operator("object.desire_path_place_feet", icon="CON_FLOOR").into_prints = False
         feet.operator("object.desire_path_place_feet", text="Sink into Prints", icon="TRIA_DOWN_BAR").into_prints = True
+        row = feet.row(align=True)
+        row.operator("object.desire_path_balance", icon="MOD_SIMPLEDEFORM").remove = False
+        row.operator("object.desire_path_balance", text="", icon="X").remove = True
         column = _column(layout)
         column.prop(settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")

@@ -56,6 +56,30 @@ GERMAN = {
         "'{}' spielt '{}', die Füße {} '{}'; '{}' ist, wie es war."
     ),
     "'{}' plays '{}', its feet {} '{}'.": "'{}' spielt '{}', die Füße {} '{}'.",
+    # ---- blender/op_balance.py
+    "'{}' would hardly lean, for its feet stand level: press Place Feet on a slope or Sink into Prints first, or let "
+    "it lean more.": (
+        "'{}' würde sich kaum neigen, denn die Füße stehen eben: erst Füße aufsetzen an einem Hang oder In Abdrücke "
+        "sinken drücken, oder mehr neigen lassen."
+    ),
+    "'{}' plays no action that Balance made: there is nothing to take off.": (
+        "'{}' spielt keine Action, die Ausbalancieren gemacht hat: es gibt nichts abzunehmen."
+    ),
+    "The action '{}' that '{}' was made from is gone: undo, or choose another action.": (
+        "Die Action '{}', aus der '{}' entstand, ist nicht mehr da: rückgängig machen oder eine andere wählen."
+    ),
+    "'{}' plays '{}' again.": "'{}' spielt wieder '{}'.",
+    "'{}' plays '{}', leaning by {} to {} degrees; '{}' is as it was.": (
+        "'{}' spielt '{}' und neigt sich um {} bis {} Grad; '{}' ist, wie es war."
+    ),
+    "'{}' plays '{}', leaning by {} to {} degrees.": "'{}' spielt '{}' und neigt sich um {} bis {} Grad.",
+    # ---- placement/balance.py
+    "A body cannot lean with a {} of {}: give {} to {}.": (
+        "Ein Körper kann sich nicht mit {} {} neigen: {} bis {} angeben."
+    ),
+    "{} does not go on two feet: only such a body leans, one on more feet lies along the ground.": (
+        "{} geht nicht auf zwei Füßen: nur ein solcher Körper neigt sich, einer auf mehr Füßen liegt am Boden entlang."
+    ),
     # ---- blender/op_plants.py
     "{} plants of {} grow on '{}'.": "{0} Pflanzen der Art {1} wachsen auf '{2}'.",
     "The {} on '{}' is shown already, by '{}'.": "{} auf '{}' wird schon gezeigt, von '{}'.",

@@ -27,6 +27,7 @@ GERMAN = {
         "Add Plants": "Pflanzen hinzufügen",
         "Add Soil Preset": "Bodenart merken",
         "Add Walker": "Läufer hinzufügen",
+        "Balance": "Ausbalancieren",
         "Bake All Grounds": "Alle Böden backen",
         "Bake Trail": "Spur backen",
         "Cancel": "Abbrechen",

@@ -86,6 +86,23 @@ GERMAN = {
         "Die Füße des aktiven Skeletts auf seinen Boden setzen: Hänge hinauf, hinunter und quer, vom ebenen Boden "
         "dorthin getragen. Macht eine neue Action; die vorige bleibt"
     ),
+    "Let the body of the active armature lean into slopes and swing on ground that gives way, its feet staying where "
+    "they are. Makes a new action; the one it had stays": (
+        "Den Körper des aktiven Skeletts sich in Hänge neigen und auf nachgebendem Boden schwingen lassen, während die "
+        "Füße bleiben, wo sie sind. Legt eine neue Action an; die alte bleibt"
+    ),
+    "By which share of the slope under its feet the body leans": (
+        "Um welchen Anteil der Neigung unter seinen Füßen sich der Körper neigt"
+    ),
+    "How soon the body follows the ground, in newtons for a mass centre 1 m high": (
+        "Wie bald der Körper dem Boden folgt, in Newton für einen Schwerpunkt in 1 m Höhe"
+    ),
+    "How little it swings, in newton metre seconds for a mass centre 1 m high": (
+        "Wie wenig er schwingt, in Newtonmetersekunden für einen Schwerpunkt in 1 m Höhe"
+    ),
+    "Play the action again that the balanced one was made from": (
+        "Wieder die Action abspielen, aus der die ausbalancierte entstand"
+    ),
     "Let the feet down into the prints that are baked, and the body with them": (
         "Die Füße in die gebackenen Abdrücke hinablassen, und den Körper mit ihnen"
     ),
