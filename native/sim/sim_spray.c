@@ -174,9 +174,25 @@ static DpStatus fly(DpSim* sim, const DpSprayGround* ground, double dt)
     return status;
 }
 
+// how high a tile is, within half a cell around it, too: the surface is bilinear between cells
+static double highest(void* terrain, long tx, long ty)
+{
+    double found = -INFINITY;
+    for (int n = 0; n < 9; ++n)
+        found = fmax(found, dp_terrain_highest(terrain, tx + n % 3 - 1, ty + n / 3 - 1));
+    return found;
+}
+
 static DpSprayGround ground_of(const DpSim* sim)
 {
-    return (DpSprayGround){dp_sim_surface, sim->terrain, INFINITY};
+    const double cell = sim->grid.cell;
+    return (DpSprayGround){.surface = dp_sim_surface,
+                           .ground = sim->terrain,
+                           .highest = highest,
+                           .context = sim->terrain,
+                           .side = cell * DP_TILE,
+                           .x0 = sim->grid.x0,
+                           .y0 = sim->grid.y0};
 }
 
 DpStatus dp_spray_step(DpSim* sim, int sample)

@@ -56,7 +56,12 @@ typedef struct DpSprayGround
 {
     DpSpraySurface surface;
     const void*    ground;
-    double         highest;  // no ground is higher [m]; INFINITY = not known
+
+    // How high the surface is anywhere in square (i, j) of many, (i side + x0, j side + y0) its lowest corner; INFINITY:
+    // not known. Asked from one thread, before grains fly: over it none is looked at. NULL: all are.
+    double (*highest)(void* context, long i, long j);
+    void*  context;
+    double side, x0, y0;  // [m]
 } DpSprayGround;
 
 // What has come down in a step.

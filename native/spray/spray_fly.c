@@ -13,6 +13,7 @@
 #define AIR_DENSITY 1.2     // [kg/m^3]
 #define DRAG_OF_SPHERE 0.5  // of grains, which are not round
 #define MOST_GRAINS (1 << 24)
+#define MOST_SQUARES (1 << 18)
 #define GRAIN_BYTES 73  // of a saved one
 
 typedef enum State
@@ -34,6 +35,10 @@ struct DpCloud
     uint8_t*   kind;
     uint8_t*   state;
     DpLanding* landing;
+
+    // how high the ground is in squares under grains, of a rectangle of them; not a number: not asked for yet
+    double *highest, corner_x, corner_y;  // (squares_y, squares_x), [m]
+    int     squares_x, squares_y;         // 0: nothing is known
 };
 
 // ---- a life ------------------------------------------------------------------------------------
@@ -55,6 +60,7 @@ void dp_cloud_destroy(DpCloud* cloud)
                             cloud->v,    cloud->w,    cloud->lowest, cloud->late,
                             cloud->name, cloud->kind, cloud->state,  cloud->landing};
     for (size_t b = 0; b < sizeof blocks / sizeof *blocks; ++b) dp_free(blocks[b]);
+    dp_free(cloud->highest);
     dp_free(cloud);
 }
 
@@ -116,6 +122,46 @@ DP_CLONES static void fly(int count, double dt, double drag, const double* restr
     }
 }
 
+// The square of a grain, or -1.
+static inline int square_of(const DpCloud* cloud, double each, double x, double y)
+{
+    const double i = (x - cloud->corner_x) * each, j = (y - cloud->corner_y) * each;
+    if (!(i >= 0.0 && j >= 0.0 && i < cloud->squares_x && j < cloud->squares_y)) return -1;
+    return (int)j * cloud->squares_x + (int)i;
+}
+
+// How high the ground is under all grains. Where they are spread too far, or without memory, nothing is known.
+static void look_down(DpCloud* cloud, const DpSprayGround* ground)
+{
+    const double each = 1.0 / ground->side;
+    double       x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
+    cloud->squares_x = cloud->squares_y = 0;
+    if (!ground->highest) return;
+    for (int n = 0; n < cloud->count; ++n) {
+        const double x = cloud->x[n], y = cloud->y[n];
+        x0 = x < x0 ? x : x0, x1 = x > x1 ? x : x1;
+        y0 = y < y0 ? y : y0, y1 = y > y1 ? y : y1;
+    }
+    const double i0 = floor((x0 - ground->x0) * each), j0 = floor((y0 - ground->y0) * each);
+    const double nx = floor((x1 - ground->x0) * each) - i0 + 1.0;
+    const double ny = floor((y1 - ground->y0) * each) - j0 + 1.0;
+    if (!(nx * ny <= MOST_SQUARES) || fabs(i0) > 1e9 || fabs(j0) > 1e9) return;
+    const int squares = (int)nx * (int)ny;
+    if (!dp_make_room(&cloud->highest, (size_t)squares, sizeof *cloud->highest)) return;
+    cloud->squares_x = (int)nx, cloud->squares_y = (int)ny;
+    cloud->corner_x = ground->x0 + i0 * ground->side;
+    cloud->corner_y = ground->y0 + j0 * ground->side;
+    for (int s = 0; s < squares; ++s) cloud->highest[s] = INFINITY;
+    for (int n = 0; n < cloud->count; ++n) {
+        const int s = square_of(cloud, each, cloud->x[n], cloud->y[n]);
+        if (s >= 0) cloud->highest[s] = NAN;
+    }
+    for (int s = 0; s < squares; ++s)
+        if (isnan(cloud->highest[s]))
+            cloud->highest[s] = ground->highest(ground->context, (long)i0 + s % cloud->squares_x,
+                                                (long)j0 + s / cloud->squares_x);
+}
+
 typedef struct Flight
 {
     DpCloud*             cloud;
@@ -155,7 +201,10 @@ static void fly_chunk(void* context, int index, int worker)
         cloud->z + first, cloud->u + first, cloud->v + first, cloud->w + first);
     for (int k = 0, n = first; k < count; ++k, ++n) {
         cloud->late[n] = 0.0;
-        if (cloud->z[n] > ground->highest) continue;
+        const int square = cloud->squares_x > 0
+                               ? square_of(cloud, 1.0 / ground->side, cloud->x[n], cloud->y[n])
+                               : -1;
+        if (square >= 0 && cloud->z[n] > cloud->highest[square]) continue;
         const double height = ground->surface(ground->ground, cloud->x[n], cloud->y[n]);
         if (cloud->z[n] <= height)
             stop(cloud, n, dp_vec3(x[k], y[k], z[k]), ground);
@@ -194,6 +243,7 @@ DpStatus dp_cloud_fly(DpCloud* cloud, const DpSprayGround* ground, double dt, in
     if (!(dt >= 0.0) || !isfinite(dt)) return DP_BAD_ARGUMENT;
     Flight    flight = {cloud, ground, dt};
     const int chunks = (cloud->count + CHUNK - 1) / CHUNK;
+    look_down(cloud, ground);
     dp_parallel_for(chunks, chunks > 4 ? workers : 1, fly_chunk, &flight);
     *landings = sort_out(cloud);
     *landing = cloud->landing;

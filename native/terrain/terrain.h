@@ -134,6 +134,9 @@ bool dp_terrain_dig(DpTerrain* terrain, double x, double y, double width, double
 // Lay it down as loose soil; *cells are those it lies on, *laid how much it is [m^3]: 0 where there is no ground.
 DpStatus dp_terrain_drop(DpTerrain* terrain, double x, double y, double width, double volume,
                          DpCellRect* cells, double* laid);
+// How high a tile's surface is at its highest, over the datum [m], -INFINITY without ground. It is touched first;
+// INFINITY where there is no memory for it.
+double dp_terrain_highest(DpTerrain* terrain, long tx, long ty);
 // Whether one of some cells stands higher over a neighbour than its soil may rest.
 bool dp_terrain_steep(const DpTerrain* terrain, DpCellRect cells);
 

@@ -1,7 +1,9 @@
 // terrain/terrain_grain.c - little soil taken from a place, and laid down at one: what sticks, and what flew. MODEL 6.15
+#include "base/wide.h"
 #include "terrain/terrain_inside.h"
 
 #define RIGID 0.95     // share of the layer, deeper than which nothing is taken
+#define WIDE 16        // cells that are compared at once
 #define MOST_ALONG 64  // cells along a side of a place
 
 // Cells of a square about a point, each with what of its side lies in the square.
@@ -150,4 +152,32 @@ bool dp_terrain_steep(const DpTerrain* terrain, DpCellRect cells)
         }
     }
     return false;
+}
+
+// the highest of a tile's cells; of those without ground nothing is known
+DP_CLONES static float highest_of(const float* restrict base_height,
+                                  const float* restrict compression, const float* restrict heap)
+{
+    float most[WIDE];
+    for (int k = 0; k < WIDE; ++k) most[k] = -INFINITY;
+    for (int n = 0; n < TILE_CELLS; n += WIDE)
+        for (int k = 0; k < WIDE; ++k) {
+            const float height = base_height[n + k] - compression[n + k] + heap[n + k];
+            most[k] = height > most[k] ? height : most[k];
+        }
+    float found = -INFINITY;
+    for (int k = 0; k < WIDE; ++k) found = most[k] > found ? most[k] : found;
+    return found;
+}
+
+double dp_terrain_highest(DpTerrain* terrain, long tx, long ty)
+{
+    const DpCellRect cells = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
+    if (dp_terrain_touch(terrain, cells) != DP_OK) return INFINITY;
+    Tile* tile = dp_tile_find(terrain, tx, ty);
+    if (!atomic_load(&tile->measured)) {
+        tile->highest = highest_of(tile->base_height, tile->compression, tile->heap);
+        atomic_store(&tile->measured, 1);
+    }
+    return (double)tile->highest;
 }

@@ -100,6 +100,8 @@ typedef struct Tile
     long       tx, ty;
     int        revision;  // of the soils that its rough grids are of
     atomic_int changed;
+    atomic_int measured;  // `highest` is of its cells as they are
+    float      highest;   // terrain_grain.c                       [m]
     float      plant
         [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves, _plates
 } Tile;

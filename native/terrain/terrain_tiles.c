@@ -182,6 +182,7 @@ static int by_row(const void* a, const void* b)
 
 void dp_tile_mark(DpTerrain* terrain, Tile* tile)
 {
+    atomic_store(&tile->measured, 0);
     if (atomic_exchange(&tile->changed, 1) == 0)
         terrain->marked[atomic_fetch_add(&terrain->marks, 1)] = tile;
 }

@@ -56,7 +56,7 @@ static DpLanding land(DpCloud* cloud, const DpSprayGround* ground, double dt, in
 // Without air: v^2 sin(2a) / g from the ground, whatever the step.
 TEST(goes_as_far_as_a_parabola)
 {
-    const DpSprayGround ground = {level, &zero, INFINITY};
+    const DpSprayGround ground = {.surface = level, .ground = &zero};
     const double        v = 6.0, a = 0.6, far = v * v * sin(2.0 * a) / DP_GRAVITY;
     for (double dt = 1.0 / 30.0; dt > 1.0 / 300.0; dt *= 0.5) {
         DpCloud* cloud =
@@ -74,7 +74,7 @@ TEST(goes_as_far_as_a_parabola)
 // One that falls for long is as fast as drag and weight allow: sqrt(4/3 rho d g / (rho_air C)).
 TEST(falls_no_faster_than_the_air_lets_it)
 {
-    const DpSprayGround ground = {level, &zero, INFINITY};
+    const DpSprayGround ground = {.surface = level, .ground = &zero};
     DpCloud*            cloud = thrown(100.0, dp_vec3(0, 0, 1000.0), dp_vec3(9.0, 0, 0), 0.0);
     const DpLanding*    landing;
     int                 landings;
@@ -89,7 +89,7 @@ TEST(falls_no_faster_than_the_air_lets_it)
 // Air slows it down along its way alone: it stays in the plane it was thrown in, and steps change its place little.
 TEST(steps_hardly_change_where_it_lands)
 {
-    const DpSprayGround ground = {level, &zero, INFINITY};
+    const DpSprayGround ground = {.surface = level, .ground = &zero};
     double              far[2];
     for (int k = 0; k < 2; ++k) {
         DpCloud* cloud = thrown(300.0, dp_vec3(0, 0, 0.5), dp_vec3(4.0, 4.0, 5.0), 0.0);
@@ -104,7 +104,7 @@ TEST(steps_hardly_change_where_it_lands)
 // One that comes off in the middle of a step flies for the rest of it.
 TEST(flies_from_when_it_came_off)
 {
-    const DpSprayGround ground = {level, &zero, INFINITY};
+    const DpSprayGround ground = {.surface = level, .ground = &zero};
     DpCloud*            cloud = thrown(HEAVY, dp_vec3(0, 0, 50.0), dp_vec3(2.0, 0, 0), 0.75 * STEP);
     const DpLanding*    landing;
     int                 landings;
@@ -117,7 +117,7 @@ TEST(flies_from_when_it_came_off)
 
 TEST(what_falls_by_the_ground_is_told)
 {
-    const DpSprayGround ground = {level, &zero, INFINITY};
+    const DpSprayGround ground = {.surface = level, .ground = &zero};
     DpCloud*            cloud = thrown(1600.0, dp_vec3(99.9, 0, 0.2), dp_vec3(3.0, 0, 0), 0.0);
     int                 steps;
     CHECK(land(cloud, &ground, STEP, &steps).beside);
@@ -143,7 +143,7 @@ static DpCloud* fountain(int count)
 
 TEST(many_threads_give_the_same_bits)
 {
-    const DpSprayGround ground = {hilly, NULL, INFINITY};
+    const DpSprayGround ground = {.surface = hilly};
     DpCloud *           one = fountain(3000), *two = fountain(3000);
     int                 in_all = 0;
     for (int k = 0; k < 200; ++k) {
@@ -163,7 +163,7 @@ TEST(many_threads_give_the_same_bits)
 
 TEST(goes_on_from_its_bytes)
 {
-    const DpSprayGround  ground = {hilly, NULL, INFINITY};
+    const DpSprayGround  ground = {.surface = hilly};
     const DpSprayNumbers numbers = numbers_of(800.0);
     DpCloud *            cloud = fountain(500), *again = NULL;
     const DpLanding*     landing;

@@ -25,7 +25,7 @@ static double level(const void* context, double x, double y)
     return 0.0;
 }
 
-static const DpSprayGround ground = {level, NULL, INFINITY};
+static const DpSprayGround ground = {.surface = level};
 
 // how much was taken, of how much there is
 typedef struct Store
