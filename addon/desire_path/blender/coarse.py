@@ -37,7 +37,7 @@ class Coarse:
             bake.gait,
             parcels,
             cell_size=self.cell,
-            options=bake.options,
+            options=replace(bake.options, spray=None),
             output=BakeOutput(
                 frame_start=bake.frame_start, frame_end=bake.frame_end, film=bake.film, map_seconds=False, resume=False
             ),

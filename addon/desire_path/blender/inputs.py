@@ -19,9 +19,14 @@ from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, playback, pressed, recordings, soil_keys, trodden
+from . import axes, bodies, ground, paths, plants, playback, pressed, recordings, soil_keys, sprays, trodden
 
-ALIKE = {"law": "contact law", "heap": "way to heap soil"}  # settings that grounds baked together share
+ALIKE = {  # settings that grounds baked together share
+    "law": "contact law",
+    "heap": "way to heap soil",
+    "spray": "spray",
+    "spray_amount": "amount of spray",
+}
 ROUNDED = 4e-7  # rounding moves points no farther, in shares of their distance from the origin
 
 
@@ -88,6 +93,7 @@ def taken(scene, company, folders, **more):
             heap=settings.heap,
             origin=origin,
             threads=settings.threads,
+            spray=sprays.of_ground(settings),
             load_model=walkers[0].desire_path.load_model,
         ),
         output=BakeOutput(frame_start=first, frame_end=last, **more),
@@ -161,6 +167,8 @@ def marks(obj, company, bake, found):
     )
     grown = [each for planting in plantings for each in planting.arrays()]
     options = {name: getattr(bake.options, name) for name in ("law", "heap", "rim_width")}  # the rest does not show
+    if bake.options.spray is not None:
+        options["spray"] = bake.options.spray.parameters()
     soils = sorted(([soil.parameters() for soil in parcel.soils] for parcel in bake.parcels), key=repr)
     chosen = [
         bake.cell_size,

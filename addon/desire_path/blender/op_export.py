@@ -7,15 +7,21 @@ from bpy.props import EnumProperty, StringProperty
 
 from ..errors import DesirePathError
 from . import messages
-from .late import atomic_file, compat, disk, height16, home, playback_tree, stage, tempfile
+from .late import atomic_file, compat, disk, height16, home, playback_tree, stage, tempfile, volume
 from .ops import Refusal, active
 
 FORMATS = (
     ("HEIGHT16", "Heights of 16 Bit", "A grey picture or bare numbers; a .json beside it tells what a value is"),
     ("USD", "USD", "A mesh at the end of the walk with all maps, and the plants that were baked as a mesh"),
+    ("VDB", "VDB", "A volume for each frame of what flies over the ground"),
     ("ALEMBIC", "Alembic", "The ground and its plants as they move, in the frames of the scene"),
 )
-KINDS = {"HEIGHT16": (".png", ".raw", ".r16"), "USD": (".usdc", ".usda", ".usd"), "ALEMBIC": (".abc",)}
+KINDS = {
+    "HEIGHT16": (".png", ".raw", ".r16"),
+    "USD": (".usdc", ".usda", ".usd"),
+    "VDB": (".vdb",),
+    "ALEMBIC": (".abc",),
+}
 
 
 class WM_OT_desire_path_export(Refusal, bpy.types.Operator):
@@ -29,9 +35,9 @@ class WM_OT_desire_path_export(Refusal, bpy.types.Operator):
     filepath: StringProperty(
         subtype="FILE_PATH",
         options={"SKIP_SAVE"},
-        description="Where it is written: .png, .raw or .r16; .usdc, .usda or .usd; .abc",
+        description="Where it is written: .png, .raw or .r16; .usdc, .usda or .usd; .vdb; .abc",
     )
-    filter_glob: StringProperty(default="*.png;*.raw;*.r16;*.usd;*.usda;*.usdc;*.abc", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.png;*.raw;*.r16;*.usd;*.usda;*.usdc;*.vdb;*.abc", options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):
@@ -68,6 +74,12 @@ class WM_OT_desire_path_export(Refusal, bpy.types.Operator):
             with compat.bundled_modules():
                 report = stage.write(place, path)
             messages.tell(self, "INFO", f"{report['points']} points and {report['stems']} stems are written to {path}.")
+        elif self.format == "VDB":
+            with compat.bundled_modules():
+                report = volume.write(place, path)
+            messages.tell(
+                self, "INFO", f"{report['frames']} volumes of {report['grains']} grains are written to {path}."
+            )
         else:
             if os.path.splitext(path)[1].lower() not in KINDS["ALEMBIC"]:
                 raise DesirePathError(f"{path} is of no kind that is written: give it a name that ends with {kinds}.")

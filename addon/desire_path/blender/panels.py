@@ -199,6 +199,9 @@ def draw_output(layout, obj):
     column.prop(settings, "vertex_group")
     column.prop(settings, "law")
     column.prop(settings, "heap")
+    column.prop(settings, "spray")
+    if settings.spray != "NONE":
+        column.prop(settings, "spray_amount")
     column.prop(settings, "threads")
 
 

@@ -202,6 +202,23 @@ class DesirePathSettings(bpy.types.PropertyGroup):
             ("paper", "Falling off", "On the rim, falling off over its width, then sliding"),
         ),
     )
+    spray: EnumProperty(
+        name="Spray",
+        description="What sticks to soles and wheels, and flies off them where they are moved fast",
+        items=props_parts.SPRAYS,
+    )
+    spray_amount: FloatProperty(
+        name="Amount",
+        default=1.0,
+        min=0.0,
+        soft_max=4.0,
+        max=20.0,
+        precision=2,
+        description="How much of it sticks, against what is usual",
+    )
+    spray_object: PointerProperty(
+        type=bpy.types.Object, options={"HIDDEN"}, description="The points of what flies in each frame"
+    )
     threads: IntProperty(
         name="Threads", min=0, max=64, default=0, description="Processors to bake with, 0 = all; the result is the same"
     )

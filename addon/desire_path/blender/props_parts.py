@@ -6,6 +6,13 @@ from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerPro
 from . import compat, soils
 from .late import kinds, picture, replant, state
 
+SPRAYS = (
+    ("NONE", "No Spray", "Nothing sticks"),
+    ("SAND", "Sand", "Dry grains, which come off at once"),
+    ("MUD", "Mud", "Lumps that hold on, and fly off what turns or swings fast"),
+    ("SNOW", "Snow", "Light flakes, which the air slows down"),
+)
+
 
 def _foot_by_hand(self, _context):
     self.thigh = self.shank = ""  # the leg above another foot is another leg

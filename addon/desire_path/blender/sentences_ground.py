@@ -121,6 +121,30 @@ GERMAN = {
         "löschen, was in die anderen gedrückt wurde, oder jeden Boden für sich backen."
     ),
     "'{}' is no mesh: only meshes can be baked together.": "'{}' ist kein Netz: nur Netze lassen sich zusammen backen.",
+    # ---- bake/volume.py
+    "VDB is written by the module openvdb, which is not there: export from Blender 4.4 or later.": (
+        "VDB schreibt das Modul openvdb, das es hier nicht gibt: aus Blender 4.4 oder später exportieren."
+    ),
+    "Nothing flies in the bake in {}: choose a spray and bake again.": (
+        "Im Gebackenen in {} fliegt nichts: Spritzer wählen und noch einmal backen."
+    ),
+    # ---- ground/spray.py
+    "A spray's slow_speed of {} m/s is not below its fast_speed, {} m/s: lower it.": (
+        "slow_speed der Spritzer von {} m/s liegt nicht unter fast_speed, {} m/s: sie senken."
+    ),
+    "No spray has '{}': choose one of {}, as in adhesion=0.004.": (
+        "Keine Spritzer haben '{}': eines von {} wählen, wie in adhesion=0.004."
+    ),
+    "'{}' is no number for a spray's {}: give one.": "'{}' ist keine Zahl für {} der Spritzer: eine angeben.",
+    "There is no spray '{}': choose one of {}, or a .json file of one.": (
+        "Es gibt keine Spritzer '{}': eine von {} wählen, oder eine .json-Datei davon."
+    ),
+    "Grains of {} m are too many on {}: choose a particle_size of {} m or more, or less adhesion.": (
+        "Körner von {} m sind zu viele auf {}: particle_size von {} m oder mehr wählen, oder weniger adhesion."
+    ),
+    "{} is no frame of a spray: choose spray_0001.exr of a bake.": (
+        "{} ist kein Bild von Spritzern: spray_0001.exr von etwas Gebackenem wählen."
+    ),
     # ---- ground/plant_mesh.py
     "No plants stand where the walk goes: raise their density or widen their rectangle.": (
         "Wo der Gang verläuft, stehen keine Pflanzen: ihre Dichte erhöhen oder ihr Rechteck verbreitern."

@@ -94,6 +94,7 @@ GERMAN = {
     "reach over its edge, and leave no print there": "ragen über seinen Rand und hinterlassen dort keinen Abdruck",
     "contact law": "Kontaktgesetz",
     "way to heap soil": "Art, wie Boden gehäuft wird",
+    "amount of spray": "Menge der Spritzer",
     # ---- sizes
     "'{}' is {} m tall": "'{}' ist {} m groß",
     "apply a scale of {} to it": "es um {} skalieren",

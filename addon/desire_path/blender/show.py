@@ -7,7 +7,7 @@ import bpy
 from ..bake.bake import read_index
 from ..bake.contents import MAPS_ALWAYS, is_complete
 from ..errors import DesirePathError
-from . import cover, ground, home, materials, plants, playback, playback_tree, pressed, refined, stems, trash
+from . import cover, ground, home, materials, plants, playback, playback_tree, pressed, refined, sprays, stems, trash
 from .home import folder
 
 
@@ -46,6 +46,9 @@ def play(scene, obj, surface, baked=None, place=""):
     plants.show(obj, index)
     stems.remove(plants.grass.of(settings.plant_object, obj))
     settings.plant_object = stems.show(obj, place, path, index.frame_start, surface.scale) if index.complete else None
+    frames = playback.join(place, *os.path.relpath(index.folder, path).split(os.sep))
+    old = plants.grass.of(settings.spray_object, obj)
+    settings.spray_object = sprays.show(obj, frames, index, surface.scale, old)
     return index, warnings
 
 
@@ -153,6 +156,7 @@ def free(obj):
     playback.detach(obj)
     plants.show(obj)
     stems.remove(plants.grass.of(settings.plant_object, obj))
+    sprays.remove(plants.grass.of(settings.spray_object, obj))
     cover.remove(obj)
     materials.forget(obj)
     pressed.forget(obj)

@@ -71,6 +71,7 @@ GERMAN = {
     },
     "*": {
         "All": "Alle",
+        "Amount": "Menge",
         "At rest": "Zur Ruhe gekommen",
         "Attributes": "Attribute",
         "Auto Update": "Selbst erneuern",
@@ -127,6 +128,9 @@ GERMAN = {
         "Kind": "Art",
         "Limb": "Glied",
         "Limbs": "Gliedmaßen",
+        "No Spray": "Keine Spritzer",
+        "Spray": "Spritzer",
+        "VDB": "VDB",
         "Wade": "Waten",
         "Load": "Last",
         "Looking for Changes": "Sucht nach Änderungen",

@@ -41,8 +41,8 @@ GERMAN = {
         "Was auf dem aktiven Boden gebacken ist, für Spiele-Engines, Gelände- und andere Bildprogramme schreiben"
     ),
     "What is written": "Was geschrieben wird",
-    "Where it is written: .png, .raw or .r16; .usdc, .usda or .usd; .abc": (
-        "Wohin es geschrieben wird: .png, .raw oder .r16; .usdc, .usda oder .usd; .abc"
+    "Where it is written: .png, .raw or .r16; .usdc, .usda or .usd; .vdb; .abc": (
+        "Wohin es geschrieben wird: .png, .raw oder .r16; .usdc, .usda oder .usd; .vdb; .abc"
     ),
     "A mesh at the end of the walk with all maps, and the plants that were baked as a mesh": (
         "Ein Netz am Ende des Gangs mit allen Karten, und die Pflanzen, die als Netz gebacken sind"
@@ -369,4 +369,16 @@ GERMAN = {
         "Die Knochen der Füße des Läufers, gefunden durch Läufer hinzufügen oder Füße finden"
     ),
     "The bone the body hangs on": "Der Knochen, an dem der Körper hängt",
+    # ---- spray
+    "A volume for each frame of what flies over the ground": "Ein Volumen je Bild von dem, was über dem Boden fliegt",
+    "What sticks to soles and wheels, and flies off them where they are moved fast": (
+        "Was an Sohlen und Rädern haftet und fortfliegt, wo sie schnell bewegt werden"
+    ),
+    "Nothing sticks": "Nichts haftet",
+    "Dry grains, which come off at once": "Trockene Körner, die sich sofort lösen",
+    "Lumps that hold on, and fly off what turns or swings fast": (
+        "Klumpen, die haften und von dem fortfliegen, was sich schnell dreht oder schwingt"
+    ),
+    "Light flakes, which the air slows down": "Leichte Flocken, die die Luft bremst",
+    "How much of it sticks, against what is usual": "Wie viel davon haftet, gegen das Übliche",
 }
