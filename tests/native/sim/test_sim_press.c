@@ -293,7 +293,7 @@ static long farthest_heap(const Scene* s)
     return far;
 }
 
-// Soil that goes 0.1 m in 10 s has slid by no more than a cell or two after 0.3 s, however many sweeps would bring it
+// Soil that goes 0.1 m in 10 s has slid by no more than a cell or two after 1.5 s, however many sweeps would bring it
 // to rest; one that takes no time has gone as far as it will. MODEL 6.4
 TEST(slides_that_take_time_go_no_farther_in_a_step)
 {
@@ -304,11 +304,12 @@ TEST(slides_that_take_time_go_no_farther_in_a_step)
         soil.settle_time = 0.05f, soil.young_modulus = 4e5f, soil.flow_time = slow ? 10.0f : 0.0f;
         scene_make(&scene);
         load(&scene, &soil, &flat, DP_HEAP_PAPER);
-        CHECK(dp_sim_run(scene.sim, 30) == DP_OK);
+        CHECK(dp_sim_run(scene.sim, 150) == DP_OK);
         far[slow] = farthest_heap(&scene);
         scene_drop(&scene);
     }
-    CHECK(far[1] >= 3 && far[1] <= 6);  // a rim of 4 cm
+    printf("    %ld cells, %ld at once\n", far[1], far[0]);
+    CHECK(far[1] >= 4 && far[1] <= 7);  // a rim of 4 cm, and a sweep every second
     CHECK(far[0] > far[1] + 3);
 }
 
