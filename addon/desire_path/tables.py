@@ -60,6 +60,20 @@ def check_some(values: Mapping[str, object], known: Mapping[str, Number], whose:
             )
 
 
+def from_words(texts: Iterable[str], known: Mapping[str, Number], what: str, example: str) -> dict[str, float]:
+    """Numbers by name out of words `name=value`; what: "soil"; example: one of them, as people may write it."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        if name not in known:
+            raise DesirePathError(f"No {what} has '{name[:40]}': choose one of {', '.join(known)}, as in {example}.")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise DesirePathError(f"'{value[:40]}' is no number for a {what}'s {name}: give one.") from None
+    return found
+
+
 def is_number(value: object) -> TypeGuard[float]:
     """Whether it can be counted with; True and False cannot."""
     return isinstance(value, numbers.Real) and not isinstance(value, bool)

@@ -11,7 +11,7 @@ import desire_path
 ROOT = pathlib.Path(desire_path.__file__).parent
 # what is told at a command line, to who writes scripts, or in another language already
 APART = re.compile(
-    r"(commands|command_\w+|__main__|old_names|keywords|needs|(translations|sentences)\w*)\.py|(paths|study)/"
+    r"(commands|command_\w+|__main__|old_names|keywords|needs|(translations|sentences)\w*)\.py|(farm|paths|study)/"
 )
 SENTENCE = re.compile(r"^['\"A-Z{(][^\n]* [^\n]*[.?!]$")
 LETTERS = 8  # of a sentence that says something by itself

@@ -230,10 +230,8 @@ GERMAN = {
         "Ein Fenster von {} x {} Zellen enthält nichts: mindestens eine lesen."
     ),
     # ---- ground/soil.py
-    "No soil has '{}': choose one of {}, as in young_modulus=2e6.": (
-        "Keine Bodenart hat '{}': eines von {} wählen, wie young_modulus=2e6."
-    ),
-    "'{}' is no number for a soil's {}: give one.": "'{}' ist keine Zahl für {} einer Bodenart: eine angeben.",
+    "No {} has '{}': choose one of {}, as in {}.": "{0} kennt kein '{1}': eines von {2} wählen, wie {3}.",
+    "'{}' is no number for a {}'s {}: give one.": "'{0}' ist keine Zahl für {2} ({1}): eine angeben.",
     "A soil gives way as snow or as ground that was measured, not as both: set its snow_density to 0, or its "
     "bekker_friction and bekker_cohesion.": (
         "Ein Boden gibt nach wie Schnee oder wie vermessener Boden, nicht wie beides: snow_density auf 0 setzen, oder "
@@ -350,5 +348,22 @@ GERMAN = {
     ),
     "{} cannot be so large: write .raw, or bake with a larger cell size.": (
         "{} kann nicht so groß sein: .raw schreiben, oder mit größeren Zellen backen."
+    ),
+    # ---- ground/spray.py
+    "A spray's slow_speed of {} m/s is not below its fast_speed, {} m/s: lower it.": (
+        "slow_speed der Spritzer von {} m/s liegt nicht unter fast_speed, {} m/s: es senken."
+    ),
+    "Grains of {} m are too many on {}: choose a particle_size of {} m or more, or less adhesion.": (
+        "Körner von {} m sind auf {} zu viele: eine particle_size von {} m oder mehr wählen, oder weniger adhesion."
+    ),
+    "There is no spray '{}': choose one of {}, or a .json file of one.": (
+        "Es gibt keine Spritzer '{}': eine Art von {} wählen, oder eine .json-Datei."
+    ),
+    "{} is no frame of a spray: choose spray_0001.exr of a bake.": (
+        "{} ist kein Bild von Spritzern: spray_0001.exr eines Backens wählen."
+    ),
+    # ---- ground/materials.py
+    "More than {} soils here stick to soles: set the adhesion of some to 0.": (
+        "Mehr als {} Bodenarten kleben hier an Sohlen: adhesion von einigen auf 0 setzen."
     ),
 }

@@ -133,6 +133,7 @@ GERMAN = {
     "The state of the bake": "Der Stand des Backens",
     "The table of contacts": "Die Tabelle der Kontakte",
     "soil": "Bodenart",
+    "spray": "Spritzer",
     "folder": "Ordner",
     "link": "Verknüpfung",
     "device": "Gerät",

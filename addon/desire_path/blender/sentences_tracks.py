@@ -127,4 +127,27 @@ GERMAN = {
     "A wheel with a {} of {} m cannot roll: give one above 0 and up to {} m.": (
         "Ein Rad mit {} von {} m kann nicht rollen: mehr als 0 und bis {} m angeben."
     ),
+    # ---- blender/track.py
+    "The track '{}' has no ground: press Add Ground on a mesh first.": (
+        "Die Spur '{}' hat keinen Boden: erst Boden hinzufügen auf einem Netz drücken."
+    ),
+    "The track '{}' has no image: choose the picture of its stamp.": (
+        "Die Spur '{}' hat kein Bild: das Bild ihres Stempels wählen."
+    ),
+    "The track '{}' has no sole: choose a mesh whose underside leaves the marks.": (
+        "Die Spur '{}' hat keine Sohle: ein Netz wählen, dessen Unterseite die Abdrücke hinterlässt."
+    ),
+    "There are several grounds: choose the one of the track '{}'.": (
+        "Es gibt mehrere Böden: den der Spur '{}' wählen."
+    ),
+    "Choose what leaves the marks of '{}' in its panel.": (
+        "Im Bedienfeld von '{}' wählen, was die Abdrücke hinterlässt."
+    ),
+    "No track lies on '{}': press Add Track on a curve first.": (
+        "Auf '{}' liegt keine Spur: erst Spur hinzufügen auf einer Kurve drücken."
+    ),
+    "Plants grow on '{}', which tracks do not bend: press them before it is sown.": (
+        "Auf '{}' wachsen Pflanzen, die von Spuren nicht gebogen werden: sie drücken, bevor gesät wird."
+    ),
+    "{} along '{}' on '{}': Press Tracks presses them.": "{} entlang '{}' auf '{}': Spuren drücken drückt sie.",
 }

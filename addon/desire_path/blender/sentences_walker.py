@@ -384,4 +384,11 @@ GERMAN = {
     ),
     # ---- rig/tread.py
     "There is no tread '{}': choose one of {}.": "Es gibt kein Profil '{}': eines von {} wählen.",
+    # ---- placement/balance.py
+    "A body cannot lean with a {} of {}: give {} to {}.": (
+        "Ein Körper kann sich mit {} von {} nicht neigen: {} bis {} angeben."
+    ),
+    "{} does not go on two feet: only such a body leans, one on more feet lies along the ground.": (
+        "{} geht nicht auf zwei Füßen: nur ein solcher Körper neigt sich, einer auf mehr Füßen folgt dem Boden."
+    ),
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import cast
 
 from ..errors import DesirePathError
 
@@ -35,3 +36,17 @@ def box(cells: Sequence[int], cell: float, origin: Sequence[float]) -> tuple[flo
     i0, i1, j0, j1 = cells
     ox, oy = origin
     return ox + i0 * cell, oy + j0 * cell, ox + i1 * cell, oy + j1 * cell
+
+
+def window(given: Sequence[object], cell: float, origin: Sequence[float]) -> tuple[int, int, int, int]:
+    """Cells (i0, j0, nx, ny) of a rectangle [m] that is given alone, or as they are given one by one."""
+    first, *more = given
+    if all(each is None for each in more):
+        i0, i1, j0, j1 = cells(cast("Sequence[float]", first), cell, origin)
+        return i0, j0, i1 - i0, j1 - j0
+    if any(each is None for each in more):
+        raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
+    i0, j0, nx, ny = (int(cast("int", each)) for each in given)
+    if nx < 1 or ny < 1:
+        raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
+    return i0, j0, nx, ny

@@ -375,20 +375,14 @@ class Simulation:
         name: one of maps.MAPS or maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa].
         Where a soil sticks: surface_<soil>, how much of what is seen it is, and carried_<soil> [m].
         """
-        if j0 is nx is ny is None:
-            i0, i1, j0, j1 = self.cells(i0)
-            nx, ny = i1 - i0, j1 - j0
-        elif j0 is None or nx is None or ny is None:
-            raise DesirePathError("read() takes a rectangle (x0, y0, x1, y1) [m], or i0, j0, nx and ny: give all four.")
+        window = rectangle_cells.window((i0, j0, nx, ny), self.cell_size, self.origin)
         if name not in self.fields:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(self.fields)}.")
-        if nx < 1 or ny < 1:
-            raise DesirePathError(f"A window of {nx} x {ny} cells holds nothing: read at least one.")
-        out = np.zeros((int(ny), int(nx)), np.float32)
+        out = np.zeros(window[:1:-1], np.float32)
         if name not in LEAN:
-            self._core.read(self.fields[name].number, int(i0), int(j0), out)
+            self._core.read(self.fields[name].number, *window[:2], out)
         elif self.plantings:
-            self._core.read_lean(LEAN.index(name), int(i0), int(j0), out)
+            self._core.read_lean(LEAN.index(name), *window[:2], out)
         return out
 
     def grains(self) -> Grains:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
-from ..tables import check, table, with_numbers
+from ..tables import check, from_words, table, with_numbers
 from . import measured
 
 _TAG, _VERSION = "desire_path_soil", 1  # of a soil's file
@@ -58,17 +58,7 @@ class Soil:
 
     def changed(self, texts: Iterable[str]) -> Soil:
         """This soil with numbers from words `name=value`, such as young_modulus=2e6."""
-        found = {}
-        for text in texts:
-            name, _, value = text.partition("=")
-            if name not in NUMBERS:
-                names = ", ".join(NUMBERS)
-                raise DesirePathError(f"No soil has '{name[:40]}': choose one of {names}, as in young_modulus=2e6.")
-            try:
-                found[name] = float(value)
-            except ValueError:
-                raise DesirePathError(f"'{value[:40]}' is no number for a soil's {name}: give one.") from None
-        return replace(self, **found)
+        return replace(self, **from_words(texts, NUMBERS, "soil", "young_modulus=2e6"))
 
 
 def as_soil(soil: str | Soil) -> Soil:

@@ -18,7 +18,7 @@ import numpy as np
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
-from ..tables import check, table, with_numbers
+from ..tables import check, from_words, table, with_numbers
 from . import maps
 
 NUMBERS = table(_native.spray_numbers())
@@ -56,17 +56,7 @@ class Spray:
 
     def changed(self, texts: Iterable[str]) -> Spray:
         """This spray with numbers from words `name=value`, such as adhesion=0.004."""
-        found = {}
-        for text in texts:
-            name, _, value = text.partition("=")
-            if name not in NUMBERS:
-                names = ", ".join(NUMBERS)
-                raise DesirePathError(f"No spray has '{name[:40]}': choose one of {names}, as in adhesion=0.004.")
-            try:
-                found[name] = float(value)
-            except ValueError:
-                raise DesirePathError(f"'{value[:40]}' is no number for a spray's {name}: give one.") from None
-        return replace(self, **found)
+        return replace(self, **from_words(texts, NUMBERS, "spray", "adhesion=0.004"))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write this spray as JSON, whole or not at all, in SI units."""

@@ -288,40 +288,6 @@ TEST(rest_grows_what_broke)
     stride_drop(&s);
 }
 
-TEST(roots_need_ground)
-{
-    const DpPlantKind kind = dp_plant_kind_default();
-    const float       xy[6] = {0.5f, 0.5f, -3.0f, 0.5f, 1.5f, 0.5f};
-    const float       height[4] = {0.0f, 1.0f, 0.0f, 1.0f};  // rises along x
-    const DpSoil      soil = dp_soil_default();
-    const DpGround    slope = {
-           .kind = DP_GROUND_HEIGHTS, .nx = 2, .ny = 2, .spacing = 2.0, .heights = height};
-    const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
-    const DpSimOptions     choice = dp_sim_options_default();
-    World                  world = {.plants = dp_plants_create(1)};
-    CHECK(dp_terrain_create(&world.terrain, &options, &slope) == DP_OK);
-    CHECK(dp_sim_create(&world.sim, world.terrain, &choice) == DP_OK);
-    CHECK(dp_sim_grow(world.sim, &kind, xy, 3, &world.stand, &world.grown) == DP_BAD_ARGUMENT);
-    CHECK(dp_sim_plant(world.sim, world.plants) == DP_OK);
-    CHECK(dp_sim_plant(world.sim, world.plants) == DP_BAD_ARGUMENT);
-    CHECK(dp_sim_grow(world.sim, &kind, xy, 3, &world.stand, &world.grown) == DP_OK);
-    CHECK(world.stand == 0 && world.grown == 2);
-    float at[3 * 64], foot[3] = {0};
-    CHECK(dp_plants_read(world.plants, 0, 1, at, NULL, NULL) == DP_OK);
-    const DpPlantShape shape = dp_plant_shape(&kind);
-    for (int stem = 0; stem < shape.stems; ++stem)
-        for (int d = 0; d < 3; ++d)
-            foot[d] += at[3 * (stem * shape.rows + 1) + d] / (float)shape.stems;
-    CHECK_NEAR(foot[0], 1.5, 1e-4);
-    CHECK_NEAR(foot[2], 0.75, 1e-4);
-    const float dx = at[3 * (3 * shape.rows + 1)] - at[3],
-                dz = at[3 * (3 * shape.rows + 1) + 2] - at[5];
-    CHECK_NEAR(dz, 0.5 * (double)dx, 1e-4);  // stems stand along the slope
-    CHECK(dp_sim_grow(world.sim, &kind, xy + 2, 1, &world.stand, &world.grown) == DP_OK);
-    CHECK(world.stand == -1 && world.grown == 0);
-    world_drop(&world);
-}
-
 TEST(no_memory_is_a_status)
 {
     const DpPlantKind kind = dp_plant_kind_default();
@@ -395,7 +361,6 @@ int main(void)
     RUN(rims_come_to_rest_under_what_lies_there);
     RUN(trodden_grass_comes_to_rest);
     RUN(rest_grows_what_broke);
-    RUN(roots_need_ground);
     RUN(no_memory_is_a_status);
     RUN(soles_rise_from_their_prints);
     RUN(plants_are_met_where_the_sole_stands);
