@@ -132,10 +132,6 @@ GERMAN = {
     "A spray's slow_speed of {} m/s is not below its fast_speed, {} m/s: lower it.": (
         "slow_speed der Spritzer von {} m/s liegt nicht unter fast_speed, {} m/s: sie senken."
     ),
-    "No spray has '{}': choose one of {}, as in adhesion=0.004.": (
-        "Keine Spritzer haben '{}': eines von {} wählen, wie in adhesion=0.004."
-    ),
-    "'{}' is no number for a spray's {}: give one.": "'{}' ist keine Zahl für {} der Spritzer: eine angeben.",
     "There is no spray '{}': choose one of {}, or a .json file of one.": (
         "Es gibt keine Spritzer '{}': eine von {} wählen, oder eine .json-Datei davon."
     ),
@@ -348,19 +344,6 @@ GERMAN = {
     ),
     "{} cannot be so large: write .raw, or bake with a larger cell size.": (
         "{} kann nicht so groß sein: .raw schreiben, oder mit größeren Zellen backen."
-    ),
-    # ---- ground/spray.py
-    "A spray's slow_speed of {} m/s is not below its fast_speed, {} m/s: lower it.": (
-        "slow_speed der Spritzer von {} m/s liegt nicht unter fast_speed, {} m/s: es senken."
-    ),
-    "Grains of {} m are too many on {}: choose a particle_size of {} m or more, or less adhesion.": (
-        "Körner von {} m sind auf {} zu viele: eine particle_size von {} m oder mehr wählen, oder weniger adhesion."
-    ),
-    "There is no spray '{}': choose one of {}, or a .json file of one.": (
-        "Es gibt keine Spritzer '{}': eine Art von {} wählen, oder eine .json-Datei."
-    ),
-    "{} is no frame of a spray: choose spray_0001.exr of a bake.": (
-        "{} ist kein Bild von Spritzern: spray_0001.exr eines Backens wählen."
     ),
     # ---- ground/materials.py
     "More than {} soils here stick to soles: set the adhesion of some to 0.": (
