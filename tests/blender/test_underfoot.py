@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import sys
 import tempfile
 
 import bpy
@@ -15,9 +16,14 @@ from desire_path.blender import compat
 
 def heard(call):
     """What Blender prints of its reports while something is called, refused or not."""
-    flush = ctypes.CDLL(None).fflush if os.name != "nt" else ctypes.cdll.msvcrt.fflush
+    c_flush = ctypes.CDLL(None).fflush if os.name != "nt" else ctypes.cdll.msvcrt.fflush
+
+    def flush():  # some Blenders print by C, some by Python
+        sys.stdout.flush()
+        c_flush(None)
+
     with tempfile.TemporaryFile() as file:
-        flush(None)
+        flush()
         kept = os.dup(1)
         os.dup2(file.fileno(), 1)
         try:
@@ -25,7 +31,7 @@ def heard(call):
         except RuntimeError:
             pass
         finally:
-            flush(None)
+            flush()
             os.dup2(kept, 1)
             os.close(kept)
         file.seek(0)
