@@ -117,6 +117,9 @@ add_library(deflate STATIC EXCLUDE_FROM_ALL ${dp_deflate_sources})
 target_include_directories(deflate SYSTEM PRIVATE ${dp_deflate_tree})
 target_compile_options(deflate PRIVATE -w)
 set_target_properties(deflate PROPERTIES C_EXTENSIONS ON)
+if(APPLE)  # it asks for its names to be shown, and no list tells this linker what a module shows
+  target_compile_options(deflate PRIVATE -fvisibility=hidden "-Dvisibility(kind)=unused")
+endif()
 if(DP_PLATFORM)  # it takes this Clang for one that needs no word for registers of 512 bits
   target_compile_definitions(deflate PRIVATE LIBDEFLATE_ASSEMBLER_DOES_NOT_SUPPORT_AVX512VNNI
     LIBDEFLATE_ASSEMBLER_DOES_NOT_SUPPORT_VPCLMULQDQ)
