@@ -46,11 +46,18 @@ static inline uint32_t earlier(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-// where cell (i, j) of the field lies
-static size_t place_of(const March* m, int i, int j)
+// where the first cell of row j of the field would lie, were there no rim beside it
+static inline size_t row_of(const March* m, int j)
 {
-    const size_t x = (size_t)i + RIM, y = (size_t)j + RIM;
-    return ((y / 4 * m->across + x / 4) * 4 + y % 4) * 4 + x % 4;
+    const size_t y = (size_t)j + RIM;
+    return 16 * (y / 4 * m->across) + 4 * (y % 4);
+}
+
+// how far from there the cell in column i lies
+static inline size_t column_of(int i)
+{
+    const size_t x = (size_t)i + RIM;
+    return 16 * (x / 4) + x % 4;
 }
 
 static void lay_neighbours(March* m)
@@ -137,11 +144,17 @@ static inline bool tell(March* m, size_t at, float now)
     return dp_queue_push(&m->queue, time, (uint32_t)at);
 }
 
+// whether a cell is still told the time of a key
+static inline bool still_waits(const void* times, uint64_t key)
+{
+    return ((const uint32_t*)times)[key & UINT32_MAX] == ((uint32_t)(key >> 32) | TENTATIVE);
+}
+
 static DpStatus march(March* m)
 {
     uint64_t key;
     int      more;
-    while ((more = dp_queue_pop(&m->queue, &key)) > 0) {
+    while ((more = dp_queue_pop(&m->queue, &key, still_waits, m->time)) > 0) {
         const size_t    at = (size_t)(key & UINT32_MAX);
         const uint32_t  bits = (uint32_t)(key >> 32);
         const ptrdiff_t here = (ptrdiff_t)at, *x = m->beside[at % 4], *y = m->above[at / 4 % 4];
@@ -169,15 +182,16 @@ static DpStatus lay_costs(March* m, const DpPathField* cost)
     for (size_t k = 0; k < m->count; ++k) m->cost[k] = INFINITY, m->time[k] = NOWHERE;
     for (int j = 0; j < cost->ny; ++j) {
         const float* from = cost->value + (size_t)j * (size_t)cost->nx;
+        float* const row = m->cost + row_of(m, j);
         for (int i = 0; i < cost->nx; ++i) {
             if (isnan(from[i]) || from[i] == INFINITY) continue;
             if (!(from[i] >= 1.0f / DP_MAX_COST && from[i] <= DP_MAX_COST)) return DP_BAD_ARGUMENT;
-            m->cost[place_of(m, i, j)] = from[i];
+            row[column_of(i)] = from[i];
             sum += (double)from[i];
             free += 1;
         }
     }
-    m->queue.buckets = free ? 256.0 / (sum / (double)free * m->cell) : 1.0;
+    m->queue.buckets = free ? 1024.0 / (sum / (double)free * m->cell) : 1.0;
     return DP_OK;
 }
 
@@ -187,7 +201,7 @@ static DpStatus lay_goals(March* m, const DpPathField* cost, const DpGoals* goal
         const float   start = goals->start ? goals->start[k] : 0.0f;
         const int32_t cell = goals->cell[k];
         if (cell < 0 || cell / cost->nx >= cost->ny) return DP_BAD_ARGUMENT;
-        const size_t at = place_of(m, cell % cost->nx, cell / cost->nx);
+        const size_t at = row_of(m, cell / cost->nx) + column_of(cell % cost->nx);
         if (!(m->cost[at] < INFINITY) || !(start >= 0.0f && start <= 1e30f)) return DP_BAD_ARGUMENT;
         m->cost[at] = -fabsf(m->cost[at]);
         const uint32_t tentative = bits_of(start) | TENTATIVE;
@@ -209,8 +223,10 @@ DpStatus dp_paths_arrival(float* time, const DpPathField* cost, const DpGoals* g
     DpStatus status = m.cost && m.time ? lay_costs(&m, cost) : DP_NO_MEMORY;
     if (status == DP_OK) status = lay_goals(&m, cost, goals);
     if (status == DP_OK) status = march(&m);
-    for (int j = 0; status == DP_OK && j < cost->ny; ++j)
-        for (int i = 0; i < cost->nx; ++i) *time++ = as_time(m.time[place_of(&m, i, j)]);
+    for (int j = 0; status == DP_OK && j < cost->ny; ++j) {
+        const uint32_t* const row = m.time + row_of(&m, j);
+        for (int i = 0; i < cost->nx; ++i) *time++ = as_time(row[column_of(i)]);
+    }
     dp_free(m.cost), dp_free(m.time);
     dp_queue_free(&m.queue);
     return status;

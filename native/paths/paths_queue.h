@@ -10,7 +10,10 @@
 #include "base/alloc.h"
 
 #define DP_RING \
-    1024  // buckets; what lies farther ahead waits in the last and is laid anew when that opens
+    4096  // buckets; what lies farther ahead waits in the last and is laid anew when that opens
+
+// Whether a key is still asked for: others are left out when their bucket opens.
+typedef bool (*DpStillWaits)(const void* of, uint64_t key);
 
 typedef struct DpWaiting
 {
@@ -111,7 +114,7 @@ static inline bool dp_queue_push(DpQueue* q, float time, uint32_t cell)
 }
 
 // open the next bucket that holds something; false when there is no memory
-static inline bool dp_queue_open(DpQueue* q)
+static inline bool dp_queue_open(DpQueue* q, DpStillWaits waits, const void* of)
 {
     do q->now += 1;
     while (!q->ring[q->now % DP_RING]);
@@ -133,7 +136,7 @@ static inline bool dp_queue_open(DpQueue* q)
             dp_queue_lay(q, node, bucket);
             continue;
         }
-        if (!dp_queue_heap_push(q, q->pool[node].key)) return false;
+        if (waits(of, q->pool[node].key) && !dp_queue_heap_push(q, q->pool[node].key)) return false;
         q->pool[node].next = q->free;
         q->free = node;
         q->waiting -= 1;
@@ -142,11 +145,11 @@ static inline bool dp_queue_open(DpQueue* q)
 }
 
 // The least key, taken out: 1; 0 when none is left; -1 when there is no memory.
-static inline int dp_queue_pop(DpQueue* q, uint64_t* key)
+static inline int dp_queue_pop(DpQueue* q, uint64_t* key, DpStillWaits waits, const void* of)
 {
     while (q->heap_count == 0) {
         if (q->waiting == 0) return 0;
-        if (!dp_queue_open(q)) return -1;
+        if (!dp_queue_open(q, waits, of)) return -1;
     }
     *key = dp_queue_heap_pop(q);
     return 1;
