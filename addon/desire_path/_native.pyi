@@ -188,9 +188,7 @@ def plants_cover(
 ) -> None: ...
 
 # ---- terrain ----
-def soil_fields() -> tuple[
-    int, int
-]: ...  # numbers of surface_ and carried_ of soil 0, from which those of others count
+def soil_fields() -> tuple[int, int, int]: ...  # surface_, carried_ of soil 0, layer_1: from which others count
 def fields() -> tuple[tuple[str, int, str, str, str], ...]: ...  # name, number, unit, equation, meaning
 def terrain_base_height(vertices: _Array, triangles: _Array, xy: _Array, height: _Array, /) -> None: ...
 def mesh_cut(
@@ -292,6 +290,7 @@ class Simulation:
         normal_radius: float = ...,
         workers: int = 0,
         times: _Array | None = None,  # (T,) f8; then soils of each, T times as many
+        layers: Sequence[Sequence[tuple[dict[str, float], float]]] | None = None,  # of each soil, from the top down [m]
     ) -> Simulation: ...
     def rest(self, xy: _Array, out: _Array, /) -> None: ...
     def normal(self, x: float, y: float, radius: float, /) -> _Vec3: ...

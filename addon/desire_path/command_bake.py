@@ -12,6 +12,7 @@ from .bake.options import FILMS, BakeOptions, BakeOutput
 from .bake.output import check_idle
 from .bounds import ADVICE, Limits
 from .errors import DesirePathError
+from .ground import layers
 from .ground.options import CONTACT_LAWS, HEAPS, SimulationOptions
 from .ground.plants import KINDS, Kind, Planting
 from .ground.sim import LOAD_MODELS, Ground, Simulation
@@ -129,7 +130,7 @@ def bar(fraction: float, what: str) -> None:
 
 def walked(args: argparse.Namespace) -> tuple[Gait, Ground]:
     """The walk as it is to be pressed, and the ground."""
-    gait, ground = walk(args.walk), read_ground(args.ground, args.spacing)
+    gait, ground = walk(args.walk), read_ground(args.ground, args.spacing).layered(*map(layers.read, args.layer))
     gait = _along(args, gait, ground)
     return _wading(args, gait, ground) if args.wade else gait, ground
 
@@ -240,6 +241,13 @@ def press_options(command: Parser) -> None:
     """How press() presses it, and where the files go."""
     command.add_argument("--soil", default="dry-sand", help=SOIL_HELP)
     command.add_argument("--soil-set", action="append", default=[], metavar="NAME=VALUE", help=SET_HELP)
+    command.add_argument(
+        "--layer",
+        action="append",
+        default=[],
+        metavar="SOIL:METRES",
+        help="a layer of another soil on that one, as mud:0.03; repeatable, from the top down",
+    )
     command.add_argument("--soil-keys", metavar="KEYS.json", help=KEYS_HELP)
     command.add_argument("--cell", type=float, help="side of a cell [m] (0.01, or that of the trail that goes on)")
     command.add_argument(

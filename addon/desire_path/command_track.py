@@ -8,6 +8,7 @@ import os
 from .bake.options import FILMS
 from .bake.stamping import TrackPress
 from .command_bake import bar, cells, ground_options, press, press_options, read_ground
+from .ground import layers
 from .ground.options import SimulationOptions
 from .ground.sim import Ground, Simulation
 from .ground.soil import as_soil
@@ -29,7 +30,7 @@ MOVES = ("film", "plants", "soil_keys", "frame_start", "frame_end", "limit")  # 
 
 
 def _track(args: argparse.Namespace) -> None:
-    ground = read_ground(args.ground, args.ground_spacing)
+    ground = read_ground(args.ground, args.ground_spacing).layered(*map(layers.read, args.layer))
     below = Simulation(ground, options=SimulationOptions(origin=args.origin or (0.0, 0.0)))
     at_once = STAMPED.met(args) and args.model == "inertia"
     if at_once and not any(getattr(args, name) for name in MOVES):

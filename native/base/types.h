@@ -82,6 +82,13 @@ typedef struct DpSoil
     DP_SOIL_NUMBERS(DP_FLOAT_MEMBER)
 } DpSoil;
 
+// One of several that ground is made of.
+typedef struct DpLayer
+{
+    DpSoil soil;
+    double thickness;  // [m] > 0
+} DpLayer;
+
 static inline bool dp_has_crust(const DpSoil* soil)
 {
     return soil->crust_depth > 0.0f && soil->crust_strength > 0.0f;
@@ -116,8 +123,13 @@ typedef struct DpSoilPatch
     const uint32_t*
         plate;  // piece of a crust in which a cell lies, 0 = none; NULL = no crust, MODEL 6.12
 
+    // Ground of several layers: those of kind k are layers[layer_start[k]] .. [layer_start[k + 1] - 1], from the top down,
+    // and soils[k] is the topmost, with the thickness of all of them as its L0; NULL = each kind is one soil
+    const DpLayer* layers;
+    const int*     layer_start;
+
     float*
-               coat;  // what soles have left on top, of each soil that sticks (coats, coat_stride); NULL = none [m]
+        coat;  // what soles have left on top, of soils that stick (coats, coat_stride); NULL = none [m]
     size_t     coat_stride;
     const int* coat_soil;     // which soil each is of (coats)
     const int* coat_of_soil;  // coat of each soil, -1 = it does not stick (soil_count)

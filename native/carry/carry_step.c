@@ -129,6 +129,14 @@ static void leave(DpCarry* carry, DpSoilPatch* patch, size_t p, const Touch* tou
     }
 }
 
+// of the topmost layer of a kind [m]
+static double thickness_of(const DpSoilPatch* patch, int kind)
+{
+    const int first = patch->layer_start[kind];
+    return patch->layer_start[kind + 1] > first ? patch->layers[first].thickness
+                                                : (double)patch->soils[kind].layer_depth;
+}
+
 // Take what sticks of the soil of a cell that lets go, `share` of as much as could.
 static void take(DpCarry* carry, DpSoilPatch* patch, size_t p, const Touch* touch, double share,
                  DpCarried* carried)
@@ -140,7 +148,9 @@ static void take(DpCarry* carry, DpSoilPatch* patch, size_t p, const Touch* touc
     if (coat < 0 || !(want > 0.0)) return;
     const float  b = patch->heap[p], c = patch->compression[p];
     const double loose = fmin(want, (double)b);
-    const double deep = fmax(YIELDS * (double)soil->layer_depth - (double)c, 0.0);
+    const double top =
+        patch->layers ? thickness_of(patch, patch->kind[p]) : (double)soil->layer_depth;
+    const double deep = fmax(YIELDS * top - (double)c, 0.0);
     const double firm = fmin(fmin(want - loose, (double)c), deep);  // only what was pressed
     patch->heap[p] = (float)((double)b - loose);
     patch->compression[p] = (float)((double)c + firm);

@@ -47,6 +47,61 @@ DpSoil* dp_py_soils(PyObject* object, int max_count, int* count)
     return soils;
 }
 
+// (soil, thickness) of a layer
+static int read_layer(PyObject* object, Py_ssize_t place, DpLayer* layer)
+{
+    PyObject* soil = NULL;
+    if (!PyTuple_Check(object)) {
+        PyErr_SetString(PyExc_TypeError, "layers: expected tuples (soil, thickness)");
+        return -1;
+    }
+    if (!PyArg_ParseTuple(object, "Od:layers", &soil, &layer->thickness)) return -1;
+    return read_soil(soil, place, &layer->soil);
+}
+
+// Those of one soil, after `count` of others; false with an exception.
+static bool read_stack(PyObject* stack, Py_ssize_t place, DpLayer** layers, int* count)
+{
+    const Py_ssize_t size = PySequence_Size(stack);
+    if (size < 0) return false;
+    if (size > 4) {
+        PyErr_SetString(PyExc_ValueError, "layers: give a soil no more than 4");
+        return false;
+    }
+    for (Py_ssize_t n = 0; n < size; ++n, ++*count) {
+        if (!dp_make_room(layers, (size_t)*count + 1, sizeof **layers)) {
+            PyErr_NoMemory();
+            return false;
+        }
+        PyObject* one = PySequence_GetItem(stack, n);
+        const int read = one ? read_layer(one, place, &(*layers)[*count]) : -1;
+        Py_XDECREF(one);
+        if (read < 0) return false;
+    }
+    return true;
+}
+
+bool dp_py_layers(PyObject* object, int soil_count, DpLayer** layers, int** start)
+{
+    if (object == Py_None) return true;
+    if (PySequence_Size(object) != soil_count) {
+        if (!PyErr_Occurred())
+            PyErr_SetString(PyExc_ValueError, "layers: give them for each of the soils");
+        return false;
+    }
+    *start = dp_alloc((size_t)soil_count + 1, sizeof **start);
+    if (!*start) return PyErr_NoMemory(), false;
+    for (int k = 0; k < soil_count; ++k) {
+        int        count = (*start)[k];
+        PyObject*  stack = PySequence_GetItem(object, k);
+        const bool read = stack && read_stack(stack, k, layers, &count);
+        Py_XDECREF(stack);
+        if (!read) return false;
+        (*start)[k + 1] = count;
+    }
+    return true;
+}
+
 // The weights of painted soils, (kinds, n); None = all of it is soil 0.
 static bool read_kinds(DpBuffers* buffers, PyObject* object, Py_ssize_t n, DpGround* ground)
 {

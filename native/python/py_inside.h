@@ -30,7 +30,9 @@ static inline bool dp_py_enter(Simulation* self)
 // Soils are dicts of numbers by name, or rows of all; the caller frees them. A ground is
 // ("flat", z) | ("heights", array, spacing, x0, y0, height, kinds) | ("mesh", vertices, triangles, kinds).
 DpSoil* dp_py_soils(PyObject* object, int max_count, int* count);
-bool    dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
+// Layers are for each soil a sequence of (soil, thickness), from the top down, or None: there are none.
+bool dp_py_layers(PyObject* object, int soil_count, DpLayer** layers, int** start);
+bool dp_py_ground(DpBuffers* buffers, PyObject* tuple, DpGround* ground);
 
 // py_kind.c: a kind by its numbers' names; 0 or -1 with an exception.
 int dp_py_kind(PyObject* object, DpPlantKind* kind);

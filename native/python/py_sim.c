@@ -34,16 +34,18 @@ static bool read_times(DpBuffers* buffers, PyObject* object, DpShape* shape, dou
 
 static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kwargs)
 {
-    static char* words[] = {"ground",    "soils",      "cell",          "origin",  "law",   "heap",
-                            "rim_width", "max_sweeps", "normal_radius", "workers", "times", NULL};
-    PyObject *   ground_tuple, *soils_object, *times_object = Py_None;
+    static char* words[] = {"ground", "soils",     "cell",       "origin",        "law",
+                            "heap",   "rim_width", "max_sweeps", "normal_radius", "workers",
+                            "times",  "layers",    NULL};
+    PyObject *   ground_tuple, *soils_object, *times_object = Py_None, *layers_object = Py_None;
     DpSimOptions options = dp_sim_options_default();
     double       cell, origin[2] = {0.0, 0.0};
     int          law = 0, heap = 0;
-    if (!PyArg_ParseTupleAndKeywords(
-            args, kwargs, "O!Od|(dd)iididiO:Simulation", words, &PyTuple_Type, &ground_tuple,
-            &soils_object, &cell, &origin[0], &origin[1], &law, &heap, &options.rim_width,
-            &options.max_sweeps, &options.normal_radius, &options.workers, &times_object))
+    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!Od|(dd)iididiOO:Simulation", words,
+                                     &PyTuple_Type, &ground_tuple, &soils_object, &cell, &origin[0],
+                                     &origin[1], &law, &heap, &options.rim_width,
+                                     &options.max_sweeps, &options.normal_radius, &options.workers,
+                                     &times_object, &layers_object))
         return NULL;
     if (law < 0 || law >= DP_LAW_COUNT || heap < 0 || heap > 1)
         return PyErr_Format(PyExc_ValueError,
@@ -64,11 +66,14 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
     DpShape   times = {1, {0}};
     DpSoil*   soils = NULL;
     double*   time = NULL;
+    DpLayer*  layers = NULL;
+    int*      layer_start = NULL;
     if (read_times(&buffers, times_object, &times, &time))
         soils = dp_py_soils(soils_object, time ? MAX_ROWS : 255, &soil_count);
     if (soils && time && soil_count % times.n[0] != 0)
         PyErr_SetString(PyExc_ValueError, "soils: give as many for each of the times");
-    else if (soils && dp_py_ground(&buffers, ground_tuple, &ground)) {
+    else if (soils && dp_py_layers(layers_object, soil_count, &layers, &layer_start) &&
+             dp_py_ground(&buffers, ground_tuple, &ground)) {
         if (time) soil_count /= (int)times.n[0];
         const DpTerrainOptions terrain = {.grid = {cell, origin[0], origin[1]},
                                           .soils = soils,
@@ -79,11 +84,13 @@ static PyObject* simulation_new(PyTypeObject* type, PyObject* args, PyObject* kw
         DpStatus               status;
         Py_BEGIN_ALLOW_THREADS
         status = dp_terrain_create(&self->terrain, &terrain, &ground);
+        if (status == DP_OK && layers)
+            status = dp_terrain_set_layers(self->terrain, layers, layer_start);
         if (status == DP_OK) status = dp_sim_create(&self->sim, self->terrain, &options);
         Py_END_ALLOW_THREADS
         result = dp_py_result(status, "making the ground");
     }
-    dp_free(soils);
+    dp_free(soils), dp_free(layers), dp_free(layer_start);
     dp_buffers_close(&buffers);
     if (!result) {
         Py_DECREF(self);
@@ -215,7 +222,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     PyObject* out_object;
     if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
     const bool pressure = field == DP_FIELD_PRESSURE;
-    if (!pressure && !dp_terrain_knows(self->terrain, field)) {
+    const int  layer = field - DP_FIELD_LAYER;
+    if (!pressure && !dp_terrain_knows(self->terrain, field) &&
+        !dp_sim_has_layer(self->sim, layer)) {
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
@@ -232,7 +241,10 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
         Py_BEGIN_ALLOW_THREADS
         if (pressure)
             dp_sim_pressure(self->sim, i0, j0, (int)shape.n[1], (int)shape.n[0], out);
-        else
+        else if (layer >= 0) {
+            const DpCellRect at = {i0, i0 + (long)shape.n[1], j0, j0 + (long)shape.n[0]};
+            status = dp_sim_layer(self->sim, layer, &at, out);
+        } else
             status = dp_terrain_read(self->terrain, field, i0, j0, (int)shape.n[1], (int)shape.n[0],
                                      out);
         Py_END_ALLOW_THREADS

@@ -181,13 +181,13 @@ static PyObject* fields(PyObject* module, PyObject* none)
 static PyObject* soil_fields(PyObject* module, PyObject* none)
 {
     (void)module, (void)none;
-    return Py_BuildValue("(ii)", DP_FIELD_SURFACE, DP_FIELD_COAT);
+    return Py_BuildValue("(iii)", DP_FIELD_SURFACE, DP_FIELD_COAT, DP_FIELD_LAYER);
 }
 
 PyMethodDef dp_py_terrain_methods[] = {
     {"soil_fields", soil_fields, METH_NOARGS,
-     "soil_fields() -> (surface, carried): numbers of the fields of soil 0, from which others "
-     "count."},
+     "soil_fields() -> (surface, carried, layer): numbers of the fields of soil or layer 0, from "
+     "which others count."},
     {"fields", fields, METH_NOARGS,
      "fields() -> ((name, number, unit, equation, meaning), ..): what a simulation can be read "
      "by."},

@@ -133,6 +133,10 @@ typedef struct DpSimCarried
 } DpSimCarried;
 DpSimCarried dp_sim_carried(const DpSim* sim, int coat);
 
+// How thick a layer of the ground still is, 0 = the topmost, where its kind has so many, on cells: out (ny, nx) [m].
+DpStatus dp_sim_layer(const DpSim* sim, int layer, const DpCellRect* at, float* out);
+bool     dp_sim_has_layer(const DpSim* sim, int layer);  // whether any kind does
+
 // ---- stop and go on ------------------------------------------------------------------------------
 
 // Write what the simulation has become after the steps taken: with the chunks of terrain, plants and

@@ -47,8 +47,12 @@ static void fill_tile(const DpFilm* film, int index, float* value)
             dp_terrain_tile(sim->terrain, tx, ty, film->field[f], value + f, film->fields);
             continue;
         }
-        float cell[TILE_CELLS];
-        if (film->field[f] == DP_FIELD_PRESSURE)
+        float            cell[TILE_CELLS];
+        const DpCellRect at = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
+        if (film->field[f] >= DP_FIELD_LAYER) {
+            if (dp_sim_layer(sim, film->field[f] - DP_FIELD_LAYER, &at, cell) != DP_OK)
+                memset(cell, 0, sizeof cell);
+        } else if (film->field[f] == DP_FIELD_PRESSURE)
             dp_sim_pressure(sim, tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, cell);
         else
             dp_grass_read(dp_sim_grass(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
@@ -216,7 +220,8 @@ const DpFieldInfo* dp_sim_fields(int* count)
 bool dp_film_shows(const DpSim* sim, int field)
 {
     if (field >= DP_FIELD_LEAN_X && field <= DP_FIELD_CRUSHED) return dp_sim_grass(sim) != NULL;
-    return field == DP_FIELD_PRESSURE || dp_terrain_knows(sim->terrain, field);
+    return field == DP_FIELD_PRESSURE || dp_terrain_knows(sim->terrain, field) ||
+           dp_sim_has_layer(sim, field - DP_FIELD_LAYER);
 }
 
 static bool are_known(const DpSim* sim, const DpFilmOptions* options)
@@ -263,7 +268,8 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
     for (int f = 0; f < options->fields; ++f) {
         const int field = created->field[f] = options->field[f];
         created->of_soles = created->of_soles || field == DP_FIELD_PRESSURE;
-        const bool of_terrain = dp_terrain_knows(reel->sim->terrain, field);
+        const bool of_terrain =
+            dp_terrain_knows(reel->sim->terrain, field) || field >= DP_FIELD_LAYER;
         created->of_grass = created->of_grass || (!of_terrain && field != DP_FIELD_PRESSURE);
         created->of_ground = created->of_ground || (of_terrain && field != DP_FIELD_PLANT_STRENGTH);
     }

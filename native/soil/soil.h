@@ -91,6 +91,11 @@ double dp_soil_crust_margin(const DpSoil* soil);
 double dp_soil_crust_stress(const DpSoil* soil, double load, double area, double stiffness,
                             bool edge);
 
+// ---- layers -------------------------------------------------------------------------------------
+
+// How much of a depth [m] one of several layers has yielded, 0 = the topmost [m]; MODEL 6.17.
+double dp_soil_layer_pressed(const DpLayer* layers, int count, int layer, double depth);
+
 // ---- slip ---------------------------------------------------------------------------------------
 
 #define DP_MAX_SLIP 0.05  // a sole slips no farther in a stance [m]

@@ -49,8 +49,8 @@ static void lower(DpSoilPatch* patch, size_t p, double over, double cut, DpCarve
     const double out_of_firm = (double)patch->compression[p] - (double)c;
     const double elastic = patch->spring ? dp_soil_spring_press(patch, p, (double)c) : 0.0;
     if (patch->spring && cut > 0.5) patch->spring[p] = 0.0f;  // what was cut off does not spring
-    const double lasting = out_of_firm - elastic,
-                 nu = (double)patch->soils[patch->kind[p]].poisson_ratio;
+    const double lasting = out_of_firm - elastic;
+    const double nu = dp_law_poisson(patch, p, (double)c, (double)patch->compression[p]);
     const double loose_cut = soil_on_grid(cut * out_of_heap, CARVE_GRID);
     const double firm_cut = soil_on_grid(cut * lasting, CARVE_GRID);
     DpPressed*   pressed = &carved->pressed;
@@ -72,8 +72,9 @@ static void note_pressure(DpSoilPatch* patch, size_t p, double depth, double sha
     const DpSoil* soil = &patch->soils[patch->kind[p]];
     const double  layer = (double)soil->layer_depth;
     const double  pressed = soil_max(soil_min(depth, SOIL_RIGID * layer), TOUCHES);
-    const double  stress = dp_law_own(soil)
-                               ? dp_law_firmness(patch, p) * dp_law_pressure(soil, width, pressed)
+    const double  stress = dp_law_own(soil) || patch->layers
+                               ? dp_law_firmness(patch, p) *
+                                    dp_law_kind_pressure(patch, patch->kind[p], width, pressed)
                                : (double)patch->modulus[p] / layer * pressed;
     if (patch->pressure_time)
         patch->pressure_time[p] += (float)(stress * share * dt);  // TRAIL (17)

@@ -237,7 +237,8 @@ static double uniform_depth(const DpSoilPatch* patch, size_t p, double stress, d
                             double width)
 {
     const DpSoil* soil = &patch->soils[patch->kind[p]];
-    if (dp_law_own(soil)) return dp_law_depth(soil, width, stress / dp_law_firmness(patch, p));
+    if (dp_law_own(soil) || patch->layers)
+        return dp_law_kind_depth(patch, patch->kind[p], width, stress / dp_law_firmness(patch, p));
     return stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
 }
 

@@ -61,6 +61,7 @@ bool dp_law_own(const DpSoil* soil)
 
 bool dp_law_on(const DpSoilPatch* patch)
 {
+    if (patch->layers) return true;
     for (int k = 0; k < patch->soil_count; ++k)
         if (dp_law_own(&patch->soils[k])) return true;
     return false;

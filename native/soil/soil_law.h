@@ -13,6 +13,13 @@ double dp_law_pressure(const DpSoil* soil, double width, double depth);
 // How deep it is pressed by a pressure, as far as it yields [m] >= 0.
 double dp_law_depth(const DpSoil* soil, double width, double pressure);
 
+// soil_layers.c: the same of a kind of ground, which may have layers
+double dp_law_kind_pressure(const DpSoilPatch* patch, int kind, double width, double depth);
+double dp_law_kind_depth(const DpSoilPatch* patch, int kind, double width, double pressure);
+
+// .. nu of a cell that is pressed from one depth to another: of its layers, by what each of them yields.
+double dp_law_poisson(const DpSoilPatch* patch, size_t p, double before, double after);
+
 // How many times as hard a cell is as its soil, by roots [-].
 double dp_law_firmness(const DpSoilPatch* patch, size_t p);
 

@@ -13,9 +13,9 @@
 
 typedef struct Balance
 {
-    double        load;    // [N]
-    double        width;   // of the contact [m]
-    const DpSoil* beyond;  // what would lie where there is no ground
+    double load;    // [N]
+    double width;   // of the contact [m]
+    int    beyond;  // kind of what would lie where there is no ground, -1 = none
 } Balance;
 
 typedef struct Answer
@@ -37,11 +37,12 @@ static double reloaded(const Columns* columns, int k, double t)
 static double stress_of(const Sole* sole, const Balance* balance, const Columns* columns, int k,
                         double s)
 {
-    const size_t  p = columns->cell[k];
-    const DpSoil* soil = p == NOWHERE ? balance->beyond : &sole->patch->soils[sole->patch->kind[p]];
-    const double  firm = p == NOWHERE ? 1.0 : dp_law_firmness(sole->patch, p);
-    const double  t = columns->gap[k] + s;
-    return reloaded(columns, k, t) * firm * dp_law_pressure(soil, balance->width, t);
+    const size_t p = columns->cell[k];
+    const int    kind = p == NOWHERE ? balance->beyond : sole->patch->kind[p];
+    const double firm = p == NOWHERE ? 1.0 : dp_law_firmness(sole->patch, p);
+    const double t = columns->gap[k] + s;
+    return reloaded(columns, k, t) * firm *
+           dp_law_kind_pressure(sole->patch, kind, balance->width, t);
 }
 
 static Answer answer(Sole* sole, const Balance* balance, double s)
@@ -104,8 +105,7 @@ static double look(Sole* sole, Balance* balance, double* area)
                 const size_t p = sole->chunk[c].cell[k];
                 highest = soil_max(highest, sole->chunk[c].gap[k]);
                 share += soil_on_grid(sole->chunk[c].share[k], share_grid);
-                if (p != NOWHERE && !balance->beyond)
-                    balance->beyond = &patch->soils[patch->kind[p]];
+                if (p != NOWHERE && balance->beyond < 0) balance->beyond = patch->kind[p];
             }
     *area = share * patch->cell * patch->cell;
     return highest;
@@ -114,10 +114,10 @@ static double look(Sole* sole, Balance* balance, double* area)
 void dp_law_press(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double load, double dt,
                   DpPressed* pressed)
 {
-    Balance      balance = {.load = load, .width = dp_law_width(patch, imprint)};
+    Balance      balance = {.load = load, .width = dp_law_width(patch, imprint), .beyond = -1};
     double       area = 0.0;
     const double highest = look(sole, &balance, &area);
-    if (!balance.beyond || !isfinite(highest)) return;
+    if (balance.beyond < 0 || !isfinite(highest)) return;
     const double floor_area = soil_max(FLOOR_CELLS * patch->cell * patch->cell, FLOOR_SHARE * area);
     const double least = soil_min(floor_area, area);
     Answer       found;

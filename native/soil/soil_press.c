@@ -1,5 +1,5 @@
 // soil/soil_press.c - a cell is lowered towards its target, loose soil first. TRAIL (10) (17), SOFT22 (11) (12), MODEL 6.2
-#include "soil/soil_columns.h"
+#include "soil/soil_law.h"
 
 #define PRESS_GRID \
     ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
@@ -28,7 +28,9 @@ void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPre
     pressed->loose += soil_on_grid(out_of_heap, PRESS_GRID);
     pressed->firm += soil_on_grid(lasting, PRESS_GRID);
     if (elastic > 0.0) pressed->elastic += soil_on_grid(elastic, PRESS_GRID);
-    pressed->displaced += soil_on_grid(2.0 * (double)soil->poisson_ratio * moved,  // SOFT22 (12)
-                                       PRESS_GRID);
+    const double nu = patch->layers
+                          ? dp_law_poisson(patch, p, (double)c, (double)patch->compression[p])
+                          : (double)soil->poisson_ratio;
+    pressed->displaced += soil_on_grid(2.0 * nu * moved, PRESS_GRID);  // SOFT22 (12)
     pressed->deepest = soil_max(pressed->deepest, (double)patch->compression[p]);
 }

@@ -67,6 +67,12 @@ void dp_terrain_set_time(DpTerrain* terrain, double time);
 // How many soils stick to soles, now or at another time, and which; how much of each lies on the ground as coats [m^3].
 int    dp_terrain_coats(const DpTerrain* terrain, const int** soils);
 double dp_terrain_coat_volume(const DpTerrain* terrain, int coat);
+// From now on ground lies in layers, before any tile is there: those of soil k, from the top down with the ground below as
+// the last, are layers[start[k]] .. [start[k + 1] - 1], at most 4; soils[k] is the topmost with the thickness of all of
+// them as its L0. start (soil_count + 1) begins with 0. Not of soils that change over time. MODEL 6.17
+DpStatus dp_terrain_set_layers(DpTerrain* terrain, const DpLayer* layers, const int* start);
+// The layers of a kind of ground; NULL where it is one soil.
+const DpLayer* dp_terrain_layers(const DpTerrain* terrain, int kind, int* count);
 // Whether some soil comes back when a sole lifts, now or at another time.
 bool dp_terrain_springs(const DpTerrain* terrain);
 // World box of the ground: {x0, y0, x1, y1} [m]; infinite for flat ground.

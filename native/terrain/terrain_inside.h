@@ -108,24 +108,26 @@ typedef struct Tile
 
 struct DpTerrain
 {
-    DpGrid  grid;
-    double  datum;
-    int     soil_count, workers;
-    DpSoil* soils;  // as they are now
-    DpSoil* row;    // soils at each time (times, soil_count); NULL = they do not change
-    double* time;   // [s] (times)
-    int     times;
-    int     revision;  // of what soils are like at rest: goes up when that changes
-    float*  slope;     // tan(rest_angle) of each soil
-    float*  wall;      // tan(wall_angle) of each soil, +inf = walls stand
-    bool    walls;     // those of some soil do not stand
-    bool    rough;     // some soil differs from place to place
-    bool    springs;   // some soil comes back when a sole lifts
-    bool    crusts;    // some soil has a crust
-    int     coats;     // soils that stick to soles, now or at another time
-    int     coat_soil[DP_MAX_COATS];
-    int*    coat_of_soil;  // of each soil, -1 = none
-    Source  source;
+    DpGrid   grid;
+    double   datum;
+    int      soil_count, workers;
+    DpSoil*  soils;  // as they are now
+    DpSoil*  row;    // soils at each time (times, soil_count); NULL = they do not change
+    double*  time;   // [s] (times)
+    int      times;
+    int      revision;  // of what soils are like at rest: goes up when that changes
+    float*   slope;     // tan(rest_angle) of each soil
+    float*   wall;      // tan(wall_angle) of each soil, +inf = walls stand
+    bool     walls;     // those of some soil do not stand
+    bool     rough;     // some soil differs from place to place
+    bool     springs;   // some soil comes back when a sole lifts
+    bool     crusts;    // some soil has a crust
+    DpLayer* layers;    // of each soil, terrain.h; NULL = none
+    int*     layer_start;
+    int      coats;  // soils that stick to soles, now or at another time
+    int      coat_soil[DP_MAX_COATS];
+    int*     coat_of_soil;  // of each soil, -1 = none
+    Source   source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
     const void*    cover_context;

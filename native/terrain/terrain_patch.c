@@ -137,6 +137,8 @@ DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells
                                   .plate = terrain->crusts ? (uint32_t*)(void*)grid[PLATES] : NULL,
                                   .coat = terrain->coats ? lease->grid + FLOAT_GRIDS * room : NULL,
                                   .coat_stride = room,
+                                  .layers = terrain->layers,
+                                  .layer_start = terrain->layer_start,
                                   .coat_soil = terrain->coat_soil,
                                   .coat_of_soil = terrain->coat_of_soil,
                                   DP_TERRAIN_FIELDS(PATCH_GRID, DP_FIELD_NONE)};

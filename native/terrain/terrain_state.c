@@ -72,6 +72,11 @@ static uint64_t name_of(const DpTerrain* terrain)
     sum = fold_soils(sum, terrain, terrain->row ? terrain->row : terrain->soils);
     for (int t = 1; t < terrain->times; ++t)
         sum = fold_soils(sum, terrain, terrain->row + t * terrain->soil_count);
+    for (int k = 0; terrain->layers && k < terrain->layer_start[terrain->soil_count]; ++k) {
+        const DpLayer* layer = &terrain->layers[k];
+        sum = fold(sum, &layer->soil, sizeof layer->soil);
+        sum = fold(sum, &layer->thickness, sizeof layer->thickness);
+    }
     sum = fold(sum, terrain->time, (size_t)terrain->times * sizeof *terrain->time);
     sum = fold(sum, source->heights, heights * sizeof *source->heights);
     sum = fold(sum, source->kind_weight,

@@ -81,6 +81,6 @@ def test_words_of_a_simulation_are_as_told():
     words = [arg.arg for arg in told(TYPES["Simulation"])["__new__"].args.args[1:]]
     given = {"ground": ("flat", 0.0), "soils": [{}], "cell": 0.01}
     given |= {"origin": (0.0, 0.0), "law": 0, "heap": 0, "rim_width": 0.05, "max_sweeps": 10, "normal_radius": 0.1}
-    given |= {"workers": 1, "times": None}
+    given |= {"workers": 1, "times": None, "layers": None}
     assert words == list(given)
     _native.Simulation(**given)

@@ -30,7 +30,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(HERE)]
 from worlds import trodden, worlds  # noqa: E402
 
 from desire_path import SOILS, Bake, BakeOptions, BakeOutput, Gait, Ground, Planting, _native, place_feet  # noqa: E402
-from desire_path.ground import maps, materials  # noqa: E402
+from desire_path.ground import maps  # noqa: E402
 from desire_path.loads import walker  # noqa: E402
 from desire_path.motion.scatter import Scatter  # noqa: E402
 
@@ -38,6 +38,7 @@ EXPECTED = HERE / "expected.json"
 WORKERS = (2, 5)
 LAWS, HEAPS = ("sole", "uniform"), ("rest", "paper")
 FIELDS = ("compression", "heap", "pressure_time", "rest", "young_modulus", "soil", "plant_strength", "height_change")
+NEW = ("surface_", "carried_", "layer_")  # fields that some grounds have
 LEAN = ("lean_x", "lean_y", "crushed")
 WALK = ROOT / "addon/desire_path/walks/walk.npz"
 DIGITS = 9  # of forces that are compared [-]
@@ -105,7 +106,7 @@ def compute(world, law, heap, threads):
             if names:
                 found[f"{kind}s"] = digest(np.array([read_file(name) for name in names]))
         found["maps"] = read_file(f"{folder}/maps.exr")
-    for name in (*FIELDS, *(LEAN if planted else ()), *materials.fields(sim.soils)):
+    for name in (*FIELDS, *(LEAN if planted else ()), *(name for name in sim.fields if name.startswith(NEW))):
         found[name] = digest(sim.read(name, *world.window))
     found["pressure"] = digest(*pressure)
     found["normal"] = digest(np.array([sim.normal((x, 0.02), 0.05) for x in (0.1, 0.3, 0.7)]))

@@ -1,8 +1,9 @@
-"""Six small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
+"""Seven small worlds whose every number is made by sums, products and quotients alone, so that what goes into the
 core is the same on every machine: no sine, no random generator, nothing that a library computes its own way.
 
     flat     level ground that walkers cross side by side; one slips, one is held in mid-step
     hill     painted heights with a hole, steeper in places than soil stays, far from the origin
+    layers   a soft layer and one of snow on firm ground
     road     soft ground that sticks beside a hard road, walked there and back
     meadow   three kinds of plants on level ground, trodden, shown, broken and left to recover
     ragged   two soils whose walls slide, that differ from place to place, come back and bulge; prints over prints
@@ -15,6 +16,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from desire_path import KINDS, SOILS, Gait, Ground, Planting, Simulation, Soil, Sole
+from desire_path.ground.layers import Layer
 from desire_path.ground.options import SimulationOptions
 from tests.scenes.plain import plain
 
@@ -271,6 +273,19 @@ def _road():
     return World(make, [there, back], (-64, -64, 320, 128), (-1, -1, 5, 2))
 
 
+def _layers():
+    top = Soil(young_modulus=2e5, poisson_ratio=0.2, rest_angle=0.4)
+    snow = Soil(snow_density=250.0, poisson_ratio=0.0, layer_depth=0.3)
+    ground = Ground.flat().layered(Layer(top, 0.04), Layer(snow, 0.1))
+
+    def make(law, heap, threads):
+        return Simulation(
+            ground, Soil(young_modulus=3e6), 0.02, options=SimulationOptions(law=law, heap=heap, threads=threads)
+        )
+
+    return World(make, [walk(0.9)], (-64, -64, 192, 128), (-1, -1, 3, 2))
+
+
 def worlds():
     """name -> World"""
     return {
@@ -278,6 +293,7 @@ def worlds():
         "hill": _hill(),
         "ragged": _ragged(),
         "road": _road(),
+        "layers": _layers(),
         "meadow": _meadow(),
         "passes": _passes(),
     }

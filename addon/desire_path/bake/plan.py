@@ -148,6 +148,7 @@ class Plan:
         options = self.options
         soils: Any = parcel.soils
         plants: Any = parcel.plants
+        layers = parcel.ground.layers
         return {
             "cell_size": self.cell_size,
             "frame_start": self.frame_start,
@@ -156,6 +157,7 @@ class Plan:
             "load_model": options.load_model,
             "soils": [soil.parameters() for soil in soils],
             "ground": parcel.ground.name,
+            **({"layers": [[each.soil.parameters(), each.thickness] for each in layers]} if layers else {}),
             **({"trail": parcel.ground.trail.path} if parcel.ground.trail else {}),
             "walkers": list(self.gait.walker_name),
             "mass_kg": [float(mass) for mass in self.gait.mass],

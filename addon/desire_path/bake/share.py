@@ -304,7 +304,8 @@ class Share:
 
     def fields(self) -> tuple[maps.Map, ...]:
         """Those of its maps."""
-        more = tuple(maps.Map(name, *field[1:]) for name, field in materials.fields(self.sim.soils).items())
+        layers = len(self.parcel.ground.layers)
+        more = tuple(maps.Map(name, *field[1:]) for name, field in materials.fields(self.sim.soils, layers).items())
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ()) + more
 
     def _start_maps(self) -> dict[str, np.ndarray]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from ..arrays import Record, kept
 from ..bounds import CELLS
 from ..errors import DesirePathError
 from . import trail
+from .layers import Layer, checked
 from .soil import Soil, as_soil
 from .soil_keys import AnySoil, SoilKeys
 
@@ -25,6 +26,7 @@ class Ground(Record):
     native: tuple = field(repr=False)
     name: str = "ground"
     trail: trail.Trail | None = field(default=None, repr=False)  # what walkers left of it before
+    layers: tuple[Layer, ...] = ()  # that lie on its soils, from the top down
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "native", kept(tuple(self.native)))
@@ -39,6 +41,10 @@ class Ground(Record):
         elif kind == "mesh":
             said += f", {len(numbers[0])} vertices, {len(numbers[1])} triangles"
         return f"Ground({said}{'' if self.trail is None else f', {self.trail!r}'})"
+
+    def layered(self, *layers: Layer) -> Ground:
+        """The same ground with these layers on its soils, from the top down; its surface is that of the first."""
+        return replace(self, layers=checked(layers))
 
     @staticmethod
     def flat(height: float = 0.0) -> Ground:

@@ -1,6 +1,6 @@
 """What the soils of a ground are called, and the maps that tell which of them is seen. MODEL 6.16
 
-A soil is called as the preset it is, however it sticks; others are soil, soil_2 ..
+A soil is called as the preset it is, however deep it lies and sticks; others are soil, soil_2 ..
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .soil import MEASURED, SOILS, Soil
 from .soil_keys import AnySoil, SoilKeys, rows
 
 MAX_STICKY = 16  # soils of one ground that stick to soles
-STICKS = ("adhesion", "release_pressure")  # numbers that do not make another soil of it
+ASIDE = ("adhesion", "release_pressure", "layer_depth")  # numbers that do not make another soil of it
 
 
 def names(soils: Sequence[AnySoil]) -> tuple[str, ...]:
@@ -30,10 +30,10 @@ def names(soils: Sequence[AnySoil]) -> tuple[str, ...]:
 
 def _name(soil: Soil) -> str:
     usual = Soil()
-    plain = replace(soil, **{name: getattr(usual, name) for name in STICKS})
+    plain = replace(soil, **{name: getattr(usual, name) for name in ASIDE})
     for known in (SOILS, MEASURED):
         for name, preset in known.items():
-            if plain == replace(preset, **{each: getattr(usual, each) for each in STICKS}):
+            if plain == replace(preset, **{each: getattr(usual, each) for each in ASIDE}):
                 return name.replace(".", "_")
     return "soil"
 
@@ -43,13 +43,17 @@ def sticky(soils: Sequence[AnySoil]) -> list[int]:
     return [k for k, soil in enumerate(soils) if any(row.adhesion > 0.0 for row in rows(soil))]
 
 
-def fields(soils: Sequence[AnySoil]) -> dict[str, Field]:
-    """The maps beside FIELDS that a simulation with these soils has: surface_<soil>, and carried_<soil> of those that
-    stick; none where nothing sticks."""
+def fields(soils: Sequence[AnySoil], layers: int = 0) -> dict[str, Field]:
+    """The maps beside FIELDS that a simulation with these soils has: layer_1 .. where it has so many layers on its
+    ground, and where something sticks surface_<soil>, and carried_<soil> of those that do."""
     stick, called = sticky(soils), names(soils)
+    surface, coat, layer = _native.soil_fields()
+    left_of = {
+        f"layer_{k + 1}": Field(layer + k, "m", "PEYRAT11 3.1", f"how thick layer {k + 1} still is, >= 0")
+        for k in range(layers)
+    }
     if not stick:
-        return {}
-    surface, coat = _native.soil_fields()
+        return left_of
     seen = {
         f"surface_{name}": Field(surface + k, "-", "PEYRAT11 3.4", f"how much of what is seen is {name}, 0..1")
         for k, name in enumerate(called)
@@ -58,14 +62,14 @@ def fields(soils: Sequence[AnySoil]) -> dict[str, Field]:
         f"carried_{called[k]}": Field(coat + k, "m", "PEYRAT11 3.4", f"{called[k]} that soles have left, >= 0")
         for k in stick
     }
-    return {**seen, **left}
+    return {**seen, **left, **left_of}
 
 
-def all_fields(soils: Sequence[AnySoil]) -> dict[str, Field]:
+def all_fields(soils: Sequence[AnySoil], layers: int = 0) -> dict[str, Field]:
     """All that a simulation with these soils knows, by name; DesirePathError where too many soils stick."""
     if len(sticky(soils)) > MAX_STICKY:
         raise DesirePathError(f"More than {MAX_STICKY} soils here stick to soles: set the adhesion of some to 0.")
-    return {**FIELDS, **fields(soils)}
+    return {**FIELDS, **fields(soils, layers)}
 
 
 def carried(

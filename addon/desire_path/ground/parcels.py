@@ -202,6 +202,10 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
             "goes on from one: free what was pressed into the others, or bake each ground by itself."
         )
     for parcel in parcels:
+        if parcel.ground.layers != parcels[0].ground.layers:
+            raise DesirePathError(
+                f"'{parcels[0].name}' and '{parcel.name}' have different layers: bake each ground by itself."
+            )
         if parcel.ground.native[0] != "mesh":
             raise DesirePathError(f"'{parcel.name}' is no mesh: only meshes can be baked together.")
     vertices = [parcel.ground.native[1] for parcel in parcels]
@@ -228,6 +232,7 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
         np.concatenate([each + start for each, start in zip(triangles, first)]),
         np.concatenate(kinds, axis=1) if len(soils) > 1 else None,
     )
+    ground = ground.layered(*parcels[0].ground.layers)
     if trodden:
         ground = replace(ground, trail=trodden[0].ground.trail)
     return ground, as_soils(soils)

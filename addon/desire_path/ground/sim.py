@@ -21,7 +21,7 @@ from ..keywords import fields_of
 from ..motion.recording import CONTACT_LAWS
 from ..motion.tracks import TrackArray
 from ..version import VERSION
-from . import materials, rectangle_cells, state_file, trail
+from . import layers, materials, rectangle_cells, state_file, trail
 from .cast import cast_of, laws_of, pressing_of, tracks_of
 from .fields import LEAN, Field
 from .film import Closed, Film
@@ -85,8 +85,8 @@ class Simulation:
         self.limits = options.limits
         self.cell_size = float(cell_size)
         self.origin = options.origin
-        self.soils = as_soils(soils)
-        self.fields: Mapping[str, Field] = materials.all_fields(self.soils)  # what read() knows, by name
+        self.soils, stacks = layers.stacked(as_soils(soils), ground.layers)
+        self.fields: Mapping[str, Field] = materials.all_fields(self.soils, len(ground.layers))  # by name
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
         self.warnings: list[str] = []  # sentences about what could not be taken as it was given
@@ -106,6 +106,7 @@ class Simulation:
                 0.25,
                 options.threads,
                 times,
+                layers.numbers(stacks),
             )
         except ValueError as problem:
             if "no ground" in str(problem):
