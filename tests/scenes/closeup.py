@@ -1,11 +1,11 @@
 """closeup.py - what a boot leaves in one soil after another, close by, under a low sun.
 
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/closeup.py -- FOLDER
-        [--width 480 --height 270 --samples 64 --soils dry-sand,mud@2]
+        [--width 480 --height 270 --samples 64 --soils dry-sand,mud@5]
 
-Writes FOLDER/SOIL.png. A recorded walker in boots with lugs crosses even ground of 5 mm cells, or of as many as stand
-behind the soil's name, shown with details of 2 mm and the material that Make Material gives it: all of it by the
-operators an animator presses.
+Writes FOLDER/SOIL.png. A recorded walker in boots with lugs crosses even ground of 2 mm cells, 5 mm in snow, or of as
+many as stand behind the soil's name, shown with details of 2 mm and the material that Make Material gives it: all of it
+by the operators an animator presses.
 """
 
 import math
@@ -23,7 +23,8 @@ sys.path[:0] = [str(HERE.parents[1] / "addon"), str(HERE.parent)]
 from scenes import demo, mannequin, materials, meshes, noise, people, shots  # noqa: E402
 
 SOILS = ("deep-snow", "fresh-snow", "crust-snow", "dry-sand", "wet-sand", "mud", "wet-soil", "packed-earth", "soil")
-CELL, DETAIL = 5.0, 0.002  # [mm], [m]
+CELL, DETAIL = 2.0, 0.002  # [mm], [m]
+DRIFT = 5.0  # cells of snow, which shows no grooves but walls [mm]
 LUG = 0.005  # how high the lugs of the sole stand [m]
 LENGTH = 0.31  # of the sole [m]
 STEPS = (140, 330)  # frames of the clip, at 120 a second
@@ -32,8 +33,8 @@ LIGHT = {
     "snow": (0.006, 24.0, 44.0, 0.15),
     "sand": (0.003, 18.0, 104.0, 0.1),
     "mud": (0.005, 24.0, 104.0, 0.85),
-    "wet-soil": (0.004, 24.0, 104.0, 0.5),
-    "earth": (0.004, 18.0, 104.0, 0.35),
+    "wet-soil": (0.004, 24.0, 104.0, 0.6),
+    "earth": (0.004, 24.0, 104.0, 0.2),
     "soil": (0.004, 20.0, 104.0, 0.4),
 }
 
@@ -133,7 +134,7 @@ def light_and_camera(scene, soil, at):
 
 def make(name):
     soil, _, cell = name.partition("@")
-    at = scene_of(soil, float(cell or CELL))
+    at = scene_of(soil, float(cell or (DRIFT if "snow" in soil else CELL)))
     light_and_camera(bpy.context.scene, soil, at)
 
 
