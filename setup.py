@@ -64,7 +64,15 @@ setup(
     package_dir={"": "addon"},
     packages=find_packages("addon"),
     package_data={
-        "desire_path": ["blender_manifest.toml", "CHANGELOG.md", "THIRD-PARTY.md", "walks/*", "py.typed", "*.pyi"]
+        "desire_path": [
+            "blender_manifest.toml",
+            "CHANGELOG.md",
+            "THIRD-PARTY.md",
+            "farm/flamenco/*.js",
+            "walks/*",
+            "py.typed",
+            "*.pyi",
+        ]
     },
     ext_modules=[Extension("desire_path._native", [], py_limited_api=True)],
     cmdclass={"build_ext": CMakeBuild, "sdist": WithCore},

@@ -8,7 +8,7 @@ from typing import Any
 
 from .command_bake import bake_of, bake_options, bar, walked
 from .errors import DesirePathError
-from .farm import merge, plan, task
+from .farm import merge, plan, send, task
 from .farm.job import Job
 from .needs import Parser
 
@@ -32,6 +32,8 @@ def _plan(args: argparse.Namespace) -> None:
     print(f"components    {summary.components}, {summary.most} at most in one window")
     print(f"tasks         {summary.tasks} with something to do")
     print(f"seconds       {summary.seconds:.1f} of one core, about; {summary.longest:.1f} one after the other")
+    for_farms = f"{send.TEMPLATE} and {send.SETTINGS}"
+    print(f"for farms     {for_farms if summary.template else send.SETTINGS + ': too many windows for OpenJD'}")
     print(f"bytes         {summary.bytes:,} as it was planned")
     if summary.chained:
         print(f"one by one    {summary.chained}: everybody is one component, and windows alone are tasks")

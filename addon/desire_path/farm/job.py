@@ -5,6 +5,7 @@
     windows/w003.npz            what they do in window 3, and which components they make
     start.bin                   the ground before the first step: a trail that goes on
     rest/trail_0000.exr ..      the pictures before the first step
+    openjd.json, flamenco.json  the job as farms take it, see send.py
     results/w003_t005.bin       what the task of window 3 and tile 5 made: state, tiles of frames
     bake/                       what merge() makes of them
 

@@ -30,6 +30,7 @@ from ..motion import tracks
 from ..motion.gait import Gait
 from ..version import VERSION
 from . import job as jobs
+from . import send
 from .job import Job, Window
 from .parts import Component, Treads, margin, rising, why_chained
 
@@ -51,6 +52,7 @@ class Summary:
     longest: float  # .. for one task after the other on the longest way through the windows
     bytes: int  # of the job as it was planned
     chained: str  # why all walkers count as one component; empty: they do not
+    template: bool  # whether there is one of an Open Job Description: not of more windows than it may have
 
 
 def plan(
@@ -83,7 +85,8 @@ def plan(
     atomic_file.write_json(os.path.join(folder, jobs.JOB), content, "The job")
     start = {"tiles": rising(pieces.tiles(sim)).astype(np.int32).tobytes(), "state": bytes(sim.state())}
     Job(folder).keep(-1, 0, {}, start)
-    return cut.summary(folder)
+    owners = [sorted({each.owner for each in here}) for here in cut.components]
+    return cut.summary(folder, send.write(folder, owners))
 
 
 def _check(bake: Bake, tiles: tuple[int, int], windows: int, wide: float) -> None:
@@ -250,7 +253,7 @@ class _Cut:
             jobs.write_arrays(os.path.join(folder, name), arrays, "The job")
         return {name: jobs.digest_of(os.path.join(folder, name)) for name in names}
 
-    def summary(self, folder: str) -> Summary:
+    def summary(self, folder: str, template: bool) -> Summary:
         a_step = STEP_SECONDS * (0.01 / self.sim.cell_size) ** 2
         tasks, longest, steps = 0, 0, 0
         for here in self.components:
@@ -272,6 +275,7 @@ class _Cut:
             a_step * longest,
             sum(sizes),
             self.chained,
+            template,
         )
 
 
