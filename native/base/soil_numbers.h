@@ -33,4 +33,6 @@
     X(bekker_power, "-", 0.05, 4.0, 1.0, "n, of the same, of the depth")                           \
     X(clod_size, "m", 0.0, 0.2, 0.0, "width of the largest crumbs shown; 0 = as of its look")      \
     X(adhesion, "m", 0.0, 0.05, 0.0, "how thick it sticks to a sole that lifts; 0 = not at all")   \
-    X(release_pressure, "Pa", 1.0, 1e9, 1.5e5, "p0, under which 63 % of what sticks is left")
+    X(release_pressure, "Pa", 1.0, 1e9, 1.5e5, "p0, under which 63 % of what sticks is left")      \
+    X(water_depth, "m", 0.0, 100.0, 0.0,                                                           \
+      "w, of water that stands below the ground as it lay, and is shown in prints; 0 = none")

@@ -334,7 +334,31 @@ def test_walls_of_deep_prints_are_rough_and_cut_finer(folder):
     meshes.activate(ground)
     bpy.ops.object.desire_path_bake()
     sand = copy_of(ground).data
-    assert playback_tree.WALL not in sand.attributes and finer < 0.6 * shortest(sand)
+    assert not compat.float_attribute(sand, playback_tree.WALL).any() and finer < 0.6 * shortest(sand)
+
+
+def test_water_fills_prints_up_to_its_level(folder):
+    ground = plane()
+    group = ground.vertex_groups.new(name="wet")
+    group.add([0, 1, 2, 3], 1.0, "REPLACE")
+    each = ground.desire_path.painted.add()
+    each.vertex_group, each.soil = "wet", "mud"
+    each.soil_numbers.water_depth = 0.012
+    baked(folder, ground, cell=0.01, soil="deep-snow")  # all of it is painted over
+    fine, level = seen(ground), -0.012
+    shown, depth = compat.positions(fine)[:, 2], compat.colour_attribute(fine, playback_tree.ATTRIBUTE)[:, 0]
+    water = compat.float_attribute(fine, playback_tree.WATER)
+    assert depth.min() < 1.5 * level and np.isclose(shown.min(), level, atol=1e-6)
+    assert np.allclose(water, np.maximum(level - depth, 0.0), atol=1e-6) and (water > 0.0).sum() > 100
+    assert np.array_equal(shown[water == 0.0], depth[water == 0.0])
+    bpy.context.scene.frame_set(0)
+    assert not compat.float_attribute(seen(ground), playback_tree.WATER).any()
+    ground.desire_path.painted[0].soil_numbers.water = 0.0
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    bpy.context.scene.frame_set(30)
+    assert not compat.float_attribute(seen(ground), playback_tree.WATER).any()
+    assert compat.positions(seen(ground))[:, 2].min() < 1.5 * level
 
 
 def test_a_copy_whose_ground_was_shaped_otherwise_since_is_outdated(folder):

@@ -265,6 +265,7 @@ def ground(recipe, name):
     heap = n.math("MAXIMUM", n.math("ADD", baked[0], compression), 0.0)
     spot = Spot(place, compression, heap, given["Wetness"])
     values = _mixed(n, recipe, spot)
+    _flooded(n, values)
     values["Color"] = n.add(
         "ShaderNodeMixRGB", {"blend_type": "MULTIPLY"}, _0=1.0, _1=values["Color"], _2=given["Tint"]
     ).outputs[0]
@@ -298,6 +299,18 @@ def _mixed(n, recipe, spot):
             stands = n.math("SUBTRACT", 1.0, _pressed(n, spot, 0.006))
         values = _over(n, _frayed(n, stands, fray), values, _look(n, "GRASS", 0.0, spot))
     return values
+
+
+def _flooded(n, values):
+    """Where water stands it is dark, smooth and level."""
+    water = n.between(_attribute(n, playback_tree.WATER, 2), 0.0, playback_tree.SHALLOW)
+    values["Color"] = n.mix(n.math("MULTIPLY", water, 0.75), values["Color"], (0.022, 0.016, 0.010, 1.0))
+    values["Roughness"] = n.blend(water, values["Roughness"], 0.03)
+    values["Specular"] = n.blend(water, values["Specular"], 0.5)
+    dry = n.math("SUBTRACT", 1.0, water)
+    values["Subsurface"], values["Height"] = (
+        n.math("MULTIPLY", values[each], dry) for each in ("Subsurface", "Height")
+    )
 
 
 def _painted(n, recipe):

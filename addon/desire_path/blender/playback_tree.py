@@ -21,13 +21,17 @@ GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 DETAIL = "desire_path_detail"  # vector attribute of a copy: heights of veins, crumbs and grit [m]
 STRAY = "desire_path_stray"  # vector attribute of a copy: how far prints are seen aside, which heap shows crumbs [m]
 WALL = "desire_path_wall"  # float attribute of a copy: deviation by which walls are rough [m]
+LEVEL = "desire_path_level"  # float attribute of a copy: height of standing water over the ground as it lay [m], < 0
+WATER = "desire_path_water"  # float attribute on the evaluated mesh: how deep water stands [m]
+DRY = -1e6  # height of the water where there is none [m]
 BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
 SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
 DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so far [m]
 SMOOTH = 0.35  # share of it that is left where a sole pressed
 CUT = (0.008, 0.040)  # walls are rough where it was pressed so deep [m]
+SHALLOW = 0.002  # water so deep is level [m]
 LUMP = 0.022  # how far the lumps of a wall lie apart [m]
-LEVEL = 0.4  # what lies level is so much less rough than walls are
+EVEN = 0.4  # what lies level is so much less rough than walls are
 NOISE = 0.11  # deviation of Blender's noise, about 0.5
 ROUNDED = 0.01  # of a frame is lost where time is stretched
 COPY_NODE = "GeometryNodeObjectInfo"
@@ -107,6 +111,9 @@ def create(obj, shown, playing, into=None):
         rise = wire.math(
             "ADD", rise, strengths.of_prints(wire, given, _detail(wire, split.outputs, wire.split(stray)[2]))
         )
+    level, ground = wire.named(LEVEL) if copy is not None and LEVEL in copy.data.attributes else None, rise
+    if level is not None:  # flat, whatever lies below it
+        rise = wire.math("MAXIMUM", rise, level)
     if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
         offset = wire.add("ShaderNodeCombineXYZ", Z=rise).outputs[0]
     else:
@@ -117,9 +124,13 @@ def create(obj, shown, playing, into=None):
     if "lean" in shown:
         grown = _grown(wire, standing, world, scale) if inside is not None else None
         geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
+    if level is not None:
+        geometry = wire.store(geometry, WATER, wire.math("SUBTRACT", rise, ground))
     geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset, **some).outputs[0]
     if detailed and WALL in copy.data.attributes:
         share = strengths.of_prints(wire, given, wire.between(split.outputs[2], *CUT))
+        if level is not None:
+            share = wire.math("MULTIPLY", share, wire.between(wire.named(WATER), 0.0, SHALLOW, 1.0, 0.0))
         geometry = _rough(wire, geometry, split.outputs[2], share, np.linalg.norm(world[:3, :3], axis=0) * scale)
 
     geometry = strengths.painted(wire, given, geometry, split.outputs[0], split.outputs[2])
@@ -170,9 +181,10 @@ def _rough(wire, geometry, compression, share, metres):
         "ShaderNodeTexNoise", {"noise_dimensions": "3D"}, Vector=here, Scale=1.0 / LUMP, Detail=2.0, Roughness=0.6
     )
     away = wire.vector("SUBTRACT", compat.socket(noise.outputs, "Color"), (0.5, 0.5, 0.5))
-    away = wire.vector("MULTIPLY", away, tuple(np.array((1.0, 1.0, LEVEL)) / (NOISE * metres)))
-    away = wire.vector("SCALE", away, scale=wire.math("MULTIPLY", wire.named(WALL), share))
-    deep = wire.math("GREATER_THAN", compression, CUT[0])
+    away = wire.vector("MULTIPLY", away, tuple(np.array((1.0, 1.0, EVEN)) / (NOISE * metres)))
+    high = wire.named(WALL)
+    away = wire.vector("SCALE", away, scale=wire.math("MULTIPLY", high, share))
+    deep = wire.math("GREATER_THAN", wire.math("MULTIPLY", compression, wire.math("SIGN", high)), CUT[0])
     return wire.add("GeometryNodeSetPosition", Geometry=geometry, Selection=deep, Offset=away).outputs[0]
 
 

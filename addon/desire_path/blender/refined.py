@@ -15,11 +15,9 @@ import numpy as np
 
 from ..ground import mesh as meshes
 from ..ground import refine
-from ..ground.detail import details
-from . import axes, compat, cover, ground, looks, materials, moves, playback, playback_tree, private, stack
+from . import axes, compat, cover, ground, looks, moves, playback, private, seen, stack
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
-STEEP = 2.0  # slope of walls that are cut finer than the rest
 FINE = 1.5  # cells between points that show prints by themselves
 CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
 WRITTEN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "edge_creases"}
@@ -69,7 +67,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         index.cell,
         (index.x0, index.y0),
         axes.typed(settings.refine_size),
-        _fine(settings, planes, index.cell) if settings.detail_size else None,
+        seen.fine(settings, planes, index.cell) if settings.detail_size else None,
     )
     wanted = _as_seen(scene, obj, surface, index, wanted)
     found = cut(scene, obj, surface, index.frame_start, wanted, into)
@@ -77,7 +75,8 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         return None
     carrier, copied = found.carrier, found.carrier.data
     if settings.detail_size:
-        _detail(carrier, surface, obj, found.weights, found.refined)
+        seen.write(carrier, surface, obj, found)
+    seen.water(carrier, obj, found)
     if settings.attributes:
         value = cover.values(carrier, surface, index, planes, standing)
         for name in planes:
@@ -149,38 +148,6 @@ def cut(scene, obj, surface, frame, wanted, into=None, refined=None):
         if weight is not None and weight.any():
             cover.weigh(group, refined.on_points(weight))
     return Cut(carrier, refined, dict(zip(groups, weights)), left)
-
-
-def _fine(settings, planes, cell):
-    """Where something finer than a cell is to be seen, and how long edges are there [m]: half as long on walls."""
-    size = axes.typed(settings.detail_size)
-    sizes = np.full(planes["compression"].shape, size)
-    if any(materials.wall_of(each) for each in (settings, *settings.painted)):
-        high = np.pad(planes["heap"] - planes["compression"], 1, mode="edge")
-        rise = np.maximum(np.abs(high[1:-1, 2:] - high[1:-1, :-2]), np.abs(high[2:, 1:-1] - high[:-2, 1:-1]))
-        sizes[rise > 2.0 * STEEP * cell] = 0.5 * size
-    return np.maximum(planes["compression"], planes["heap"]) > playback_tree.DISTURBED[0], sizes
-
-
-def _detail(carrier, surface, obj, weights, refined):
-    """Write what a copy is like below a cell, by its soils."""
-    settings, mesh = obj.desire_path, carrier.data
-    at = axes.points(surface.world, compat.positions(mesh), surface.scale)
-    painted = [weights.get(each.vertex_group) for each in settings.painted]
-    painted = [np.zeros(len(at), np.float32) if each is None else refined.on_points(each) for each in painted]
-    shares = [np.maximum(1.0 - sum(painted, np.zeros(len(at), np.float32)), 0.0), *painted]
-    total = np.maximum(sum(shares), 1e-6)
-    shown = sum(
-        (share / total)[:, None] * details(at, materials.detail_of(each))
-        for share, each in zip(shares, (settings, *settings.painted))
-        if share.any()
-    )
-    for name, values in ((playback_tree.DETAIL, shown[:, :3]), (playback_tree.STRAY, shown[:, 3:])):
-        values = np.ascontiguousarray(values, np.float32)
-        mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
-    rough = sum(share / total * materials.wall_of(each) for share, each in zip(shares, (settings, *settings.painted)))
-    if rough.any():
-        mesh.attributes.new(playback_tree.WALL, "FLOAT", "POINT").data.foreach_set("value", rough.astype(np.float32))
 
 
 def held(scene, obj, place):

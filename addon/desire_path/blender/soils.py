@@ -59,6 +59,21 @@ WORDS = {
         "Comes Off At [Pa]",
         "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther",
     ),
+    "water_depth": (
+        "Water [m]",
+        "How deep below the ground water stands, which shows in deeper prints, in metres; 0 = none",
+    ),
+}
+FINE = {  # lengths that are often millimetres
+    "layer_depth",
+    "shear_modulus",
+    "settle_time",
+    "grain_size",
+    "heave",
+    "crust_depth",
+    "clod_size",
+    "adhesion",
+    "water_depth",
 }
 HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
@@ -146,6 +161,14 @@ EASY = {
         soft_max=0.1,
         precision=4,
     ),
+    "water": units.length(
+        "water_depth",
+        "Water",
+        "How deep below the ground water stands: it fills deeper prints up to there; 0 = none",
+        min=0.0,
+        soft_max=0.3,
+        precision=4,
+    ),
     "sticks": units.length(
         "adhesion",
         "Sticks",
@@ -224,19 +247,7 @@ def _number(name):
         default=getattr(SOILS[USUAL], name),
         min=of.low,
         max=of.high,
-        precision=4
-        if name
-        in {
-            "layer_depth",
-            "shear_modulus",
-            "settle_time",
-            "grain_size",
-            "heave",
-            "crust_depth",
-            "clod_size",
-            "adhesion",
-        }
-        else 2,
+        precision=4 if name in FINE else 2,
         step=1,
         subtype="ANGLE" if name.endswith("_angle") else "NONE",
         update=_by_hand,

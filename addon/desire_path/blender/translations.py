@@ -140,6 +140,8 @@ GERMAN = {
         "Sticks [m]": "Haftet [m]",
         "Comes Off At [Pa]": "Löst sich bei [Pa]",
         "Clods": "Brocken",
+        "Water": "Wasser",
+        "Water [m]": "Wasser [m]",
         "Clods [m]": "Brocken [m]",
         "Lumps": "Klumpen",
         "Lumps [m]": "Klumpen [m]",

@@ -82,6 +82,12 @@ GERMAN = {
     "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther": (
         "Druck, unter dem das meiste, was haftet, auf anderem Boden abgeht, in Pascal: mehr trägt es weiter"
     ),
+    "How deep below the ground water stands, which shows in deeper prints, in metres; 0 = none": (
+        "Wie tief unter dem Boden Wasser steht, das sich in tieferen Abdrücken zeigt, in Metern; 0 = keines"
+    ),
+    "How deep below the ground water stands: it fills deeper prints up to there; 0 = none": (
+        "Wie tief unter dem Boden Wasser steht: es füllt tiefere Abdrücke bis dorthin; 0 = keines"
+    ),
     "Bekker's n: how sinkage grows with pressure": "Bekkers n: wie das Einsinken mit dem Druck wächst",
     "How full of water it is: damp walls stand, soaked ones slide; 0 = dry, 1 = it flows": (
         "Wie voll Wasser er ist: feuchte Wände stehen, durchnässte rutschen; 0 = trocken, 1 = er fließt"

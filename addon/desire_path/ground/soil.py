@@ -95,7 +95,7 @@ def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear
 _SOILS = {
     "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01, wall_angle=40.0, roughness=0.3, grain_size=0.01),
     "snow": _soil(0.375, 0.05, 38.0, 0.2, 0.01, wall_angle=80.0, roughness=0.4, grain_size=0.012, flow_time=0.3),
-    "mud": _soil(0.625, 0.35, 15.0, 0.15, roughness=0.25, grain_size=0.02, heave=0.03),
+    "mud": _soil(0.625, 0.35, 15.0, 0.15, roughness=0.25, grain_size=0.02, heave=0.03, water_depth=0.024),
     "soil": _soil(1.25, 0.35, 30.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01),
     "soft-soil": _soil(1.35, 0.2, 12.5, 0.1),
     "dry-soil": _soil(0.35, 0.35, 7.5, 0.1),

@@ -26,6 +26,7 @@ from .soil import NUMBERS, Soil, as_soil
 FIXED = {  # numbers that cannot change over time, and why
     "grain_size": "places that differ would wander",
     "clod_size": "crumbs would jump",
+    "water_depth": "what is shown has one level for all frames",
 }
 _TAG, _VERSION = "desire_path_soil_keys", 1  # of a file
 _MAX_BYTES = 1 << 24  # bytes of a file
