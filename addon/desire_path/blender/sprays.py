@@ -18,7 +18,7 @@ SOIL, VELOCITY = "desire_path_soil", "velocity"
 SMALLEST, LARGEST = 0.55, 1.25  # of what is shown, in widths of a grain
 MOST_ADHESION = 0.05  # [m]
 LOOKS = {  # colour, roughness
-    "SAND": ((0.46, 0.36, 0.24), 0.9),
+    "SAND": ((0.58, 0.46, 0.31), 0.9),
     "MUD": ((0.075, 0.052, 0.034), 0.35),
     "SNOW": ((0.84, 0.87, 0.92), 0.6),
 }
