@@ -3,7 +3,6 @@
 import json
 import os
 import pathlib
-import signal
 import subprocess
 import sys
 import time
@@ -201,7 +200,7 @@ def test_killed_in_the_middle(folder):
     while not list(place.rglob("trail_0006.exr")) and time.monotonic() < until:
         assert child.poll() is None, child.stdout.read().decode()
         time.sleep(0.01)
-    child.send_signal(signal.SIGKILL)
+    child.kill()
     child.wait()
     child.stdout.close()
     bpy.ops.wm.open_mainfile(filepath=file)
