@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import desire_path
-from desire_path import Bake, BakeOptions, BakeOutput, Gait, Ground, Planting
+from desire_path import SOILS, Bake, BakeOptions, BakeOutput, Gait, Ground, Planting
 from desire_path.commands import main
 from desire_path.errors import DesirePathError
 from desire_path.farm import merge, plan, task
@@ -128,6 +128,14 @@ def refused(*words):
     text = str(problem.value)
     assert text.count(". ") <= 1 and text.endswith(".")
     return text
+
+
+def test_ground_whose_soil_moves_on_soles_or_lies_in_layers_is_baked_whole(crowd, tmp_path):
+    whole = bake(crowd, tmp_path / "bake", soil=replace(SOILS["mud"], adhesion=0.004))
+    assert "A farm bakes no ground in layers and no soil that sticks" in refused(
+        plan.plan, whole, tmp_path / "job", (2, 1), 2
+    )
+    assert not (tmp_path / "job").exists()
 
 
 def test_what_cannot_be_done_is_said(planned, crowd, tmp_path, capsys):

@@ -23,7 +23,7 @@ from ..bake.share import Share
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
-from ..ground import pieces
+from ..ground import materials, pieces
 from ..ground.sim import Simulation
 from ..loads.force import PRESSES, FootForce
 from ..motion import tracks
@@ -70,6 +70,8 @@ def plan(
     if len(sims) != 1 or len(shares) != 1:
         raise DesirePathError("A farm bakes one ground: give the bake one Ground, not several Parcels.")
     share, sim = shares[0], sims[0]
+    if share.parcel.ground.layers or materials.sticky(sim.soils):
+        raise DesirePathError("A farm bakes no ground in layers and no soil that sticks: bake it on one machine.")
     share.find(bake.signature())
     cut = _Cut(bake, share, sim, loads, tiles, windows, wide)
     about = cut.about()
