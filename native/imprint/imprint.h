@@ -22,8 +22,10 @@ typedef struct DpBox
 } DpBox;
 DpBox dp_imprint_box(const DpMesh* sole, DpPose pose);
 
-// How many samples a side a cell gets, 1..4: about 2.5 mm apart.
-int dp_imprint_samples(double cell);
+// How many samples a side a cell gets, 1..4: about 2.5 mm apart, or a hundredth of the length of
+// what presses where that is shorter than 25 cm, so that prints of any size are the same print.
+// @param length  of what presses [m]
+int dp_imprint_samples(double cell, double length);
 
 // Rasterise the lower envelope of `count` posed meshes into imprint->bottom and imprint->cover, and
 // set i0..j1. bottom is the mean height over the covered samples of the cell; +inf and cover 0 where

@@ -53,9 +53,10 @@ DpBox dp_imprint_box(const DpMesh* sole, DpPose pose)
     return box;
 }
 
-int dp_imprint_samples(double cell)
+int dp_imprint_samples(double cell, double length)
 {
-    const double wanted = cell / 0.0025;
+    const double apart = length < 0.25 ? 0.01 * length : 0.0025;
+    const double wanted = cell / apart;
     return wanted >= MAX_SAMPLES - 0.5 ? MAX_SAMPLES : wanted < 1.5 ? 1 : (int)(wanted + 0.5);
 }
 

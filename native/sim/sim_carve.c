@@ -148,7 +148,7 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
     if (status != DP_OK) return status;
     const int poses = sweep(sim, limb, sample, scratch);
     status = dp_imprint_foot(&scratch->imprint, patch, scratch->sole, scratch->pose, poses,
-                             sim->samples, scratch->imprint_scratch);
+                             limb->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
     const DpBox     box = limb->to;

@@ -35,7 +35,6 @@ DpStatus dp_sim_create(DpSim** sim_out, DpTerrain* terrain, const DpSimOptions* 
     sim->terrain = terrain;
     sim->options = *options;
     sim->grid = dp_terrain_grid(terrain);
-    sim->samples = dp_imprint_samples(sim->grid.cell);
     sim->worker_count = options->workers;
     sim->scratch = dp_alloc((size_t)sim->worker_count, sizeof *sim->scratch);
     bool complete = sim->scratch != NULL;

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
 #include "sim/sim_inside.h"
 
 void dp_sim_forget(DpSim* sim)
@@ -23,6 +24,23 @@ void dp_sim_forget(DpSim* sim)
     sim->part_of_limb = sim->group = sim->order = sim->number = sim->start = NULL;
     sim->worker_sole = NULL, sim->worker_pose = NULL;
     sim->cast = (DpGait){0};
+}
+
+// How long a limb's soles are, one after the other [m].
+static double length_of(const DpGait* cast, const Limb* limb)
+{
+    double length = 0.0;
+    for (int p = 0; p < limb->part_count; ++p) {
+        const DpMesh* sole = &cast->sole[limb->part[p]];
+        DpVec3        low = dp_vec3(INFINITY, INFINITY, INFINITY), high = dp_scale(low, -1.0);
+        for (int v = 0; v < sole->vertex_count; ++v) {
+            const float* at = sole->vertex + 3 * (size_t)v;
+            low = dp_vec3(fmin(low.x, at[0]), fmin(low.y, at[1]), fmin(low.z, at[2]));
+            high = dp_vec3(fmax(high.x, at[0]), fmax(high.y, at[1]), fmax(high.z, at[2]));
+        }
+        if (sole->vertex_count > 0) length += dp_length(dp_sub(high, low));
+    }
+    return length;
 }
 
 // Which parts belong to which limb, in the recording's order.
@@ -61,9 +79,13 @@ static DpStatus make_limbs(DpSim* sim)
         Limb* limb = &sim->limb[cast->part_limb[p]];
         limb->part[limb->part_count++] = p;
     }
-    for (int l = 0; l < cast->limbs; ++l)
-        if (sim->limb[l].law == DP_CONTACT_CARVE && sim->limb[l].part_count * DP_CARVE_STEPS > most)
-            most = sim->limb[l].part_count * DP_CARVE_STEPS;
+    for (int l = 0; l < cast->limbs; ++l) {
+        Limb* limb = &sim->limb[l];
+        limb->length = length_of(cast, limb);
+        limb->samples = dp_imprint_samples(sim->grid.cell, limb->length);
+        if (limb->law == DP_CONTACT_CARVE && limb->part_count * DP_CARVE_STEPS > most)
+            most = limb->part_count * DP_CARVE_STEPS;
+    }
     sim->worker_sole = dp_alloc(workers * (size_t)most, sizeof *sim->worker_sole);
     sim->worker_pose = dp_alloc(workers * (size_t)most, sizeof *sim->worker_pose);
     if (!sim->worker_sole || !sim->worker_pose) return DP_NO_MEMORY;

@@ -10,6 +10,8 @@ typedef struct Limb
     int          walker;
     int          part_count;
     int*         part;         // its parts, in the order of the recording (part_count)
+    double       length;       // of its soles, one after the other                        [m]
+    int          samples;      // a side that every cell under them gets, see dp_imprint_samples
     DpContactLaw law;          // how it presses
     bool         stands;       // in a stance
     bool         flows;        // has let go, and soil around still slides
@@ -146,8 +148,7 @@ struct DpSim
 {
     DpTerrain*   terrain;
     DpSimOptions options;
-    DpGrid       grid;     // of the terrain
-    int          samples;  // imprint samples a side
+    DpGrid       grid;  // of the terrain
 
     DpMotion* motion;  // what is followed; NULL: nobody walks yet
     DpGait    cast;    // its walkers, limbs, parts and soles

@@ -5,7 +5,8 @@
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
-#define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least
+#define HEAP_MARGIN 0.10  // [m] of ground around a sole that a step may change, at least ..
+#define HEAP_SHARE 0.4    // .. or this share of its length
 #define SPILL_GROWTH \
     1.5  // .. so many times more, after a step whose loose soil wanted to go farther
 #define BULGE_REACH 4.0  // widths of a bulge, beyond which it is level
@@ -15,22 +16,11 @@
 #define CARVED_MARGIN 0.7  // what is cut may be pushed so much farther than what is pressed [m]
 #define HEAP_SPARE 4       // cells beyond the foot of the heap
 
-// Ground around a limb's soles that a step may change, at least [m]: no more than they are long, so
-// that what an insect treads is as many cells as what a person does.
-static double least_margin(const DpSim* sim, const Limb* limb)
+// Ground around a limb's soles that a step may change, at least [m]: where they are shorter than
+// people's it is as much less, so that an insect's heaps meet its other feet as a person's do.
+static double least_margin(const Limb* limb)
 {
-    double length = 0.0;  // of its soles, one after the other
-    for (int p = 0; p < limb->part_count; ++p) {
-        const DpMesh* sole = &sim->cast.sole[limb->part[p]];
-        DpVec3        low = dp_vec3(INFINITY, INFINITY, INFINITY), high = dp_scale(low, -1.0);
-        for (int v = 0; v < sole->vertex_count; ++v) {
-            const float* at = sole->vertex + 3 * (size_t)v;
-            low = dp_vec3(fmin(low.x, at[0]), fmin(low.y, at[1]), fmin(low.z, at[2]));
-            high = dp_vec3(fmax(high.x, at[0]), fmax(high.y, at[1]), fmax(high.z, at[2]));
-        }
-        if (sole->vertex_count > 0) length += dp_length(dp_sub(high, low));
-    }
-    return fmin(HEAP_MARGIN, length);
+    return fmin(HEAP_MARGIN, HEAP_SHARE * limb->length);
 }
 
 // how far soles may slip on any of the soils [m]
@@ -84,7 +74,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     if (limb->begins) {
         limb->heap_height = 0.0;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
-        limb->margin = carves ? HEAP_MARGIN : least_margin(sim, limb);
+        limb->margin = carves ? HEAP_MARGIN : least_margin(limb);
         if (!limb->flows) limb->trodden = (DpCellRect){0, 0, 0, 0};  // else it slides on afterwards
         limb->met_at = (DpCellRect){0, 0, 0, 0};
         ++sim->report.contacts;
@@ -224,7 +214,7 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
     for (int l = 0; sim->limb && l < sim->cast.limbs; ++l) {
         const Limb*  limb = &sim->limb[l];
         const bool   carves = limb->law == DP_CONTACT_CARVE;
-        const double least = carves ? HEAP_MARGIN : least_margin(sim, limb);
+        const double least = carves ? HEAP_MARGIN : least_margin(limb);
         const double margin = 3 * fmax(least, spread) + around;
         const double more = carves ? CARVED_MARGIN : 0.0;
         int          first, end;

@@ -85,7 +85,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
         scratch->pose[p].at = dp_add(scratch->pose[p].at, limb->slip);
     }
     DpStatus status = dp_imprint_foot(&scratch->imprint, patch, scratch->sole, scratch->pose,
-                                      limb->part_count, sim->samples, scratch->imprint_scratch);
+                                      limb->part_count, limb->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
     DpPressed pressed;

@@ -300,6 +300,7 @@ static void take_limb(DpSim* sim, State* state, int l)
     *limb = state->limb[l];
     limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
     limb->law = was.law, limb->boxed = -1;
+    limb->length = was.length, limb->samples = was.samples;
     dp_free(sim->pressing[l].value);
     sim->pressing[l] = state->pressing[l];
     state->limb[l].met = NULL, state->pressing[l].value = NULL;

@@ -58,7 +58,7 @@ static double pass(const DpMesh* mesh)
     for (int n = 0; n < 50; ++n) {
         const DpPose pose = pose_at(n, 0.0);
         const double begun = bench_now();
-        dp_imprint_foot(&imprint, &patch, mesh, &pose, 1, dp_imprint_samples(0.01), scratch);
+        dp_imprint_foot(&imprint, &patch, mesh, &pose, 1, dp_imprint_samples(0.01, 1.0), scratch);
         best = fmin(best, bench_now() - begun);
     }
     dp_imprint_scratch_destroy(scratch);

@@ -125,7 +125,8 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
                              {0.2 * (u - 0.4), 0.0, 0.0},
                              {0.0, 0.0, 1.0}};
         double       t0 = bench_now();
-        dp_imprint_foot(&w.imprint, &w.patch, &sole, &pose, 1, dp_imprint_samples(cell), rasters);
+        dp_imprint_foot(&w.imprint, &w.patch, &sole, &pose, 1, dp_imprint_samples(cell, 1.0),
+                        rasters);
         double t1 = bench_now();
         cost.imprint += t1 - t0;
         DpPressed pressed;

@@ -45,7 +45,7 @@ TEST(area_does_not_change_with_the_cell)
     for (int n = 0; n < 4; ++n) {
         const int side = (int)(0.48 / cells[n]);
         lay_centred(&ground, side, side, cells[n]);
-        CHECK(press(&ground, &box, &pose, 1, dp_imprint_samples(cells[n])) == DP_OK);
+        CHECK(press(&ground, &box, &pose, 1, dp_imprint_samples(cells[n], 0.3)) == DP_OK);
         double area = 0.0;
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i)
@@ -268,13 +268,23 @@ TEST(box_holds_the_posed_mesh)
 
 TEST(samples_are_about_2_5_mm_apart)
 {
-    CHECK(dp_imprint_samples(0.001) == 1);
-    CHECK(dp_imprint_samples(0.0025) == 1);
-    CHECK(dp_imprint_samples(0.005) == 2);
-    CHECK(dp_imprint_samples(0.0075) == 3);
-    CHECK(dp_imprint_samples(0.01) == 4);
-    CHECK(dp_imprint_samples(0.04) == 4);
-    CHECK(dp_imprint_samples(1e9) == 4);
+    CHECK(dp_imprint_samples(0.001, 0.3) == 1);
+    CHECK(dp_imprint_samples(0.0025, 0.3) == 1);
+    CHECK(dp_imprint_samples(0.005, 0.3) == 2);
+    CHECK(dp_imprint_samples(0.0075, 0.3) == 3);
+    CHECK(dp_imprint_samples(0.01, 0.3) == 4);
+    CHECK(dp_imprint_samples(0.04, 0.3) == 4);
+    CHECK(dp_imprint_samples(1e9, 30.0) == 4);
+}
+
+TEST(small_soles_are_looked_at_as_closely_as_those_of_people)
+{
+    for (int n = 1; n <= 4; ++n) {
+        CHECK(dp_imprint_samples(0.0025 * n, 0.25) == n);
+        CHECK(dp_imprint_samples(0.00025 * n, 0.025) == n);
+        CHECK(dp_imprint_samples(0.001 * n, 0.1) == n);
+    }
+    CHECK(dp_imprint_samples(0.01, 0.0) == 4);  // without a sole
 }
 
 int main(void)
@@ -291,5 +301,6 @@ int main(void)
     RUN(bad_soles_are_refused_and_leave_the_imprint);
     RUN(box_holds_the_posed_mesh);
     RUN(samples_are_about_2_5_mm_apart);
+    RUN(small_soles_are_looked_at_as_closely_as_those_of_people);
     return check_done();
 }
