@@ -74,12 +74,6 @@ GERMAN = {
     ),
     "'{}' plays '{}', leaning by {} to {} degrees.": "'{}' spielt '{}' und neigt sich um {} bis {} Grad.",
     # ---- placement/balance.py
-    "A body cannot lean with a {} of {}: give {} to {}.": (
-        "Ein Körper kann sich nicht mit {} {} neigen: {} bis {} angeben."
-    ),
-    "{} does not go on two feet: only such a body leans, one on more feet lies along the ground.": (
-        "{} geht nicht auf zwei Füßen: nur ein solcher Körper neigt sich, einer auf mehr Füßen liegt am Boden entlang."
-    ),
     # ---- blender/op_plants.py
     "{} plants of {} grow on '{}'.": "{0} Pflanzen der Art {1} wachsen auf '{2}'.",
     "The {} on '{}' is shown already, by '{}'.": "{} auf '{}' wird schon gezeigt, von '{}'.",
