@@ -19,6 +19,8 @@ OPERATORS = (
     "paint_remove",
     "rig_detect",
     "forces_show",
+    "place_feet",
+    "balance",
 )
 
 
