@@ -251,3 +251,22 @@ def test_no_function_takes_more_than_eight_parameters():
         if count > 8:
             many[where] = count
     assert not many
+
+
+@pytest.mark.parametrize(
+    "window, words",
+    [
+        ((0, 0, 1), "give all four"),
+        ((0, 0, 0, 1), "0 x 1 cells holds nothing"),
+        (((1, 0, 0, 1),), "holds no cells"),
+        (("here",), "give x0, y0, x1, y1 in metres"),
+    ],
+)
+def test_a_window_that_is_none_is_named(window, words):
+    with Simulation(Ground.flat(), cell_size=0.01) as sim, pytest.raises(DesirePathError, match=words):
+        sim.read("heap", *window)
+
+
+def test_a_window_is_rows_of_columns():
+    with Simulation(Ground.flat(), cell_size=0.01) as sim:
+        assert sim.read("heap", 0, 0, 3, 2).shape == sim.read("heap", (0.0, 0.0, 0.03, 0.02)).shape == (2, 3)
