@@ -59,12 +59,14 @@ TEST(feet_that_meet_are_worked_on_in_turn)
     }
 }
 
-// room around a sole: for heaps 10 cm, more where the ground bulges, and for as far as soles may slip
+// room around a sole of 10 x 10 cm: for heaps two fifths of its length, more where the ground bulges, and for as far as
+// soles may slip
 TEST(patches_have_room_for_what_their_soils_do)
 {
     static Stand stand;
     DpSoil soil[4] = {dp_soil_default(), dp_soil_default(), dp_soil_default(), dp_soil_default()};
-    const double room[4] = {0.10, 0.10 + DP_MAX_SLIP, 4.0 * 0.05 + 4.0 * CELL, 1.0 + 4.0 * CELL};
+    const double heap = 0.4 * hypot(0.1, 0.1);
+    const double room[4] = {heap, heap + DP_MAX_SLIP, 4.0 * 0.05 + 4.0 * CELL, 1.0 + 4.0 * CELL};
     soil[1].shear_modulus = 0.01f;
     soil[2].heave = 0.05f;
     soil[3].heave = 0.3f;  // a metre at most
