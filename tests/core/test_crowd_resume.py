@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from scenes.crowds import Stopped, pressed, small, stop_after
+from scenes.kills import die_after
 
 from desire_path.crowd import crowd as crowds
 from desire_path.crowd import feet as feet_of_crowds
@@ -17,7 +18,6 @@ from desire_path.crowd.crowd import Crowd
 from desire_path.crowd.feet import Feet
 
 REPO = Path(__file__).resolve().parents[2]
-EVENTS = {"open", "os.rename", "os.link", "os.remove", "os.mkdir", "os.truncate"}
 
 
 def same(a, b):
@@ -59,21 +59,12 @@ def test_a_folder_of_another_crowd_begins_anew(tmp_path, monkeypatch):
 
 def child(folder, steps):
     """Let a crowd walk and press, with a state after everybody; die at a number of steps in the folder."""
-    left = steps
-
-    def count(event, words):
-        nonlocal left
-        if event in EVENTS and isinstance(words[0], (str, bytes)) and os.fsdecode(words[0]).startswith(folder):
-            left -= 1
-            if left == 0:
-                os.kill(os.getpid(), signal.SIGKILL)
-
     crowds.EVERY = feet_of_crowds.EVERY = 0.0
-    sys.addaudithook(count)
+    steps_taken = die_after(folder, steps)
     scene = scenes.of({**pressed(plants=["carex:20"]), "passages": 8, "renewals": 8, "film_every": 2})
     Crowd(scene, folder).run()
     Feet(scene, folder).press()
-    print(steps - left)
+    print(steps_taken())
 
 
 def walked(folder, steps):

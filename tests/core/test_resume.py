@@ -21,6 +21,7 @@ from desire_path.placement import passes
 from tests.core.test_bake import standing
 from tests.core.test_parcels import tile
 from tests.scenes import gaits
+from tests.scenes.kills import die_after
 
 REPO = Path(__file__).resolve().parents[2]
 CELL = 0.02
@@ -88,20 +89,12 @@ def trodden(folder):
 
 
 WORLDS = {each.__name__: each for each in (soils, grown, tiles, trodden)}
-EVENTS = {"open", "os.rename", "os.link", "os.remove", "os.mkdir", "os.rmdir", "os.symlink", "os.truncate"}
 
 
 def child(world, folder, steps, last, calls):
     """Bake with a state after every frame; die at a number of steps in the folder, at a number of calls of the thread
     that bakes, or when a frame is `last`. Prints each frame, then how many steps and calls it took, and warnings."""
-    left, calls_left = steps, calls
-
-    def count(event, words):
-        nonlocal left
-        if event in EVENTS and isinstance(words[0], (str, bytes)) and os.fsdecode(words[0]).startswith(folder):
-            left -= 1
-            if left == 0:
-                os.kill(os.getpid(), signal.SIGKILL)
+    calls_left = calls
 
     def call(stack, event, of):
         nonlocal calls_left
@@ -111,14 +104,14 @@ def child(world, folder, steps, last, calls):
 
     state.FIRST, state.SHARE = 0.0, 1e9
     bake = WORLDS[world](Path(folder))
-    sys.addaudithook(count)
+    steps_taken = die_after(folder, steps)
     sys.setprofile(call)
     for progress in bake.run():
         print(progress.frame, flush=True)
         if progress.frame == last:
             os.kill(os.getpid(), signal.SIGKILL)
     sys.setprofile(None)
-    print("steps", steps - left, calls - calls_left, *bake.report["warnings"], flush=True)
+    print("steps", steps_taken(), calls - calls_left, *bake.report["warnings"], flush=True)
 
 
 def started(world, folder, steps=0, last=None, calls=0):

@@ -1,18 +1,10 @@
 // tests of sim_spray.c: MODEL 6.15, MODEL 11.24
+#include "spray/usual.h"
 #include "stand.h"
 
 #define NEWTON 700.0
 
 static Stand stand;
-
-static DpSprayNumbers usual(void)
-{
-    DpSprayNumbers  numbers;
-    int             count;
-    const DpNumber* table = dp_spray_numbers(&count);
-    dp_numbers_usual(&numbers, table, count);
-    return numbers;
-}
 
 // Soles that stand until 0.4 s and are then swung up and back in 0.25 s, in a line along x.
 static void kick(Stand* s, int limbs, const DpSoil* soil, int workers,

@@ -2,17 +2,14 @@
 #include "base/noise.h"
 #include "base/vec.h"
 #include "check.h"
-#include "spray/spray.h"
+#include "spray/usual.h"
 
 #define STEP (1.0 / 120.0)
 #define HEAVY 20000.0  // [kg/m^3]
 
 static DpSprayNumbers numbers_of(double density)
 {
-    DpSprayNumbers  numbers;
-    int             count;
-    const DpNumber* table = dp_spray_numbers(&count);
-    dp_numbers_usual(&numbers, table, count);
+    DpSprayNumbers numbers = usual();
     numbers.particle_density = density;
     if (density >= HEAVY) numbers.particle_size = 0.1;  // which no air holds up
     return numbers;

@@ -1,15 +1,6 @@
 // tests of spray_numbers.c: MODEL 6.15
 #include "check.h"
-#include "spray/spray.h"
-
-static DpSprayNumbers usual(void)
-{
-    DpSprayNumbers  numbers;
-    int             count;
-    const DpNumber* table = dp_spray_numbers(&count);
-    dp_numbers_usual(&numbers, table, count);
-    return numbers;
-}
+#include "spray/usual.h"
 
 TEST(the_usual_numbers_hold)
 {

@@ -1,7 +1,7 @@
 // tests of spray_stick.c: MODEL 6.15
 #include "base/vec.h"
 #include "check.h"
-#include "spray/spray.h"
+#include "spray/usual.h"
 
 #define STEP (1.0 / 120.0)
 
@@ -9,15 +9,6 @@
 static const float   PLATE[] = {0, 0, 0, 0.3f, 0, 0, 0.3f, 0.1f, 0, 0, 0.1f, 0};
 static const int32_t FACES[] = {0, 1, 2, 0, 2, 3};
 static const DpMesh  plate = {4, 2, PLATE, FACES};
-
-static DpSprayNumbers usual(void)
-{
-    DpSprayNumbers  numbers;
-    int             count;
-    const DpNumber* table = dp_spray_numbers(&count);
-    dp_numbers_usual(&numbers, table, count);
-    return numbers;
-}
 
 static double level(const void* context, double x, double y)
 {
