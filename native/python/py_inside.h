@@ -74,5 +74,8 @@ PyObject* dp_py_flush(PyObject* object, PyObject* unused);
 // frees the array; what it points to lives as long as `items`.
 DpNote* dp_py_notes(PyObject* items);
 
+// py_terrain.c: a trail that another bake has left
+PyObject* dp_py_lay(PyObject* object, PyObject* args);
+
 // py_place.c
 PyObject* dp_py_place(PyObject* object, PyObject* args);

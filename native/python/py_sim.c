@@ -257,42 +257,6 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     return result;
 }
 
-static PyObject* simulation_lay(Simulation* self, PyObject* args)
-{
-    PyObject* grid[3];
-    DpTrail   trail = {0};
-    if (!PyArg_ParseTuple(args, "llOOO:lay", &trail.i0, &trail.j0, &grid[0], &grid[1], &grid[2]))
-        return NULL;
-    DpBuffers buffers = {.count = 0};
-    DpShape   shape = {2, {-1, -1}};
-    PyObject* result = NULL;
-    trail.compression = dp_buffers_open(&buffers, grid[0], "compression", 'f', &shape, false);
-    if (trail.compression)
-        trail.heap = dp_buffers_open(&buffers, grid[1], "heap", 'f', &shape, false);
-    if (trail.heap)
-        trail.pressure_time =
-            dp_buffers_open(&buffers, grid[2], "pressure_time", 'f', &shape, false);
-    if (trail.pressure_time && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
-        dp_py_because(
-            DP_BAD_ARGUMENT, "laying a trail",
-            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
-            "and j0 on that are not too far out for exact places, before anybody walks");
-    } else if (trail.pressure_time && dp_py_enter(self)) {
-        DpStatus status;
-        trail.ny = (int)shape.n[0], trail.nx = (int)shape.n[1];
-        Py_BEGIN_ALLOW_THREADS
-        status = dp_terrain_lay(self->terrain, &trail);
-        Py_END_ALLOW_THREADS
-        self->busy = false;
-        result = dp_py_because(
-            status, "laying a trail",
-            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
-            "and j0 on that are not too far out for exact places, before anybody walks");
-    }
-    dp_buffers_close(&buffers);
-    return result;
-}
-
 static PyMethodDef methods[] = {
     {"rest", (PyCFunction)simulation_base_height, METH_VARARGS,
      "rest(xy (n, 2) f8, out (n,) f8): height of the rest ground [m], NaN where there is none."},
@@ -350,7 +314,7 @@ static PyMethodDef methods[] = {
      "carried() -> ((soil, taken, carried, left), ..): of each soil that sticks [m^3]."},
     {"read", (PyCFunction)simulation_read, METH_VARARGS,
      "read(field, i0, j0, out (ny, nx) f4): copy a field of the ground from cell (i0, j0) on."},
-    {"lay", (PyCFunction)simulation_lay, METH_VARARGS,
+    {"lay", dp_py_lay, METH_VARARGS,
      "lay(i0, j0, compression, heap, pressure_time): a trail as somebody left it, (ny, nx) f4 "
      "each, "
      "from cell\n(i0, j0) on; before anybody walks."},

@@ -1,4 +1,4 @@
-// python/py_terrain.c - ground meshes: what of them lies near a walk, and their rest heights.
+// python/py_terrain.c - ground meshes: what of them lies near a walk, their rest heights, and laying a trail on them.
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "python/py_inside.h"
@@ -209,3 +209,40 @@ PyMethodDef dp_py_terrain_methods[] = {
      "Height of the upper envelope of a mesh at points: vertices float64 (n, 3) [m], triangles\n"
      "int32 (m, 3), xy float64 (k, 2) [m]; fills height float64 (k,) [m], NaN without ground."},
     {NULL, NULL, 0, NULL}};
+
+PyObject* dp_py_lay(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    PyObject*   grid[3];
+    DpTrail     trail = {0};
+    if (!PyArg_ParseTuple(args, "llOOO:lay", &trail.i0, &trail.j0, &grid[0], &grid[1], &grid[2]))
+        return NULL;
+    DpBuffers buffers = {.count = 0};
+    DpShape   shape = {2, {-1, -1}};
+    PyObject* result = NULL;
+    trail.compression = dp_buffers_open(&buffers, grid[0], "compression", 'f', &shape, false);
+    if (trail.compression)
+        trail.heap = dp_buffers_open(&buffers, grid[1], "heap", 'f', &shape, false);
+    if (trail.heap)
+        trail.pressure_time =
+            dp_buffers_open(&buffers, grid[2], "pressure_time", 'f', &shape, false);
+    if (trail.pressure_time && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
+        dp_py_because(
+            DP_BAD_ARGUMENT, "laying a trail",
+            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
+            "and j0 on that are not too far out for exact places, before anybody walks");
+    } else if (trail.pressure_time && dp_py_enter(self)) {
+        DpStatus status;
+        trail.ny = (int)shape.n[0], trail.nx = (int)shape.n[1];
+        Py_BEGIN_ALLOW_THREADS
+        status = dp_terrain_lay(self->terrain, &trail);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_py_because(
+            status, "laying a trail",
+            "compression, heap and pressure_time must be numbers of 0 or more, on cells from i0 "
+            "and j0 on that are not too far out for exact places, before anybody walks");
+    }
+    dp_buffers_close(&buffers);
+    return result;
+}

@@ -299,8 +299,7 @@ static void take_limb(DpSim* sim, State* state, int l)
     dp_carry_destroy(was.carry);
     *limb = state->limb[l];
     limb->walker = was.walker, limb->part = was.part, limb->part_count = was.part_count;
-    limb->law = was.law, limb->boxed = -1;
-    limb->length = was.length, limb->samples = was.samples;
+    limb->law = was.law, limb->length = was.length, limb->samples = was.samples, limb->boxed = -1;
     dp_free(sim->pressing[l].value);
     sim->pressing[l] = state->pressing[l];
     state->limb[l].met = NULL, state->pressing[l].value = NULL;
