@@ -61,7 +61,7 @@ def grid(name, count, centre, larger=1.0):
 
 def only(obj):
     bpy.context.view_layer.update()
-    for other in bpy.context.view_layer.objects:
+    for other in list(bpy.context.view_layer.objects):
         other.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj

@@ -33,7 +33,7 @@ def walker(ground, frames=50, name="Walker"):
     obj = people.walk(people.biped(name), frames=frames)
     ground.select_set(True)
     bpy.context.view_layer.objects.active = obj
-    for other in bpy.context.view_layer.objects:
+    for other in list(bpy.context.view_layer.objects):
         other.select_set(other in (ground, obj))
     assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
     return obj

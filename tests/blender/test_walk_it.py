@@ -21,7 +21,7 @@ def character(action="Walk_Loop"):
 
 def select(*objects):
     bpy.context.view_layer.update()
-    for each in bpy.context.view_layer.objects:
+    for each in list(bpy.context.view_layer.objects):
         each.select_set(each in objects)
     bpy.context.view_layer.objects.active = objects[-1] if objects else None
 

@@ -323,7 +323,7 @@ def bake(ground, walker, cell=CELL):
 
 
 def activate(obj):
-    for each in bpy.context.view_layer.objects:
+    for each in list(bpy.context.view_layer.objects):
         each.select_set(each == obj)
     bpy.context.view_layer.objects.active = obj
 

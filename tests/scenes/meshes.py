@@ -34,7 +34,7 @@ def grid(nx, ny, spacing, x0=0.0, y0=0.0, height=None, name="Ground"):
 
 
 def activate(obj):
-    for each in bpy.context.view_layer.objects:
+    for each in list(bpy.context.view_layer.objects):  # which are gathered anew while they are chosen
         each.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
