@@ -35,6 +35,7 @@ def grid(nx, ny, spacing, x0=0.0, y0=0.0, height=None, name="Ground"):
 
 def activate(obj):
     for each in list(bpy.context.view_layer.objects):  # which are gathered anew while they are chosen
-        each.select_set(False)
+        if each is not None:  # one that was removed since
+            each.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj

@@ -94,7 +94,7 @@ def alembic(context, obj, path):
         raise DesirePathError("This Blender was built without Alembic: take one of blender.org, or export USD.")
     atomic_file.check(path, "The ground")
     layer, scene = context.view_layer, context.scene
-    chosen, frame = [each for each in layer.objects if each.select_get()], scene.frame_current
+    chosen, frame = [each for each in layer.objects if each and each.select_get()], scene.frame_current
     own = [obj, *(each for each in obj.children if playback_tree.TAG in each)]
     shown = [each for each in own if each.name in layer.objects and each.visible_get()]
     if obj not in shown:

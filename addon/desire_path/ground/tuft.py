@@ -290,12 +290,12 @@ def _panicle(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     for k in range(sort.leaves):
         share = k / sort.leaves
         out, side = _around(2.4 * k + random.uniform(-0.4, 0.4))
-        length = 0.14 * head * (1.0 - share) * random.uniform(0.5, 1.1) + 0.0015
+        twig = 0.14 * head * (1.0 - share) * random.uniform(0.5, 1.1) + 0.0015
         s = length - head * (1.0 - share)
         parts.append(
             (
                 _leaf(
-                    length * out + (0, 0, s + 0.5 * length),
+                    twig * out + (0, 0, s + 0.5 * twig),
                     0.35 * sort.leaf * out + (0, 0, sort.leaf),
                     side,
                     0.42 * sort.leaf,
@@ -314,10 +314,10 @@ def _frond(sort: Stems, length: float, random: np.random.Generator) -> _Stem:
     size = length / 0.55  # leaves grow with the frond
     for k in range(sort.leaves):
         u = 0.14 + 0.84 * k / sort.leaves
-        length = sort.leaf * size * (1.0 - u) ** 0.75 * min(1.0, 0.45 + 2.2 * (u - 0.14)) * random.uniform(0.9, 1.08)
+        pinna = sort.leaf * size * (1.0 - u) ** 0.75 * min(1.0, 0.45 + 2.2 * (u - 0.14)) * random.uniform(0.9, 1.08)
         step = 0.84 * length / sort.leaves
         for side in (-1.0, 1.0):
-            along = np.array((side, -0.16, 0.42)) * length
+            along = np.array((side, -0.16, 0.42)) * pinna
             start = np.array((0.0, 0.0, u * length + (0.3 * step if side > 0 else 0.0)))
             parts.append((_pinna(start, along, 0.98 * step), 0))
     return _join(parts)
