@@ -169,6 +169,7 @@ bool dp_terrain_has(long i0, long j0, long nx, long ny);
 #define DP_FIELD_NUMBER(ID, name, number, unit, equation, meaning) DP_FIELD_##ID = number,
 typedef enum DpField
 {
+    DP_FIELD_NONE = -1,  // so that a field is a number with a sign to every compiler
     DP_TERRAIN_FIELDS(DP_FIELD_NUMBER, DP_FIELD_NUMBER)
 } DpField;
 // Beyond those: how much of what is seen is of soil k, 0..1, and how thick soles have left it [m] >= 0.

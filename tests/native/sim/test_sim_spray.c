@@ -27,9 +27,7 @@ static void kick(Stand* s, int limbs, const DpSoil* soil, int workers,
 static void check_ledger(const Stand* s)
 {
     const DpSimReport r = dp_sim_report(s->sim);
-    double            unlaid = 0.0;
-    for (int l = 0; l < s->sim->cast.limbs; ++l) unlaid += s->sim->limb[l].unlaid;
-    const double laid = r.displaced + r.loosened - r.pressed_heap;
+    const double      laid = r.displaced + r.loosened - r.pressed_heap;
     CHECK_NEAR(r.heaped + r.stuck + r.airborne + r.beside, laid, 1e-6 * laid);
     double heap, pressed, deepest;
     dp_terrain_totals(s->terrain, &heap, &pressed, &deepest);
