@@ -91,6 +91,22 @@ TEST(names_may_have_any_letter)
     CHECK(strcmp(dp_os_name("b.exr"), "b.exr") == 0);
 }
 
+TEST(paths_may_be_longer_than_windows_once_took)
+{
+    char part[151], deep[600], name[1000];
+    memset(part, 'x', sizeof part - 1), part[sizeof part - 1] = 0;
+    snprintf(deep, sizeof deep, "%s/%s", folder, part);
+    CHECK(FOLDER_MAKE(deep) == 0);
+    snprintf(name, sizeof name, "%s/%s\xe9\x9b\xaa.exr", deep, part);
+    CHECK(strlen(name) > 260 + 40);
+    CHECK(put(name, "snow"));
+    CHECK(put(place("b"), "more snow"));
+    CHECK(dp_file_replace(place("b"), name) == DP_OK);
+    CHECK(holds(name, "more snow"));
+    dp_file_remove(name);
+    CHECK(FOLDER_REMOVE(deep) == 0);
+}
+
 static atomic_int sum;
 static DpLock     lock = DP_LOCK_READY;
 static DpSignal   changed = DP_SIGNAL_READY;
@@ -134,6 +150,7 @@ int main(void)
     RUN(a_file_is_written_added_to_and_replaced);
     RUN(what_is_no_file_is_told);
     RUN(names_may_have_any_letter);
+    RUN(paths_may_be_longer_than_windows_once_took);
     RUN(threads_start_meet_and_end);
     RUN(time_and_memory);
     FOLDER_REMOVE(folder);
