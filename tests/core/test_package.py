@@ -122,6 +122,21 @@ def test_the_licence_is_there_whole():
     assert "OpenEXR" in others and "libdeflate" in others
 
 
+def test_what_is_fetched_is_named_with_its_licence():
+    """Packages of PyPI that scripts/install, CMake and pip get."""
+    fetch = (ROOT / "scripts" / "install").read_text(encoding="utf-8")
+    names = set(re.findall(r"\b([A-Za-z][\w-]+)==", fetch))
+    for listed in re.findall(r'environment \S+ 3\.\d+ "([^"]+)"', fetch):
+        names |= {re.split("[=$]", word)[0] for word in listed.split()}
+    building = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    names |= set(re.findall(r'"([a-z-]+)>=[\d.]+"', building)) | {"pip", "uv"}
+    names |= {name.lower() for name in re.findall(r"DP_([A-Z]+)_ARCHIVE", (ROOT / "native/openexr.cmake").read_text())}
+    assert len(names) > 25 and {"bpy", "ziglang", "openexr", "setuptools", "pdoc"} <= names
+    others = (ROOT / "addon" / "desire_path" / "THIRD-PARTY.md").read_text(encoding="utf-8").lower().replace("_", "-")
+    said = set(re.findall(r"[a-z][a-z0-9-]+", others))
+    assert {name.lower().replace("_", "-") for name in names} <= said
+
+
 @pytest.mark.parametrize("name", ["maps_read", "maps_write", "Simulation"])
 def test_the_native_door_says_what_it_does(name):
     assert getattr(_native, name).__doc__

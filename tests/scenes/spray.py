@@ -33,11 +33,7 @@ class View:
     stops: float
 
 
-VIEWS = {
-    "sand": View("dry-sand", "SAND", 2.0, 0.3),
-    "mud": View("mud", "MUD", 1.0, 1.0),
-    "snow": View("fresh-snow", "SNOW", 1.0, -0.2),
-}
+VIEWS = {"sand": View("dry-sand", "SAND", 2.0, 0.3)}
 
 
 BONES = {"root": "Hips", "lowerback": "LowerBack", "upperback": "Spine", "thorax": "Spine1", "lowerneck": "Neck"}
