@@ -142,6 +142,7 @@ typedef struct DpImprint
     float*   bottom;  // height of the sole's underside, +inf where there is none     [m]
     float*   cover;   // share of the cell the sole covers                            [-] 0..1
     int32_t* ring;    // 0 = touched, 1 = border, 2.. outward, DP_RING_FAR beyond     [-]
+                      // DP_RING_HELD: another sole stands there
 
     const float* met;  // heap - compression as this contact met them; NULL = as they are [m]
 
@@ -149,6 +150,7 @@ typedef struct DpImprint
 } DpImprint;
 
 #define DP_RING_FAR 32767
+#define DP_RING_HELD (-1)
 
 // The force one limb puts on the ground at one time.
 typedef struct DpFootForce

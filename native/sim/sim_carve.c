@@ -194,6 +194,7 @@ DpStatus dp_carve_behind(DpSim* sim, Limb* limb)
     for (long j = limb->patch.j0; j < limb->patch.j1; ++j)  // where it is now nothing moves
         for (long i = limb->patch.i0; i < limb->patch.i1; ++i)
             scratch->imprint.ring[(j - at.j0) * patch->row + (i - at.i0)] = 0;
+    (void)dp_hold_all(sim, at, &scratch->imprint, patch->row);
     DpSettled settled;
     status = dp_soil_stabilize(patch, &scratch->imprint, NULL, sim->options.tolerance,
                                sim->options.max_sweeps, scratch->soil_scratch, &settled);

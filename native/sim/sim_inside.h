@@ -30,6 +30,7 @@ typedef struct Limb
     // this step's work and what came of it
     DpCellRect patch;   // cells this step's patch covers
     bool       active;  // presses or settles in this step
+    int        group;   // .. among the limbs of this one
     bool       begins;  // its stance begins
     int        boxed;   // the sample at which `from` is where it carves from, and `to` where to
     DpBox      from, to;
@@ -52,6 +53,7 @@ typedef struct LimbSpan
 typedef struct Pressing
 {
     DpCellRect at;      // cells under its soles; empty: it does not press
+    bool       waits;   // no time passes for it: it stands there, and presses nothing
     long       i0, j0;  // world cell of value[0]
     int        row;
     float*     value;  // sigma [Pa]
@@ -256,7 +258,7 @@ void dp_speculate_press(DpSim* sim, int sample, int index, WorkerScratch* scratc
 void dp_speculate_worn(DpSim* sim, double x0, double y0, double x1, double y1);
 bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still to be made
 
-// sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody presses
+// sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody stands anywhere
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
 void     dp_pressing_clear(DpSim* sim);
 
@@ -264,7 +266,8 @@ void     dp_pressing_clear(DpSim* sim);
 // laid around it, threshold of TRAIL (13) [N]
 DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
 
-// .. of a patch that is acquired here, with no sole on it
+// .. no sole on it; of a patch that is acquired here, with no sole on it
+void     dp_limb_bare(WorkerScratch* scratch, const DpSoilPatch* patch);
 DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoilPatch** patch);
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
                      const DpFootForce* foot, double volume, double threshold);
@@ -294,6 +297,11 @@ DpStatus dp_limb_carry(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
                        int poses);
 DpStatus dp_carry_lifts(DpSim* sim);
 DpStatus dp_limb_lifts(DpSim* sim, Limb* limb);
+
+// sim_hold.c: the ring of an imprint on a limb's patch, or on `cells`, becomes DP_RING_HELD where another limb of its group,
+// or any limb, stands; whether one does
+bool dp_hold_group(const DpSim* sim, const Limb* limb, DpImprint* imprint, int row);
+bool dp_hold_all(const DpSim* sim, DpCellRect cells, DpImprint* imprint, int row);
 
 // sim_press.c: one limb's step on its patch
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,

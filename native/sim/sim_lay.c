@@ -15,13 +15,18 @@ DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
     return fits ? DP_OK : DP_NO_MEMORY;
 }
 
+void dp_limb_bare(WorkerScratch* scratch, const DpSoilPatch* patch)
+{
+    const size_t cells = (size_t)patch->row * (size_t)patch->ny;
+    for (size_t k = 0; k < cells; ++k) scratch->imprint.ring[k] = DP_RING_FAR;
+}
+
 DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoilPatch** patch)
 {
     DpStatus status = dp_terrain_acquire(sim->terrain, scratch->lease, at, patch);
     if (status == DP_OK) status = dp_limb_fit(scratch, *patch);
     if (status != DP_OK) return status;
-    const size_t cells = (size_t)(*patch)->row * (size_t)(*patch)->ny;
-    for (size_t k = 0; k < cells; ++k) scratch->imprint.ring[k] = DP_RING_FAR;
+    dp_limb_bare(scratch, *patch);
     return DP_OK;
 }
 
@@ -33,6 +38,7 @@ DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScr
     volume += limb->unlaid;
     if (volume <= 0.0) return DP_OK;
     dp_imprint_rings(&scratch->imprint, patch, BORDER_RINGS);
+    (void)dp_hold_group(sim, limb, &scratch->imprint, patch->row);
     const DpStatus status = dp_soil_accumulate(patch, &scratch->imprint, foot, volume, &heap,
                                                &limb->heap_height, scratch->soil_scratch);
     const bool     laid = status == DP_OK;

@@ -151,8 +151,11 @@ static int make_groups(DpSim* sim)
         sim->start[k] = placed;
         placed += members;
     }
-    for (int l = 0; l < limbs; ++l)  // moves every start to the next group's
-        if (sim->limb[l].active) sim->order[sim->start[sim->number[root(sim->group, l)]]++] = l;
+    for (int l = 0; l < limbs; ++l) {  // moves every start to the next group's
+        if (!sim->limb[l].active) continue;
+        sim->limb[l].group = sim->number[root(sim->group, l)];
+        sim->order[sim->start[sim->limb[l].group]++] = l;
+    }
     for (int k = groups; k > 0; --k) sim->start[k] = sim->start[k - 1];
     sim->start[0] = 0;
     return groups;
@@ -184,11 +187,11 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
 {
     sim->groups = 0;
     dp_terrain_set_time(sim->terrain, dp_motion_time(sim->motion, sample));
-    dp_pressing_clear(sim);
     bool any = false;
     for (int l = 0; l < sim->cast.limbs; ++l) {
         Limb* limb = &sim->limb[l];
         plan_limb(sim, limb, sample);
+        if (!limb->stands) sim->pressing[l].at = (DpCellRect){0, 0, 0, 0};
         any = any || limb->active;
         const DpStatus status = limb->begins && limb->flows ? dp_slide_leave(sim, limb) : DP_OK;
         if (status != DP_OK) return status;

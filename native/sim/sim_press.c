@@ -129,11 +129,12 @@ static DpStatus press_in_turn(DpSim* sim, Limb* limb, DpSoilPatch* patch, Worker
 DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
                        WorkerScratch* scratch)
 {
-    if (dp_limb_held(sim, limb, sample)) return DP_OK;
+    Pressing* pressing = &sim->pressing[limb - sim->limb];
+    pressing->waits = dp_limb_held(sim, limb, sample);
+    if (pressing->waits) return DP_OK;
     DpStatus status = dp_limb_fit(scratch, patch);
     if (status != DP_OK) return status;
 
-    Pressing* pressing = &sim->pressing[limb - sim->limb];
     scratch->imprint.i0 = scratch->imprint.i1 = 0;
     status = limb->law == DP_CONTACT_CARVE ? dp_limb_carve(sim, limb, patch, scratch, sample)
                                            : press_in_turn(sim, limb, patch, scratch, sample);
@@ -141,19 +142,23 @@ DpStatus dp_limb_press(DpSim* sim, Limb* limb, int sample, DpSoilPatch* patch,
 
     DpSettled  settled = {.at_rest = true};
     const bool stands_here = scratch->imprint.i0 < scratch->imprint.i1;
+    pressing->at = (DpCellRect){0, 0, 0, 0};
     if (stands_here)
         pressing->at =
             (DpCellRect){pressing->i0 + scratch->imprint.i0, pressing->i0 + scratch->imprint.i1,
                          pressing->j0 + scratch->imprint.j0, pressing->j0 + scratch->imprint.j1};
+    else
+        dp_limb_bare(scratch, patch);
+    const bool holds = dp_hold_group(sim, limb, &scratch->imprint, patch->row) || stands_here;
     const bool paper_heap = sim->options.heap_law == DP_HEAP_PAPER;
     const int  sweeps = paper_heap || sim->options.max_sweeps < SLIDING_SWEEPS
                             ? sim->options.max_sweeps
                             : SLIDING_SWEEPS;
     const int  flow = dp_slide_sweeps(sim, patch, sample);
     if (flow > 0)
-        status = dp_soil_stabilize(patch, stands_here ? &scratch->imprint : NULL, NULL,
-                                   sim->options.tolerance, flow < sweeps ? flow : sweeps,
-                                   scratch->soil_scratch, &settled);
+        status =
+            dp_soil_stabilize(patch, holds ? &scratch->imprint : NULL, NULL, sim->options.tolerance,
+                              flow < sweeps ? flow : sweeps, scratch->soil_scratch, &settled);
     if (status != DP_OK) return status;
     limb->spills = settled.at_edge;
     limb->loosened += settled.loosened;

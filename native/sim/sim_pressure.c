@@ -26,6 +26,7 @@ void dp_sim_pressure(const DpSim* sim, long i0, long j0, int nx, int ny, float* 
     memset(out, 0, (size_t)nx * (size_t)ny * sizeof *out);
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
         const Pressing* from = &sim->pressing[l];
+        if (from->waits) continue;
         for (long j = from->at.j0; j < from->at.j1; ++j) {
             if (j < j0 || j >= j0 + ny) continue;
             const float* value = from->value + (size_t)(j - from->j0) * (size_t)from->row;
@@ -44,7 +45,7 @@ void dp_sim_soles(const DpSim* sim, DpTileVisit visit, void* context)
 {
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
         const DpCellRect at = sim->pressing[l].at;
-        if (dp_cells_empty(at)) continue;
+        if (dp_cells_empty(at) || sim->pressing[l].waits) continue;
         const long tx1 = tile_of(at.i1 - 1), ty1 = tile_of(at.j1 - 1);
         for (long ty = tile_of(at.j0); ty <= ty1; ++ty)
             for (long tx = tile_of(at.i0); tx <= tx1; ++tx) visit(context, tx, ty);

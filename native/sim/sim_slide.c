@@ -38,21 +38,21 @@ static DpCellRect in_world(DpCellRect cells, DpCellRect at)
     return (DpCellRect){at.i0 + cells.i0, at.i0 + cells.i1, at.j0 + cells.j0, at.j0 + cells.j1};
 }
 
-// Some sweeps over what slides; when little is left to go, all that are left.
-static DpStatus let_flow(const DpSim* sim, DpSoilPatch* patch, int sweeps, WorkerScratch* scratch,
-                         DpSettled* settled)
+// Some sweeps over what slides; when little is left to go, all that are left. held: where soles stand, NULL: nowhere.
+static DpStatus let_flow(const DpSim* sim, DpSoilPatch* patch, const DpImprint* held, int sweeps,
+                         WorkerScratch* scratch, DpSettled* settled)
 {
     const double tolerance = sim->options.tolerance;
     DpSettled    flown = {.at_rest = true};
     if (sweeps < sim->options.max_sweeps) {
-        const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, fmax(tolerance, FLOW_ENDS),
+        const DpStatus status = dp_soil_stabilize(patch, held, NULL, fmax(tolerance, FLOW_ENDS),
                                                   sweeps, scratch->soil_scratch, &flown);
         if (status != DP_OK || !flown.at_rest) {
             *settled = flown;
             return status;
         }
     }
-    const DpStatus status = dp_soil_stabilize(patch, NULL, NULL, tolerance, sim->options.max_sweeps,
+    const DpStatus status = dp_soil_stabilize(patch, held, NULL, tolerance, sim->options.max_sweeps,
                                               scratch->soil_scratch, settled);
     settled->changed = dp_cells_join(settled->changed, flown.changed);
     settled->loosened += flown.loosened;
@@ -69,11 +69,12 @@ static DpStatus settle(DpSim* sim, DpCellRect* cells, bool* flows, double* loose
     DpCellRect at = dp_cells_grown(*cells, SETTLE_MARGIN);
     for (;;) {
         DpSoilPatch* patch = NULL;
-        DpStatus     status = dp_terrain_acquire(sim->terrain, scratch->lease, at, &patch);
+        DpStatus     status = dp_limb_lease(sim, scratch, at, &patch);
         if (status != DP_OK) return status;
-        DpSettled settled;
-        const int sweeps = dp_slide_sweeps(sim, patch, sample);
-        status = let_flow(sim, patch, sweeps, scratch, &settled);
+        const bool held = dp_hold_all(sim, at, &scratch->imprint, patch->row);
+        DpSettled  settled;
+        const int  sweeps = dp_slide_sweeps(sim, patch, sample);
+        status = let_flow(sim, patch, held ? &scratch->imprint : NULL, sweeps, scratch, &settled);
         if (status != DP_OK) return status;
         dp_terrain_commit(sim->terrain, scratch->lease, settled.changed);
         *loosened += settled.loosened;

@@ -39,17 +39,17 @@ static void write_vec(DpStateWriter* writer, DpVec3 v)
 
 static void write_limb(DpStateWriter* writer, const Limb* limb, const Pressing* pressing)
 {
-    dp_write_u8(writer, (uint8_t)(limb->stands | limb->spills << 1 | limb->flows << 2));
+    dp_write_u8(writer, (uint8_t)(limb->stands | limb->spills << 1 | limb->flows << 2 |
+                                  pressing->waits << 3));
     dp_write_f64(writer, limb->heap_height), dp_write_f64(writer, limb->margin);
     dp_write_f64(writer, limb->unlaid), dp_write_f64(writer, limb->sink);
     dp_write_f64(writer, limb->lowered);
     write_vec(writer, limb->slip), write_vec(writer, limb->sheared);
     write_cells(writer, limb->trodden);
-    const DpCellRect met = limb->met ? limb->met_at : (DpCellRect){0, 0, 0, 0};
+    const DpCellRect at = pressing->at, met = limb->met ? limb->met_at : (DpCellRect){0, 0, 0, 0};
     write_cells(writer, met);
     if (!dp_cells_empty(met))
         dp_write_floats(writer, limb->met, (size_t)(met.i1 - met.i0) * (size_t)(met.j1 - met.j0));
-    const DpCellRect at = pressing->at;
     write_cells(writer, at);
     for (long j = at.j0; !dp_cells_empty(at) && j < at.j1; ++j)
         dp_write_floats(writer,
@@ -196,9 +196,9 @@ static float* read_grid(DpStateReader* reader, DpCellRect at, float low, bool* r
 static void read_limb(DpStateReader* reader, Limb* limb, Pressing* pressing, bool* room)
 {
     const uint8_t flags = dp_read_u8(reader);
-    dp_read_check(reader, flags < 8);
+    dp_read_check(reader, flags < 16);
     limb->stands = flags & 1, limb->spills = flags >> 1 & 1;
-    limb->flows = flags >> 2 & 1;
+    limb->flows = flags >> 2 & 1, pressing->waits = flags >> 3;
     limb->heap_height = dp_read_number(reader, 0.0, 1e9);
     limb->margin = dp_read_number(reader, 0.0, 1e9);
     limb->unlaid = dp_read_number(reader, 0.0, 1e9);

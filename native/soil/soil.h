@@ -131,7 +131,7 @@ typedef struct DpHeapOptions
 } DpHeapOptions;
 
 // Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,
-// 1 is enough). Adds to patch->heap only, never on touched cells; the heaps' sum grows by
+// 1 is enough). Adds to patch->heap only, never on touched or held cells; the heaps' sum grows by
 // volume / cell^2 up to rounding. `height` is T of the resting law, kept by the caller from step to
 // step of one stance as the first guess; 0 at touch-down.
 // Without a border cell: DP_NO_GROUND, patch untouched.
@@ -152,7 +152,7 @@ typedef struct DpSettled
 
 // Let loose soil slide until no slope of it exceeds gamma_r + tolerance [rad], and firm walls until none that
 // was cut exceeds gamma_w + tolerance, or for `max_sweeps`.
-// Nothing slides onto or off the cells with ring == 0 of `imprint` (a sole stands there);
+// Nothing slides onto or off the cells with ring == 0 or DP_RING_HELD of `imprint` (a sole stands there);
 // imprint may be NULL. Volume is conserved and the order of cells does not matter.
 // Only cells of the patch `within` are looked at first; NULL = all of it.
 DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const DpCellRect* within,

@@ -166,7 +166,7 @@ static DpStatus lay(DpSoilPatch* patch, const DpImprint* imprint, const HeapShar
             double*      weight = weight_at(&window, i, j);
             *weight = 0.0;
             const int32_t far = *far_at(&window, i, j);
-            if (far >= end || imprint->ring[p] == 0 || !soil_is_ground(patch->base_height[p]))
+            if (far >= end || imprint->ring[p] <= 0 || !soil_is_ground(patch->base_height[p]))
                 continue;
             const double full = height_of(rim, far);
             if (!(full > 0.0) || !(patch->compression[p] < hollow)) continue;

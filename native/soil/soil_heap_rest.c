@@ -31,10 +31,10 @@
 #define MATCH 0.0002  // a volume this close is right; the rest is a common factor
 #define MAX_ROUNDS 40
 
-// neither under the sole, nor off the ground, nor in the hollow that the sole has left
+// neither under a sole, nor off the ground, nor in the hollow that the sole has left
 static bool takes_soil(const Heap* heap, size_t p)
 {
-    return soil_is_ground(heap->patch->base_height[p]) && heap->imprint->ring[p] != 0 &&
+    return soil_is_ground(heap->patch->base_height[p]) && heap->imprint->ring[p] > 0 &&
            heap->patch->compression[p] < heap->hollow;
 }
 

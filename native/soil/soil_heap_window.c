@@ -30,7 +30,7 @@ static void surface_of_row(int32_t* restrict surface, const float* restrict base
 {
     for (int i = 0; i < count; ++i) {
         const int takes =
-            (base_height[i] == base_height[i]) & (ring[i] != 0) & (compression[i] < hollow);
+            (base_height[i] == base_height[i]) & (ring[i] > 0) & (compression[i] < hollow);
         const double at = (double)base_height[i] - (double)compression[i] - low;
         const double top = (at + (double)heap[i]) * steps + 0.5;
         surface[i] = takes ? (int32_t)(takes ? top : 0.0) : WALL;

@@ -72,7 +72,7 @@ void dp_walls_fill(const Walls* to, const float* restrict base_height,
                    const float* restrict wall_slope, const int32_t* restrict ring, int count,
                    double cell, double level, double tan_slack);
 
-// Read a row of a patch; `ring` tells where a sole stands (0).
+// Read a row of a patch; `ring` tells where a sole stands (0, or DP_RING_HELD).
 void dp_slide_fill(const Row* to, const float* restrict base_height,
                    const float* restrict compression, const float* restrict loose,
                    const float* restrict rest_slope, const int32_t* restrict ring, int count,

@@ -88,7 +88,7 @@ static void fill(const Row* to, const float* restrict base_height,
     float* restrict fall = to->fall, * restrict slack = to->slack;
     double* restrict sum = to->sum;
     for (int i = 0; i < count; ++i) {
-        const int    open = (base_height[i] == base_height[i]) & (ring[i] != 0);
+        const int    open = (base_height[i] == base_height[i]) & (ring[i] > 0);
         const double slope = (double)rest_slope[i];
         const float  ground = (float)((double)base_height[i] - (double)compression[i] - level);
         const float  lies = open ? loose[i] : 0.0f;

@@ -79,7 +79,7 @@ static void fill_walls(const Walls* to, const float* restrict base_height,
 {
     float* restrict base = to->base, * restrict steep = to->steep, * restrict slack = to->slack;
     for (int i = 0; i < count; ++i) {
-        const int    open = (base_height[i] == base_height[i]) & (ring[i] != 0);
+        const int    open = (base_height[i] == base_height[i]) & (ring[i] > 0);
         const double slope = (double)wall_slope[i];
         const int    falls = open & (slope < 1e6);
         const double fall = falls ? slope : 0.0;

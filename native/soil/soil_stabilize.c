@@ -77,7 +77,7 @@ static Walls walls_at(const Window* window, size_t cell)
     return (Walls){walls->base + cell, walls->steep + cell, walls->slack + cell};
 }
 
-// `sole` tells where one stands (0), as imprint->ring does
+// `sole` tells where one stands (0, or DP_RING_HELD), as imprint->ring does
 static void read_row(const Window* window, const DpSoilPatch* patch, const int32_t* sole, long j,
                      double level, double tan_slack)
 {
@@ -144,7 +144,7 @@ static double write_back(const Window* window, DpSoilPatch* patch, const DpImpri
     for (long j = box.j0; j < box.j1; ++j)
         for (long i = box.i0; i < box.i1; ++i) {
             const size_t p = soil_at(patch, i, j);
-            if (!soil_is_ground(patch->base_height[p]) || (imprint && imprint->ring[p] == 0))
+            if (!soil_is_ground(patch->base_height[p]) || (imprint && imprint->ring[p] <= 0))
                 continue;
             patch->heap[p] = window->heap[cell_of(window, i, j)];
             if (!window->slides) continue;

@@ -33,7 +33,11 @@ class View:
     stops: float
 
 
-VIEWS = {"sand": View("dry-sand", "SAND", 2.0, 0.3)}
+VIEWS = {
+    "sand": View("dry-sand", "SAND", 2.0, 0.3),
+    "mud": View("mud", "MUD", 1.0, 1.0),
+    "snow": View("fresh-snow", "SNOW", 1.0, -0.2),
+}
 
 
 BONES = {"root": "Hips", "lowerback": "LowerBack", "upperback": "Spine", "thorax": "Spine1", "lowerneck": "Neck"}
