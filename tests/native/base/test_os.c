@@ -1,111 +1,9 @@
-// Threads, files, time and memory are the same on every system.
+// tests of os_posix.c and os_windows.c: threads, time and memory are the same on every system
 #include "base/os.h"
 
 #include <stdatomic.h>
 
 #include "check.h"
-#include "folder.h"
-
-static char folder[256];
-
-static const char* place(const char* name)
-{
-    static char path[4][4096];
-    static int  turn;
-    char*       out = path[turn++ % 4];
-    snprintf(out, sizeof path[0], "%s/%s", folder, name);
-    return out;
-}
-
-static int put(const char* path, const char* text)
-{
-    DpFile file;
-    return dp_file_create(path, &file) == DP_OK &&
-           dp_file_write(file, text, strlen(text)) == DP_OK && dp_file_close(file) == DP_OK;
-}
-
-static int holds(const char* path, const char* text)
-{
-    DpFile  file;
-    int64_t size = -1;
-    char    read[64] = "";
-    if (dp_file_open(path, &file, &size) != DP_OK) return 0;
-    const int64_t got = dp_file_read(file, read, sizeof read - 1, 0);
-    return dp_file_close(file) == DP_OK && got == size && (size_t)size == strlen(text) &&
-           strcmp(read, text) == 0;
-}
-
-TEST(a_file_is_written_added_to_and_replaced)
-{
-    DpFile  file;
-    int64_t size;
-    CHECK(dp_file_open(place("a"), &file, &size) == DP_CANNOT_OPEN);
-    CHECK(dp_file_append(place("a"), &file) == DP_CANNOT_OPEN);
-    CHECK(put(place("a"), "one\r\ntwo\n"));  // bytes, not lines
-    CHECK(holds(place("a"), "one\r\ntwo\n"));
-    CHECK(dp_file_append(place("a"), &file) == DP_OK);
-    CHECK(dp_file_write(file, "three", 5) == DP_OK);
-    CHECK(dp_file_close(file) == DP_OK);
-    CHECK(holds(place("a"), "one\r\ntwo\nthree"));
-    CHECK(put(place("b"), "new"));
-    CHECK(dp_file_open(place("a"), &file, &size) == DP_OK);
-#ifndef _WIN32  // who reads the old one goes on reading it; there nobody replaces it meanwhile
-    CHECK(dp_file_replace(place("b"), place("a")) == DP_OK);
-#endif
-    char byte[2];
-    CHECK(dp_file_read(file, byte, 2, 3) == 2 && byte[0] == '\r' && byte[1] == '\n');
-    CHECK(dp_file_read(file, byte, 2, size - 1) == 1);
-    CHECK(dp_file_read(file, byte, 2, size + 9) == 0);
-    CHECK(dp_file_close(file) == DP_OK);
-#ifdef _WIN32
-    CHECK(dp_file_replace(place("b"), place("a")) == DP_OK);
-#endif
-    CHECK(holds(place("a"), "new"));
-    CHECK(dp_file_open(place("b"), &file, &size) == DP_CANNOT_OPEN);
-    dp_file_remove(place("a"));
-    dp_file_remove(place("a"));
-    CHECK(dp_file_open(place("a"), &file, &size) == DP_CANNOT_OPEN);
-    CHECK(dp_file_close(DP_NO_FILE) == DP_OK);
-}
-
-TEST(what_is_no_file_is_told)
-{
-    DpFile  file;
-    int64_t size;
-    CHECK(dp_file_open(folder, &file, &size) == DP_BAD_FILE);
-    CHECK(file == DP_NO_FILE);
-    CHECK(dp_file_create(place("none/a"), &file) == DP_CANNOT_OPEN);
-    CHECK(put(place("a"), "x"));
-    CHECK(dp_file_replace(place("a"), folder) == DP_CANNOT_WRITE);
-    CHECK(holds(place("a"), "x"));
-    dp_file_remove(place("a"));
-}
-
-TEST(names_may_have_any_letter)
-{
-    const char* name = place("\xe9\x9b\xaa\xe3\x81\xae\xe8\xb7\xa1 \xc3\xa4.exr");
-    CHECK(put(name, "snow"));
-    CHECK(holds(name, "snow"));
-    dp_file_remove(name);
-    CHECK(strcmp(dp_os_name("a/b.exr"), "b.exr") == 0);
-    CHECK(strcmp(dp_os_name("b.exr"), "b.exr") == 0);
-}
-
-TEST(paths_may_be_longer_than_windows_once_took)
-{
-    char part[151], deep[600], name[1000];
-    memset(part, 'x', sizeof part - 1), part[sizeof part - 1] = 0;
-    snprintf(deep, sizeof deep, "%s/%s", folder, part);
-    CHECK(FOLDER_MAKE(deep) == 0);
-    snprintf(name, sizeof name, "%s/%s\xe9\x9b\xaa.exr", deep, part);
-    CHECK(strlen(name) > 260 + 40);
-    CHECK(put(name, "snow"));
-    CHECK(put(place("b"), "more snow"));
-    CHECK(dp_file_replace(place("b"), name) == DP_OK);
-    CHECK(holds(name, "more snow"));
-    dp_file_remove(name);
-    CHECK(FOLDER_REMOVE(deep) == 0);
-}
 
 static atomic_int sum;
 static DpLock     lock = DP_LOCK_READY;
@@ -133,26 +31,94 @@ TEST(threads_start_meet_and_end)
     CHECK(atomic_load(&sum) == 4321);
 }
 
+static DpLock ours;
+static int    inside, most, turns;
+
+static void take_turns(void* context)
+{
+    (void)context;
+    for (int k = 0; k < 200; ++k) {
+        dp_lock_take(&ours);
+        ++inside;
+        most = inside > most ? inside : most;
+        ++turns;
+        --inside;
+        dp_lock_give(&ours);
+    }
+}
+
+TEST(a_lock_lets_one_in_at_a_time)
+{
+    DpThread thread[4];
+    dp_lock_create(&ours);
+    for (int k = 0; k < 4; ++k) CHECK(dp_thread_start(&thread[k], take_turns, NULL));
+    for (int k = 0; k < 4; ++k) dp_thread_join(&thread[k]);
+    CHECK(most == 1 && turns == 800);
+    dp_lock_destroy(&ours);
+}
+
+static DpLock   gate;
+static DpSignal opened, passed;
+static int      may_pass, have_passed, waiting;
+
+static void wait_for_turn(void* context)
+{
+    (void)context;
+    dp_lock_take(&gate);
+    ++waiting;
+    dp_signal_all(&passed);
+    while (may_pass == 0) dp_signal_wait(&opened, &gate);
+    --may_pass, ++have_passed;
+    dp_signal_all(&passed);
+    dp_lock_give(&gate);
+}
+
+// who sleeps has given the lock; a signal wakes one, or all
+TEST(signals_wake_who_sleeps)
+{
+    DpThread thread[3];
+    dp_lock_create(&gate), dp_signal_create(&opened), dp_signal_create(&passed);
+    for (int k = 0; k < 3; ++k) {
+        CHECK(dp_thread_start(&thread[k], wait_for_turn, NULL));
+        if (k == 2) dp_thread_leave(&thread[k]);
+    }
+    dp_lock_take(&gate);
+    while (waiting < 3) dp_signal_wait(&passed, &gate);
+    may_pass = 1;
+    dp_signal_one(&opened);
+    while (have_passed < 1) dp_signal_wait(&passed, &gate);
+    CHECK(have_passed == 1 && may_pass == 0);
+    may_pass = 2;
+    dp_signal_all(&opened);
+    while (have_passed < 3) dp_signal_wait(&passed, &gate);
+    dp_lock_give(&gate);
+    for (int k = 0; k < 2; ++k) dp_thread_join(&thread[k]);
+}
+
 TEST(time_and_memory)
 {
     const int64_t start = dp_os_time();
-    CHECK(dp_os_time() >= start);
+    int64_t       last = start;
+    for (int k = 0; k < 1000; ++k) {
+        const int64_t now = dp_os_time();
+        CHECK(now >= last);
+        last = now;
+    }
     CHECK(dp_os_processors() >= 1);
-    char* memory = dp_os_memory(64, 640);
-    CHECK(memory && (uintptr_t)memory % 64 == 0);
-    dp_os_memory_free(memory);
+    for (size_t even = 16; even <= 4096; even *= 4) {
+        char* memory = dp_os_memory(even, 2 * even);
+        CHECK(memory && (uintptr_t)memory % even == 0);
+        if (memory) memset(memory, 7, 2 * even);
+        dp_os_memory_free(memory);
+    }
     dp_os_memory_free(NULL);
 }
 
 int main(void)
 {
-    folder_make(folder, sizeof folder, "os");
-    RUN(a_file_is_written_added_to_and_replaced);
-    RUN(what_is_no_file_is_told);
-    RUN(names_may_have_any_letter);
-    RUN(paths_may_be_longer_than_windows_once_took);
     RUN(threads_start_meet_and_end);
+    RUN(a_lock_lets_one_in_at_a_time);
+    RUN(signals_wake_who_sleeps);
     RUN(time_and_memory);
-    FOLDER_REMOVE(folder);
     return check_done();
 }

@@ -45,27 +45,41 @@ static inline void stand_on(Stand* s, int limb, int from, int end, double x, dou
     for (int t = from; t < end; ++t) s->force[limb][t][2] = -newton, s->touching[limb][t] = 1;
 }
 
-static inline void stand_load(Stand* s, const DpSoil* soil, DpSimOptions chosen)
+// all of them begin to walk, again
+static inline void stand_follow(Stand* s)
 {
     static const double  mass[MAX_LIMBS] = {70.0, 70.0};
     static const int32_t owner[MAX_LIMBS] = {0, 1};
     const DpMesh sole[MAX_LIMBS] = {{4, 2, STAND_BOX, STAND_FACES}, {4, 2, STAND_BOX, STAND_FACES}};
-    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soil, 1, 1, 0, NULL};
-    const DpGround         flat = {.kind = DP_GROUND_FLAT};
-    const DpGait           gait = {.times = TIMES,
-                                   .walkers = s->limbs,
-                                   .limbs = s->limbs,
-                                   .parts = s->limbs,
-                                   .time = s->time,
-                                   .mass = mass,
-                                   .pose = &s->pose[0][0][0],
-                                   .limb_walker = owner,
-                                   .part_limb = owner,
-                                   .sole = sole};
-    CHECK(dp_terrain_create(&s->terrain, &options, &flat) == DP_OK);
-    CHECK(dp_sim_create(&s->sim, s->terrain, &chosen) == DP_OK);
+    const DpGait gait = {.times = TIMES,
+                         .walkers = s->limbs,
+                         .limbs = s->limbs,
+                         .parts = s->limbs,
+                         .time = s->time,
+                         .mass = mass,
+                         .pose = &s->pose[0][0][0],
+                         .limb_walker = owner,
+                         .part_limb = owner,
+                         .sole = sole};
     CHECK(dp_sim_load(s->sim, &gait, &s->touching[0][0], &s->force[0][0][0], &s->point[0][0][0]) ==
           DP_OK);
+}
+
+// on ground of a test's own, which is the stand's from now on
+static inline void stand_load_on(Stand* s, DpTerrain* terrain, DpSimOptions chosen)
+{
+    s->terrain = terrain;
+    CHECK(dp_sim_create(&s->sim, s->terrain, &chosen) == DP_OK);
+    stand_follow(s);
+}
+
+static inline void stand_load(Stand* s, const DpSoil* soil, DpSimOptions chosen)
+{
+    const DpTerrainOptions options = {{CELL, 0.0, 0.0}, soil, 1, 1, 0, NULL};
+    const DpGround         flat = {.kind = DP_GROUND_FLAT};
+    DpTerrain*             terrain = NULL;
+    CHECK(dp_terrain_create(&terrain, &options, &flat) == DP_OK);
+    stand_load_on(s, terrain, chosen);
 }
 
 static inline double stand_read(const Stand* s, DpField field, long i, long j)

@@ -62,55 +62,10 @@ TEST(the_width_is_the_smaller_one_however_it_is_turned)
     ground_free(&g);
 }
 
-TEST(a_sole_goes_as_deep_as_the_law_says_and_no_deeper_than_the_layer)
-{
-    const DpSoil soils[] = {snow(100.0f), measured(2e3f, 5e5f, 0.4f), measured(0.0f, 2e6f, 1.6f)};
-    for (int k = 0; k < 3; ++k)
-        for (double load = 100.0; load < 1e7; load *= 10.0) {
-            Ground      g = ground_make(40, 40, 0.01, soils[k]);
-            DpPressed   pressed;
-            DpFootForce foot = {{0.0, 0.0, -load}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-            ground_sole(&g, (BoxSole){.length = 0.2, .width = 0.1});
-            CHECK(dp_soil_compress(&g.patch, &g.imprint, &foot, DP_CONTACT_SOLE, 10.0, &pressed) ==
-                  DP_OK);
-            const double depth = dp_law_depth(&soils[k], 0.1, load / 0.02);
-            CHECK_CLOSE(ground_max(&g, g.compression), depth, 1e-5);
-            CHECK_NEAR(pressed.area, 0.02, 1e-6);
-            ground_free(&g);
-        }
-}
-
-static void press_box(Ground* g, double x, double length, double load)
-{
-    DpPressed         pressed;
-    const DpFootForce foot = {{0.0, 0.0, -load}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-    ground_sole(g, (BoxSole){.x = x, .length = length, .width = 0.1});
-    CHECK(dp_soil_compress(&g->patch, &g->imprint, &foot, DP_CONTACT_SOLE, 10.0, &pressed) ==
-          DP_OK);
-}
-
-TEST(what_was_pressed_deeper_carries_nothing)
-{
-    const DpSoil soils[] = {snow(100.0f), measured(0.0f, 5e5f, 1.0f)};
-    for (int k = 0; k < 2; ++k) {
-        Ground g = ground_make(60, 40, 0.01, soils[k]);
-        press_box(&g, -0.1, 0.2, 20e3 * 0.02);  // one half of the next sole's ground
-        const double deep = ground_max(&g, g.compression);
-        press_box(&g, 0.0, 0.4, 5e3 * 0.02);
-        const double found = (double)g.compression[soil_at(&g.patch, 40, 20)];
-        CHECK_CLOSE(found, dp_law_depth(&soils[k], 0.1, 5e3), 1e-5);
-        CHECK(found < 0.9 * deep);
-        CHECK_NEAR(ground_max(&g, g.compression), deep, 1e-9);
-        ground_free(&g);
-    }
-}
-
 int main(void)
 {
     RUN(what_it_presses_back_with_grows_and_the_depth_is_its_inverse);
     RUN(snow_is_packed_as_crrel_says);
     RUN(the_width_is_the_smaller_one_however_it_is_turned);
-    RUN(a_sole_goes_as_deep_as_the_law_says_and_no_deeper_than_the_layer);
-    RUN(what_was_pressed_deeper_carries_nothing);
     return check_done();
 }
