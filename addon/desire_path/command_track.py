@@ -26,7 +26,7 @@ ROLLED = Need(lambda args: args.wheel is not None, "is of wheels: add --wheel RA
 SCATTERED = Need(lambda args: bool(args.plants) or args.scatter is not None, "is of chance: add --scatter or --plants")
 STAMP = Need(lambda args: args.stamp.endswith(".exr"), "is that of a picture: give --stamp a .exr")
 
-MOVES = ("film", "plants", "soil_keys", "frame_start", "frame_end", "limit")  # are of marks that come down in time
+MOVES = ("film", "plants", "spray", "soil_keys", "frame_start", "frame_end", "limit")  # of what comes down in time
 
 
 def _track(args: argparse.Namespace) -> None:

@@ -123,6 +123,10 @@ def test_soil_is_kept_and_pressed_the_same_way_at_every_thread():
 def test_what_is_kept_plays_and_another_walk_goes_on_from_it(tmp_path):
     press = LivePress(Ground.flat(), ball(), "mud")
     dragged(press, z=0.08)
+    for rate in (0.0, float("nan")):
+        with pytest.raises(DesirePathError, match="frames a second cannot be made"):
+            press.keep(tmp_path / "pressed", frame_rate=rate)
+    assert not (tmp_path / "pressed").exists()
     index = press.keep(tmp_path / "pressed", frame=7, frame_rate=25.0, owner="me", inputs={"pressed": "so"})
     assert (index.frames, index.frame_start, index.frame_end, index.complete) == (1, 7, 7, True)
     assert read_index(tmp_path / "pressed").inputs == {"pressed": "so"} and index.owner == "me"

@@ -36,6 +36,13 @@ def test_track_shows_stamps_that_come_down_one_by_one(tmp_path, curve):
     assert report["contacts"] == 3 and len(list((tmp_path / "out" / "frames").glob("trail_*.exr"))) > 10
 
 
+def test_what_sticks_to_a_stamp_flies_off_it(tmp_path, curve):
+    more = ("--count", 3, "--spray", "sand", "--spray-set", "slow_speed=0.01", "--cell", 0.02, "--frame-rate", 12)
+    done = run("track", "--along", curve, *more, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert json.loads((tmp_path / "out" / "report.json").read_text())["spray_thrown_m3"] > 0.0
+
+
 def test_track_presses_a_picture(tmp_path, curve):
     maps.write(tmp_path / "stamp.exr", {"Y": np.ones((30, 10))})
     more = ("--stamp", tmp_path / "stamp.exr", "--stamp-length", 0.2, "--depth", 0.02, "--count", 2)
@@ -64,6 +71,9 @@ def test_track_rolls_a_pair_of_wheels(tmp_path, curve):
         (("--wheel", "0.3", "--spacing", "1"), "--spacing is of stamps"),
         (("--gauge", "1"), "--gauge is of wheels"),
         (("--seed", "1"), "--seed is of chance"),
+        (("--seed", "-1", "--scatter", "0.1"), "seed of -1"),
+        (("--frame-rate", "0"), "0 frames a second"),
+        (("--spray", "dust"), "no spray 'dust'"),
     ],
 )
 def test_track_refuses_in_one_sentence(tmp_path, curve, more, says):

@@ -41,6 +41,8 @@ def test_each_stamp_stands_where_it_is_put_and_nowhere_else(name):
         (dict(drive=Drive(speed=0.0)), "speed of 0"),
         (dict(drive=Drive(end_speed=np.inf)), "speed of inf"),
         (dict(drive=Drive(frame_rate=0.0)), "frames a second"),
+        (dict(marks=Marks(seed=-1)), "seed of -1"),
+        (dict(marks=Marks(seed=0.5)), "seed of 0.5"),
         (dict(stamp="slipper"), "no stamp 'slipper'"),
         (dict(ground=lambda at: np.where(at[:, 0] < 3.0, 0.0, np.nan)), "leaves the ground at x 3"),
         (dict(ground=np.nan), "ground is a height"),
@@ -59,6 +61,7 @@ def test_numbers_that_make_no_track_are_refused(given, says):
         (Wheel(width=-1.0), "width of -1 m"),
         (Wheel(tread="spikes"), "no tread 'spikes'"),
         (Wheel(gauge=-1.0), "gauge of -1 m"),
+        (Wheel(radius=1e-6), "on larger wheels"),
     ],
 )
 def test_wheels_that_cannot_roll_are_refused(wheel, says):

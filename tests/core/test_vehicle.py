@@ -94,6 +94,16 @@ def test_four_ruts_of_a_car_in_a_bend_and_two_where_it_goes_straight():
         assert (edges == 1).sum() == ruts, (ruts, edges)
 
 
+@pytest.mark.parametrize("tread", tyre.TYRES)
+def test_a_wheel_touches_to_both_sides_of_its_tread(tread):
+    """As far out as the tyre reaches, all round: no more of them the finer its tread."""
+    vertices, _ = tyre.wheel(0.5, 0.28, tread)
+    points = tyre.touching(vertices)
+    assert len(points) == 2 * 72 and np.hypot(points[:, 0], points[:, 2]) == pytest.approx(0.5, rel=2e-3)
+    assert np.unique(points[:, 1]).sum() == pytest.approx(0.0, abs=1e-9)
+    assert 0.5 * 0.14 < abs(points[0, 1]) < 0.14
+
+
 def test_a_drum_is_the_wheel_without_its_grooves():
     for tread in tyre.TYRES:
         vertices, _ = tyre.wheel(0.4, 0.2, tread)

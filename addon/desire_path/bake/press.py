@@ -93,6 +93,8 @@ class LivePress(Pressing):
         OSError, and one may go on pressing after it.
         frame: scene frame that shows it; frame_rate [1/s]; owner, inputs: as BakeOutput has them
         """
+        if not 0.0 < frame_rate <= 1e4:
+            raise DesirePathError(f"{frame_rate:g} frames a second cannot be made: give a number above 0.")
         self.lift()
         if self.window is None:
             raise DesirePathError("Nothing was pressed, and nothing can be kept: move a body into the ground first.")

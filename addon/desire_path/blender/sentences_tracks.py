@@ -119,8 +119,9 @@ GERMAN = {
     "{} frames a second cannot be made: give a number above 0.": (
         "{} Bilder in der Sekunde gehen nicht: eine Zahl über 0 angeben."
     ),
-    "This track would take {} samples, and {} are the most: shorten the curve, or go along it faster.": (
-        "Diese Fährte bräuchte {} Werte, und {} sind die meisten: die Kurve kürzen, oder schneller daran entlang gehen."
+    "This track would take {} samples, and {} are the most: shorten the curve, go faster, or on larger wheels.": (
+        "Diese Fährte bräuchte {} Werte, und {} sind die meisten: die Kurve kürzen, schneller gehen, oder auf "
+        "größeren Rädern."
     ),
     # ---- placement/tyre.py
     "There is no tread '{}' for wheels: choose one of {}.": "Es gibt kein Profil '{}' für Räder: eines von {} wählen.",

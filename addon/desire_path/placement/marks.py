@@ -106,6 +106,7 @@ def lay(
     None: level, at 0. Refuses bad input with a sentence.
     """
     path, stamp = path_of(curve), stamps.find(stamp)
+    rate_of(drive)
     pace = Pace(path.length, *speeds_of(drive, stamp.speed))
     size = number_of("size", marks.size, stamps.SMALLEST / stamp.length, stamps.LARGEST / stamp.length, "times")
     width = stamp.width * size if marks.width is None else number_of("width", marks.width, 0.0, LONGEST)
@@ -155,6 +156,8 @@ def _spacing(marks: Marks, usual: float, pace: Pace) -> float:
 def _sizes(marks: Marks, count: int) -> np.ndarray:
     """How large each mark is (n,), one of a few sizes, whose logarithms scatter normally."""
     scatter = number_of("scatter of sizes", marks.scatter, 0.0, 0.5, "")
+    if not isinstance(marks.seed, (int, np.integer)) or not 0 <= marks.seed < 1 << 64:
+        raise DesirePathError(f"A seed of {marks.seed} cannot be used: choose a whole number from 0 to 2^64 - 1.")
     z = np.array([NormalDist().inv_cdf((k + 0.5) / SIZES) for k in range(SIZES)])
     chosen = np.random.default_rng(marks.seed).integers(SIZES, size=count)
     return np.asarray(marks.size * np.exp(scatter * z / z.std())[chosen])
@@ -188,6 +191,12 @@ def depth_of(drive: Drive) -> float:
 
 def mass_of(drive: Drive, usual: float) -> float:
     return usual if drive.mass is None else _above("mass", drive.mass, MAX_MASS, "kg")
+
+
+def rate_of(drive: Drive) -> float:
+    if not 0.0 < drive.frame_rate <= 1e4:
+        raise DesirePathError(f"{drive.frame_rate:g} frames a second cannot be made: give a number above 0.")
+    return drive.frame_rate
 
 
 def _above(name: str, value: float, maximum: float, unit: str = "m") -> float:

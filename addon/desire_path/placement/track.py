@@ -19,9 +19,8 @@ from ..errors import DesirePathError
 from ..loads.below import GroundHeights
 from ..motion import rotation
 from ..motion.gait import AUTO, HEEL, Gait, Sole
-from ..rig import solid
 from . import tyre
-from .marks import LONGEST, SIDES, Drive, Marks, depth_of, lay, mass_of, number_of, path_of, speeds_of
+from .marks import LONGEST, SIDES, Drive, Marks, depth_of, lay, mass_of, number_of, path_of, rate_of, speeds_of
 from .pace import Land, Pace, ahead_of, land_of, left_of, slope_of
 from .stamps import Stamp
 from .vehicle import Axle, Vehicle
@@ -147,14 +146,12 @@ def _wheel_pose(land: Land, at: np.ndarray, heading: np.ndarray, radius: float, 
 
 def _samples(first: float, last: float, rate: float, drive: Drive) -> np.ndarray:
     """Times from the first to the last at a whole number a frame, `rate` a second at least [s]."""
-    if not 0.0 < drive.frame_rate <= 1e4:
-        raise DesirePathError(f"{drive.frame_rate:g} frames a second cannot be made: give a number above 0.")
-    rate = drive.frame_rate * math.ceil(rate / drive.frame_rate)
+    rate = rate_of(drive) * math.ceil(rate / drive.frame_rate)
     count = (last - first) * rate + 1.0
     if count > MAX_SAMPLES:
         raise DesirePathError(
-            f"This track would take {count:.0f} samples, and {MAX_SAMPLES} are the most: shorten the curve, or go "
-            "along it faster."
+            f"This track would take {count:.0f} samples, and {MAX_SAMPLES} are the most: shorten the curve, go "
+            "faster, or on larger wheels."
         )
     return first + np.arange(math.ceil(count)) / rate
 
@@ -205,7 +202,7 @@ class _Who:
 
 def _gait(drive: Drive, time: np.ndarray, com: np.ndarray, pose: np.ndarray, soles: Sequence[Sole], who: _Who) -> Gait:
     """One walker, each of whose limbs is a part."""
-    points = [_corners(each) if who.leg else solid.outermost(each.vertices) for each in soles]
+    points = [_corners(each) if who.leg else tyre.touching(np.asarray(each.vertices, float)) for each in soles]
     parts = np.arange(len(soles))
     return Gait(
         time=time - time[0],

@@ -18,6 +18,7 @@ DEEP = 0.06  # of the width: how far grooves stand back ..
 DEEPEST = 0.03  # .. at most, in shares of the radius
 SHOULDER = 0.12  # of the width: the rim rounds off so near to its sides
 ROUND = 180  # points round a drum
+TOUCHES = 72  # points all round that may touch
 LARGEST = 100.0  # a wheel's radius may be [m]
 
 
@@ -65,14 +66,29 @@ def wheel(radius: float, width: float, tread: str = "plain") -> Faces:
     return _closed(rim, width)
 
 
+def touching(vertices: np.ndarray) -> np.ndarray:
+    """The points a wheel can touch with (K, 3): to both sides of its tread, every 5 degrees."""
+    across, out = _profile(vertices)
+    angle = np.arange(TOUCHES)[:, None] * (2.0 * np.pi / TOUCHES)
+    flat = np.flatnonzero(out > out.max() - 1e-3 * float(np.ptp(across)))[[0, -1]]
+    rim = [out[flat] * np.sin(angle), np.broadcast_to(across[flat], (TOUCHES, 2)), out[flat] * np.cos(angle)]
+    return np.stack(rim, axis=-1).reshape(-1, 3)
+
+
 def drum(vertices: np.ndarray) -> Faces:
     """What a wheel would be without grooves: round, as wide, and as large at each place across its tyre."""
-    across, column = np.unique(np.round(vertices[:, 1], 6), return_inverse=True)
-    out = np.zeros(len(across))
-    np.maximum.at(out, column.reshape(-1), np.hypot(vertices[:, 0], vertices[:, 2]))
+    across, out = _profile(vertices)
     angle = 2.0 * np.pi * np.arange(ROUND)[:, None] / ROUND
     rim = [out * np.sin(angle), np.broadcast_to(across, (ROUND, len(across))), out * np.cos(angle)]
     return _closed(np.stack(rim, axis=-1), float(np.ptp(across)))
+
+
+def _profile(vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places across a tyre, and how far it reaches out at each (n,) [m]."""
+    across, column = np.unique(np.round(vertices[:, 1], 6), return_inverse=True)
+    out = np.zeros(len(across))
+    np.maximum.at(out, column.reshape(-1), np.hypot(vertices[:, 0], vertices[:, 2]))
+    return across, out
 
 
 def _closed(rim: np.ndarray, width: float) -> Faces:
