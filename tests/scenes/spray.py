@@ -1,7 +1,7 @@
-"""spray.py - a runner throws sand, under a low sun.
+"""spray.py - a runner throws sand, mud and snow, under a low sun.
 
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/spray.py -- FOLDER
-        [--width 400 --height 225 --samples 48]
+        [--width 400 --height 360 --samples 48 --scenes sand,mud,snow]
 
 Writes FOLDER/SCENE.png: the frame of a recorded run in which most of it flies. All of it by the operators an animator
 presses.
@@ -31,12 +31,13 @@ class View:
     spray: str
     amount: float
     stops: float
+    later: int = 0  # so many frames after most flies, which is higher by then
 
 
 VIEWS = {
-    "sand": View("dry-sand", "SAND", 2.0, 0.3),
-    "mud": View("mud", "MUD", 1.0, 1.0),
-    "snow": View("fresh-snow", "SNOW", 1.0, -0.2),
+    "sand": View("dry-sand", "SAND", 2.0, 0.0),
+    "mud": View("mud", "MUD", 3.0, 0.6, 1),
+    "snow": View("fresh-snow", "SNOW", 2.0, -0.4),
 }
 
 
@@ -95,7 +96,7 @@ def scene_of(view):
     index = read_index(bpy.path.abspath(settings.folder))
     counts = [count for _, count in spray_sums(index.folder).values()]
     number = max(range(1, index.frames + 1), key=lambda each: counts[each])
-    frame = index.frame_start + number - 1
+    frame = index.frame_start + number - 1 + view.later
     return frame, places[frame - first], (places[-1] - places[0]).normalized()
 
 
@@ -104,19 +105,19 @@ def make(name):
     frame, at, ahead = scene_of(view)
     scene = bpy.context.scene
     aside = Vector((-ahead.y, ahead.x, 0.0))
-    eye = Vector((at.x, at.y, 0.42)) - 1.5 * ahead + 1.5 * aside
-    look = Vector((at.x, at.y, 0.32)) - 0.45 * ahead
+    eye = Vector((at.x, at.y, 1.3)) - 1.7 * ahead + 2.1 * aside
+    look = Vector((at.x, at.y, 0.6)) - 0.3 * ahead
     sun = demo.add_sun()
-    sun.location = 9.0 * (0.55 * ahead - 0.75 * aside) + Vector((0.0, 0.0, 9.0 * math.tan(math.radians(20.0))))
+    sun.location = 9.0 * (0.5 * aside + 0.85 * ahead) + Vector((0.0, 0.0, 9.0 * math.tan(math.radians(22.0))))
     demo.aim(sun, (0.0, 0.0, 0.0))
     materials.sky(scene)
     scene.camera = demo.add_camera("View", eye, look, 30.0)
     scene.camera.data.clip_start = 0.01
     demo.cycles(scene)
-    scene.render.use_motion_blur = False
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.1
     scene.view_settings.exposure = view.stops
     scene.frame_set(frame)
 
 
 if __name__ == "__main__":
-    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 48))
+    shots.take(__doc__, "--scenes", VIEWS, make, (400, 360, 48))

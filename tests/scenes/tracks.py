@@ -3,9 +3,9 @@
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/tracks.py -- FOLDER
         [--width 400 --height 225 --samples 48 --scenes horse-wet,lorry]
 
-Writes FOLDER/SCENE.png: a horse and boots on wet sand and on soft earth, three trails of five hundred marks that
-cross, gulls on a shore, a bicycle's tyres, a lorry and a tractor in mud. All of it by the operators an animator
-presses.
+Writes FOLDER/SCENE.png: a horse and boots on wet sand and in soft earth, three trails of five hundred marks that
+cross, gulls on a shore, wet and dry, a bicycle's tyres, a car in snow, a lorry and a tractor in mud. All of it by
+the operators an animator presses.
 """
 
 import math
@@ -62,14 +62,14 @@ def _wander(turn, waves):
 
 
 VIEWS = {
-    "horse-wet": View("wet-sand", RIDE, (2.2, 1.4), (0.3, -1.75, 0.85), (0.0, 0.0, 0.0), stops=0.7),
-    "horse-earth": View("wet-soil", RIDE, (2.2, 1.4), (0.3, -1.75, 0.85), (0.0, 0.0, 0.0), sun=20.0, stops=1.0),
+    "horse-wet": View("wet-sand", RIDE, (2.2, 1.4), (0.2, -1.2, 0.62), (0.05, -0.02, 0.0), stops=0.9),
+    "horse-earth": View("soft-soil", RIDE, (2.2, 1.4), (0.2, -1.2, 0.62), (0.05, -0.02, 0.0), sun=18.0, stops=0.8),
     "crossing": View(
         "fresh-snow",
         tuple(_wander(math.radians(15.0 + 60.0 * k), 0.42 + 0.04 * k) for k in range(3)),
         (38.0, 38.0),
-        (0.0, -6.5, 2.6),
-        (0.0, 0.4, 0.0),
+        (0.0, -7.5, 4.2),
+        (0.0, -0.4, 0.0),
         cell=0.02,
         wave=0.12,
         sun=14.0,
@@ -90,10 +90,21 @@ VIEWS = {
             ),
         ),
         (2.6, 1.2),
-        (0.4, -1.9, 0.8),
-        (0.0, 0.15, 0.0),
-        sun=20.0,
-        stops=1.0,
+        (-0.35, -0.95, 0.5),
+        (0.0, 0.12, 0.0),
+        wave=0.006,
+        sun=16.0,
+        stops=1.1,
+    ),
+    "car": View(
+        "fresh-snow",
+        (({"kind": "WHEEL", "vehicle": "car"}, tuple((0.4 * k - 4.0, 0.012 * k * k - 0.6) for k in range(21))),),
+        (3.6, 2.4),
+        (-0.6, -2.0, 0.9),
+        (0.3, 0.0, 0.0),
+        wave=0.02,
+        sun=14.0,
+        stops=-0.5,
     ),
     "lorry": View(
         "mud",
@@ -102,12 +113,12 @@ VIEWS = {
             ({"kind": "WHEEL", "vehicle": "tractor"}, tuple((k - 4.5, 2.6 - 0.3 * k) for k in range(11))),
         ),
         (8.0, 4.5),
-        (1.2, -5.2, 2.3),
-        (0.9, 0.2, 0.0),
+        (-1.4, -4.6, 2.3),
+        (0.4, -0.5, 0.0),
         cell=0.02,
         wave=0.05,
-        sun=22.0,
-        stops=0.9,
+        sun=18.0,
+        stops=1.3,
     ),
 }
 
