@@ -87,6 +87,8 @@ typedef struct DpLayer
 {
     DpSoil soil;
     double thickness;  // [m] > 0
+    int    name;       // of its soil among all that the ground is made of, 0 ..
+    int    place;  // which of the ground's layers it is, 0 = the topmost; some places may lack it
 } DpLayer;
 
 static inline bool dp_has_crust(const DpSoil* soil)

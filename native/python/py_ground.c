@@ -47,15 +47,17 @@ DpSoil* dp_py_soils(PyObject* object, int max_count, int* count)
     return soils;
 }
 
-// (soil, thickness) of a layer
+// (soil, thickness, name, place) of a layer
 static int read_layer(PyObject* object, Py_ssize_t place, DpLayer* layer)
 {
     PyObject* soil = NULL;
     if (!PyTuple_Check(object)) {
-        PyErr_SetString(PyExc_TypeError, "layers: expected tuples (soil, thickness)");
+        PyErr_SetString(PyExc_TypeError, "layers: expected tuples (soil, thickness, name, place)");
         return -1;
     }
-    if (!PyArg_ParseTuple(object, "Od:layers", &soil, &layer->thickness)) return -1;
+    if (!PyArg_ParseTuple(object, "Odii:layers", &soil, &layer->thickness, &layer->name,
+                          &layer->place))
+        return -1;
     return read_soil(soil, place, &layer->soil);
 }
 

@@ -222,9 +222,8 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
     PyObject* out_object;
     if (!PyArg_ParseTuple(args, "illO:read", &field, &i0, &j0, &out_object)) return NULL;
     const bool pressure = field == DP_FIELD_PRESSURE;
-    const int  layer = field - DP_FIELD_LAYER;
-    if (!pressure && !dp_terrain_knows(self->terrain, field) &&
-        !dp_sim_has_layer(self->sim, layer)) {
+    const bool layered = dp_sim_is_of_layers(self->sim, field);
+    if (!pressure && !layered && !dp_terrain_knows(self->terrain, field)) {
         PyErr_Format(PyExc_ValueError, "read: there is no field %d", field);
         return NULL;
     }
@@ -241,9 +240,9 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
         Py_BEGIN_ALLOW_THREADS
         if (pressure)
             dp_sim_pressure(self->sim, i0, j0, (int)shape.n[1], (int)shape.n[0], out);
-        else if (layer >= 0) {
+        else if (layered) {
             const DpCellRect at = {i0, i0 + (long)shape.n[1], j0, j0 + (long)shape.n[0]};
-            status = dp_sim_layer(self->sim, layer, &at, out);
+            status = dp_sim_layers(self->sim, field, &at, out);
         } else
             status = dp_terrain_read(self->terrain, field, i0, j0, (int)shape.n[1], (int)shape.n[0],
                                      out);

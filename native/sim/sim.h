@@ -133,9 +133,10 @@ typedef struct DpSimCarried
 } DpSimCarried;
 DpSimCarried dp_sim_carried(const DpSim* sim, int coat);
 
-// How thick a layer of the ground still is, 0 = the topmost, where its kind has so many, on cells: out (ny, nx) [m].
-DpStatus dp_sim_layer(const DpSim* sim, int layer, const DpCellRect* at, float* out);
-bool     dp_sim_has_layer(const DpSim* sim, int layer);  // whether any kind does
+// Fields of ground in layers, on cells: out (ny, nx). DP_FIELD_LAYER + k is how thick the layer of that place still is [m],
+// DP_FIELD_SURFACE + k how much of what is seen is of the soil of that name, MODEL 6.17.
+DpStatus dp_sim_layers(const DpSim* sim, int field, const DpCellRect* at, float* out);
+bool     dp_sim_is_of_layers(const DpSim* sim, int field);  // whether the ground has it, in layers
 
 // ---- stop and go on ------------------------------------------------------------------------------
 

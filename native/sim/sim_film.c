@@ -42,15 +42,16 @@ static void fill_tile(const DpFilm* film, int index, float* value)
     const long   tx = film->tile_x + index % film->tiles_x;
     const long   ty = film->tile_y + index / film->tiles_x;
     for (int f = 0; f < film->fields; ++f) {
-        const int axis = film->field[f] - DP_FIELD_LEAN_X;
-        if (dp_terrain_knows(sim->terrain, film->field[f])) {
+        const int  axis = film->field[f] - DP_FIELD_LEAN_X;
+        const bool layered = dp_sim_is_of_layers(sim, film->field[f]);
+        if (!layered && dp_terrain_knows(sim->terrain, film->field[f])) {
             dp_terrain_tile(sim->terrain, tx, ty, film->field[f], value + f, film->fields);
             continue;
         }
         float            cell[TILE_CELLS];
         const DpCellRect at = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
-        if (film->field[f] >= DP_FIELD_LAYER) {
-            if (dp_sim_layer(sim, film->field[f] - DP_FIELD_LAYER, &at, cell) != DP_OK)
+        if (layered) {
+            if (dp_sim_layers(sim, film->field[f], &at, cell) != DP_OK)
                 memset(cell, 0, sizeof cell);
         } else if (film->field[f] == DP_FIELD_PRESSURE)
             dp_sim_pressure(sim, tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, cell);
@@ -221,7 +222,7 @@ bool dp_film_shows(const DpSim* sim, int field)
 {
     if (field >= DP_FIELD_LEAN_X && field <= DP_FIELD_CRUSHED) return dp_sim_grass(sim) != NULL;
     return field == DP_FIELD_PRESSURE || dp_terrain_knows(sim->terrain, field) ||
-           dp_sim_has_layer(sim, field - DP_FIELD_LAYER);
+           dp_sim_is_of_layers(sim, field);
 }
 
 static bool are_known(const DpSim* sim, const DpFilmOptions* options)

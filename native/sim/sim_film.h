@@ -20,7 +20,7 @@ enum
 {
     DP_SIM_FIELDS(DP_FIELD_NUMBER)
 };
-#define DP_FIELD_LAYER 3000  // and from here on: layers of the ground, dp_sim_layer
+#define DP_FIELD_LAYER 3000  // and from here on: layers of the ground, dp_sim_layers
 
 // All fields of a simulation, the terrain's and these; *count how many.
 const DpFieldInfo* dp_sim_fields(int* count);

@@ -73,6 +73,7 @@ void dp_terrain_destroy(DpTerrain* terrain)
     dp_free(terrain->slope);
     dp_free(terrain->wall);
     dp_free(terrain->coat_of_soil);
+    dp_free(terrain->name_of_soil);
     dp_free(terrain->layers);
     dp_free(terrain->layer_start);
     dp_free(terrain);

@@ -64,12 +64,14 @@ const DpSoil* dp_terrain_soils(
 // is pressed stays as it is. No patch may be out.
 void dp_terrain_set_time(DpTerrain* terrain, double time);
 #define DP_MAX_COATS 16  // soils that stick; more: DP_BAD_ARGUMENT
+#define DP_COVERS 0.002  // so thick a coat, or layer, hides what lies below, MODEL 6.16, 6.17 [m]
 // How many soils stick to soles, now or at another time, and which; how much of each lies on the ground as coats [m^3].
 int    dp_terrain_coats(const DpTerrain* terrain, const int** soils);
 double dp_terrain_coat_volume(const DpTerrain* terrain, int coat);
 // From now on ground lies in layers, before any tile is there: those of soil k, from the top down with the ground below as
 // the last, are layers[start[k]] .. [start[k + 1] - 1], at most 4; soils[k] is the topmost with the thickness of all of
-// them as its L0. start (soil_count + 1) begins with 0. Not of soils that change over time. MODEL 6.17
+// them as its L0. start (soil_count + 1) begins with 0. Not of soils that change over time. Soils whose topmost layers have
+// one name are one soil to what sticks, and fields of a soil count by names from then on. MODEL 6.17
 DpStatus dp_terrain_set_layers(DpTerrain* terrain, const DpLayer* layers, const int* start);
 // The layers of a kind of ground; NULL where it is one soil.
 const DpLayer* dp_terrain_layers(const DpTerrain* terrain, int kind, int* count);

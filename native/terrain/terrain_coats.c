@@ -5,8 +5,6 @@
 #include "base/alloc.h"
 #include "terrain/terrain_inside.h"
 
-#define COVERS 0.002  // so thick a coat hides what lies below [m]
-
 static bool sticks(const DpTerrain* terrain, int soil)
 {
     bool any = terrain->soils[soil].adhesion > 0.0f;
@@ -15,17 +13,38 @@ static bool sticks(const DpTerrain* terrain, int soil)
     return any;
 }
 
-DpStatus dp_coats_find(DpTerrain* terrain)
+// which coat has this name, -1 = none
+static int coat_named(const DpTerrain* terrain, int name)
 {
-    terrain->coat_of_soil = dp_alloc((size_t)terrain->soil_count, sizeof *terrain->coat_of_soil);
-    if (!terrain->coat_of_soil) return DP_NO_MEMORY;
+    for (int k = 0; k < terrain->coats; ++k)
+        if (terrain->name_of_soil[terrain->coat_soil[k]] == name) return k;
+    return -1;
+}
+
+DpStatus dp_coats_count(DpTerrain* terrain)
+{
+    terrain->coats = 0;
     for (int s = 0; s < terrain->soil_count; ++s) {
         const bool one = sticks(terrain, s);
-        if (one && terrain->coats == DP_MAX_COATS) return DP_BAD_ARGUMENT;
-        terrain->coat_of_soil[s] = one ? terrain->coats : -1;
-        if (one) terrain->coat_soil[terrain->coats++] = s;
+        const int  known = one ? coat_named(terrain, terrain->name_of_soil[s]) : -1;
+        terrain->coat_of_soil[s] = known;
+        if (!one || known >= 0) continue;
+        if (terrain->coats == DP_MAX_COATS) return DP_BAD_ARGUMENT;
+        terrain->coat_of_soil[s] = terrain->coats;
+        terrain->coat_soil[terrain->coats++] = s;
     }
     return DP_OK;
+}
+
+DpStatus dp_coats_find(DpTerrain* terrain)
+{
+    const size_t soils = (size_t)terrain->soil_count;
+    terrain->coat_of_soil = dp_alloc(soils, sizeof *terrain->coat_of_soil);
+    terrain->name_of_soil = dp_alloc(soils, sizeof *terrain->name_of_soil);
+    if (!terrain->coat_of_soil || !terrain->name_of_soil) return DP_NO_MEMORY;
+    for (int s = 0; s < terrain->soil_count; ++s) terrain->name_of_soil[s] = s;
+    terrain->names = terrain->soil_count;
+    return dp_coats_count(terrain);
 }
 
 int dp_terrain_coats(const DpTerrain* terrain, const int** soils)
@@ -47,8 +66,8 @@ double dp_terrain_coat_volume(const DpTerrain* terrain, int coat)
 bool dp_terrain_knows(const DpTerrain* terrain, int field)
 {
     if (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE) return true;
-    const int soil = field - (field >= DP_FIELD_COAT ? DP_FIELD_COAT : DP_FIELD_SURFACE);
-    return soil >= 0 && soil < terrain->soil_count;
+    const int name = field - (field >= DP_FIELD_COAT ? DP_FIELD_COAT : DP_FIELD_SURFACE);
+    return name >= 0 && name < terrain->names;
 }
 
 // thickness of all coats of a cell [m]
@@ -63,8 +82,8 @@ void dp_coats_row(const DpTerrain* terrain, const Tile* tile, size_t at, int cou
                   const uint8_t* kind, float* out)
 {
     const bool   surface = field >= DP_FIELD_SURFACE && field < DP_FIELD_COAT;
-    const int    soil = field - (surface ? DP_FIELD_SURFACE : DP_FIELD_COAT);
-    const int    own = field == DP_FIELD_HEIGHT_CHANGE ? -1 : terrain->coat_of_soil[soil];
+    const int    name = field - (surface ? DP_FIELD_SURFACE : DP_FIELD_COAT);
+    const int    own = field == DP_FIELD_HEIGHT_CHANGE ? -1 : coat_named(terrain, name);
     const float* coats = tile && terrain->coats ? tile_coats_in(terrain, tile) + at : NULL;
     for (int i = 0; i < count; ++i) {
         const float* lies = coats ? coats + i : NULL;
@@ -74,9 +93,9 @@ void dp_coats_row(const DpTerrain* terrain, const Tile* tile, size_t at, int cou
             if (all > 0.0) out[i] = (float)((double)out[i] + all);
             continue;
         }
-        const double hides = fmin(all / COVERS, 1.0);  // MODEL 6.16
-        const double seen =
-            (kind[i] == soil ? 1.0 - hides : 0.0) + (all > 0.0 ? hides * part / all : 0.0);
+        const double hides = fmin(all / DP_COVERS, 1.0);  // MODEL 6.16
+        const bool   below = terrain->name_of_soil[kind[i]] == name;
+        const double seen = (below ? 1.0 - hides : 0.0) + (all > 0.0 ? hides * part / all : 0.0);
         out[i] = (float)(surface ? seen : part);
     }
 }

@@ -127,7 +127,10 @@ struct DpTerrain
     int      coats;  // soils that stick to soles, now or at another time
     int      coat_soil[DP_MAX_COATS];
     int*     coat_of_soil;  // of each soil, -1 = none
-    Source   source;
+    int*
+        name_of_soil;  // which field tells of it where it lies on top: its own, or its topmost layer's
+    int    names;
+    Source source;
 
     DpTerrainCover cover;  // NULL = nothing grows here
     const void*    cover_context;
@@ -213,7 +216,8 @@ static inline const float* tile_coats_in(const DpTerrain* terrain, const Tile* t
 }
 
 // terrain_coats.c: which soils stick; more than there can be: DP_BAD_ARGUMENT. What lies on top of a row of a tile's cells.
-DpStatus dp_coats_find(DpTerrain* terrain);
+DpStatus dp_coats_find(DpTerrain* terrain);   // .. at first, each soil by a name of its own
+DpStatus dp_coats_count(DpTerrain* terrain);  // .. of soils as they are named
 void     dp_coats_row(const DpTerrain* terrain, const Tile* tile, size_t at, int count, int field,
                       const uint8_t* kind, float* out);
 

@@ -6,6 +6,7 @@
 
 #define MAX_LAYERS 4    // of a kind, with the ground below
 #define THICKEST 100.0  // [m]
+#define MAX_NAMES 256   // of soils
 
 static bool are_layers(const DpTerrain* terrain, const DpLayer* layers, const int* start)
 {
@@ -14,7 +15,9 @@ static bool are_layers(const DpTerrain* terrain, const DpLayer* layers, const in
         const int count = start[k + 1] - start[k];
         if (count < 0 || count > MAX_LAYERS) return false;
         for (int n = start[k]; n < start[k + 1]; ++n)
-            if (!(layers[n].thickness > 0.0 && layers[n].thickness <= THICKEST)) return false;
+            if (!(layers[n].thickness > 0.0 && layers[n].thickness <= THICKEST) ||
+                layers[n].name < 0 || layers[n].name >= MAX_NAMES)
+                return false;
     }
     return start[terrain->soil_count] > 0;
 }
@@ -32,9 +35,15 @@ DpStatus dp_terrain_set_layers(DpTerrain* terrain, const DpLayer* layers, const 
     }
     memcpy(kept_start, start, (soils + 1) * sizeof *kept_start);
     for (size_t n = 0; n < count; ++n)
-        kept[n] = (DpLayer){dp_wet_soil(&layers[n].soil), layers[n].thickness};
+        kept[n] = (DpLayer){dp_wet_soil(&layers[n].soil), layers[n].thickness, layers[n].name,
+                            layers[n].place};
     terrain->layers = kept, terrain->layer_start = kept_start;
-    return DP_OK;
+    terrain->names = 0;
+    for (size_t n = 0; n < count; ++n)
+        if (kept[n].name >= terrain->names) terrain->names = kept[n].name + 1;
+    for (size_t k = 0; k < soils; ++k)
+        if (start[k + 1] > start[k]) terrain->name_of_soil[k] = kept[start[k]].name;
+    return dp_coats_count(terrain);
 }
 
 const DpLayer* dp_terrain_layers(const DpTerrain* terrain, int kind, int* count)

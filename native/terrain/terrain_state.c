@@ -76,6 +76,7 @@ static uint64_t name_of(const DpTerrain* terrain)
         const DpLayer* layer = &terrain->layers[k];
         sum = fold(sum, &layer->soil, sizeof layer->soil);
         sum = fold(sum, &layer->thickness, sizeof layer->thickness);
+        sum = fold(sum, &layer->name, sizeof layer->name);
     }
     sum = fold(sum, terrain->time, (size_t)terrain->times * sizeof *terrain->time);
     sum = fold(sum, source->heights, heights * sizeof *source->heights);

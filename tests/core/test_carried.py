@@ -8,7 +8,7 @@ import pytest
 
 from desire_path import SOILS, Bake, BakeOptions, DesirePathError, Ground, Simulation, SimulationOptions, Soil, Sole
 from desire_path.bake.stamping import TrackPress
-from desire_path.ground import maps, materials
+from desire_path.ground import layers, maps, materials
 from desire_path.placement import track
 from desire_path.placement.marks import lay
 from desire_path.placement.track import Wheel
@@ -194,6 +194,7 @@ def test_soils_are_called_once():
         "soil",
         "soil_2",
     )
-    assert not materials.fields([SOILS["mud"], ROAD]) and "carried_mud" in materials.fields([MUD, ROAD])
+    plain, stick = (layers.lain(("flat", 0.0), soils, ()) for soils in ([SOILS["mud"], ROAD], [MUD, ROAD]))
+    assert not materials.fields(plain) and "carried_mud" in materials.fields(stick)
     with pytest.raises(DesirePathError, match="More than 16 soils here stick"):
         Simulation(Ground.flat(), [replace(MUD, young_modulus=4e5 + k) for k in range(17)])

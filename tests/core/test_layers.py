@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from desire_path import Bake, BakeOptions, DesirePathError, Ground, Simulation, SimulationOptions, Soil, SoilKeys
+from desire_path import SOILS, Bake, BakeOptions, DesirePathError, Ground, Simulation, SimulationOptions, Soil, SoilKeys
 from desire_path.__main__ import main
 from desire_path.ground import maps
 from desire_path.ground.layers import Layer
@@ -133,3 +133,101 @@ def test_what_cannot_lie_in_layers_is_refused():
         Simulation(ground, SoilKeys("mud", {"young_modulus": [(0.0, 1e5), (1.0, 1e6)]}))
     with pytest.raises(DesirePathError, match="5 layers lie on the ground: give at most 3"):
         Ground.flat().layered(*[Layer("mud", 0.1)] * 5)
+
+
+# ---- painted -------------------------------------------------------------------------------------------
+
+STICKY = replace(SOILS["mud"], adhesion=0.004)
+HARD = Soil(young_modulus=5e9)
+
+
+X = -1.0 + 0.25 * np.arange(29)
+
+
+def strip(share, weight=None):
+    """Level ground of triangles from (-1, -1) to (6, 1), and `share(x)` at each of its vertices."""
+    at = np.array([(x, y, 0.0) for y in (-1.0, 1.0) for x in X])
+    low = np.arange(28)[:, None]
+    faces = np.concatenate([low + (0, 1, 30), low + (0, 30, 29)])
+    return Ground.mesh(at, faces, weight), np.tile(share(X), 2)
+
+
+def on_strip(share, soil, layer, soils=(HARD,), until=4.5):
+    ground, shares = strip(share)
+    gait, loads = walk(until)
+    sim = Simulation(ground.layered(Layer(soil, layer, shares)), soils, 0.01)
+    sim.load(gait, loads)
+    sim.run(len(gait.time) - 1)
+    sim.settle()
+    return sim
+
+
+@pytest.fixture(scope="module")
+def muddy():
+    """Mud that thins out towards x = 1, where the road is bare."""
+    return on_strip(lambda x: np.clip(0.5 - 0.5 * x, 0.0, 1.0), STICKY, 0.04)
+
+
+def test_a_layer_is_as_thick_as_it_is_painted(muddy):
+    thick = muddy.read("layer_1", (-1.0, 0.5, 1.5, 0.9)).mean(axis=0)
+    x = -1.0 + 0.01 * (0.5 + np.arange(250))
+    np.testing.assert_allclose(thick, 0.04 * np.clip(0.5 - 0.5 * x, 0.0, 1.0), atol=0.04 / 32 + 1e-6)
+    assert not thick[-40:].any()
+
+
+def test_what_is_painted_is_pressed_as_what_is_not():
+    all_over = on_strip(np.ones_like, STICKY, 0.04, until=2.0)
+    plain = Simulation(strip(np.ones_like)[0].layered(Layer(STICKY, 0.04)), HARD, 0.01)
+    gait, loads = walk(2.0)
+    plain.load(gait, loads)
+    plain.run(len(gait.time) - 1)
+    plain.settle()
+    for name in ("compression", "heap", "layer_1", "surface_mud", "carried_mud"):
+        assert np.array_equal(all_over.read(name, WINDOW), plain.read(name, WINDOW)), name
+    assert not on_strip(np.zeros_like, STICKY, 0.04, until=2.0).read("layer_1", WINDOW).any()
+
+
+def test_mud_of_a_layer_is_carried_onto_the_road_and_nothing_is_lost(muddy):
+    own = muddy.carried()["mud"]
+    assert set(muddy.carried()) == {"mud"} and own["left_m3"] > 1e-6
+    assert own["taken_m3"] == pytest.approx(own["carried_m3"] + own["left_m3"], rel=1e-6)
+    coat = muddy.read("carried_mud", (1.2, -1, 5, 1))
+    assert coat[:, :90].sum() > 1.1 * coat[:, 180:270].sum() > 0.0
+    told = muddy.report()
+    laid = told["displaced_m3"] + told["loosened_m3"] - told["pressed_heap_m3"]
+    assert told["heaped_m3"] + own["left_m3"] + own["carried_m3"] == pytest.approx(laid, rel=1e-6)
+
+
+def test_what_is_seen_of_layers_sums_to_one(muddy):
+    names = [name for name in muddy.fields if name.startswith("surface_")]
+    assert names == ["surface_mud", "surface_soil"]
+    mud, road = (muddy.read(name, (-1, -1, 5, 1)) for name in names)
+    np.testing.assert_allclose(mud + road, 1.0, atol=1e-6)
+    assert mud[:, :100].min() > 0.9 and not mud[2, 220:].any() and mud[:, 230:].max() > 0.05
+
+
+def test_earth_shows_where_thin_snow_is_trodden():
+    thin, deep = (trodden("packed-earth", Layer("powder-snow", thick)) for thick in (0.005, 0.2))
+    for sim, least, most in ((thin, 0.1, 0.9), (deep, 1.0, 1.0)):
+        white, brown = (sim.read(f"surface_{name}", WINDOW) for name in ("powder-snow", "packed-earth"))
+        np.testing.assert_allclose(white + brown, 1.0, atol=1e-6)
+        assert white.max() == 1.0 and least <= white.min() <= most
+
+
+def test_the_soil_that_is_read_is_that_below_all_layers():
+    far = np.tile(X > 2.0, 2)
+    ground, shares = strip(lambda x: np.clip(x, 0.0, 1.0), np.stack([~far, far]))
+    sim = Simulation(ground.layered(Layer(MUD, 0.1, shares)), (SAND, ROCK), 0.02)
+    assert set(np.unique(sim.read("soil", (-0.9, -0.9, 5.9, 0.9)))) == {0.0, 1.0}
+
+
+@pytest.mark.parametrize(
+    "share, says",
+    [([0.5], "has 1 values"), (np.full(58, 1.5), "not between 0 and 1"), (np.full(58, np.nan), "not between")],
+)
+def test_a_share_that_cannot_be_is_refused(share, says):
+    ground, _ = strip(np.ones_like)
+    with pytest.raises(DesirePathError, match=says):
+        ground.layered(Layer(MUD, 0.1, share))
+    with pytest.raises(DesirePathError, match="Flat ground has no vertices"):
+        Ground.flat().layered(Layer(MUD, 0.1, [1.0]))

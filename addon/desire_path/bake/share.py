@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..files import atomic_file
-from ..ground import maps, materials, plant_mesh, spray
+from ..ground import maps, plant_mesh, spray
 from ..ground.parcels import Parcel
 from ..ground.sim import TILE, Film, Simulation
 from ..loads.force import FootForce
@@ -304,8 +304,7 @@ class Share:
 
     def fields(self) -> tuple[maps.Map, ...]:
         """Those of its maps."""
-        layers = len(self.parcel.ground.layers)
-        more = tuple(maps.Map(name, *field[1:]) for name, field in materials.fields(self.sim.soils, layers).items())
+        more = tuple(maps.Map(name, *field[1:]) for name, field in self.sim.more_fields.items())
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ()) + more
 
     def _start_maps(self) -> dict[str, np.ndarray]:

@@ -56,7 +56,8 @@ class TrackPress(LivePress):
             raise DesirePathError("There is no mark to press: lay a track first.")
         self._done = self._pressed = 0
         self._feet: dict[Kind, list[int]] = {kind: [] for marks in self._marks.values() for kind, _ in marks}
-        of_each = 1 if materials.sticky(as_soils(soils)) else AT_ONCE // max(len(self._feet), 1)  # one foot carries on
+        sticky = materials.sticky([*as_soils(soils), *(each.soil for each in ground.layers)])
+        of_each = 1 if sticky else AT_ONCE // max(len(self._feet), 1)  # one foot carries on
         self._kinds = list(self._feet) * max(of_each, 1)
         for number, kind in enumerate(self._kinds):
             self._feet[kind].append(number)
@@ -72,7 +73,8 @@ class TrackPress(LivePress):
             for number in wheels:  # stands on its lugs as a drum would
                 vertices, triangles = tyre.drum(bodies[number].vertices)
                 self._under[number] = vertices.astype(np.float32), triangles
-        self._stands = max(float(soil.settle_time) for soil in self.soils)
+        yields = [*self.soils, *(layer.soil for layer in ground.layers)]
+        self._stands = max(float(soil.settle_time) for soil in yields)
 
     def _body(self, kind: Kind) -> PressBody:
         number, left, size = kind

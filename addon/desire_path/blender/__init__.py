@@ -14,6 +14,7 @@ from . import (
     op_export,
     op_forces,
     op_ground,
+    op_layers,
     op_material,
     op_place,
     op_plants,
@@ -48,6 +49,7 @@ _CLASSES = (
     + messages.CLASSES
     + soil_presets.CLASSES
     + panels.CLASSES
+    + op_layers.CLASSES
     + panels_walker.CLASSES
     + panels_track.CLASSES
 )

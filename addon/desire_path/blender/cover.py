@@ -10,7 +10,7 @@ import numpy as np
 
 from ..ground import maps
 from ..ground import mesh as meshes
-from . import axes, compat, playback, playback_tree, soils
+from . import axes, compat, layered, playback, playback_tree, soils
 
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
@@ -27,7 +27,7 @@ def make_groups(obj):
             obj.vertex_groups.new(name=name)
             names.append(name)
     settings.made_groups = ",".join(names)
-    return float(soils.soil_of(settings).layer_depth)
+    return float(soils.soil_of(settings).layer_depth) + layered.above(obj)
 
 
 def fill(obj, surface, index, depth, planes, standing=()):

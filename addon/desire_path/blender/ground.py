@@ -15,7 +15,7 @@ from ..ground import mesh as meshes
 from ..ground.sim import Ground, Simulation
 from ..placement import place
 from ..rig import slope
-from . import axes, compat, playback, playback_tree, sample, stack, wiring
+from . import axes, compat, layered, playback, playback_tree, sample, stack, wiring
 from . import soils as soils_of
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
@@ -59,7 +59,9 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         raise DesirePathError("There is no ground: select the mesh that is walked on.")
     _name_taken(obj)
     scale = axes.unit_scale(scene)
-    warnings, groups = [], _painted_groups(obj)
+    layers = layered.of_ground(obj)
+    painted = _painted_groups(obj)
+    warnings, groups = [], [*painted, *layered.groups(layers)]
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
         warnings.append(
             f"'{obj.name}' shows instances of its children, in which there are no prints: make them real "
@@ -90,8 +92,8 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         del later
         near = _near(found.data, world * scale, box)
         weights = [compat.float_attribute(found.data, WEIGHT.format(k)) for k in range(len(groups))]
-        painted = [each for each in weights if each is not None]
-        mark = _mark(found.data, world * scale, painted)
+        there = [each for each in weights if each is not None]
+        mark = _mark(found.data, world * scale, there)
         drawn = None
         if stack.differs(scene, obj, place.before):
             stack.show(scene, copy, obj, render=False)
@@ -105,9 +107,10 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         )
     vertices, triangles = near.vertices, near.triangles
     _faces_up(obj, world, vertices, triangles)
-    kinds = _kinds([w[near.of] if w is not None else None for w in weights], len(vertices)) if groups else None
+    weights = [w[near.of] if w is not None else None for w in weights]
+    kinds = _kinds(weights[: len(painted)], len(vertices)) if painted else None
     return Surface(
-        Ground(("mesh", vertices, triangles, kinds), "mesh"),
+        layered.laid(Ground(("mesh", vertices, triangles, kinds), "mesh"), layers, weights[len(painted) :]),
         world,
         scale,
         vertices,
@@ -117,7 +120,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         place,
         vertices if drawn is None else drawn,
         mark,
-        meshes.mark(painted),
+        meshes.mark(there),
         finer,
     )
 

@@ -19,7 +19,7 @@ from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
 from ..rig import sole
-from . import axes, bodies, ground, paths, plants, playback, pressed, recordings, soil_keys, sprays, trodden
+from . import axes, bodies, ground, layered, paths, plants, playback, pressed, recordings, soil_keys, sprays, trodden
 
 ALIKE = {  # settings that grounds baked together share
     "law": "contact law",
@@ -71,10 +71,12 @@ def taken(scene, company, folders, **more):
     parcels = []
     for each, (path, owner) in zip(grounds, folders):
         grown = plants.plantings(scene, each)
+        own = ground.soils(each) if on_paths else soil_keys.of_ground(scene, each, first, end)
+        layered.check_keys(each, own)
         parcels.append(
             Parcel(
                 pressed.start(each, found[each.name].ground),
-                ground.soils(each) if on_paths else soil_keys.of_ground(scene, each, first, end),
+                own,
                 path,
                 each.name,
                 grown,
@@ -170,6 +172,7 @@ def marks(obj, company, bake, found):
     if bake.options.spray is not None:
         options["spray"] = bake.options.spray.parameters()
     soils = sorted(([soil.parameters() for soil in parcel.soils] for parcel in bake.parcels), key=repr)
+    lie = [each for each in map(layered.parameters, company.grounds) if each]
     chosen = [
         bake.cell_size,
         bake.frame_start,
@@ -183,6 +186,7 @@ def marks(obj, company, bake, found):
         settings.attributes,
         settings.vertex_group,
         sum(each.desire_path.place_feet for each in company.walkers),
+        *([sorted(lie, key=repr)] if lie else []),
     ]
     trails = [parcel.ground.trail for parcel in bake.parcels if parcel.ground.trail is not None]
     left = [array for trail in trails for array in trail.arrays()]

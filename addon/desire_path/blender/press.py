@@ -14,7 +14,7 @@ from ..bake.press import LivePress, PressBody
 from ..errors import DesirePathError
 from ..ground.options import SimulationOptions
 from ..motion import rotation
-from . import axes, compat, ground, home, op_ground, physics, playback, press_view, pressed, show
+from . import axes, compat, ground, home, layered, op_ground, physics, playback, press_view, pressed, show
 from .chosen import walkers
 
 SHAPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -87,7 +87,7 @@ class Press:
         self.held = [taken(each, depsgraph, self.scale, mass) for each in bodies]
         self.weighs = any(each.shape.mass is not None for each in self.held)
         height = min(float(np.ptp(each.shape.vertices[:, 2])) for each in self.held)
-        layer = min(soil.layer_depth for soil in ground.soils(obj))
+        layer = min(soil.layer_depth for soil in ground.soils(obj)) + layered.above(obj)
         self.depth = depth if depth else max(axes.typed(round(min(DEEP * height, LAYER * layer), 3)), 0.001)
         settings = obj.desire_path
         self.was = {name: getattr(settings, name) for name in WAS}

@@ -16,7 +16,7 @@ from ..bake.output import free
 from ..errors import DesirePathError
 from ..ground import mesh
 from ..ground.sim import Ground
-from . import axes, ground, home, playback
+from . import axes, ground, home, layered, playback
 
 HAND = "pressed"  # in a bake's inputs: it was pressed by hand
 TRACKS = "tracks"  # .. : tracks are in it, and what they were made from
@@ -89,7 +89,7 @@ def marks(obj, surface):
     """A word for each part that pressed ground was made from."""
     settings = obj.desire_path
     chosen = [settings.cell_size, *(getattr(settings, name) for name in SETTINGS)]
-    laid = [each.parameters() for each in ground.soils(obj)]
+    laid = [each.parameters() for each in ground.soils(obj)] + layered.parameters(obj)
     return {HAND: True, "ground": surface.mark, "settings": mesh.mark((), [*chosen, *laid])}
 
 

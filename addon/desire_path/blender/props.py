@@ -106,6 +106,8 @@ class DesirePathSettings(bpy.types.PropertyGroup):
         description="Soils that lie where a vertex group is painted",
     )
     painted_index: IntProperty(options={"HIDDEN"})
+    layers: props_parts.layers()
+    layers_index: IntProperty(options={"HIDDEN"})
     plants: CollectionProperty(
         type=props_parts.DesirePathPlants,
         name="Plants",

@@ -1,9 +1,9 @@
-"""props_parts.py - the parts of what a ground and a walker remember: a painted soil, plants of a kind, a foot."""
+"""props_parts.py - parts of what a ground and a walker remember: a painted soil, a layer, plants of a kind, a foot."""
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import compat, soils
+from . import compat, soils, units
 from .late import kinds, picture, replant, state
 
 SPRAYS = (
@@ -51,6 +51,38 @@ class DesirePathPaint(bpy.types.PropertyGroup):
     )
     soil_file: soils.file()
     soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
+
+
+@followed
+@overridable
+class DesirePathLayer(bpy.types.PropertyGroup):
+    """A soil that lies on the ground, thick or thin."""
+
+    soil: soils.preset("What this layer is made of")
+    soil_numbers: PointerProperty(
+        type=soils.DesirePathSoil, name="Soil Numbers", description="The numbers of this soil, by the names of Soil"
+    )
+    soil_file: soils.file()
+    soil_name: StringProperty(options={"HIDDEN"}, description="The soil of one's own that the numbers are from")
+    thickness: FloatProperty(
+        name="Thickness [m]", default=0.03, precision=4, step=0.1, description="How thick it lies, in metres"
+    )
+    thickness_length: units.length(
+        "thickness", "Thickness", "How thick it lies", min=0.0, soft_min=0.001, soft_max=1.0, precision=4
+    )
+    group: StringProperty(
+        name="Group",
+        description="A vertex group that scales the thickness: 1 = all of it, 0 = it does not lie there. Empty = it "
+        "lies everywhere",
+    )
+
+
+def layers():
+    return CollectionProperty(
+        type=DesirePathLayer,
+        name="Layers",
+        description="Soils that lie on the ground's own, from the top down: snow on earth, mud on a road",
+    )
 
 
 def plant_kinds(_self, _context, _text):
@@ -135,4 +167,4 @@ class DesirePathFoot(bpy.types.PropertyGroup):
 
 
 overridable(soils.DesirePathSoil)
-CLASSES = (soils.DesirePathSoil, DesirePathPaint, DesirePathPlants, DesirePathFoot)
+CLASSES = (soils.DesirePathSoil, DesirePathPaint, DesirePathLayer, DesirePathPlants, DesirePathFoot)

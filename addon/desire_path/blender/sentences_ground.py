@@ -349,4 +349,36 @@ GERMAN = {
     "More than {} soils here stick to soles: set the adhesion of some to 0.": (
         "Mehr als {} Bodenarten kleben hier an Sohlen: adhesion von einigen auf 0 setzen."
     ),
+    # ---- ground/layers.py
+    "A layer {} m thick cannot lie on the ground: give more than 0 and up to {} m.": (
+        "Eine Schicht von {} m Dicke kann nicht auf dem Boden liegen: mehr als 0 und bis zu {} m angeben."
+    ),
+    "{} layers lie on the ground: give at most {}.": "{} Schichten liegen auf dem Boden: höchstens {} angeben.",
+    "{} soils and {} painted layers make too many kinds of ground: paint fewer of them.": (
+        "{} Bodenarten und {} gemalte Schichten ergeben zu viele Arten von Boden: weniger davon malen."
+    ),
+    "Ground in layers takes no soil that changes over time: give it that of one moment.": (
+        "Boden in Schichten nimmt keine Bodenart, die sich mit der Zeit ändert: die eines Augenblicks angeben."
+    ),
+    "'{}' and '{}' have different layers: give both the same, painted where they lie, or bake each ground by itself.": (
+        "'{}' und '{}' haben verschiedene Schichten: beiden dieselben geben, gemalt, wo sie liegen, oder jeden Boden "
+        "für sich backen."
+    ),
+    # ---- blender/layered.py, op_layers.py
+    "'{}' has no vertex group '{}' by which a layer lies: choose another group, or none.": (
+        "'{}' hat keine Vertex-Gruppe '{}', nach der eine Schicht liegt: eine andere Gruppe wählen, oder keine."
+    ),
+    "Two layers of one soil lie on each other on '{}': remove one, and make the other thicker.": (
+        "Auf '{}' liegen zwei Schichten derselben Bodenart aufeinander: eine entfernen und die andere dicker machen."
+    ),
+    "The soil of '{}' has keys, which ground in layers does not take: remove the keys, or the layers.": (
+        "Die Bodenart von '{}' hat Keys, die Boden in Schichten nicht nimmt: die Keys entfernen, oder die Schichten."
+    ),
+    "The keys on the layers of '{}' do not count: they are as now.": (
+        "Die Keys auf den Schichten von '{}' zählen nicht: sie sind wie jetzt."
+    ),
+    "'{}' has {} layers, which is the most: remove one first.": (
+        "'{}' hat {} Schichten, mehr gehen nicht: zuerst eine entfernen."
+    ),
+    "Nothing lies on '{}' yet: add a layer first.": "Auf '{}' liegt noch nichts: zuerst eine Schicht hinzufügen.",
 }

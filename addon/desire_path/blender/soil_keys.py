@@ -17,6 +17,7 @@ from . import axes, clock, compat, soils
 
 ROOT = "desire_path."
 OWN, PAINTED = ROOT + "soil_numbers.", ROOT + "painted[{}].soil_numbers."
+LAID = ROOT + "layers["  # of what lies on them
 MASSES = {"mass": lambda value: value, "weight": lambda value: value * axes.unit_scale(bpy.context.scene) ** 3}
 
 
@@ -119,6 +120,8 @@ def uncounted(grounds, walkers, on_paths):
     for each in grounds:
         if each.desire_path.soil_file and _curves(each, OWN):
             sentences.append(f"The keys on the soil of '{each.name}' do not count while a soil file is set: clear it.")
+        if _curves(each, LAID):
+            sentences.append(f"The keys on the layers of '{each.name}' do not count: they are as now.")
     for each in {*grounds, *walkers}:
         animation = each.animation_data
         if animation is None:

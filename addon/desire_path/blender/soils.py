@@ -286,7 +286,7 @@ def take(settings, soil):
 
 def refill(obj):
     """The same for a ground of a file that does not hold them, as those of earlier versions, or holds another's."""
-    for each in (obj.desire_path, *obj.desire_path.painted):
+    for each in (obj.desire_path, *obj.desire_path.painted, *obj.desire_path.layers):
         numbers, usual = each.soil_numbers, SOILS[each.soil]
         shown = all(axes.typed(getattr(numbers, name)) == axes.typed(getattr(usual, name)) for name in WORDS)
         if not numbers.changed and not shown:

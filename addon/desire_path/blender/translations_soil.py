@@ -108,4 +108,24 @@ GERMAN = {
     "A .json file in which a soil was saved, in place of the preset and the numbers; empty = none": (
         "Eine .json-Datei, in der eine Bodenart gespeichert wurde, anstelle von Vorlage und Werten; leer = keine"
     ),
+    "A vertex group that scales the thickness: 1 = all of it, 0 = it does not lie there. Empty = it lies everywhere": (
+        "Eine Vertex-Gruppe, die die Dicke skaliert: 1 = die ganze, 0 = dort liegt sie nicht. Leer = sie liegt überall"
+    ),
+    "Above the one that lies on it": "Über die, die auf ihr liegt",
+    "Below the one it lies on": "Unter die, auf der sie liegt",
+    "How thick it lies": "Wie dick sie liegt",
+    "How thick it lies, in metres": "Wie dick sie liegt, in Metern",
+    "Lay another soil on the ground, on top of all that lie there": (
+        "Eine weitere Bodenart auf den Boden legen, über alle, die dort liegen"
+    ),
+    "Move the layer above or below another one": "Die Schicht über oder unter eine andere schieben",
+    "Soils that lie on the ground's own, from the top down: snow on earth, mud on a road": (
+        "Bodenarten, die auf der eigenen des Bodens liegen, von oben nach unten: Schnee auf Erde, Schlamm auf einer "
+        "Straße"
+    ),
+    "Take the layer off the ground; its vertex group stays": (
+        "Die Schicht vom Boden nehmen; ihre Vertex-Gruppe bleibt"
+    ),
+    "What this layer is made of": "Woraus diese Schicht besteht",
+    "Where the layer goes": "Wohin die Schicht kommt",
 }

@@ -43,8 +43,8 @@ class Ground(Record):
         return f"Ground({said}{'' if self.trail is None else f', {self.trail!r}'})"
 
     def layered(self, *layers: Layer) -> Ground:
-        """The same ground with these layers on its soils, from the top down; its surface is that of the first."""
-        return replace(self, layers=checked(layers))
+        """The same ground with these layers on its soils, from the top down; the first there is is seen."""
+        return replace(self, layers=checked(layers, self.native))
 
     @staticmethod
     def flat(height: float = 0.0) -> Ground:
@@ -142,9 +142,11 @@ class Ground(Record):
 
     def arrays(self) -> list[np.ndarray]:
         """The arrays the ground is made of, for telling one ground from another."""
-        return [part for part in self.native if isinstance(part, np.ndarray)] + (
-            self.trail.arrays() if self.trail else []
-        )
+        return [
+            *(part for part in self.native if isinstance(part, np.ndarray)),
+            *(layer.share for layer in self.layers if layer.share is not None),
+            *(self.trail.arrays() if self.trail else []),
+        ]
 
 
 def as_soils(soils: str | AnySoil | Iterable[str | AnySoil]) -> list[AnySoil]:

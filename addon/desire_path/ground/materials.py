@@ -10,7 +10,8 @@ from dataclasses import replace
 
 from ..core import _native
 from ..errors import DesirePathError
-from .fields import FIELDS, Field
+from .fields import Field
+from .layers import Lain
 from .soil import MEASURED, SOILS, Soil
 from .soil_keys import AnySoil, SoilKeys, rows
 
@@ -43,16 +44,22 @@ def sticky(soils: Sequence[AnySoil]) -> list[int]:
     return [k for k, soil in enumerate(soils) if any(row.adhesion > 0.0 for row in rows(soil))]
 
 
-def fields(soils: Sequence[AnySoil], layers: int = 0) -> dict[str, Field]:
-    """The maps beside FIELDS that a simulation with these soils has: layer_1 .. where it has so many layers on its
-    ground, and where something sticks surface_<soil>, and carried_<soil> of those that do."""
-    stick, called = sticky(soils), names(soils)
+def fields(lain: Lain, layers: int = 0) -> dict[str, Field]:
+    """The maps beside FIELDS that a simulation of this ground has: layer_1 .. where so many layers lie on it, and where
+    some do or something sticks surface_<soil>, and carried_<soil> of what sticks and is on top anywhere.
+
+    DesirePathError where too many soils stick.
+    """
+    on_top, called = set(lain.names), names(lain.soils)
+    stick = [k for k in sticky(lain.soils) if k in on_top]
+    if len(stick) > MAX_STICKY:
+        raise DesirePathError(f"More than {MAX_STICKY} soils here stick to soles: set the adhesion of some to 0.")
     surface, coat, layer = _native.soil_fields()
     left_of = {
         f"layer_{k + 1}": Field(layer + k, "m", "PEYRAT11 3.1", f"how thick layer {k + 1} still is, >= 0")
         for k in range(layers)
     }
-    if not stick:
+    if not stick and not layers:
         return left_of
     seen = {
         f"surface_{name}": Field(surface + k, "-", "PEYRAT11 3.4", f"how much of what is seen is {name}, 0..1")
@@ -65,16 +72,10 @@ def fields(soils: Sequence[AnySoil], layers: int = 0) -> dict[str, Field]:
     return {**seen, **left, **left_of}
 
 
-def all_fields(soils: Sequence[AnySoil], layers: int = 0) -> dict[str, Field]:
-    """All that a simulation with these soils knows, by name; DesirePathError where too many soils stick."""
-    if len(sticky(soils)) > MAX_STICKY:
-        raise DesirePathError(f"More than {MAX_STICKY} soils here stick to soles: set the adhesion of some to 0.")
-    return {**FIELDS, **fields(soils, layers)}
-
-
-def carried(
-    soils: Sequence[AnySoil], volumes: Iterable[tuple[int, float, float, float]]
-) -> dict[str, dict[str, float]]:
-    """volumes: of each soil that sticks, as the core tells them; here by name [m^3]."""
-    called = names(soils)
-    return {called[soil]: {"taken_m3": taken, "carried_m3": now, "left_m3": left} for soil, taken, now, left in volumes}
+def carried(lain: Lain, volumes: Iterable[tuple[int, float, float, float]]) -> dict[str, dict[str, float]]:
+    """volumes: of each kind of ground whose top sticks, as the core tells them; here by the soil's name [m^3]."""
+    called = names(lain.soils)
+    return {
+        called[lain.names[kind]]: {"taken_m3": taken, "carried_m3": now, "left_m3": left}
+        for kind, taken, now, left in volumes
+    }

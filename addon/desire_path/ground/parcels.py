@@ -20,6 +20,7 @@ from ..errors import DesirePathError
 from ..motion import tracks
 from ..motion.points import below_sole, moved_points
 from ..motion.tracks import TrackArray
+from .layers import Layer
 from .planting import as_plantings
 from .sim import Ground, Simulation, as_soils
 from .soil_keys import AnySoil
@@ -204,7 +205,8 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
     for parcel in parcels:
         if parcel.ground.layers != parcels[0].ground.layers:
             raise DesirePathError(
-                f"'{parcels[0].name}' and '{parcel.name}' have different layers: bake each ground by itself."
+                f"'{parcels[0].name}' and '{parcel.name}' have different layers: give both the same, painted where "
+                "they lie, or bake each ground by itself."
             )
         if parcel.ground.native[0] != "mesh":
             raise DesirePathError(f"'{parcel.name}' is no mesh: only meshes can be baked together.")
@@ -212,6 +214,7 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
     triangles = [parcel.ground.native[2] for parcel in parcels]
     soils = list(dict.fromkeys(soil for parcel in parcels for soil in parcel.soils))
     kinds = [_kinds(parcel, soils) for parcel in parcels]
+    shares = [_shares(parcel) for parcel in parcels]
     beyond = max(SEAM * cell, ROUNDING * max(np.abs(each[:, :2]).max() for each in vertices))
     boxes = [(each[:, :2].min(axis=0) - beyond, each[:, :2].max(axis=0) + beyond) for each in vertices]
     for number in range(len(parcels)):
@@ -224,6 +227,7 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
         rim = _rim(triangles[number])
         more, faces = _hem(vertices[number], triangles[number], rim & near[:, None], beyond)
         kinds[number] = np.concatenate([kinds[number], kinds[number][:, more[1]]], axis=1)
+        shares[number] = np.concatenate([shares[number], shares[number][:, more[1]]], axis=1)
         vertices[number] = np.concatenate([vertices[number], more[0]])
         triangles[number] = np.concatenate([triangles[number], faces])
     first = np.cumsum([0] + [len(each) for each in vertices[:-1]])
@@ -232,7 +236,10 @@ def sewn(parcels: Sequence[Parcel], cell: float) -> tuple[Ground, list[AnySoil]]
         np.concatenate([each + start for each, start in zip(triangles, first)]),
         np.concatenate(kinds, axis=1) if len(soils) > 1 else None,
     )
-    ground = ground.layered(*parcels[0].ground.layers)
+    share = np.concatenate(shares, axis=1)
+    painted = [any(each.share is not None for each in lie) for lie in zip(*(p.ground.layers for p in parcels))]
+    layers = zip(parcels[0].ground.layers, share, painted)
+    ground = ground.layered(*(Layer(each.soil, each.thickness, row if some else None) for each, row, some in layers))
     if trodden:
         ground = replace(ground, trail=trodden[0].ground.trail)
     return ground, as_soils(soils)
@@ -251,6 +258,14 @@ def _kinds(parcel: Parcel, soils: list[AnySoil]) -> np.ndarray:
         at = soils.index(soil)
         out[at] = np.maximum(out[at], row)
     return out
+
+
+def _shares(parcel: Parcel) -> np.ndarray:
+    """How much of each layer lies at the vertices of a parcel (layers, n)."""
+    shares = [layer.share for layer in parcel.ground.layers]
+    count = len(parcel.ground.native[1])
+    rows = [np.ones(count, np.float32) if share is None else share for share in shares]
+    return np.array(rows, np.float32).reshape(len(rows), count)
 
 
 def _rim(triangles: np.ndarray) -> np.ndarray:

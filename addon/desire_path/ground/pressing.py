@@ -95,7 +95,8 @@ class Pressing:
         self.bodies = (bodies,) if isinstance(bodies, PressBody) else tuple(bodies)
         if not self.bodies:
             raise DesirePathError("There is no body to press the ground with: give one at least.")
-        self.slides = SLIDES * max(float(soil.flow_time) for soil in self.soils)  # until all lies still [s]
+        flows = [*self.soils, *(layer.soil for layer in ground.layers)]
+        self.slides = SLIDES * max(float(soil.flow_time) for soil in flows)  # until all lies still [s]
         self.window: tuple[int, int, int, int] | None = None
         self._before: list[tuple[tuple[int, int, int, int] | None, Trail | None]] = []  # of each stroke
         self._under = [(each.vertices, each.triangles) for each in self.bodies]  # what finds where a body stands

@@ -23,7 +23,7 @@ from ..motion.tracks import TrackArray
 from ..version import VERSION
 from . import layers, materials, rectangle_cells, state_file, trail
 from .cast import cast_of, laws_of, pressing_of, tracks_of
-from .fields import LEAN, Field
+from .fields import FIELDS, LEAN, Field
 from .film import Closed, Film
 from .ground import Ground, as_soils, check_cell, soil_numbers
 from .options import HEAPS, LAWS, SimulationOptions
@@ -85,8 +85,10 @@ class Simulation:
         self.limits = options.limits
         self.cell_size = float(cell_size)
         self.origin = options.origin
-        self.soils, stacks = layers.stacked(as_soils(soils), ground.layers)
-        self.fields: Mapping[str, Field] = materials.all_fields(self.soils, len(ground.layers))  # by name
+        lain = self._lain = layers.lain(ground.native, as_soils(soils), ground.layers)
+        self.soils = lain.tops
+        self.more_fields = materials.fields(lain, len(ground.layers))  # beside those that all grounds have
+        self.fields: Mapping[str, Field] = {**FIELDS, **self.more_fields}  # by name
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
         self.warnings: list[str] = []  # sentences about what could not be taken as it was given
@@ -95,7 +97,7 @@ class Simulation:
         now, times = table(self.soils)
         try:
             self._core = _native.Simulation(
-                ground.native,
+                lain.native,
                 soil_numbers(now),
                 self.cell_size,
                 self.origin,
@@ -106,7 +108,7 @@ class Simulation:
                 0.25,
                 options.threads,
                 times,
-                layers.numbers(stacks),
+                lain.numbers(),
             )
         except ValueError as problem:
             if "no ground" in str(problem):
@@ -167,7 +169,7 @@ class Simulation:
         beside the ground or over a hole has that of the nearest point which is on it, if any is.
         """
         at = np.floor((np.asarray(xy) - self.origin) / self.cell_size).astype(np.int64)
-        return settle_times(self.soils, self.read, at)
+        return settle_times(self.soils, self._read, at)
 
     def normal(self, xy: Sequence[float], radius: float) -> tuple[float, float, float]:
         """Unit normal of the ground before any walker at (x, y), smoothed over `radius` [m]."""
@@ -365,7 +367,7 @@ class Simulation:
 
     def carried(self) -> dict[str, dict[str, float]]:
         """Of each soil that sticks to soles: `taken_m3` so far = `carried_m3` on them now + `left_m3` on the ground."""
-        return materials.carried(self.soils, self._core.carried())
+        return materials.carried(self._lain, self._core.carried())
 
     def read(
         self, name: str, i0: Any, j0: int | None = None, nx: int | None = None, ny: int | None = None
@@ -374,11 +376,17 @@ class Simulation:
         (i0, j0) on.
 
         name: one of maps.MAPS or maps.LEAN, "rest", "young_modulus", "soil", or "pressure": under the soles now [Pa].
-        Where a soil sticks: surface_<soil>, how much of what is seen it is, and carried_<soil> [m].
+        Where a soil sticks, or lies in layers: surface_<soil>, how much of what is seen it is; carried_<soil> [m] of
+        those that stick, and layer_1 .. [m]. "soil" is which of the ground's own soils lies there, below all layers.
         """
         window = rectangle_cells.window((i0, j0, nx, ny), self.cell_size, self.origin)
         if name not in self.fields:
             raise DesirePathError(f"There is no field '{name}': choose one of {', '.join(self.fields)}.")
+        found = self._read(name, *window)
+        return self._lain.own[found.astype(np.intp)].astype(np.float32) if name == "soil" else found
+
+    def _read(self, name: str, *window: int) -> np.ndarray:
+        """The same from cell (i0, j0) on, as the core tells it: "soil" is the kind of ground."""
         out = np.zeros(window[:1:-1], np.float32)
         if name not in LEAN:
             self._core.read(self.fields[name].number, *window[:2], out)

@@ -28,7 +28,7 @@ static double depth_under(const DpLayer* layers, int count, double load)
 TEST(layers_of_one_soil_are_one)
 {
     const DpSoil  soil = spring(1e6f, 0.3f);
-    const DpLayer layers[3] = {{soil, 0.05}, {soil, 0.15}, {soil, 0.1}};
+    const DpLayer layers[3] = {{soil, 0.05, 0, 0}, {soil, 0.15, 0, 0}, {soil, 0.1, 0, 0}};
     for (double depth = 0.0; depth < 0.28; depth += 0.013)
         CHECK_CLOSE(pressure(layers, 3, depth), dp_law_pressure(&soil, 0.1, depth), 1e-6);
     CHECK_CLOSE(depth_under(layers, 3, 5e4), dp_law_depth(&soil, 0.1, 5e4), 1e-6);
@@ -37,7 +37,7 @@ TEST(layers_of_one_soil_are_one)
 // springs in series, MODEL 6.17
 TEST(the_softest_yields_most)
 {
-    const DpLayer layers[2] = {{spring(2e5f, 0.3f), 0.05}, {spring(1e6f, 0.2f), 0.2}};
+    const DpLayer layers[2] = {{spring(2e5f, 0.3f), 0.05, 0, 0}, {spring(1e6f, 0.2f), 0.2, 0, 0}};
     const double  depth = 0.02, share = 0.05 / 2e5 / (0.05 / 2e5 + 0.2 / 1e6);
     CHECK_CLOSE(dp_soil_layer_pressed(layers, 2, 0, depth), share * depth, 1e-6);
     CHECK_CLOSE(dp_soil_layer_pressed(layers, 2, 1, depth), (1.0 - share) * depth, 1e-6);
@@ -46,7 +46,7 @@ TEST(the_softest_yields_most)
 
 TEST(a_layer_is_pressed_no_deeper_than_it_is)
 {
-    const DpLayer layers[2] = {{spring(1e4f, 0.3f), 0.01}, {spring(1e11f, 1.0f), 1.0}};
+    const DpLayer layers[2] = {{spring(1e4f, 0.3f), 0.01, 0, 0}, {spring(1e11f, 1.0f), 1.0, 0, 0}};
     CHECK_CLOSE(depth_under(layers, 2, 1e5), SOIL_RIGID * 0.01 + 1e5 / 1e11, 1e-5);
     CHECK_CLOSE(dp_soil_layer_pressed(layers, 2, 0, 0.02), SOIL_RIGID * 0.01, 1e-6);
     CHECK(pressure(layers, 2, 0.02) > 1e8);
@@ -57,8 +57,9 @@ TEST(depth_and_pressure_are_inverse_on_any_soils)
     DpSoil snow = spring(1e5f, 0.3f), measured = spring(1e6f, 0.3f);
     snow.snow_density = 200.0f;
     measured.bekker_friction = 8e5f, measured.bekker_power = 0.4f;
-    const DpLayer layers[3] = {{snow, 0.1}, {measured, 0.2}, {spring(2e6f, 0.3f), 0.3}};
-    double        before = 0.0;
+    const DpLayer layers[3] = {
+        {snow, 0.1, 0, 0}, {measured, 0.2, 0, 0}, {spring(2e6f, 0.3f), 0.3, 0, 0}};
+    double before = 0.0;
     for (double depth = 0.001; depth < 0.5; depth *= 1.3) {
         const double load = pressure(layers, 3, depth);
         CHECK(load > before);

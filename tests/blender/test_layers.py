@@ -1,0 +1,120 @@
+"""Layers in Blender: a list on the ground, painted by vertex groups, obeyed by bakes and told by their state."""
+
+import json
+
+import bpy
+import numpy as np
+from test_bake import refused, scene
+
+from desire_path.blender import ground as grounds
+from desire_path.blender import layered
+from desire_path.ground import maps
+
+
+def laid(ground, soil="mud", thickness=0.03, group=""):
+    assert bpy.ops.object.desire_path_layer_add() == {"FINISHED"}
+    layer = ground.desire_path.layers[0]
+    layer.soil, layer.thickness, layer.group = soil, thickness, group
+    return layer
+
+
+def painted(ground, name, weight):
+    """A vertex group with `weight(x)` at each vertex."""
+    group = ground.vertex_groups.new(name=name)
+    for vertex in ground.data.vertices:
+        share = float(weight((ground.matrix_world @ vertex.co).x))
+        if share > 0.0:
+            group.add([vertex.index], share, "REPLACE")
+
+
+def planes(folder):
+    return maps.read(folder / "bake" / "maps_final.exr").planes
+
+
+def test_layers_are_added_moved_and_removed():
+    ground, _ = scene(None, frames=16)
+    settings = ground.desire_path
+    remove, move = bpy.ops.object.desire_path_layer_remove, bpy.ops.object.desire_path_layer_move
+    refused(remove, "Nothing lies on")
+    for soil in ("mud", "dry-sand", "fresh-snow"):
+        laid(ground, soil)
+    assert [each.soil for each in settings.layers] == ["fresh-snow", "dry-sand", "mud"] and settings.layers_index == 0
+    refused(bpy.ops.object.desire_path_layer_add, "has 3 layers, which is the most")
+    assert move(direction="UP") == {"FINISHED"} and settings.layers_index == 0
+    assert move(direction="DOWN") == {"FINISHED"} and settings.layers_index == 1
+    assert [each.soil for each in settings.layers] == ["dry-sand", "fresh-snow", "mud"]
+    assert remove() == {"FINISHED"}
+    assert [each.soil for each in settings.layers] == ["dry-sand", "mud"] and settings.layers_index == 1
+
+
+def test_a_bake_obeys_layers_and_its_state_tells_of_them(folder):
+    ground, _ = scene(folder, frames=16)
+    settings = ground.desire_path
+    settings.soil = "packed-earth"
+    bpy.ops.object.desire_path_bake()
+    assert settings.bake_state == "FRESH" and "layer_1" not in planes(folder)
+    firm = json.loads(settings.summary)["deepest_m"]
+    layer = laid(ground, "mud", 0.03)
+    assert settings.bake_state == "OUTDATED" and "settings" in settings.missing
+    bpy.ops.object.desire_path_bake()
+    assert settings.bake_state == "FRESH", settings.missing
+    assert json.loads(settings.summary)["deepest_m"] > 1.5 * firm
+    found = planes(folder)
+    assert np.isclose(found["layer_1"].max(), 0.03) and found["layer_1"].min() < 0.03
+    assert np.allclose(found["surface_mud"] + found["surface_packed-earth"], 1.0, atol=1e-5)
+    report = json.loads((folder / "bake" / "report.json").read_text())
+    assert report["parameters"]["layers"][0][1] == 0.03
+    for name, value in (("thickness", 0.05), ("soil", "dry-sand")):
+        setattr(layer, name, value)
+        assert settings.bake_state == "OUTDATED", name
+        setattr(layer, name, {"thickness": 0.03, "soil": "mud"}[name])
+        assert settings.bake_state == "FRESH", settings.missing
+    layer.soil_numbers.young_modulus *= 0.5
+    assert settings.bake_state == "OUTDATED"
+
+
+def test_a_layer_is_as_thick_as_its_group_is_painted(folder):
+    ground, _ = scene(folder, frames=16)
+    settings = ground.desire_path
+    settings.soil = "packed-earth"
+    across = [(ground.matrix_world @ each.co).x for each in ground.data.vertices]
+    middle, half = np.mean((min(across), max(across))), (max(across) - min(across)) / 2
+    painted(ground, "puddle", lambda x: max(1.0 - abs(x - middle) / half, 0.0))
+    laid(ground, "mud", 0.04, "puddle")
+    bpy.ops.object.desire_path_bake()
+    thick = planes(folder)["layer_1"]
+    assert 0.02 < thick.max() <= 0.04 + 1e-6 and 5 < len(np.unique(thick[planes(folder)["compression"] == 0])) < 20
+    ground.vertex_groups["puddle"].add([0, 1, 2], 0.5, "REPLACE")
+    assert settings.bake_state == "OUTDATED"
+
+
+def test_what_cannot_lie_is_told_before_anything_is_baked(folder):
+    ground, _ = scene(folder, frames=16)
+    layer = laid(ground)
+    bake = bpy.ops.object.desire_path_bake
+    for thickness in (0.0, -0.1, 10.5, float("nan")):
+        layer.thickness = thickness
+        refused(bake, "thick cannot lie on the ground: give more than 0 and up to 10 m")
+    layer.thickness, layer.group = 0.1, "mudd"
+    refused(bake, "has no vertex group 'mudd' by which a layer lies")
+    layer.group, layer.soil_file = "", str(folder / "none.json")
+    refused(bake, "There is no soil at")
+    layer.soil_file = ""
+    laid(ground)
+    refused(bake, "Two layers of one soil lie on each other")
+    bpy.ops.object.desire_path_layer_remove()
+    ground.desire_path.soil_numbers.keyframe_insert("young_modulus", frame=1)
+    ground.desire_path.soil_numbers.young_modulus *= 2.0
+    ground.desire_path.soil_numbers.keyframe_insert("young_modulus", frame=16)
+    refused(bake, "has keys, which ground in layers does not take")
+    assert not (folder / "bake").exists()
+
+
+def test_a_layer_is_shown_in_the_units_of_the_scene():
+    ground, _ = scene(None, frames=16)
+    layer = laid(ground)
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    assert np.isclose(layer.thickness_length, 3.0)
+    layer.thickness_length = 5.0
+    assert np.isclose(layer.thickness, 0.05)
+    assert layered.above(ground) == grounds.axes.typed(layer.thickness)
