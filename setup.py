@@ -70,6 +70,7 @@ setup(
             "THIRD-PARTY.md",
             "farm/flamenco/*.js",
             "walks/*",
+            "blender/pictures/*.png",
             "py.typed",
             "*.pyi",
         ]

@@ -115,3 +115,9 @@ def test_how_long_and_how_large_is_told(folder):
     (folder / "some" / "more" / "b").write_bytes(b"123")
     assert bake_job.disk_size(str(folder / "some")) == 8
     assert live.update(bpy.context.scene) == []
+
+
+def test_documentation_is_shown():
+    for page in ("README", "CHANGELOG"):
+        assert bpy.ops.wm.desire_path_manual(page=page) == {"FINISHED"}
+        assert len(bpy.data.texts[f"Desire Path {page}.md"].lines) > 50

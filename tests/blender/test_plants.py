@@ -10,7 +10,7 @@ from test_bake import refused
 from test_playback import corners
 from test_sample import ids
 
-from desire_path.blender import axes, compat, grass_tree, plants, playback, playback_tree
+from desire_path.blender import axes, compat, grass_tree, pictured, plants, playback, playback_tree
 from desire_path.ground.plants import KINDS
 
 NX, NY, CELL = 96, 64, 0.02
@@ -182,6 +182,20 @@ def test_plants_stand_on_the_ground_as_it_is_first_whatever_frame_is_shown():
     for shown in (1, 20):
         scene.frame_set(shown)
         np.testing.assert_allclose(roots(add(ground))[:, 2], 0.05, atol=1e-6)
+
+
+def test_a_kind_is_chosen_by_its_picture():
+    ground = bed()
+    each = add(ground)
+    assert each.pictured == "carex"
+    before = each.grass.name
+    each.pictured = "fern"
+    assert each.kind == "fern" and each.pictured == "fern" and before in bpy.data.objects
+    each.kind = "mine.json"
+    assert each.pictured == pictured.OWN and each.kind == "mine.json"
+    for kind in KINDS:
+        image = bpy.data.images.load(os.path.join(pictured.FOLDER, f"{kind}.png"))
+        assert tuple(image.size) == (96, 96), kind
 
 
 def test_a_kind_of_the_user(folder):

@@ -102,6 +102,8 @@ def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
         "py.typed",
         "_native.pyi",
         "blender/__init__.py",
+        "README.md",
+        *(f"blender/pictures/{kind}.png" for kind in desire_path.KINDS),
     ):
         assert f"desire_path/{wanted}" in names
     assert not [entry for entry in names if re.search(r"test|__pycache__|\.pyc|\.orig|/\.|CMake|\.[ch]$", entry)]

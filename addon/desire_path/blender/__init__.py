@@ -7,6 +7,7 @@ import bpy
 from . import (
     arrival,
     command_line,
+    manual,
     messages,
     op_bake,
     op_balance,
@@ -25,6 +26,7 @@ from . import (
     panels,
     panels_track,
     panels_walker,
+    pictured,
     props,
     soil_presets,
     soils,
@@ -47,6 +49,7 @@ _CLASSES = (
     + op_material.CLASSES
     + soils.CLASSES
     + messages.CLASSES
+    + manual.CLASSES
     + soil_presets.CLASSES
     + panels.CLASSES
     + op_layers.CLASSES
@@ -79,6 +82,7 @@ def unregister():
     op_press.unregister()
     op_walk_it.unregister()
     translations.unregister()
+    pictured.unregister()
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)
     props.unregister()

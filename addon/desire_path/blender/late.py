@@ -9,6 +9,7 @@ from .. import lazy
 json = lazy.module("json")
 np = lazy.module("numpy")
 platform = lazy.module("platform")
+previews = lazy.module("bpy.utils.previews")
 tempfile = lazy.module("tempfile")
 
 atomic_file = lazy.module("..files.atomic_file", __package__)

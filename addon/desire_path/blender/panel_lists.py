@@ -2,6 +2,7 @@
 
 import bpy
 
+from . import pictured
 from .late import plants, tufts
 
 
@@ -10,7 +11,7 @@ class OBJECT_UL_desire_path_paint(bpy.types.UIList):
 
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
         row = layout.row(align=True)
-        row.prop_search(item, "vertex_group", context.object, "vertex_groups", text="")
+        row.label(text=item.vertex_group or "None", icon="GROUP_VERTEX")
         row.prop(item, "soil", text="")
 
 
@@ -19,7 +20,7 @@ class OBJECT_UL_desire_path_plants(bpy.types.UIList):
 
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
         row = layout.row(align=True)
-        row.label(text=tufts.label(item.kind))
+        row.label(text=tufts.label(item.kind), icon_value=pictured.icon(item.kind))
         row.label(text=f"{item.count:,}")
         if plants.shown(item) is not None:
             row.prop(item.grass, "hide_viewport", text="", emboss=False)

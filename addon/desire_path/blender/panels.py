@@ -81,6 +81,7 @@ def draw_ground(layout, context, obj):
         row.operator("object.desire_path_free", icon="TRASH")
         row.operator("object.desire_path_show_files", text="", icon="FILE_FOLDER")
         row.operator("wm.desire_path_messages_copy", text="", icon="COPYDOWN")
+        row.operator("wm.desire_path_manual", text="", icon="HELP")
         draw_state(layout, context, obj)
     draw_result(layout, context, settings)
     layout.operator("object.desire_path_remove", text="Remove Ground", icon="X")
@@ -149,6 +150,7 @@ def draw_painted(layout, obj):
     side.operator("object.desire_path_paint_remove", text="", icon="REMOVE")
     if settings.painted:
         chosen = settings.painted[min(settings.painted_index, len(settings.painted) - 1)]
+        layout.prop_search(chosen, "vertex_group", obj, "vertex_groups", text="")
         soil_presets.draw(layout, chosen, True)
         soils.draw(_column(layout), chosen, save=False)
 
@@ -163,6 +165,7 @@ def draw_plants(layout, context, obj):
     if not settings.plants:
         return
     each = settings.plants[min(settings.plants_index, len(settings.plants) - 1)]
+    layout.template_icon_view(each, "pictured", show_labels=True, scale=4.0)
     column = _column(layout)
     column.prop(each, "kind")
     column.prop(each, "density")

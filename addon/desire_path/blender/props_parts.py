@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import compat, soils, units
+from . import compat, pictured, soils, units
 from .late import kinds, picture, replant, state
 
 SPRAYS = (
@@ -110,6 +110,7 @@ class DesirePathPlants(bpy.types.PropertyGroup):
         update=_replant,
         description="A kind of plant, or a .json file in which a kind was saved",
     )
+    pictured: pictured.choice()
     density: FloatProperty(
         name="Density [1/m2]",
         default=80.0,

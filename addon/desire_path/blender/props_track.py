@@ -74,8 +74,8 @@ class DesirePathTrack(bpy.types.PropertyGroup):
         update=_preview,
         description="A mesh whose underside leaves the marks: its own X is forward, Z is up, of a left foot",
     )
-    spacing: _length("Spacing [m]", "From mark to mark, in metres; 0 = as is usual")
-    width: _length("Gait Width [m]", "Between the lines of left and right marks, in metres; 0 = as is usual")
+    spacing: _length("Apart [m]", "From mark to mark, in metres; 0 = as is usual")
+    width: _length("Width [m]", "Between the lines of left and right marks, in metres; 0 = as is usual")
     size: FloatProperty(
         name="Size", default=1.0, min=0.01, soft_max=3.0, update=_preview, description="Times as large as usual"
     )
@@ -111,7 +111,7 @@ class DesirePathTrack(bpy.types.PropertyGroup):
     )
     vehicle: EnumProperty(name="Vehicle", items=VEHICLES, update=_preview, description="Whose wheels roll along")
     radius: _length("Radius [m]", "Of the wheel, in metres", default=0.33)
-    tyre_width: _length("Tyre Width [m]", "How wide the tyre is, in metres", default=0.2)
+    tyre_width: _length("Tyre [m]", "How wide the tyre is, in metres", default=0.2)
     gauge: _length("Gauge [m]", "Two wheels, so far from middle to middle, in metres; 0 = one wheel")
     tread: EnumProperty(name="Tread", items=TREADS, default="blocks", description="What the tyre carries")
     marks: PointerProperty(

@@ -360,6 +360,7 @@ def draw(layout, settings, save=True):
 def draw_numbers(layout, settings):
     """The physical numbers of a soil, with their units."""
     column = layout.column()
+    column.use_property_split = False  # their words need the width of the panel
     column.active = not settings.soil_file
     for name in WORDS:
         if name not in EASY:  # those are said above

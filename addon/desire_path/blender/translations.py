@@ -43,6 +43,8 @@ GERMAN = {
         "Hide": "Verbergen",
         "Load Soil": "Bodenart laden",
         "Make Material": "Material erstellen",
+        "Documentation": "Dokumentation",
+        "What Is New": "Was neu ist",
         "Drop": "Verwerfen",
         "End Press": "Drücken beenden",
         "Keep": "Behalten",
@@ -74,6 +76,9 @@ GERMAN = {
     },
     "*": {
         "All": "Alle",
+        "A report of a bug needs what Copy Messages copies, and the file": (
+            "Zu einem Fehlerbericht gehört, was Meldungen kopieren kopiert, und die Datei"
+        ),
         "Amount": "Menge",
         "At rest": "Zur Ruhe gekommen",
         "Attributes": "Attribute",

@@ -19,6 +19,13 @@ GERMAN = {
         "Das aktive Skelett mit den Füßen, die darin gefunden werden, oder das aktive Netz als starren Körper "
         "Abdrücke hinterlassen lassen; verbindet es mit dem Boden"
     ),
+    "Show the documentation of Desire Path, which is installed with it, in a text editor": (
+        "Die Dokumentation von Desire Path, die mit installiert ist, in einem Texteditor zeigen"
+    ),
+    "Which page is shown": "Welche Seite gezeigt wird",
+    "How everything is used, in Blender and without": "Wie alles benutzt wird, in Blender und ohne",
+    "What has changed from version to version": "Was sich von Version zu Version geändert hat",
+    "The kind of plant, by its picture": "Die Pflanzenart nach ihrem Bild",
     "Find the feet, toes, heels and hips of the active armature; each can be changed by hand then": (
         "Füße, Zehen, Fersen und Hüfte des aktiven Skeletts finden; jedes kann danach von Hand geändert werden"
     ),
