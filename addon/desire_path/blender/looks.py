@@ -16,7 +16,7 @@ from . import compat, playback_tree, wiring
 
 TAG = "desire_path_look"  # custom property on node groups and materials that are ours: what they are made for
 SHARE = "desire_path_share_{}"  # float attribute of a painted soil, sum of all at most 1
-VERSION = 2  # of the groups: an old one in a file is left to its users
+VERSION = 3  # of the groups: an old one in a file is left to its users
 FRAYED = 34.0  # lumps in a metre at the border of two soils
 OUTPUTS = {
     "Color": "NodeSocketColor",
@@ -88,18 +88,14 @@ def _sand(n, spot):
     """Grains of many colours; what was below the surface is a little damp."""
     grain, single = n.noise(spot.at, 620.0, 1.0, 0.6), n.noise(spot.at, 1900.0, 0.0)
     wide, lumps = n.noise(spot.at, 2.3, 2.0), n.noise(spot.at, 120.0, 2.0, 0.6)
-    pressed, loose = _pressed(n, spot, 0.012), _loose(n, spot)
+    pressed = _pressed(n, spot, 0.012)
     colour = n.mix(n.between(grain, 0.35, 0.68), (0.40, 0.27, 0.15, 1.0), (0.58, 0.43, 0.27, 1.0))
     colour = n.mix(n.between(single, 0.60, 0.72, 0.0, 0.5), colour, (0.20, 0.12, 0.065, 1.0))
     colour = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), colour, (0.38, 0.25, 0.135, 1.0))
     colour = n.mix(n.math("MULTIPLY", pressed, 0.42), colour, (0.21, 0.128, 0.066, 1.0))
     colour, rough, specular = _wetted(n, spot.wet, colour, 0.95, 0.12, 0.5)
     flat = n.math("MULTIPLY_ADD", pressed, -0.6, 1.0)
-    height = n.sum(
-        (n.math("MULTIPLY", flat, 0.0009), grain),
-        (n.math("MULTIPLY", flat, 0.0016), lumps),
-        (n.math("MULTIPLY", loose, 0.0022), lumps),
-    )
+    height = n.sum((n.math("MULTIPLY", flat, 0.0009), grain), (n.math("MULTIPLY", flat, 0.0013), lumps))
     return colour, rough, specular, 0.0, height
 
 
@@ -269,7 +265,11 @@ def ground(recipe, name):
     values["Color"] = n.add(
         "ShaderNodeMixRGB", {"blend_type": "MULTIPLY"}, _0=1.0, _1=values["Color"], _2=given["Tint"]
     ).outputs[0]
+    # the mesh has the lumps of walls: a bump on top turns their light into streaks
+    upward = n.split(n.add("ShaderNodeNewGeometry").outputs["True Normal"])[2]
+    level = n.between(upward, 0.15, 0.7, 0.1, 1.0)
     high = n.math("MULTIPLY", n.math("MULTIPLY", values["Height"], given["Grain"]), 1.0 / recipe.unit)
+    high = n.math("MULTIPLY", high, level)
     values["Normal"] = n.add("ShaderNodeBump", Height=high, Distance=1.0, Strength=1.0).outputs[0]
     values["Shader"] = _shader(n, values, recipe.unit)
     values["Pressed"], values["Loose"] = _pressed(n, spot, 0.01), _loose(n, spot)

@@ -11,7 +11,7 @@ class OBJECT_UL_desire_path_paint(bpy.types.UIList):
 
     def draw_item(self, context, layout, _data, item, _icon, _active, _property, _index=0, _flag=0):
         row = layout.row(align=True)
-        row.label(text=item.vertex_group or "None", icon="GROUP_VERTEX")
+        row.label(text=item.vertex_group or "No Group", icon="GROUP_VERTEX")
         row.prop(item, "soil", text="")
 
 

@@ -88,6 +88,7 @@ GERMAN = {
         "Baking": "Backt",
         "In Motion": "In Bewegung",
         "Automatic": "Automatisch",
+        "No Group": "Keine Gruppe",
         "Breaks At [Pa]": "Bricht bei [Pa]",
         "Bulge": "Aufwölbung",
         "Bulge [m]": "Aufwölbung [m]",

@@ -46,7 +46,7 @@ class Detail:
 # For looks: tried by eye on prints of a boot, sun at 20 degrees.
 DETAILS: Mapping[str, Detail] = MappingProxyType(
     {
-        "sand": Detail(0.00035, 0.006, 0.02, 0.0015, 0.0025, fray=0.0016, fray_size=0.020),
+        "sand": Detail(0.0003, 0.004, 0.0, fray=0.0006, fray_size=0.020),
         "wet-sand": Detail(0.0003, 0.006, 0.10, 0.0015, 0.003, fray=0.0008, fray_size=0.012),
         "earth": Detail(0.0006, 0.007, 0.24, 0.002, 0.007, fray=0.0026, fray_size=0.018),
         "mud": Detail(0.0, 0.010, 0.0, vein_height=0.0035, vein_size=0.030, fray=0.0030, fray_size=0.050),
