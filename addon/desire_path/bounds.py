@@ -22,6 +22,7 @@ CELLS = (0.0001, 1.0)  # sides of cells that can be worked with [m]
 MAX_PIXELS = 1 << 27  # of one frame
 SAMPLE_BYTES = 285  # of memory, for each part of a foot at each sample of the walk
 CELL_BYTES = 60  # of memory, for each cell of a frame
+TILE_BYTES = 200  # .. and for each tile of ground in its maps
 PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
 RESERVE = 6 << 20  # bytes of memory without which nothing is begun
 REST_BYTES = 0.028  # of a frame's file, for each cell of untouched ground

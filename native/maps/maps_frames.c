@@ -24,7 +24,10 @@ typedef struct Tile
 typedef struct PackScratch
 {
     struct libdeflate_compressor* zip;
-    unsigned char* byte;  // planes, their differences, the packed tile: 3 of its size
+    unsigned char* byte;  // planes, those before, their differences, the packed tile: 4 of its size
+    unsigned char* plane;   // of the tile that was packed last, in `byte`; NULL = none was
+    unsigned char* packed;  // .. and what came of it
+    size_t         size;    // [bytes]
 } PackScratch;
 
 struct DpFrames
@@ -89,7 +92,7 @@ static void difference(const unsigned char* byte, size_t size, unsigned char* st
 
 static bool is_set_up(const DpFrames* frames, PackScratch* scratch)
 {
-    if (!scratch->byte) scratch->byte = dp_alloc(tile_bytes(frames), 3);
+    if (!scratch->byte) scratch->byte = dp_alloc(tile_bytes(frames), 4);
     if (!scratch->zip) {
         const exr_context_initializer_t setup = dp_exr_setup(NULL);
         libdeflate_set_memory_allocator(setup.alloc_fn, setup.free_fn);
@@ -102,20 +105,23 @@ static DpStatus pack(const DpFrames* frames, PackScratch* scratch, const float* 
 {
     if (!is_set_up(frames, scratch)) return DP_NO_MEMORY;
     const size_t   bytes = tile_bytes(frames);
-    unsigned char* byte = scratch->byte;
-    unsigned char* step = byte + bytes;
+    unsigned char* byte = scratch->byte + (scratch->plane == scratch->byte ? bytes : 0);
+    unsigned char* step = scratch->byte + 2 * bytes;
     unsigned char* packed = step + bytes;
     lay_out(frames, value, byte);
-    difference(byte, bytes, step);
-    size_t size = libdeflate_zlib_compress(scratch->zip, step, bytes, packed, bytes - 1);
-    if (size == 0) {  // it would not get smaller: readers know by the size
-        packed = byte;
-        size = bytes;
+    if (!scratch->plane ||
+        memcmp(byte, scratch->plane, bytes) != 0) {  // ground far from walkers is alike
+        difference(byte, bytes, step);
+        const size_t size = libdeflate_zlib_compress(scratch->zip, step, bytes, packed, bytes - 1);
+        scratch->plane = byte;
+        scratch->packed =
+            size ? packed : byte;  // it would not get smaller: readers know by the size
+        scratch->size = size ? size : bytes;
     }
-    into->packed = dp_alloc(size, 1);
+    into->packed = dp_alloc(scratch->size, 1);
     if (!into->packed) return DP_NO_MEMORY;
-    memcpy(into->packed, packed, size);
-    into->size = size;
+    memcpy(into->packed, scratch->packed, scratch->size);
+    into->size = scratch->size;
     return DP_OK;
 }
 

@@ -131,11 +131,22 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     long        tx, ty;
     int         nx, ny;
     const char* software;
-    if (!PyArg_ParseTuple(args, "lliis:open_frames", &tx, &ty, &nx, &ny, &software)) return NULL;
+    DpAtlas     atlas = {0};
+    PyObject*   o_pages = Py_None;
+    if (!PyArg_ParseTuple(args, "lliis|iiO:open_frames", &tx, &ty, &nx, &ny, &software,
+                          &atlas.columns, &atlas.rows, &o_pages))
+        return NULL;
+    DpBuffers buffers = {.count = 0};
+    DpShape   shape = {2, {-1, 2}};
+    if (o_pages != Py_None) {
+        atlas.page = dp_buffers_open(&buffers, o_pages, "pages", 'i', &shape, false);
+        if (!atlas.page) return NULL;
+        atlas.pages = shape.n[0] < INT32_MAX ? (int)shape.n[0] : -1;
+    }
     Film* self = make_film(simulation);
-    if (!self) return NULL;
-    if (!dp_py_enter(simulation)) {
-        Py_DECREF((PyObject*)self);
+    if (!self || !dp_py_enter(simulation)) {
+        Py_XDECREF((PyObject*)self);
+        dp_buffers_close(&buffers);
         return NULL;
     }
     self->tile_x = tx, self->tile_y = ty;
@@ -144,7 +155,8 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
     Py_BEGIN_ALLOW_THREADS
     if (!simulation->reel)
         status = dp_reel_create(&simulation->reel, simulation->sim, simulation->workers);
-    const DpFilmOptions options = options_of(self, NULL, 0);
+    DpFilmOptions options = options_of(self, NULL, 0);
+    if (atlas.page) options.atlas = &atlas;
     if (status == DP_OK)
         status = dp_film_open_playback(simulation->reel, &options, DP_PLAY_TRAIL, software,
                                        &self->film[TRAIL]);
@@ -153,11 +165,12 @@ PyObject* dp_py_open_frames(PyObject* object, PyObject* args)
                                        &self->film[LEAN]);
     Py_END_ALLOW_THREADS
     simulation->busy = false;
+    dp_buffers_close(&buffers);
     if (status == DP_OK) return (PyObject*)self;
     Py_DECREF((PyObject*)self);
     return dp_py_because(status, "opening the frames",
                          "tiles_x and tiles_y must be 1 or more, and the tiles not too many, nor "
-                         "too far out for exact places");
+                         "too far out for exact places; pages must lie on them, and none twice");
 }
 
 // Channel names and fields from a tuple of (name, number of the field); 0, or -1 with an exception.

@@ -65,6 +65,7 @@ PyObject* dp_py_load_state(PyObject* object, PyObject* bytes);
 PyObject* dp_py_join_state(PyObject* object, PyObject* args);
 PyObject* dp_py_begin_at(PyObject* object, PyObject* args);
 PyObject* dp_py_list_tiles(PyObject* object, PyObject* args);
+PyObject* dp_py_reach_tiles(PyObject* object, PyObject* args);
 
 // py_frames.c
 PyObject* dp_py_open_frames(PyObject* object, PyObject* args);

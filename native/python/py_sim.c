@@ -305,6 +305,8 @@ static PyMethodDef methods[] = {
      "begin_at(sample): go on from there, before the first step."},
     {"list_tiles", dp_py_list_tiles, METH_VARARGS,
      "list_tiles(out (n, 2) i4): x and y of all tiles, rising by (y, x)."},
+    {"reach_tiles", dp_py_reach_tiles, METH_VARARGS,
+     "reach_tiles(tile_x, tile_y, out (ny, nx) u1): 1 for tiles the recording can change."},
     {"settle", (PyCFunction)simulation_settle, METH_NOARGS,
      "settle(): let everything that is loose come to rest."},
     {"report", (PyCFunction)simulation_report, METH_NOARGS,
@@ -340,9 +342,10 @@ static PyMethodDef methods[] = {
      "read_lean(axis, i0, j0, out (ny, nx) f4): how grass lies; axis 0 lean_x, 1 lean_y, 2 "
      "crushed."},
     {"open_frames", dp_py_open_frames, METH_VARARGS,
-     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software) -> Film of these tiles; several may "
-     "be"
-     " open."},
+     "open_frames(tile_x, tile_y, tiles_x, tiles_y, software, columns=0, rows=0, pages (n, 2) i4 "
+     "or "
+     "None) -> Film of these tiles, whose frames show pages of them alone where some are given; "
+     "several may be open."},
     {"flush", dp_py_flush, METH_NOARGS,
      "flush(): wait until all frames and maps are written; tells how it went."},
     {NULL, NULL, 0, NULL}};

@@ -97,3 +97,26 @@ PyObject* dp_py_list_tiles(PyObject* object, PyObject* args)
     dp_buffers_close(&buffers);
     return result;
 }
+
+PyObject* dp_py_reach_tiles(PyObject* object, PyObject* args)
+{
+    Simulation* self = (Simulation*)object;
+    long        tile_x, tile_y;
+    PyObject*   o_out;
+    if (!PyArg_ParseTuple(args, "llO:reach_tiles", &tile_x, &tile_y, &o_out)) return NULL;
+    DpBuffers buffers = {.count = 0};
+    DpShape   shape = {2, {-1, -1}};
+    PyObject* result = NULL;
+    uint8_t*  out = dp_buffers_open(&buffers, o_out, "out", 'B', &shape, true);
+    if (out && (shape.n[0] > INT32_MAX || shape.n[1] > INT32_MAX)) {
+        dp_py_because(DP_BAD_ARGUMENT, "finding tiles", "out is too large");
+    } else if (out && dp_py_enter(self)) {
+        Py_BEGIN_ALLOW_THREADS
+        dp_sim_reach(self->sim, tile_x, tile_y, (int)shape.n[1], (int)shape.n[0], out);
+        Py_END_ALLOW_THREADS
+        self->busy = false;
+        result = dp_py_result(DP_OK, "");
+    }
+    dp_buffers_close(&buffers);
+    return result;
+}

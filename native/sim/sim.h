@@ -107,6 +107,8 @@ DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
 // Cells the motion that is followed can change, as a rectangle {i0, i1, j0, j1}, with room for heaps;
 // empty (i0 >= i1) when nothing touches.
 void dp_sim_bounds(const DpSim* sim, long bounds[4]);
+// The same by tiles: sets tile (ny, nx), from tile (tile_x, tile_y) on, to 1 where it can change something.
+void dp_sim_reach(const DpSim* sim, long tile_x, long tile_y, int nx, int ny, uint8_t* tile);
 
 // Step over samples up to but not including `sample` (0..T). Steps already taken are not repeated.
 // One that fails leaves its step half made: what can be done then is to load anew or to destroy.

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "sim/sim_atlas.h"
 #include "sim/sim_inside.h"
 
 #define TILE_CELLS (DP_TILE * DP_TILE)
@@ -16,12 +17,14 @@ struct DpFilm
     DpReel*   reel;
     DpFilm*   next;  // of the reel's
     long      tile_x, tile_y;
-    int       tiles_x, tiles_y;
+    int       tiles_x, tiles_y;  // of ground
+    Atlas*    atlas;             // NULL: the picture's tiles are the ground's
+    int       columns, rows;     // of the picture
     int       field[DP_FILM_FIELDS];
     int       fields;
     bool      of_ground, of_grass, of_soles;  // whose changes it shows
     DpFrames* frames;
-    uint8_t*  changed;  // tiles that are not what was written last (tiles_y, tiles_x)
+    uint8_t*  changed;  // tiles of the picture that are not what was written last (rows, columns)
 };
 
 struct DpReel
@@ -35,30 +38,43 @@ struct DpReel
 
 // ---- what a film shows -------------------------------------------------------------------------
 
-// A tile by its place in the film; value (DP_TILE, DP_TILE, fields).
+// One field of cells (DP_TILE, DP_TILE).
+static void read_cells(const DpSim* sim, int field, const DpCellRect* at, float* cell)
+{
+    const int axis = field - DP_FIELD_LEAN_X;
+    DpStatus  status = DP_OK;
+    if (dp_sim_is_of_layers(sim, field))
+        status = dp_sim_layers(sim, field, at, cell);
+    else if (dp_terrain_knows(sim->terrain, field))
+        status = dp_terrain_read(sim->terrain, field, at->i0, at->j0, DP_TILE, DP_TILE, cell);
+    else if (field == DP_FIELD_PRESSURE)
+        dp_sim_pressure(sim, at->i0, at->j0, DP_TILE, DP_TILE, cell);
+    else
+        dp_grass_read(dp_sim_grass(sim), at->i0, at->j0, DP_TILE, DP_TILE, axis == 0 ? cell : NULL,
+                      axis == 1 ? cell : NULL, axis == 2 ? cell : NULL);
+    if (status != DP_OK) memset(cell, 0, TILE_CELLS * sizeof *cell);
+}
+
+// A tile of the picture; value (DP_TILE, DP_TILE, fields).
 static void fill_tile(const DpFilm* film, int index, float* value)
 {
     const DpSim* sim = film->reel->sim;
-    const long   tx = film->tile_x + index % film->tiles_x;
-    const long   ty = film->tile_y + index / film->tiles_x;
+    const long   tx = film->tile_x + index % film->columns;
+    const long   ty = film->tile_y + index / film->columns;
+    DpCellRect   at = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
+    if (film->atlas && !dp_atlas_cells(film->atlas, index, &at)) {
+        memset(value, 0, (size_t)TILE_CELLS * (size_t)film->fields * sizeof *value);
+        return;
+    }
     for (int f = 0; f < film->fields; ++f) {
-        const int  axis = film->field[f] - DP_FIELD_LEAN_X;
-        const bool layered = dp_sim_is_of_layers(sim, film->field[f]);
-        if (!layered && dp_terrain_knows(sim->terrain, film->field[f])) {
+        const bool own = dp_terrain_knows(sim->terrain, film->field[f]) &&
+                         !dp_sim_is_of_layers(sim, film->field[f]);
+        if (own && !film->atlas) {
             dp_terrain_tile(sim->terrain, tx, ty, film->field[f], value + f, film->fields);
             continue;
         }
-        float            cell[TILE_CELLS];
-        const DpCellRect at = dp_cells(tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE);
-        if (layered) {
-            if (dp_sim_layers(sim, film->field[f], &at, cell) != DP_OK)
-                memset(cell, 0, sizeof cell);
-        } else if (film->field[f] == DP_FIELD_PRESSURE)
-            dp_sim_pressure(sim, tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE, cell);
-        else
-            dp_grass_read(dp_sim_grass(sim), tx * DP_TILE, ty * DP_TILE, DP_TILE, DP_TILE,
-                          axis == 0 ? cell : NULL, axis == 1 ? cell : NULL,
-                          axis == 2 ? cell : NULL);
+        float cell[TILE_CELLS];
+        read_cells(sim, film->field[f], &at, cell);
         for (int n = 0; n < TILE_CELLS; ++n) value[n * film->fields + f] = cell[n];
     }
 }
@@ -83,7 +99,7 @@ static void pack_start(void* context, int index, int worker)
     for (size_t k = 0; value && !any && k < size; ++k)
         any = !(value[k] >= 0.0f && value[k] <= 0.0f);
     if (any)
-        status = dp_frames_set_tile(film->frames, index % film->tiles_x, index / film->tiles_x,
+        status = dp_frames_set_tile(film->frames, index % film->columns, index / film->columns,
                                     value, worker);
     if (status != DP_OK) atomic_store(&packing->failed, (int)status);
     dp_free(value);
@@ -94,7 +110,9 @@ static void pack_start(void* context, int index, int worker)
 static void mark(const DpFilm* film, long tx, long ty)
 {
     const long i = tx - film->tile_x, j = ty - film->tile_y;
-    if (i >= 0 && j >= 0 && i < film->tiles_x && j < film->tiles_y)
+    if (film->atlas)
+        dp_atlas_mark(film->atlas, i, j, film->changed);
+    else if (i >= 0 && j >= 0 && i < film->tiles_x && j < film->tiles_y)
         film->changed[j * film->tiles_x + i] = 1;
 }
 
@@ -128,10 +146,10 @@ static DpStatus write_changed(DpFilm* film, const char* path, double time, const
     if (film->of_soles) dp_sim_soles(sim, mark_sole, film);
     DpTiles* tiles = dp_writer_tiles(reel->writer, film->frames);
     if (!tiles) return DP_NO_MEMORY;
-    const int count = film->tiles_x * film->tiles_y;
+    const int count = film->columns * film->rows;
     for (int k = 0; k < count; ++k) {
         if (!film->changed[k]) continue;
-        float* value = dp_tiles_add(tiles, k % film->tiles_x, k / film->tiles_x);
+        float* value = dp_tiles_add(tiles, k % film->columns, k / film->columns);
         if (!value) {
             dp_writer_drop(reel->writer, tiles);
             return DP_NO_MEMORY;
@@ -178,6 +196,7 @@ DpStatus dp_reel_create(DpReel** reel, DpSim* sim, int workers)
 static void drop(DpFilm* film)
 {
     dp_frames_destroy(film->frames);
+    dp_atlas_destroy(film->atlas);
     dp_free(film->changed);
     dp_free(film);
 }
@@ -240,11 +259,16 @@ static bool are_known(const DpSim* sim, const DpFilmOptions* options)
 static DpStatus begin(DpFilm* film, const DpFilmOptions* options)
 {
     const DpReel* reel = film->reel;
-    const int     tiles = film->tiles_x * film->tiles_y;
-    DpStatus      status =
-        dp_frames_create(&film->frames, film->tiles_x, film->tiles_y, options->channel,
-                         film->fields, options->notes, options->note_count);
+    DpStatus      status = DP_OK;
+    if (options->atlas) {
+        film->atlas = dp_atlas_create(options, &status);
+        if (!film->atlas) return status;
+        film->columns = film->atlas->columns, film->rows = film->atlas->rows;
+    }
+    status = dp_frames_create(&film->frames, film->columns, film->rows, options->channel,
+                              film->fields, options->notes, options->note_count);
     if (status != DP_OK) return status;
+    const int tiles = film->columns * film->rows;
     film->changed = dp_alloc((size_t)tiles, 1);
     if (!film->changed) return DP_NO_MEMORY;
     bool shows = dp_sim_grass(reel->sim) || dp_terrain_tile_count(reel->sim->terrain) > 0;
@@ -264,7 +288,8 @@ DpStatus dp_film_open(DpReel* reel, const DpFilmOptions* options, DpFilm** film)
     if (!created) return DP_NO_MEMORY;
     created->reel = reel;
     created->tile_x = options->tile_x, created->tile_y = options->tile_y;
-    created->tiles_x = options->tiles_x, created->tiles_y = options->tiles_y;
+    created->columns = created->tiles_x = options->tiles_x;
+    created->rows = created->tiles_y = options->tiles_y;
     created->fields = options->fields;
     for (int f = 0; f < options->fields; ++f) {
         const int field = created->field[f] = options->field[f];

@@ -29,10 +29,23 @@ typedef struct DpSim  DpSim;
 typedef struct DpReel DpReel;  // all films of one simulation, and the thread that writes them
 typedef struct DpFilm DpFilm;
 
+#define DP_PAGE 60      // cells a page of a sparse picture shows ..
+#define DP_PAGE_EDGE 2  // .. and so many of its neighbours' beyond each side: DP_TILE together
+
+// A sparse picture: some pages of a rectangle of tiles, page (x, y) from its cell (x, y) * DP_PAGE on. The k-th lies in
+// column k % columns, row k / columns of the picture, rows from its lower side.
+typedef struct DpAtlas
+{
+    int            columns, rows, pages;  // 1 <= pages <= columns * rows
+    const int32_t* page;                  // x and y of each, none twice (pages, 2)
+} DpAtlas;
+
 typedef struct DpFilmOptions
 {
     long tile_x, tile_y;    // lowest tile
     int  tiles_x, tiles_y;  // >= 1
+
+    const DpAtlas* atlas;  // copied; NULL = all of the rectangle is in the picture
 
     int         fields;                   // 1..DP_FILM_FIELDS
     int         field[DP_FILM_FIELDS];    // of dp_sim_fields; how grass lies on planted ground only

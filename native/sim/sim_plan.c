@@ -208,9 +208,10 @@ DpStatus dp_step_plan(DpSim* sim, int sample)
     return DP_OK;
 }
 
-void dp_sim_bounds(const DpSim* sim, long bounds[4])
+// What a motion can change, sample by sample.
+typedef void (*OnCells)(void* context, DpCellRect cells);
+static void each_reach(const DpSim* sim, bool passing, OnCells visit, void* context)
 {
-    DpCellRect   cells = {0, 0, 0, 0};
     const double rim = sim->options.heap_law == DP_HEAP_PAPER ? sim->options.rim_width : 0.0;
     const double spread = fmax(rim, fmax(bulges(sim), breaks(sim)));
     const double around = slips(sim) + dp_stage_margin(sim);
@@ -222,9 +223,50 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4])
         const double more = carves ? CARVED_MARGIN : 0.0;
         int          first, end;
         for (int n = 0; dp_motion_stay(sim->motion, limb->walker, n, &first, &end); ++n)
-            for (int k = first; k < end && k + 1 < dp_motion_samples(sim->motion); ++k)
-                if (presses_from(sim, limb, k))
-                    cells = dp_cells_join(cells, dp_limb_cells(sim, limb, k, margin + more));
+            for (int k = first; k < end && k + 1 < dp_motion_samples(sim->motion); ++k) {
+                const bool there =
+                    passing && dp_limb_there(sim, limb, k) && dp_limb_there(sim, limb, k + 1);
+                if (there || presses_from(sim, limb, k))
+                    visit(context, dp_limb_cells(sim, limb, k, margin + more));
+            }
     }
+}
+
+static void join_cells(void* context, DpCellRect cells)
+{
+    DpCellRect* all = context;
+    *all = dp_cells_join(*all, cells);
+}
+
+void dp_sim_bounds(const DpSim* sim, long bounds[4])
+{
+    DpCellRect cells = {0, 0, 0, 0};
+    each_reach(sim, false, join_cells, &cells);
     bounds[0] = cells.i0, bounds[1] = cells.i1, bounds[2] = cells.j0, bounds[3] = cells.j1;
+}
+
+typedef struct Reached
+{
+    long     tile_x, tile_y;
+    int      nx, ny;
+    uint8_t* tile;
+} Reached;
+
+static void mark_cells(void* context, DpCellRect cells)
+{
+    const Reached* reached = context;
+    if (dp_cells_empty(cells)) return;
+    long x0 = dp_tile_of(cells.i0) - reached->tile_x,
+         x1 = dp_tile_of(cells.i1 - 1) - reached->tile_x;
+    long y0 = dp_tile_of(cells.j0) - reached->tile_y,
+         y1 = dp_tile_of(cells.j1 - 1) - reached->tile_y;
+    x0 = x0 < 0 ? 0 : x0, y0 = y0 < 0 ? 0 : y0;
+    for (long y = y0; y <= y1 && y < reached->ny; ++y)
+        for (long x = x0; x <= x1 && x < reached->nx; ++x) reached->tile[y * reached->nx + x] = 1;
+}
+
+void dp_sim_reach(const DpSim* sim, long tile_x, long tile_y, int nx, int ny, uint8_t* tile)
+{
+    Reached reached = {tile_x, tile_y, nx, ny, tile};
+    each_reach(sim, sim->stage.plants != NULL, mark_cells, &reached);
 }

@@ -9,7 +9,9 @@ import bpy
 import numpy as np
 from scenes import exr, meshes
 
+from desire_path.bake.atlas import EDGE, PAGE, Atlas
 from desire_path.blender import axes, compat, playback, playback_tree
+from desire_path.ground.sim import TILE
 
 NX, NY, CELL = 48, 40, 0.02
 
@@ -69,6 +71,53 @@ def test_exact_at_random_access(folder):
         wanted[:, 2] += value[n][..., 0].ravel()
         assert position.tobytes() == wanted.tobytes(), frame
     assert compat.positions(obj.data).tobytes() == rest.tobytes()
+
+
+def paged(folder, value, nx, ny, reached):
+    """The same frames as pages of some tiles alone, and which cells these show."""
+    atlas = Atlas.over(reached)
+    os.makedirs(folder / "frames", exist_ok=True)
+    atlas.write(str(folder / "frames"))
+    for n, each in enumerate(value):
+        full = np.pad(each, ((EDGE, 2 * TILE), (EDGE, 2 * TILE), (0, 0)))
+        picture = np.zeros((atlas.rows * TILE, atlas.columns * TILE, 4), np.float32)
+        for number, (x, y) in enumerate(atlas.pages.tolist()):
+            row, column = (TILE * k for k in divmod(number, atlas.columns))
+            part = full[y * PAGE : y * PAGE + TILE, x * PAGE : x * PAGE + TILE]
+            picture[row : row + TILE, column : column + TILE] = part
+        exr.write(folder / "frames" / f"trail_{n:04d}.exr", picture)
+    i, j = np.meshgrid(np.arange(nx), np.arange(ny))
+    where = index(nx=nx, ny=ny, count=len(value) - 1)
+    where.columns, where.rows = atlas.columns, atlas.rows
+    return where, atlas.find(i, j)[2]
+
+
+def test_pages_are_found(folder):
+    """A sparse picture shows at every cell that it has what one of all cells shows, and nothing at others."""
+    reached = np.zeros((2, 4), bool)
+    reached[0, :2] = reached[1, 3] = True
+    nx, ny = 4 * TILE, 2 * TILE
+    value = frames(folder / "all", 2, nx, ny)
+    where, there = paged(folder / "pages", value, nx, ny, reached)
+    assert 0.3 < there.mean() < 0.9
+    obj = meshes.grid(nx + 40, ny + 40, CELL, -19.5 * CELL, -19.5 * CELL)
+    rest = compat.positions(obj.data)
+    play(obj, folder / "pages", where, 2)
+    for frame in (10, 11, 5, 30):
+        position, colour = shown(obj, frame)
+        wanted = np.where(there[..., None], value[min(max(frame - 9, 0), 2)], np.float32(0.0))
+        wanted = np.pad(wanted, ((20, 20), (20, 20), (0, 0)))
+        assert colour.tobytes() == wanted.reshape(-1, 4).tobytes(), frame
+        np.testing.assert_allclose(position[:, 2], rest[:, 2] + wanted[..., 0].ravel(), atol=1e-6)
+    fine = meshes.grid(300, 170, 0.0137, 0.03, 0.03)
+    at = (compat.positions(fine.data)[:, :2] / CELL).astype(int)
+    clear = there[at[:, 1], at[:, 0]]
+    play(fine, folder / "pages", where, 2, smooth=True)
+    _, some = shown(fine, 11)
+    play(fine, folder / "all", index(nx=nx, ny=ny, count=2), 2, smooth=True)
+    _, everything = shown(fine, 11)
+    np.testing.assert_allclose(some[clear][:, :3], everything[clear][:, :3], atol=2e-4)
+    assert clear.mean() > 0.3 and not some[~clear].any()
 
 
 def test_steps_between_frames(folder):

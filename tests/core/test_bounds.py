@@ -84,13 +84,15 @@ def test_a_recording_out_of_all_time_is_a_sentence():
 
 
 def test_a_picture_that_is_too_large_is_refused(tmp_path):
-    """Two feet far apart: all between them is in the picture."""
+    """Two feet far apart: what lies between them need not be in the picture, but is in maps."""
     there = standing()
     far = Gait.join([there, replace(there, pose=there.pose + [200, 200, 0, 0, 0, 0, 0], com=there.com + [200, 200, 0])])
     text = refused(tmp_path / "bake", far, limits=Limits(memory=1e12, disk=1e15))
-    assert "cells in a picture" in text and "134,217,728 are the limit" in text
-    text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(memory=1e9))
-    assert "GB of memory, and 1 are the limit" in text
+    assert "268,435,456 are the most: choose cells of" in text
+    text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(cells=1000))
+    assert "cells in a picture" in text and "1,000 are the limit" in text
+    text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(memory=1e8))
+    assert "GB of memory, and 0.1 are the limit" in text
 
 
 def test_the_disk_counts(tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 
     folder/frames/trail_0000.exr   the ground at rest (all zero)
     folder/frames/trail_0001.exr   the first frame, then one file a frame
+    folder/frames/pages.exr        which ground they show, where that is not all: see atlas.py
     folder/frames/lean_0001.exr    with plants: how the grass lies, likewise from lean_0000.exr on
     folder/frames/spray_0001.exr   with spray: what flies, likewise; see ground/spray.py
     folder/frames/index.json       where the frames lie and which are there
@@ -181,6 +182,7 @@ class Bake(Plan):
         while True:
             sims, self.loads, self.shares = simulations(self)
             for share in self.shares:
+                share.thin(self.options.limits.cells)
                 share.find(name)
             check_grounds(self.options.limits, self.gait, self.shares, self.count)
             for share in self.shares:

@@ -10,8 +10,7 @@ import numpy as np
 from .. import bounds
 from ..bounds import CELLS, Limits
 from ..errors import DesirePathError
-from ..ground import plant_mesh
-from ..ground.sim import TILE
+from ..ground import maps, plant_mesh
 from ..motion import tracks
 from ..motion.gait import Gait
 from ..motion.rotation import turned
@@ -69,14 +68,37 @@ def check_walk(limits: Limits, gait: Gait, frames: int, rate: float) -> None:
 
 def check_grounds(limits: Limits, gait: Gait, shares: Sequence[Share], frames: int) -> None:
     """Refuse what is too large, before its pictures are made; frames that Shares have found already count no more."""
-    cells = [share.tiles[2] * share.tiles[3] * TILE * TILE for share in shares]
+    cells = [share.cells for share in shares]
+    for share in shares:
+        _check_maps(share)
     limits.check("cells", max(cells))
-    limits.check("memory", bounds.CELL_BYTES * sum(cells))
+    tiles = sum(share.tiles[2] * share.tiles[3] for share in shares)
+    limits.check("memory", bounds.CELL_BYTES * sum(cells) + bounds.TILE_BYTES * tiles)
     disk = 0.0
     for share, held in zip(shares, cells):
         pressed = bounds.pressed_area(gait, share.loads.touching) / share.sim.cell_size**2 / len(shares)
+        if share.atlas:
+            disk += (2 + _maps(share)) * bounds.REST_BYTES * share.window[2] * share.window[3]
         disk += (frames - max(share.found, 0)) * bounds.frame_bytes(held, pressed, bool(share.plants))
         disk += bounds.STATES * bounds.STATE_BYTES * pressed
         if share.parcel.plant_mesh:
             disk += plant_mesh.size(share.sim, frames, share.plants)
     limits.check("disk", disk, shares[0].out.folder)
+
+
+def _maps(share: Share) -> int:
+    """How many maps are written while it runs."""
+    plan = share.plan
+    return sum(plan.map_name(frame) is not None for frame in range(plan.frame_start, plan.frame_end + 1))
+
+
+def _check_maps(share: Share) -> None:
+    """Refuse ground whose maps would have more cells than one file may have, as no reader could take them."""
+    _, _, nx, ny = share.window
+    if nx * ny > maps.MAX_CELLS:
+        cell = share.sim.cell_size
+        raise DesirePathError(
+            f"The walk spans {nx * cell:.0f} x {ny * cell:.0f} m, and a map of it would have {nx * ny:,} cells, where "
+            f"{maps.MAX_CELLS:,} are the most: choose cells of {cell * math.sqrt(nx * ny / maps.MAX_CELLS):.2g} m or "
+            "more, or bake it in parts."
+        )

@@ -20,6 +20,8 @@ from ..files import atomic_file, disk
 
 FRAMES = (
     "trail_*.exr",
+    "pages.exr",
+    "pages.*part",
     "trail_*.part",
     "lean_*.exr",
     "lean_*.part",

@@ -12,17 +12,24 @@ import os
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
+
+import numpy as np
 
 from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
+from ..ground import maps
+from .atlas import TABLE, Atlas
 from .contents import NEW, OWNER, index_data, owner_of  # noqa: F401  (found here, too)
 from .output import check_owner, free, settle  # noqa: F401
 
 _MAGIC = (20000630).to_bytes(4, "little")  # of OpenEXR files
 INPUTS = "inputs"  # in index.json
 FORMAT = 1  # of index.json; a folder of another format is refused, not guessed at
+SPARSE = 2  # the same where pictures hold some pages of the ground alone
+ATLAS = "atlas"  # in index.json: how many pages they hold
 SUMS = "trail_sums.txt"  # beside the frames: name and checksum, a line each
 SPRAY_SUMS = "spray_sums.txt"  # the same of what flies, each with how many grains
 ZIP_LINES = 16  # packed together in a file without tiles
@@ -50,6 +57,8 @@ class FrameIndex:
     grain_size: float = 0.0  # > 0: with spray_0000.exr .., what flies: grains so wide [m]
     owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
     inputs: dict[str, Any] = field(default_factory=dict)  # words for what it was made from, as Bake was given them
+    columns: int = 0  # of pages in a picture that shows the ground near prints alone; 0: it shows all of nx x ny cells
+    rows: int = 0  # .. of pages
 
     @property
     def missing(self) -> int:
@@ -67,6 +76,20 @@ class FrameIndex:
     def spray_path(self, number: int) -> str:
         """The same of what flies, if `grain_size`: for ground.spray.read_frame."""
         return frame_path(self.folder, number, "spray")
+
+    @cached_property
+    def atlas(self) -> Atlas | None:
+        """Where the pages of the pictures lie; None: the pictures show all."""
+        if not self.columns:
+            return None
+        return Atlas.read(self.folder, self.columns, self.rows, self.nx, self.ny)
+
+    def planes(self, number: int, film: str = "trail") -> dict[str, np.ndarray]:
+        """Channels R, G, B, A of playback frame `number`, of all cells (ny, nx); beside the pages of a sparse one 0."""
+        found = maps.read(frame_path(self.folder, number, film)).planes
+        if self.atlas is None:
+            return found
+        return {name: self.atlas.spread(plane, self.nx, self.ny) for name, plane in found.items()}
 
     def most_grains(self) -> int:
         """As many fly at most in any frame."""
@@ -222,7 +245,7 @@ def read_index(folder: str | os.PathLike[str], just_baked: bool = False) -> Fram
         data = index_data(frames)
         if "format" not in data:
             raise DesirePathError(f"{path} is damaged: bake again.")
-        if data["format"] != FORMAT:
+        if data["format"] not in (FORMAT, SPARSE):
             raise DesirePathError(
                 f"The bake in {folder} was written by version {str(data.get('version'))[:40]} in "
                 "another form: bake again."
@@ -240,6 +263,10 @@ def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex
     first = _count(data["frame_start"], -MAX_FRAME, MAX_FRAME)
     last = _count(data["frame_end"], first, MAX_FRAME)
     if cell <= 0.0 or rate <= 0.0:
+        raise ValueError
+    pages = data[ATLAS] if data["format"] == SPARSE else {"columns": 0, "rows": 0}
+    columns, rows = (_count(pages[name], 0, MAX_SIDE) for name in ("columns", "rows"))
+    if columns and not _is_entire(os.path.join(frames, TABLE)):
         raise ValueError
     count, lean, owner = last - first + 1, data.get("lean", False) is True, data.get(OWNER, "")
     size = _number(data.get("grain_size", 0.0))
@@ -260,6 +287,8 @@ def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex
         size,
         owner if isinstance(owner, str) else "",
         inputs if isinstance(inputs := data.get(INPUTS), dict) else {},
+        columns,
+        rows,
     )
 
 

@@ -6,26 +6,29 @@ output.py says how what is made takes the place of what is shown; plan.py what e
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shutil
-from collections.abc import Sequence
-from functools import cached_property
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..errors import DesirePathError
-from ..files import atomic_file
+from ..files import atomic_file, disk
 from ..ground import maps, plant_mesh, spray
 from ..ground.parcels import Parcel
 from ..ground.sim import TILE, Film, Simulation
 from ..loads.force import FootForce
 from ..version import VERSION
+from .atlas import Atlas
 from .contents import OWNER, index_data
 from .folder import (
+    ATLAS,
     FORMAT,
     INPUTS,
+    SPARSE,
     SPRAY_SUMS,
     SUMS,
     add_spray,
@@ -42,6 +45,7 @@ from .plan import Plan
 
 PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it grows
 MAP_FILMS = ("second_", "pass_")
+START_PART = "maps_start.exr.first.part"  # beside bake.new until a bake with sparse pictures has come to its end
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
 
 
@@ -57,6 +61,7 @@ class Share:
         found: Any = plan.options.spray
         self.spray: spray.Spray | None = found
         self.out = Output(parcel.folder, parcel.owner)
+        self.atlas: Atlas | None = None  # of pictures that show the ground near prints alone
         self.mesh: plant_mesh.Writer | None = None
         self.begun = False
         self.found = -1  # frames that are there already, -1 = not even the ground at rest
@@ -72,7 +77,18 @@ class Share:
         i0, j0, nx, ny = (TILE * each for each in self.tiles)
         return i0, j0, nx, ny
 
+    @property
+    def cells(self) -> int:
+        """Of one picture for playback."""
+        return self.atlas.cells if self.atlas else self.window[2] * self.window[3]
+
     # ---- what is made ---------------------------------------------------------------------------
+
+    def thin(self, most: float) -> None:
+        """Leave out of its pictures what nobody comes near, if they had more cells than this; before find(). Where
+        something flies it may land anywhere, and they show all."""
+        if self.cells > most and not self.spray:
+            self.atlas = Atlas.over(self.sim.reach_tiles(*self.tiles))
 
     def find(self, signature: str) -> None:
         """Look at what the very same bake left."""
@@ -82,7 +98,10 @@ class Share:
     def look(self) -> None:
         """Look at the ground before its first step, once it is known that there is room for it."""
         plan = self.plan
-        self.start = self._start_maps()
+        if self.atlas:
+            self._film_start()
+        else:
+            self.start = self._start_maps()
         if self.parcel.plant_mesh and (len(plan.parcels) == 1 or self._is_planted()):
             count = plan.frame_end - plan.frame_start + 1
             self.mesh = plant_mesh.Writer(self.sim, plan.frame_start, count, self.plants)
@@ -94,6 +113,8 @@ class Share:
         fresh = self.out.path("frames")
         try:
             self._keep(frame, states)
+            if self.atlas:
+                self.atlas.write(fresh)
             self._write_json(("frames", "index.json"), self.index, "The index of the frames")
             list_sums(fresh, {name: found for name, found in self.sums.items() if not name.startswith("spray_")})
             self.films.list_files(os.path.join(fresh, SUMS))
@@ -119,7 +140,7 @@ class Share:
                 self.plan.output.resume
                 and old
                 and (place == self.out.new or not old.get("complete"))
-                and all(old.get(name) == self.index.get(name) for name in ("signature", OWNER))
+                and all(old.get(name) == self.index.get(name) for name in ("signature", OWNER, ATLAS))
             ):
                 there, sums, known = frames_sound(os.path.join(place, "frames"), bool(self.plants), bool(self.spray))
                 if there > self.found:
@@ -188,23 +209,41 @@ class Share:
     def end(self) -> None:
         """The first and the last maps."""
         self.films.write_maps(self.out.path("maps_final.exr"), self.plan.time(self.plan.frame_end))
-        self.write_start(self.out.path("maps_start.exr"))
-        self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
+        if self.atlas:
+            disk.replace(os.path.join(self.out.folder, START_PART), self.out.path("maps_start.exr"))
+        else:
+            self.write_start(self.out.path("maps_start.exr"))
+            self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
         if self.mesh:
             self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 
     def write_start(self, path: str) -> None:
         """The map before the first step, after look()."""
-        notes: list[tuple[str, str | float]] = [
-            ("time", 0.0),
-            *((f"unit_{name}", unit) for name, unit in START.items()),
-            *self._notes(),
-        ]
-        maps.write(path, self.start, notes)
+        maps.write(path, self.start, [("time", 0.0), *self._start_notes()])
+
+    def _start_notes(self) -> list[tuple[str, str | float]]:
+        return [*((f"unit_{name}", unit) for name, unit in START.items()), *self._notes()]
+
+    def _film_start(self) -> None:
+        """The same tile by tile, beside what is made: what has more cells than a picture may have takes no memory."""
+        names = {
+            "young_modulus_in": "young_modulus",
+            "plant_strength_in": "plant_strength",
+            "plant_strength": "plant_strength",
+            "rest": "rest",
+            **({entry.name: entry.name for entry in maps.LEAN} if self.plants else {}),
+        }
+        film = self.sim.open_frames(*self.tiles, self._pages())
+        film.open_maps(list(names), self._start_notes(), names)
+        film.write_maps(os.path.join(self.out.folder, START_PART), 0.0)
+        self.sim.flush()
+
+    def _pages(self) -> tuple[int, int, np.ndarray] | None:
+        return (self.atlas.columns, self.atlas.rows, self.atlas.pages) if self.atlas else None
 
     def open_films(self) -> Film:
         """A film of it, whose maps have its fields and notes."""
-        films = self.sim.open_frames(*self.tiles)
+        films = self.sim.open_frames(*self.tiles, self._pages())
         films.open_maps([entry.name for entry in self.fields()], self._notes())
         return films
 
@@ -239,33 +278,42 @@ class Share:
         self.out.drop()
 
     def _close(self) -> None:
+        with contextlib.suppress(OSError):
+            os.unlink(os.path.join(self.out.folder, START_PART))
         if self.mesh:
             self.mesh.close()
 
     # ---- what it says ---------------------------------------------------------------------------
 
-    @cached_property
-    def own(self) -> np.ndarray:
-        """Which cells of the window lie on this ground (ny, nx)."""
-        i0, j0, nx, ny = self.window
+    def _own(self, i0: int, j0: int, nx: int, ny: int) -> np.ndarray:
+        """Which cells lie on this ground (ny, nx)."""
         cell, (ox, oy) = self.sim.cell_size, self.sim.origin
         x, y = np.meshgrid(ox + cell * (i0 + 0.5 + np.arange(nx)), oy + cell * (j0 + 0.5 + np.arange(ny)))
         return self.parcel.has(np.stack([x.ravel(), y.ravel()], axis=1)).reshape(ny, nx)
 
     def is_pressed(self) -> bool:
         """Whether anything has changed on this ground."""
-        return any((self.sim.read(name, *self.window)[self.own] > 0.0).any() for name in ("compression", "heap"))
+        return any((pressed > 0.0).any() or (heap > 0.0).any() for pressed, heap in self._left())
+
+    def _left(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """What lies pressed and heaped on this ground [m], of its whole window or, of sparse pictures, tile by tile."""
+        windows = [self.window]
+        if self.atlas:
+            x, y, nx, ny = self.tiles
+            there = np.argwhere(self.sim.reach_tiles(x, y, nx, ny))
+            windows = [((x + i) * TILE, (y + j) * TILE, TILE, TILE) for j, i in there.tolist()]
+        for window in windows:
+            own = self._own(*window)
+            pressed, heap = (self.sim.read(name, *window)[own].astype(float) for name in ("compression", "heap"))
+            yield pressed, heap
 
     def numbers(self) -> dict[str, float]:
         """Depth [m] and volumes [m^3] of what was pressed into this ground, of several."""
-        final = self.final or {}
-        pressed, heap = (final[name][self.own].astype(float) for name in ("compression", "heap"))
-        area = self.sim.cell_size**2
-        return {
-            "deepest_m": float(pressed.max(initial=0.0)),
-            "pressed_m3": float(pressed.sum()) * area,
-            "heaped_m3": float(heap.sum()) * area,
-        }
+        area, deepest, volume = self.sim.cell_size**2, 0.0, np.zeros(2)
+        for pressed, heap in self._left():
+            deepest = max(deepest, float(pressed.max(initial=0.0)))
+            volume += float(pressed.sum()), float(heap.sum())
+        return {"deepest_m": deepest, "pressed_m3": float(volume[0]) * area, "heaped_m3": float(volume[1]) * area}
 
     def _index(self, signature: str) -> dict[str, Any]:
         plan = self.plan
@@ -273,7 +321,7 @@ class Share:
         ox, oy = self.sim.origin
         side = TILE * self.sim.cell_size
         return {
-            "format": FORMAT,
+            "format": SPARSE if self.atlas else FORMAT,
             "version": VERSION,
             "signature": signature,
             "cell": self.sim.cell_size,
@@ -285,6 +333,7 @@ class Share:
             "frame_end": plan.frame_end,
             "frame_rate": plan.frame_rate,
             "complete": False,
+            **({ATLAS: self.atlas.data()} if self.atlas else {}),
             **({"lean": True} if self.plants else {}),
             **({"grain_size": self.spray.particle_size} if self.spray else {}),
             **({OWNER: self.out.owner} if self.out.owner else {}),

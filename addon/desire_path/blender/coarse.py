@@ -61,7 +61,7 @@ class Coarse:
         surface = self.job.surfaces[obj.name]
         index = read_index(share.parcel.folder, just_baked=True)
         copy = refined.make(scene, obj, surface, index, share.final)
-        shown = {"trail": playback.sequence(index.folder, "trail")}
+        shown = playback.pictures(index.folder, index, ("trail",))
         tree = playback_tree.create(obj, shown, show.as_read(surface, index, copy and copy.object))
         press_view.put(obj, tree, surface.place)
         self.shown.append(obj.name)

@@ -187,7 +187,7 @@ def planes(index):
     if index.complete and os.path.exists(final):
         found = maps.read(final).planes
         return {each.name: found[each.name] for each in maps.MAPS}
-    frame = maps.read(index.path(index.frames)).planes
+    frame = index.planes(index.frames)
     return {
         "compression": frame["B"],
         "heap": frame["R"] + frame["B"],

@@ -1,26 +1,27 @@
 """grass_nodes.py - what the nodes of a meadow ask and reckon: a bake's images at a place, how a stem is bent."""
 
 from ..ground import tuft
-from . import playback_tree
+from . import paged, playback_tree
 
 
 class Field:
     """What a bake's images say at places of the world."""
 
     def __init__(self, wire, index, images, count, stretch):
-        self.wire, self.images = wire, images
+        self.wire, self.images, self.index = wire, images, index
         self.number = playback_tree.file_number(wire, index, count, stretch)
         self.size = (index.nx * index.cell, index.ny * index.cell)
         self.corner = (index.x0, index.y0)
 
     def where(self, place):
         """Image coordinates of a place."""
-        return self.wire.vector(
+        at = self.wire.vector(
             "MULTIPLY_ADD",
             place,
             (1 / self.size[0], 1 / self.size[1], 0.0),
             (-self.corner[0] / self.size[0], -self.corner[1] / self.size[1], 0.0),
         )
+        return paged.place(self.wire, self.images, self.index, at)[0] if paged.NAME in self.images else at
 
     def ground(self, place):
         """How much higher the ground is than at rest [m], and the pressure over time it bore [Pa s]."""

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 from ..bake.output import NEW
-from . import axes, compat, playback_tree, strengths, tree_numbers
+from . import axes, compat, paged, playback_tree, strengths, tree_numbers
 
 COPIED = "desire_path_copied"  # on a tree: which mesh the copy it shows was made of
 WISHES = "desire_path_wishes"  # on a tree: how fine the mesh was wanted; trees of before lack it
@@ -48,7 +48,7 @@ def image_of(tree):
 
 
 def images(tree):
-    """The images a tree plays, what there is: the sequences "trail" and "lean", and "grown", a still."""
+    """The images a tree plays, what there is: the sequences "trail" and "lean", and "pages" and "grown", stills."""
     found = {}
     for node in tree.nodes:
         if node.bl_idname == "GeometryNodeImageTexture":
@@ -68,7 +68,7 @@ def attach(obj, frames, playing, anew=True):
     old = modifier(obj)
     before = list(obj.modifiers).index(old) if old is not None else len(obj.modifiers)
     lean = has_lean(playing.index) and (anew or "lean" in images(old.node_group))
-    shown = {name: sequence(frames, name) for name in ("trail", "lean")[: 1 + lean]}
+    shown = pictures(frames, playing.index, ("trail", "lean")[: 1 + lean])
     tree = playback_tree.create(obj, shown, playing)
     if _taken_over(obj, tree) or not anew and _rebuilt(obj, tree, playing):
         discard(tree)
@@ -290,17 +290,30 @@ def mark(frames, index, count):
     place = "frames" if is_published(frames) else NEW
     return (
         f"{place} {index.cell!r} {index.x0!r} {index.y0!r} {index.nx} "
-        f"{index.ny} {index.frame_start} {count}" + has_lean(index) * " lean"
+        f"{index.ny} {index.frame_start} {count}"
+        + has_lean(index) * " lean"
+        + (f" pages {index.columns} {index.rows}" if paged.names(index) else "")
     )
+
+
+def pictures(frames, index, names):
+    """Fresh datablocks of all that a tree needs to play these films of an index, by name."""
+    found = {name: sequence(frames, name) for name in names}
+    return {**found, **{name: still(frames, name, file) for name, file in paged.names(index).items()}}
 
 
 def sequence(frames, name):
     """A fresh datablock for the sequence: an old one would show frames out of its cache."""
-    path = join(frames, f"{name}_0001.exr")
+    image = still(frames, name, f"{name}_0001.exr")
+    image.source = "SEQUENCE"
+    return image
+
+
+def still(frames, name, file):
+    """The same of one file."""
     image = bpy.data.images.new(f"desire_path {name}", 1, 1, float_buffer=True)
     image.source = "FILE"
-    image.filepath = path
-    image.source = "SEQUENCE"
+    image.filepath = join(frames, file)
     image.colorspace_settings.name = "Non-Color"
     image.alpha_mode = "CHANNEL_PACKED"
     image[playback_tree.TAG] = name

@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import axes, clock, compat, strengths, wiring
+from . import axes, clock, compat, paged, strengths, wiring
 
 ATTRIBUTE = "desire_path"  # the colour attribute on the evaluated mesh
 MODIFIER = "Desire Path"
@@ -99,6 +99,9 @@ def create(obj, shown, playing, into=None):
         stray = wire.named(STRAY, "FLOAT_VECTOR")
         at = wire.vector("MULTIPLY_ADD", stray, (1.0 / (index.nx * index.cell), 1.0 / (index.ny * index.cell), 0.0), at)
         smooth = "Cubic"
+
+    if paged.NAME in shown:
+        at, inside = paged.place(wire, shown, index, at)
 
     # sample once, read everything from it
     texture = wire.image(shown["trail"], at, number, smooth)

@@ -132,6 +132,11 @@ GERMAN = {
     "This would take {}{} {}, and {} {}: {}, or raise the limit of {}.": (
         "Das bräuchte {}{} {}, und {} {}: {}, oder die Grenze von {} erhöhen."
     ),
+    "The walk spans {} x {} m, and a map of it would have {} cells, where {} are the most: choose cells of {} m or "
+    "more, or bake it in parts.": (
+        "Der Gang erstreckt sich über {} x {} m, und eine Karte davon hätte {} Zellen, wo {} die meisten sind: Zellen "
+        "von {} m oder mehr wählen, oder ihn in Teilen backen."
+    ),
     # ---- files/atomic_file.py
     "{} cannot be written to {}, whose folder is not there: choose another folder or make this one.": (
         "{} lässt sich nicht nach {} schreiben, dessen Ordner nicht da ist: einen anderen Ordner wählen oder "

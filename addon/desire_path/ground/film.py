@@ -27,13 +27,13 @@ class Film:
     def __init__(self, core: Any, fields: Mapping[str, Field] = FIELDS) -> None:
         self._core, self._fields = core, fields
 
-    def open_maps(self, names: Sequence[str], notes: Iterable[tuple[str, str | float]]) -> None:
+    def open_maps(
+        self, names: Sequence[str], notes: Iterable[tuple[str, str | float]], called: Mapping[str, str] | None = None
+    ) -> None:
         """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
-        and notes (name, text or number)."""
-        shown = (maps.PICTURE, self._fields[names[0]].number)
-        self._core.open_maps(
-            (shown, *((maps.channel(name), self._fields[name].number) for name in names)), tuple(notes)
-        )
+        and notes (name, text or number). called: other names in the files, and whose fields they show."""
+        shown = [(maps.channel(name), self._fields[(called or {}).get(name, name)].number) for name in names]
+        self._core.open_maps(((maps.PICTURE, shown[0][1]), *shown), tuple(notes))
 
     def list_files(self, path: str | os.PathLike[str]) -> None:
         """Add each file of frames and maps from now on, when it is there, to the list in this file: its name, how many

@@ -38,6 +38,7 @@ class Map(NamedTuple):
     meaning: str
 
 
+MAX_CELLS = 1 << 28  # of one file, as native/maps has it
 LAYER = ".V"  # the one channel of a layer, as Blender calls a value
 PICTURE = "Y"  # the channel that every program shows, grey
 

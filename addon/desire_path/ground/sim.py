@@ -55,6 +55,7 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 
 LOAD_MODELS = ("inertia", "impulse")
 Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
+Pages = tuple[int, int, np.ndarray]  # of a sparse picture: columns, rows, x and y of each
 Stand = tuple[int, int, int]  # its number, that of its planting, plants
 
 
@@ -282,6 +283,17 @@ class Simulation:
         """Cells (i0, i1, j0, j1) the loaded recording can change; empty if i0 >= i1."""
         return self._core.reach()
 
+    def reach_tiles(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int) -> np.ndarray:
+        """Which of these tiles the loaded recording can change, or hold a trail already, bool (tiles_y, tiles_x)."""
+        out = np.zeros((tiles_y, tiles_x), np.uint8)
+        self._core.reach_tiles(tile_x, tile_y, out)
+        there = np.zeros((int(self._core.report()["tiles"]), 2), np.int32)
+        self._core.list_tiles(there)
+        x, y = (there - (tile_x, tile_y)).T
+        inside = (x >= 0) & (x < tiles_x) & (y >= 0) & (y < tiles_y)
+        out[y[inside], x[inside]] = 1
+        return out.astype(bool)
+
     def run(self, sample: int) -> None:
         """Step to the state at this sample of the loaded recording."""
         self._core.run(int(sample))
@@ -398,9 +410,13 @@ class Simulation:
         """What flies now; nothing, where the options have no spray."""
         return grains_of(self._core)
 
-    def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int) -> Film:
-        """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others."""
-        return Film(self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}"), self.fields)
+    def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int, pages: Pages | None = None) -> Film:
+        """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others.
+
+        pages: (columns, rows, which (n, 2)) of frames that show some pages of them alone, see bake/atlas.py
+        """
+        core = self._core.open_frames(tile_x, tile_y, tiles_x, tiles_y, f"Desire Path {VERSION}", *(pages or ()))
+        return Film(core, self.fields)
 
     def flush(self) -> None:
         """Wait until all frames and maps are written; OSError when one could not be."""

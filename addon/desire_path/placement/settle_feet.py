@@ -27,6 +27,12 @@ RISE = 0.2  # a foot that has left the ground comes up again over this [s]
 BODY = 0.5  # the body follows its feet smoothed over this [s]
 
 
+class Pages(Protocol):
+    """Where in a sparse picture cells are shown, as bake.atlas.Atlas tells it."""
+
+    def find(self, i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+
+
 class Frames(Protocol):
     """Where the frames of a bake lie and what they show, as FrameIndex has it."""
 
@@ -37,6 +43,9 @@ class Frames(Protocol):
     cell: float
     nx: int
     ny: int
+
+    @property
+    def atlas(self) -> Pages | None: ...
 
     def path(self, number: int) -> str: ...
 
@@ -59,6 +68,9 @@ class Film:
         i = np.floor((xy[:, 0] - index.x0) / index.cell).astype(int)
         j = np.floor((xy[:, 1] - index.y0) / index.cell).astype(int)
         inside = (i >= 0) & (i < index.nx) & (j >= 0) & (j < index.ny)
+        if index.atlas is not None:
+            j, i, there = index.atlas.find(i, j)
+            inside &= there
         out = []
         for name in ("R", "B"):
             values = np.zeros(len(xy))
