@@ -14,7 +14,7 @@ typedef struct Atlas
     int      columns, rows;     // of the picture
     int      pages;             // that are in it
     int32_t* page;              // x and y of each (pages, 2)
-    int32_t* slot;              // number of a page in the picture, -1 = not in it (pages_y, pages_x)
+    int32_t* slot;  // number of a page in the picture, -1 = not in it (pages_y, pages_x)
 } Atlas;
 
 // NULL without memory, or *status DP_BAD_ARGUMENT: pages that are none, come twice, or do not fit.
