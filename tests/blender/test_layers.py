@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 from test_bake import refused, scene
 
+from desire_path.blender import compat, layered
 from desire_path.blender import ground as grounds
-from desire_path.blender import layered
 from desire_path.ground import maps
 
 
@@ -118,3 +118,26 @@ def test_a_layer_is_shown_in_the_units_of_the_scene():
     layer.thickness_length = 5.0
     assert np.isclose(layer.thickness, 0.05)
     assert layered.above(ground) == grounds.axes.typed(layer.thickness)
+
+
+def test_materials_and_attributes_tell_what_is_seen(folder):
+    ground, _ = scene(folder, frames=16, spacing=0.1)
+    settings = ground.desire_path
+    settings.soil = "packed-earth"
+    laid(ground, "mud", 0.03)
+    assert bpy.ops.object.desire_path_material_add() == {"FINISHED"}
+    (material,) = {slot.material for slot in ground.material_slots}
+    assert "Mud" in material.name and "Earth" in material.name
+    bpy.ops.object.desire_path_bake()
+    for frame, least, most in ((1, 0.0, 0.0), (16, 0.9, 1.0)):
+        bpy.context.scene.frame_set(frame)
+        shown = ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+        value = {
+            name: compat.float_attribute(shown, name) for name in ("surface_mud", "desire_path_progress", "layer_1")
+        }
+        trodden = compat.float_attribute(shown, "compression") > 1e-3
+        assert trodden.any() and np.allclose(value["surface_mud"][trodden], 1.0, atol=1e-4)
+        assert least <= value["desire_path_progress"][trodden].min() and value["desire_path_progress"].max() <= most
+        assert value["layer_1"][trodden].max() < 0.03
+    bpy.ops.object.desire_path_free()
+    assert not [each.name for each in ground.data.attributes if each.name.startswith(("surface_", "layer_"))]

@@ -134,8 +134,8 @@ def curve(name, places):
     return meshes.link(bpy.data.objects.new(name, data))
 
 
-def scene_of(view):
-    """The ground with its tracks in it."""
+def scene_of(view, prepare=None):
+    """The ground with its tracks in it. prepare: called with the ground before anything is pressed"""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
 
@@ -156,6 +156,8 @@ def scene_of(view):
         for name in settings.keys() - given.keys():
             setattr(line.desire_path.track, name, settings[name])
         line.hide_render = True
+    if prepare is not None:
+        prepare(ground)
     meshes.activate(ground)
     bpy.ops.object.desire_path_tracks_press()
     bpy.ops.object.desire_path_material_add()

@@ -213,7 +213,8 @@ class Share:
             disk.replace(os.path.join(self.out.folder, START_PART), self.out.path("maps_start.exr"))
         else:
             self.write_start(self.out.path("maps_start.exr"))
-            self.final = {entry.name: self.sim.read(entry.name, *self.window) for entry in maps.MAPS}
+            names = [*(entry.name for entry in maps.MAPS), *self.sim.more_fields]
+            self.final = {name: self.sim.read(name, *self.window) for name in names}
         if self.mesh:
             self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 

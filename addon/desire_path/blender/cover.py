@@ -12,6 +12,7 @@ from ..ground import maps
 from ..ground import mesh as meshes
 from . import axes, compat, layered, playback, playback_tree, soils
 
+MORE = ("surface_", "carried_", "layer_")  # maps of ground in layers, and of soil that sticks
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
 PRINTS, WHERE = "the prints in", "where the prints are"  # words of few_points
@@ -186,7 +187,8 @@ def planes(index):
     final = os.path.join(os.path.dirname(index.folder), "maps_final.exr")
     if index.complete and os.path.exists(final):
         found = maps.read(final).planes
-        return {each.name: found[each.name] for each in maps.MAPS}
+        more = [name for name in found if name.startswith(MORE)]
+        return {name: found[name] for name in (*(each.name for each in maps.MAPS), *more)}
     frame = index.planes(index.frames)
     return {
         "compression": frame["B"],

@@ -8,7 +8,7 @@ Each look is a group of its own, and one group for a ground mixes those it needs
 to use them. Grain is a bump, since it is finer than any cell. Numbers are metres unless they are shares.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
 
@@ -186,6 +186,12 @@ class Recipe:
     floor: str = ""  # grass between: "plants" as they stand, "trodden" all over but where the ground was pressed
     scale: tuple = (1.0, 1.0, 1.0)  # metres in a unit of the object along its axes
     unit: float = 1.0  # metres in a unit of the scene
+    lain: tuple = field(default=(), repr=False)  # the same of layers, from the lowest up: each hides that share
+    seen: tuple = field(default=(), repr=False)  # the same of all soils, as a bake tells what is seen in the end
+
+    def mark(self):
+        """A word that tells it from others."""
+        return f"{VERSION} {self!r}" + (f" {self.lain!r} {self.seen!r}" if self.seen else "")
 
 
 def _group(name, mark, inputs, outputs):
@@ -241,7 +247,7 @@ def look(name):
 
 def ground(recipe, name):
     """The group that shows a whole ground."""
-    mark = f"{VERSION} {recipe!r}"
+    mark = recipe.mark()
     tree = _known(mark)
     if tree is not None:
         return tree
@@ -260,7 +266,7 @@ def ground(recipe, name):
     compression = baked[2]
     heap = n.math("MAXIMUM", n.math("ADD", baked[0], compression), 0.0)
     spot = Spot(place, compression, heap, given["Wetness"])
-    values = _mixed(n, recipe, spot)
+    values = _trodden(n, recipe, spot, _mixed(n, recipe, spot))
     _flooded(n, values)
     values["Color"] = n.add(
         "ShaderNodeMixRGB", {"blend_type": "MULTIPLY"}, _0=1.0, _1=values["Color"], _2=given["Tint"]
@@ -301,6 +307,24 @@ def _mixed(n, recipe, spot):
     return values
 
 
+def _trodden(n, recipe, spot, values):
+    """The same with the layers that lie on it, and as what was left on it, or shows in prints, makes it."""
+    if not recipe.seen:
+        return values
+    fray = n.noise(spot.at, FRAYED, 3.0, 0.6)
+    for name, *its in recipe.lain:
+        values = _over(n, _frayed(n, _attribute(n, name, 2), fray), values, _look(n, *its, spot))
+    known, after = 0.0, None
+    for name, *its in recipe.seen:
+        share = _attribute(n, name, 2)
+        known = n.math("ADD", known, share)
+        its = _look(n, *its, spot)
+        part = n.math("DIVIDE", share, n.math("MAXIMUM", known, 1e-6))
+        after = its if after is None else _over(n, _flecked(n, part, fray), after, its)
+    moved = n.math("MULTIPLY", n.math("MINIMUM", known, 1.0), _attribute(n, playback_tree.PROGRESS, 2))
+    return _over(n, moved, values, after)
+
+
 def _flooded(n, values):
     """Where water stands it is dark, smooth and level."""
     water = n.between(_attribute(n, playback_tree.WATER, 2), 0.0, playback_tree.SHALLOW)
@@ -338,6 +362,13 @@ def _frayed(n, share, fray):
     border = n.math("MULTIPLY", share, n.math("SUBTRACT", 1.0, share))
     moved = n.math("MULTIPLY_ADD", n.math("MULTIPLY", border, 2.5), n.math("SUBTRACT", fray, 0.5), share)
     return n.between(moved, 0.40, 0.60)
+
+
+def _flecked(n, share, fray):
+    """A share as flecks, of which there are more the larger it is; all and nothing stay."""
+    border = n.math("MULTIPLY", share, n.math("SUBTRACT", 1.0, share))
+    moved = n.math("MULTIPLY_ADD", n.math("MULTIPLY", border, 5.0), n.math("SUBTRACT", fray, 0.5), share)
+    return n.between(moved, 0.25, 0.75)
 
 
 def _over(n, share, below, above):

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..files import disk
 from ..ground.detail import DETAILS, WALLS, with_clods
-from . import axes, compat, cover, looks, plants, playback, playback_tree, soils
+from . import axes, compat, cover, looks, plants, playback, playback_tree, soils, surfaces
 
 SOILS = {  # soil -> (look, how wet)
     "dry-sand": ("SAND", 0.0),
@@ -74,7 +74,8 @@ def recipe(scene, obj, kind):
         floor = "plants" if settings.plants else "trodden"
     unit = axes.unit_scale(scene)
     scale = tuple(float(np.float32(each * unit)) for each in obj.matrix_world.to_scale())
-    return looks.Recipe(base, painted, floor, scale, float(unit))
+    more = surfaces.looked(obj, lambda each: look_of(_soil_name(each))) if kind == "AUTO" else ()
+    return looks.Recipe(base, painted, floor, scale, float(unit), *more)
 
 
 def _wet_as(kind, base):
@@ -92,7 +93,8 @@ def is_ours(material):
 
 
 def _called(plan):
-    names = dict.fromkeys(looks.LOOKS[look][0] for look in (plan.base[0], *(each[1] for each in plan.painted)))
+    there = [plan.base[0], *(each[1] for each in plan.painted + plan.seen)]
+    names = dict.fromkeys(looks.LOOKS[look][0] for look in there)
     if plan.floor:
         names["Grass"] = None
     wet = "Wet " if plan.base[0] in {"SAND", "EARTH"} and plan.base[1] > 0.5 else ""
@@ -164,7 +166,7 @@ def _check(obj, own, plan):
             f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file and has no material slot: make the "
             "mesh local, or give it a material in that file."
         )
-    if mesh.library is not None and any(name not in mesh.attributes for name, *_ in plan.painted):
+    if mesh.library is not None and any(name not in mesh.attributes for name, *_ in (*plan.painted, *plan.lain)):
         raise DesirePathError(
             f"The mesh '{mesh.name}' of '{obj.name}' is linked from another file, so where its soils are painted "
             "cannot be written into it: make the mesh local, or choose one look for all of it as Kind."
@@ -358,14 +360,15 @@ def _holds(material):
 
 
 def shares(obj):
-    """The share of each painted soil at the points of a mesh, by attribute, float32 (n,)."""
+    """The share of each painted soil and layer at the points of a mesh, by attribute, float32 (n,)."""
     count, found = len(obj.data.vertices), {}
     for each in obj.desire_path.painted:
         weight = cover.group_weights(obj, each.vertex_group)
         name = _share(each)
         found[name] = found.get(name, np.zeros(count, np.float32)) + (0.0 if weight is None else weight)
     total = np.maximum(sum(found.values(), np.zeros(count, np.float32)), 1.0)
-    return {name: (weight / total).astype(np.float32) for name, weight in found.items()}
+    found = {name: (weight / total).astype(np.float32) for name, weight in found.items()}
+    return {**found, **surfaces.shares(obj)}
 
 
 def _shares(obj):

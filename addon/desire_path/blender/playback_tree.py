@@ -23,6 +23,8 @@ STRAY = "desire_path_stray"  # vector attribute of a copy: how far prints are se
 WALL = "desire_path_wall"  # float attribute of a copy: deviation by which walls are rough [m]
 LEVEL = "desire_path_level"  # float attribute of a copy: height of standing water over the ground as it lay [m], < 0
 WATER = "desire_path_water"  # float attribute on the evaluated mesh: how deep water stands [m]
+MOVED = "desire_path_moved"  # float attribute where other soils are seen in the end: how much was moved by then [m]
+PROGRESS = "desire_path_progress"  # float attribute on the evaluated mesh: how much of that was moved by now, 0..1
 DRY = -1e6  # height of the water where there is none [m]
 BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
 SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
@@ -30,6 +32,7 @@ DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so fa
 SMOOTH = 0.35  # share of it that is left where a sole pressed
 CUT = (0.008, 0.040)  # walls are rough where it was pressed so deep [m]
 SHALLOW = 0.002  # water so deep is level [m]
+LEAST = 1e-5  # where less is moved in the end nothing else is seen [m]
 LUMP = 0.022  # how far the lumps of a wall lie apart [m]
 EVEN = 0.4  # what lies level is so much less rough than walls are
 NOISE = 0.11  # deviation of Blender's noise, about 0.5
@@ -67,6 +70,7 @@ class Playing:
     layer_depth: float = 0.0  # > 0 fills the vertex groups, where compression 1 is a layer pressed flat [m]
     standing: Sequence = ()  # plants off the images: (vertex group, "" or plants.Spread, their strength where it is 1)
     place: Any = None  # where our modifier goes (stack.Place); None: where it was, or after all others
+    moved: bool = False  # other soils are seen in the end
     copy: Any = None  # whose mesh is shown in place of the ground's own (refined.py); None: the ground's own is
 
 
@@ -127,6 +131,8 @@ def create(obj, shown, playing, into=None):
     if "lean" in shown:
         grown = _grown(wire, standing, world, scale) if inside is not None else None
         geometry = _lean(wire, geometry, wire.image(shown["lean"], at, number, smooth), inside, grown)
+    if playing.moved:
+        geometry = wire.store(geometry, PROGRESS, _progress(wire, split.outputs[0], split.outputs[2]))
     if level is not None:
         geometry = wire.store(geometry, WATER, wire.math("SUBTRACT", rise, ground))
     geometry = wire.add("GeometryNodeSetPosition", Geometry=geometry, Offset=offset, **some).outputs[0]
@@ -172,6 +178,13 @@ def _detail(wire, baked, threshold):
     grit = wire.math("MAXIMUM", wire.between(heap, *DISTURBED), wire.between(baked[2], *DISTURBED, 0.0, SMOOTH))
     shares = wire.xyz(veins, crumbs, grit)
     return wire.vector("DOT_PRODUCT", wire.named(DETAIL, "FLOAT_VECTOR"), shares)
+
+
+def _progress(wire, change, compression):
+    """How much of what is moved in the end, heaps, coats and what was pressed, was moved by now. MODEL 8.2"""
+    now = wire.math("MULTIPLY_ADD", compression, 2.0, change)
+    share = wire.math("DIVIDE", now, wire.math("MAXIMUM", wire.named(MOVED), LEAST))
+    return wire.math("MAXIMUM", wire.math("MINIMUM", share, 1.0), 0.0)
 
 
 def _rough(wire, geometry, compression, share, metres):

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..ground import mesh as meshes
 from ..ground import refine
-from . import axes, compat, cover, ground, looks, moves, playback, private, seen, stack
+from . import axes, compat, cover, ground, looks, moves, playback, private, seen, stack, surfaces
 
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
@@ -62,7 +62,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
     if why:
         return Copy(None, (f"The mesh of '{obj.name}' is not refined where the prints are, since {why}.",))
     wanted = refine.wishes(
-        planes["heap"] - planes["compression"],
+        surfaces.shape(planes),
         changed,
         index.cell,
         (index.x0, index.y0),

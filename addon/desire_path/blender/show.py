@@ -7,7 +7,21 @@ import bpy
 from ..bake.bake import read_index
 from ..bake.contents import MAPS_ALWAYS, is_complete
 from ..errors import DesirePathError
-from . import cover, ground, home, materials, plants, playback, playback_tree, pressed, refined, sprays, stems, trash
+from . import (
+    cover,
+    ground,
+    home,
+    materials,
+    plants,
+    playback,
+    playback_tree,
+    pressed,
+    refined,
+    sprays,
+    stems,
+    surfaces,
+    trash,
+)
 from .home import folder
 
 
@@ -28,10 +42,11 @@ def play(scene, obj, surface, baked=None, place=""):
         standing = plants.standing(obj)
         depth = cover.make_groups(obj) if settings.vertex_group else 0.0
         frames = playback.join(place, *os.path.relpath(index.folder, path).split(os.sep))
-        planes = baked or cover.planes(index)
+        planes = surfaces.with_progress(baked or cover.planes(index))
         copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj))
         carrier = copy and copy.object
-        playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing)
+        moved = playback_tree.MOVED in planes
+        playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing, moved=moved)
         playback.attach(obj, frames, playing)
         warnings = cover.fill(obj, surface, index, depth, planes, standing)
         if carrier is not None:
@@ -83,11 +98,12 @@ def again(scene, obj, surface):
         playback.show(ours, False)
         return
     frames = playback.join(settings.folder, *os.path.relpath(index.folder, folder(obj)).split(os.sep))
-    planes, standing = cover.planes(index), plants.standing(obj)
+    planes, standing = surfaces.with_progress(cover.planes(index)), plants.standing(obj)
     copy = refined.make(scene, obj, surface, index, planes, standing, _copy(obj)) if had else None
     carrier = copy and copy.object
     depth = cover.make_groups(obj) if settings.vertex_group else 0.0
-    playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing)
+    moved = playback_tree.MOVED in planes
+    playing = as_read(surface, index, carrier, layer_depth=depth, standing=standing, moved=moved)
     if had == (carrier is not None) and playback.attach(obj, frames, playing, anew=False):
         cover.fill(obj, surface, index, depth, planes, standing)
         plants.show(obj, index, anew=False)
