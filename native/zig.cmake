@@ -47,5 +47,6 @@ set(CMAKE_C_COMPILER ${dp_tools}/cc)
 set(CMAKE_AR ${dp_tools}/ar)
 set(CMAKE_RANLIB ${dp_tools}/ranlib)
 set(CMAKE_RC_COMPILER ${dp_tools}/rc)
+set(CMAKE_C_FLAGS_INIT "-g0")  # else a module for macOS names the folder it was made in
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE NEVER)
