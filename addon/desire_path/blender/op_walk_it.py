@@ -17,6 +17,7 @@ from .late import (
     bounds,
     forward,
     ground,
+    importers,
     materials,
     moves,
     np,
@@ -31,6 +32,7 @@ from .late import (
 )
 from .messages import tell
 from .ops import Refusal
+from .translations import say
 
 MARGIN = 1.0  # a ground that is made reaches this far beyond the feet, in leg lengths
 CELL = 0.011  # side of a cell, in leg lengths: 1 cm for a person
@@ -65,6 +67,13 @@ def rig_of(obj):
     return None
 
 
+def who_is_missing():
+    """Why nobody can walk; where none could be imported, how to mend that, in the 200 letters that Blender keeps."""
+    for kind, command in importers.own_cures():
+        return say("Select a character. To import {} here, call as root: {}", kind, command)
+    return say("Select a character, its armature or a mesh it wears, and a ground if there is one")
+
+
 def chosen_meshes(objects, who):
     """The meshes among objects that could be walked on: what belongs to a character or walks by itself is left out."""
     shapes = {bone.custom_shape for each in who if each.pose is not None for bone in each.pose.bones}
@@ -97,7 +106,7 @@ class OBJECT_OT_desire_path_walk_it(Refusal, bpy.types.Operator):
             cls.poll_message_set("Leave Edit Mode first")
             return False
         if not characters(context.selected_objects or filter(None, [context.object])):
-            cls.poll_message_set("Select a character, its armature or a mesh it wears, and a ground if there is one")
+            cls.poll_message_set(who_is_missing())
             return False
         return True
 

@@ -24,6 +24,9 @@ GERMAN = {
     "Select a character, its armature or a mesh it wears, and a ground if there is one": (
         "Eine Figur wählen, ihr Skelett oder ein Netz, das sie trägt, und einen Boden, wenn es einen gibt"
     ),
+    "Select a character. To import {} here, call as root: {}": (
+        "Eine Figur wählen. Um hier {} zu importieren, als root aufrufen: {}"
+    ),
     "There is no ground in this scene": "In dieser Szene gibt es keinen Boden",
     "This is a ground: select the armature that walks on it, or a mesh that moves": (
         "Das ist ein Boden: das Skelett wählen, das darauf geht, oder ein Netz, das sich bewegt"
