@@ -1,13 +1,22 @@
 """Prints on any mesh: a copy that is fine along the trail is shown, the user's mesh stays as it is."""
 
 import json
+import types
+from dataclasses import replace
 
 import bpy
 import numpy as np
 from scenes import meshes, people
 from test_bake import state
 
-from desire_path.blender import compat, playback, playback_tree, refined
+from desire_path import Gait, Ground, read_index
+from desire_path.bake.bake import Bake, BakeOptions
+from desire_path.blender import compat, cover, playback, playback_tree, refined, show
+from desire_path.blender import ground as surface
+from desire_path.blender import seen as detail
+from desire_path.bounds import Limits
+from desire_path.ground import maps, refine
+from desire_path.study.trampling import WALK
 
 LOW = 0.8  # of the deepest print at least is shown
 
@@ -168,6 +177,55 @@ def test_a_bent_flat_shaded_ground_keeps_its_crease(folder):
     at = compat.positions(copy)
     for each in sharp:
         assert np.abs(at[list(each.vertices), 0]).max() < 1e-5
+
+
+def test_what_is_asked_for_square_by_square_is_what_all_at_once_would(folder):
+    ground = plane()
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    rng = np.random.default_rng(5)
+    planes = {name: np.zeros((1100, 700), np.float32) for name in ("compression", "heap")}
+    for j, i in rng.integers(0, (1080, 680), (400, 2)):  # some over the borders of squares
+        planes["compression"][j : j + 20, i : i + 12] = rng.uniform(0.0, 6e-4, (min(20, 1100 - j), min(12, 700 - i)))
+        planes["heap"][j, i : i + 15] = 0.02
+    planes["compression"][505:520, 100:400] = 0.03
+    planes["heap"][300:600, 508:515] = 0.03
+    where = types.SimpleNamespace(cell=0.01, x0=3.3, y0=-2.7)
+    changed = (planes["compression"] > 0.0) | (planes["heap"] > 0.0)
+    settings = ground.desire_path
+    for size in (0.0, 0.01):
+        settings.detail_size = size
+        fine = detail.fine(settings, planes, where.cell) if settings.detail_size else None
+        wanted = refine.wishes(planes["heap"] - planes["compression"], changed, 0.01, (3.3, -2.7), 0.0, fine)
+        found = refined.wishes(settings, planes, where)
+        assert len(found.sizes) > 1000 and found.block == wanted.block
+        assert found.corners.tobytes() == wanted.corners.tobytes() and found.sizes.tobytes() == wanted.sizes.tobytes()
+
+
+def test_a_bake_whose_pictures_are_sparse_is_shown_as_another(folder):
+    gait = replace(Gait.load(WALK).along([[0.0, 0.0], [4.0, 3.5]]), frame_rate=6.0)
+    shown = []
+    for limits in (Limits(), Limits(cells=300_000)):
+        place, options = folder / f"{limits.cells:.0f}", BakeOptions(threads=2, limits=limits)
+        for _ in Bake(gait, Ground.flat(), "mud", place, cell_size=0.01, options=options).run():
+            pass
+        index = read_index(place)
+        ground = plane(12.0)
+        meshes.activate(ground)
+        bpy.ops.object.desire_path_ground_add()
+        ground.desire_path.folder, ground.desire_path.cell_size = str(place), 0.01
+        show.play(bpy.context.scene, ground, surface.read(bpy.context.scene, ground, 0.01, index.frame_start))
+        for frame in (index.frame_start + index.frames // 2, index.frame_end):
+            bpy.context.scene.frame_set(frame)
+            mesh = ground.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+            shown.append(compat.positions(mesh).copy())
+    assert index.atlas is not None and cover.is_plain(place / "maps_final.exr")
+    maps.write(folder / "more.exr", {"compression": np.zeros((1, 1)), "surface_mud": np.zeros((1, 1))})
+    assert not cover.is_plain(folder / "more.exr")
+    for dense, sparse in zip(shown[:2], shown[2:]):
+        assert dense[:, 2].min() < -0.01 and len(dense) > 10_000
+        assert dense.shape == sparse.shape
+        np.testing.assert_allclose(sparse, dense, atol=2e-5)
 
 
 def test_the_file_has_it(folder):

@@ -5,13 +5,16 @@ know nothing else. What we made is remembered by name and removed again; what wa
 """
 
 import os
+import re
 
 import numpy as np
 
+from ..files import atomic_file
 from ..ground import maps
 from ..ground import mesh as meshes
 from . import axes, compat, layered, playback, playback_tree, soils
 
+HEAD = 1 << 14  # bytes of a file of maps in which all its channels are named
 MORE = ("surface_", "carried_", "layer_")  # maps of ground in layers, and of soil that sticks
 LEVELS = 1024  # of a weight in a vertex group
 WIDE = 2.0  # a long print is this many times its area by its outline wide; points farther apart do not show it
@@ -78,6 +81,9 @@ def values(obj, surface, index, planes, standing):
     if "plant_strength" in value and standing:
         at = axes.points(surface.world, compat.positions(mesh), surface.scale)[:, :2] - (index.x0, index.y0)
         off = ((at < 0.0) | (at > np.array((index.nx, index.ny)) * index.cell)).any(axis=1)
+        if getattr(index, "columns", 0):
+            i, j = np.floor(at / index.cell).astype(int).T
+            off |= ~index.atlas.find(i, j)[2]
         value["plant_strength"] = np.where(
             off, grown(obj, surface.world, surface.scale, standing), value["plant_strength"]
         ).astype(np.float32)
@@ -185,17 +191,27 @@ def _apart(points, index, printed):
 def planes(index):
     """The maps after the last frame that is there, by name."""
     final = os.path.join(os.path.dirname(index.folder), "maps_final.exr")
-    if index.complete and os.path.exists(final):
+    if index.complete and os.path.exists(final) and not (index.columns and is_plain(final)):
         found = maps.read(final).planes
         more = [name for name in found if name.startswith(MORE)]
         return {name: found[name] for name in (*(each.name for each in maps.MAPS), *more)}
-    frame = index.planes(index.frames)
-    return {
+    frame = maps.read(index.path(index.frames)).planes
+    found = {
         "compression": frame["B"],
         "heap": frame["R"] + frame["B"],
         "pressure_time": frame["A"],
         "plant_strength": frame["G"],
     }
+    if index.atlas is None:
+        return found
+    return {name: index.atlas.spread(plane, index.nx, index.ny) for name, plane in found.items()}
+
+
+def is_plain(final):
+    """Whether maps tell of no more than frames do: nothing of layers, or of soil that was carried on."""
+    with atomic_file.reader(final) as file:
+        head = file.read(HEAD)
+    return re.search(rb"\0(%b)[^\0]*\.V\0" % "|".join(MORE).encode(), head) is None
 
 
 def weigh(group, weight):

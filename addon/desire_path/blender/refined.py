@@ -17,6 +17,7 @@ from ..ground import mesh as meshes
 from ..ground import refine
 from . import axes, compat, cover, ground, looks, moves, playback, private, seen, stack, surfaces
 
+SIDE, BESIDE = 512, 4  # cells of a square that is looked at for itself, and beyond it: multiples of refine.BLOCK
 CAMERA_FRAMES = 64  # of a bake at which the camera is looked for, at most
 FINE = 1.5  # cells between points that show prints by themselves
 CREASE = np.radians(1.0)  # faces that meet at a smaller angle are one
@@ -61,15 +62,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
     why = held(scene, obj, surface.place)
     if why:
         return Copy(None, (f"The mesh of '{obj.name}' is not refined where the prints are, since {why}.",))
-    wanted = refine.wishes(
-        surfaces.shape(planes),
-        changed,
-        index.cell,
-        (index.x0, index.y0),
-        axes.typed(settings.refine_size),
-        seen.fine(settings, planes, index.cell) if settings.detail_size else None,
-    )
-    wanted = _as_seen(scene, obj, surface, index, wanted)
+    wanted = _as_seen(scene, obj, surface, index, wishes(settings, planes, index))
     found = cut(scene, obj, surface, index.frame_start, wanted, into)
     if found is None:
         return None
@@ -94,6 +87,35 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
             f"{refine.MAX_TRIANGLES // 10**6} million faces. Set Refined Size higher."
         )
     return Copy(carrier, tuple(warnings))
+
+
+def wishes(settings, planes, index):
+    """What the planes of a bake ask of the mesh that shows them, square by square: where no print is, none is asked."""
+    ny, nx = planes["compression"].shape
+    block, found = refine.BLOCK * index.cell, [(np.zeros((0, 2), np.int64), np.zeros(0))]
+    for j in range(0, ny, SIDE):
+        for i in range(0, nx, SIDE):
+            low = np.maximum((i - BESIDE, j - BESIDE), 0)
+            at = slice(low[1], j + SIDE + BESIDE), slice(low[0], i + SIDE + BESIDE)
+            near = {name: plane[at] for name, plane in planes.items()}
+            changed = (near["compression"] > 0.0) | (near["heap"] > 0.0)
+            if not changed.any():
+                continue
+            here = refine.wishes(
+                surfaces.shape(near),
+                changed,
+                index.cell,
+                (0.0, 0.0),
+                axes.typed(settings.refine_size),
+                seen.fine(settings, near, index.cell) if settings.detail_size else None,
+            )
+            number = np.rint(here.corners / block).astype(np.int64) + low // refine.BLOCK
+            own = (number * refine.BLOCK // SIDE == (i // SIDE, j // SIDE)).all(axis=1)
+            found.append((number[own], here.sizes[own]))
+    number, sizes = (np.concatenate(each) for each in zip(*found))
+    order = np.lexsort(number.T)
+    corners = number[order] * block + np.array((index.x0, index.y0), np.float64)
+    return refine.Wishes(corners, sizes[order], block)
 
 
 @dataclass(frozen=True)
