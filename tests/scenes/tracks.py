@@ -82,7 +82,7 @@ VIEWS = {
         "dry-sand", SHORE, (0.9, 0.7), (0.0, -0.62, 0.38), (0.0, 0.03, 0.0), cell=0.002, wave=0.004, stops=0.2
     ),
     "bicycle": View(
-        "wet-soil",
+        "soft-soil",
         (
             (
                 {"kind": "WHEEL", "vehicle": "bicycle"},
@@ -90,18 +90,19 @@ VIEWS = {
             ),
         ),
         (2.6, 1.2),
-        (-0.35, -0.95, 0.5),
-        (0.0, 0.12, 0.0),
+        (-0.75, -1.15, 0.5),
+        (-0.1, -0.4, 0.0),
         wave=0.006,
         sun=16.0,
-        stops=1.1,
+        stops=0.9,
     ),
     "car": View(
         "fresh-snow",
-        (({"kind": "WHEEL", "vehicle": "car"}, tuple((0.4 * k - 4.0, 0.012 * k * k - 0.6) for k in range(21))),),
-        (3.6, 2.4),
+        (({"kind": "WHEEL", "vehicle": "car"}, tuple((0.4 * k - 4.0, 0.012 * k * k - 0.6) for k in range(27))),),
+        (5.0, 3.6),
         (-0.6, -2.0, 0.9),
         (0.3, 0.0, 0.0),
+        cell=0.01,
         wave=0.02,
         sun=14.0,
         stops=-0.5,
