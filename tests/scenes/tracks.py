@@ -68,8 +68,8 @@ VIEWS = {
         "fresh-snow",
         tuple(_wander(math.radians(15.0 + 60.0 * k), 0.42 + 0.04 * k) for k in range(3)),
         (38.0, 38.0),
-        (0.0, -7.5, 4.2),
-        (0.0, -0.4, 0.0),
+        (0.0, -6.5, 2.6),
+        (0.0, 0.4, 0.0),
         cell=0.02,
         wave=0.12,
         sun=14.0,
@@ -82,7 +82,7 @@ VIEWS = {
         "dry-sand", SHORE, (0.9, 0.7), (0.0, -0.62, 0.38), (0.0, 0.03, 0.0), cell=0.002, wave=0.004, stops=0.2
     ),
     "bicycle": View(
-        "soft-soil",
+        "wet-soil",
         (
             (
                 {"kind": "WHEEL", "vehicle": "bicycle"},
@@ -94,15 +94,14 @@ VIEWS = {
         (-0.1, -0.4, 0.0),
         wave=0.006,
         sun=16.0,
-        stops=0.9,
+        stops=1.1,
     ),
     "car": View(
         "fresh-snow",
-        (({"kind": "WHEEL", "vehicle": "car"}, tuple((0.4 * k - 4.0, 0.012 * k * k - 0.6) for k in range(27))),),
-        (5.0, 3.6),
+        (({"kind": "WHEEL", "vehicle": "car"}, tuple((0.4 * k - 4.0, 0.012 * k * k - 0.6) for k in range(21))),),
+        (3.6, 2.4),
         (-0.6, -2.0, 0.9),
         (0.3, 0.0, 0.0),
-        cell=0.01,
         wave=0.02,
         sun=14.0,
         stops=-0.5,
