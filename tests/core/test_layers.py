@@ -9,7 +9,9 @@ from desire_path import SOILS, Bake, BakeOptions, DesirePathError, Ground, Simul
 from desire_path.__main__ import main
 from desire_path.ground import maps
 from desire_path.ground.layers import Layer
+from desire_path.ground.spray import Spray
 from tests.golden.worlds import walk
+from tests.scenes import gaits
 
 SAND = Soil(young_modulus=5e5, poisson_ratio=0.35, rest_angle=0.5)
 MUD = replace(SAND, young_modulus=1e5, poisson_ratio=0.2)
@@ -231,3 +233,30 @@ def test_a_share_that_cannot_be_is_refused(share, says):
         ground.layered(Layer(MUD, 0.1, share))
     with pytest.raises(DesirePathError, match="Flat ground has no vertices"):
         Ground.flat().layered(Layer(MUD, 0.1, [1.0]))
+
+
+# ---- what flies off ------------------------------------------------------------------------------------
+
+GRAINS = Spray(adhesion=0.002, hold_time=0.04, slow_speed=1.0, fast_speed=4.0, particle_size=0.006)
+
+
+@pytest.mark.parametrize("painted", (False, True))
+def test_nothing_is_lost_of_layers_that_stick_and_fly(painted):
+    """A run over mud that sticks, on snow, on sand: ground, soles and air hold all that was displaced."""
+    gait, loads = gaits.strides(2.4, speed=3.2, rate=120.0)
+    ground, share = strip(lambda x: np.clip(0.5 * (3.0 - x), 0.0, 1.0))
+    layers = Layer(STICKY, 0.03, share if painted else None), Layer("snow", 0.05)
+    sim = Simulation(ground.layered(*layers), SAND, 0.02, options=SimulationOptions(spray=GRAINS))
+    sim.load(gait, loads)
+    sim.run(len(gait.time))
+    for landed in (False, True):
+        if landed:
+            sim.settle()
+        told, own = sim.report(), sim.carried()["mud"]
+        assert own["taken_m3"] == pytest.approx(own["carried_m3"] + own["left_m3"], rel=1e-6)
+        laid = told["displaced_m3"] + told["loosened_m3"] - told["pressed_heap_m3"]
+        away = told["stuck_m3"] + told["airborne_m3"] + told["beside_m3"]
+        assert told["heaped_m3"] + away + own["left_m3"] + own["carried_m3"] == pytest.approx(laid, rel=1e-6)
+        flies = np.bincount(sim.grains().soil, minlength=3) * GRAINS.volume
+        assert flies.sum() == pytest.approx(told["airborne_m3"], rel=1e-6) and (flies[0] > 0.0) != landed
+        assert flies[1:].any() <= painted  # numbers count as the maps: mud, snow, sand

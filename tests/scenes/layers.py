@@ -1,7 +1,7 @@
 """layers.py - soils that lie on others, and soil that wheels and boots carry on, under a low sun.
 
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/layers.py -- FOLDER
-        [--width 400 --height 225 --samples 48 --scenes road,tread,snow]
+        [--width 400 --height 225 --samples 12 --scenes road,tread,snow]
 
 Writes FOLDER/SCENE.png: a road onto which two cars carry mud from both its sides, the tread of a tractor on a hard
 yard, and boots that press through thin snow down to the earth. All of it by the operators an animator presses.
@@ -78,7 +78,7 @@ VIEWS = {
     "snow": Lain(
         tracks.View("packed-earth", tracks.RIDE, (2.2, 1.4), (0.2, -1.2, 0.62), (0.05, -0.02, 0.0), sun=16.0),
         "powder-snow",
-        0.008,
+        0.006,
     ),
 }
 
@@ -103,7 +103,8 @@ def make(name):
     lain = VIEWS[name]
     scene = tracks.scene_of(lain.view, lambda ground: lay(ground, lain))
     tracks.light_and_camera(scene, lain.view)
+    scene.cycles.use_denoising = True
 
 
 if __name__ == "__main__":
-    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 48))
+    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 12))

@@ -10,6 +10,7 @@ import contextlib
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -407,8 +408,10 @@ class Simulation:
         return out
 
     def grains(self) -> Grains:
-        """What flies now; nothing, where the options have no spray."""
-        return grains_of(self._core)
+        """What flies now; nothing, where the options have no spray. On ground in layers their soils count as the maps
+        surface_<soil> do, by the one that was on top."""
+        found = grains_of(self._core)
+        return replace(found, soil=np.array(self._lain.names, found.soil.dtype)[found.soil])
 
     def open_frames(self, tile_x: int, tile_y: int, tiles_x: int, tiles_y: int, pages: Pages | None = None) -> Film:
         """A Film of these tiles (TILE cells a side); several may be open, of the same tiles or others.
