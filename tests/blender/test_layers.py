@@ -4,6 +4,7 @@ import json
 
 import bpy
 import numpy as np
+from scenes import meshes
 from test_bake import refused, scene
 
 from desire_path.blender import compat, layered
@@ -141,3 +142,52 @@ def test_materials_and_attributes_tell_what_is_seen(folder):
         assert value["layer_1"][trodden].max() < 0.03
     bpy.ops.object.desire_path_free()
     assert not [each.name for each in ground.data.attributes if each.name.startswith(("surface_", "layer_"))]
+
+
+def road(folder, y=6.5):
+    """A ground of packed earth, mud that sticks on its near part, and a curve along all of it."""
+    ground = meshes.grid(16, int(y / 0.1), 0.1, -0.8, 0.0)
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_ground_add()
+    settings = ground.desire_path
+    settings.soil, settings.cell_size, settings.folder = "packed-earth", 0.02, str(folder / "bake")
+    group = ground.vertex_groups.new(name="mud")
+    group.add([v.index for v in ground.data.vertices if v.co.y < 1.5], 1.0, "REPLACE")
+    data = bpy.data.curves.new("Way", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(1)
+    for point, at in zip(spline.points, (0.3, y - 0.6)):
+        point.co = (0.0, at, 0.0, 1.0)
+    way = meshes.link(bpy.data.objects.new("Way", data))
+    meshes.activate(ground)
+    return ground, way
+
+
+def test_mud_is_carried_onto_a_road_by_stamps_and_wheels_and_fades(folder):
+    """From a painted soil and from a painted layer alike."""
+    for layered_, given in ((True, {"stamp": "boot"}), (False, {"kind": "WHEEL"}), (True, {"kind": "WHEEL"})):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        ground, way = road(folder)
+        settings = ground.desire_path
+        if layered_:
+            layer = laid(ground, "mud", 0.05, "mud")
+        else:
+            bpy.ops.object.desire_path_paint_add()
+            layer = settings.painted[0]
+            layer.soil, layer.vertex_group = "mud", "mud"
+        layer.soil_numbers.adhesion = 0.004
+        meshes.activate(way)
+        bpy.ops.object.desire_path_track_add(**given)
+        meshes.activate(ground)
+        assert bpy.ops.object.desire_path_tracks_press() == {"FINISHED"}
+        assert settings.bake_state == "FRESH", settings.missing
+        found = maps.read(bpy.path.abspath(settings.pressed) + "/maps_final.exr")
+        left, seen = found.planes["carried_mud"], found.planes["surface_mud"]
+        y = float(found.notes["originY"]) + 0.02 * (0.5 + np.arange(len(left)))
+        near, far = (left[(y > low) & (y < low + 2.07)].sum() for low in (1.5, 3.57))
+        assert near > far > 0.0, (given, near, far)
+        assert seen[(y > 1.7) & (y < 5.6)].max() > 0.1
+        assert "surface_mud" in ground.data.attributes
+        layer.soil_numbers.adhesion = 0.003
+        assert settings.bake_state == "OUTDATED"
