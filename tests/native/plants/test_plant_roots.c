@@ -99,10 +99,34 @@ TEST(slopes_are_each_plants_own)
     dp_plants_destroy(plants);
 }
 
+// no bend is stronger than its plant's reserve, and what is refused changes nothing
+TEST(strength_is_written_up_to_the_reserve)
+{
+    DpPlantKind kind = dp_plant_kind_default();
+    DpPlants*   plants = lawn(&kind, 1, 1, 1.0, 3);
+    const int   bends = dp_plant_shape(&kind).bends;
+    double      strength[64], got[64];
+    CHECK(bends <= 64);
+    const double reserve = dp_plants_reserve(plants, 0, 0);
+    CHECK_NEAR(reserve, kind.strength, 1e-6);
+    for (int b = 0; b < bends; ++b) strength[b] = reserve * (b % 3) / 2.0;
+    CHECK(dp_plants_write(plants, 0, 0, NULL, NULL, strength) == DP_OK);
+    const double bad[] = {1.5 * reserve, 1.001 * reserve, -1e-6, (double)NAN};
+    for (int n = 0; n < 4; ++n) {
+        double other[64];
+        for (int b = 0; b < bends; ++b) other[b] = b == bends - 1 ? bad[n] : 0.5 * reserve;
+        CHECK(dp_plants_write(plants, 0, 0, NULL, NULL, other) == DP_BAD_ARGUMENT);
+    }
+    CHECK(dp_plants_read(plants, 0, 0, NULL, NULL, got) == DP_OK);
+    for (int b = 0; b < bends; ++b) CHECK_NEAR(got[b], strength[b], 0.0);
+    dp_plants_destroy(plants);
+}
+
 int main(void)
 {
     RUN(roots_follow_the_ground);
     RUN(soil_that_rises_lifts_those_who_sleep);
     RUN(slopes_are_each_plants_own);
+    RUN(strength_is_written_up_to_the_reserve);
     return check_done();
 }

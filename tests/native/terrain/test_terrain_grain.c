@@ -120,11 +120,31 @@ TEST(steep_places_are_told)
     dp_terrain_destroy(terrain);
 }
 
+// nothing is taken from below 95 per cent of a layer, however deep it was pressed
+TEST(what_is_rigid_below_stays)
+{
+    const float  depth = 0.28f, layer = 0.3f;  // of soil 0
+    DpTerrain*   terrain = field();
+    DpLease*     lease = dp_lease_create();
+    DpDug        dug;
+    DpSoilPatch* patch = NULL;
+    CHECK(dp_terrain_acquire(terrain, lease, dp_cells(35, 35, 1, 1), &patch) == DP_OK);
+    patch->compression[0] = depth;
+    dp_terrain_commit(terrain, lease, dp_cells(0, 0, 1, 1));
+    dp_lease_destroy(lease);
+    const double left = (0.95 * (double)layer - (double)depth) * 1e-4;
+    CHECK(!dp_terrain_dig(terrain, 0.355, 0.355, 0.01, 1.01 * left, &dug));
+    CHECK(dp_terrain_dig(terrain, 0.355, 0.355, 0.01, 0.99 * left, &dug));
+    CHECK_CLOSE(dug.firm, 0.99 * left, 1e-4);
+    dp_terrain_destroy(terrain);
+}
+
 int main(void)
 {
     RUN(a_volume_is_laid_by_area);
     RUN(beside_the_ground_nothing_is_laid);
     RUN(no_more_is_taken_than_was_disturbed);
     RUN(steep_places_are_told);
+    RUN(what_is_rigid_below_stays);
     return check_done();
 }

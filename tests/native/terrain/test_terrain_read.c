@@ -204,10 +204,22 @@ TEST(what_cannot_be_read_is_refused)
     dp_terrain_destroy(terrain);
 }
 
+// cells are there as long as the number of the last is exact, too
+TEST(windows_end_where_cells_end)
+{
+    const long end = MAX_CELL_INDEX;
+    CHECK(dp_terrain_has(end - 21, 0, 20, 1) && !dp_terrain_has(end - 20, 0, 20, 1));
+    CHECK(dp_terrain_has(0, end - 21, 1, 20) && !dp_terrain_has(0, end - 20, 1, 20));
+    CHECK(dp_terrain_has(1 - end, 1 - end, 20, 20) && !dp_terrain_has(-end, 0, 20, 1));
+    CHECK(!dp_terrain_has(0, 0, 0, 1) && !dp_terrain_has(0, 0, 1, -1));
+    CHECK(!dp_terrain_has(0, 0, end, 1) && dp_terrain_has(0, 0, 1, 1));
+}
+
 int main(void)
 {
     RUN(fields_are_what_the_ground_and_its_trail_are);
     RUN(the_surface_goes_evenly_from_cell_to_cell);
     RUN(what_cannot_be_read_is_refused);
+    RUN(windows_end_where_cells_end);
     return check_done();
 }

@@ -365,6 +365,37 @@ TEST(refuses_bad_options_and_missing_memory)
     scene_free(&s);
 }
 
+// who speeds up over four feet weighs on the hind ones: the force points from the zero-moment point to the mass centre,
+// x = x_com - a h / g, and by its path to the front where it brakes
+TEST(who_speeds_up_weighs_behind)
+{
+    enum
+    {
+        N = 120
+    };
+    const double feet[4][2] = {{0.4, 0.15}, {0.4, -0.15}, {-0.4, 0.15}, {-0.4, -0.15}};
+    uint8_t      on[4 * N];
+    memset(on, 1, sizeof on);
+    for (double a = -1.0; a <= 1.0; a += 1.0) {
+        Scene s = scene_make(N, RATE, 4, 1);
+        for (int t = 0; t < N; ++t) {
+            const double since = (t - N / 2) / RATE;
+            scene_com(&s, t, 0.5 * a * since * since, 0.0, 1.0);
+            for (int p = 0; p < 4; ++p) scene_put(&s, N, p, t, feet[p][0], feet[p][1], 0.0);
+        }
+        double        force[3 * 4 * N], point[3 * 4 * N], at = 0.0, total = 0.0;
+        DpLoadOptions options = dp_load_options_default();
+        options.ramp_trust = 0.0;
+        run(&s, N, 4, 1, on, options, force, point);
+        for (int p = 0; p < 4; ++p) {
+            const double up = -force[3 * (p * N + N / 2) + 2];
+            at += up * feet[p][0], total += up;
+        }
+        CHECK_NEAR(at / total, -a / DP_GRAVITY, 0.005);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     RUN(share_is_the_projection);
@@ -380,5 +411,6 @@ int main(void)
     RUN(impulse_of_fall);
     RUN(pressure_rolls_from_heel_to_ball);
     RUN(refuses_bad_options_and_missing_memory);
+    RUN(who_speeds_up_weighs_behind);
     return check_done();
 }

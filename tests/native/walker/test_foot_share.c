@@ -63,10 +63,38 @@ TEST(three_supports_meet_the_target)
     CHECK(far[0] > 0.999);
 }
 
+// played backwards, contacts have the same ramps backwards: who lets go does so as who lands
+TEST(ramps_are_the_same_backwards)
+{
+    enum
+    {
+        FEET = 4,
+        MANY = 300
+    };
+    uint8_t             on[FEET * MANY], back[FEET * MANY];
+    double              weight[FEET * MANY], turned[FEET * MANY];
+    const DpLoadOptions options = dp_load_options_default();
+    unsigned            seed = 3u;
+    for (int round = 0; round < 20; ++round) {
+        for (int i = 0; i < FEET; ++i)
+            for (int t = 0, state = i % 2; t < MANY; state = !state)
+                for (int k = 4 + (int)(check_random(&seed) * 50.0); k > 0 && t < MANY; --k, ++t)
+                    on[i * MANY + t] = (uint8_t)state;
+        for (int i = 0; i < FEET; ++i)
+            for (int t = 0; t < MANY; ++t) back[i * MANY + t] = on[i * MANY + MANY - 1 - t];
+        dp_walker_ramps(on, FEET, MANY, 120.0, &options, round % 2, weight);
+        dp_walker_ramps(back, FEET, MANY, 120.0, &options, round % 2, turned);
+        for (int i = 0; i < FEET; ++i)
+            for (int t = 0; t < MANY; ++t)
+                CHECK_NEAR(turned[i * MANY + t], weight[i * MANY + MANY - 1 - t], 1e-12);
+    }
+}
+
 int main(void)
 {
     RUN(two_supports_are_the_closed_form);
     RUN(whom_the_ramps_give_nothing_gets_nothing);
     RUN(three_supports_meet_the_target);
+    RUN(ramps_are_the_same_backwards);
     return check_done();
 }
