@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields
 
 import numpy as np
+
+SHOWN = 80  # letters of a record, at most
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
@@ -40,6 +43,8 @@ def same(a: object, b: object) -> bool:
         return a is b or all(_alike(np.asarray(x), np.asarray(y)) for x, y in zip(a, b))  # type: ignore[call-overload]
     if isinstance(a, (tuple, list)) and type(a) is type(b):
         return len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(same(each, b[key]) for key, each in a.items())
     return bool(a == b)
 
 
@@ -47,14 +52,27 @@ def _mark(value: object) -> object:
     """The same for values that are alike, and cheap: of arrays their shape."""
     if _is_array(value):
         return value.shape  # type: ignore[attr-defined]
+    if isinstance(value, Mapping):
+        return tuple(sorted(value))
     return tuple(map(_mark, value)) if isinstance(value, (tuple, list)) else value
 
 
 class Record:
     """A frozen dataclass (eq=False) with arrays among its fields: == compares values, and hash() goes with it.
 
-    Its arrays are read only; they share memory with what it was given where that has the right type.
+    Arrays that it has kept() are read only; they share memory with what it was given where that has the right type.
     """
+
+    def __repr__(self) -> str:
+        said = []
+        for each in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, each.name)
+            if _is_array(value):
+                said.append(f"{each.name} {value.shape}")
+            elif isinstance(value, (str, int, float)):
+                said.append(f"{each.name} {value!r}")
+        text = ", ".join(said)
+        return f"{type(self).__name__}({text if len(text) <= SHOWN else text[:SHOWN] + '..'})"
 
     def __setstate__(self, state: dict) -> None:
         """From a copy or a pickle, whose arrays are as new."""

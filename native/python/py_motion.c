@@ -117,6 +117,7 @@ PyObject* dp_py_load(PyObject* object, PyObject* args)
     cast.gait.pose = poses.pose;
     status = dp_sim_load(self->sim, &cast.gait, poses.touching, poses.force, poses.pressure_point);
     Py_END_ALLOW_THREADS
+    if (status == DP_OK) self->live_parts = self->live_walkers = 0;
     self->busy = false;
     result = loaded(status);
 done:
@@ -199,6 +200,7 @@ PyObject* dp_py_load_tracks(PyObject* object, PyObject* args)
     if (status == DP_OK) status = dp_sim_follow(self->sim, motion);
     if (status != DP_OK) dp_motion_destroy(motion);
     Py_END_ALLOW_THREADS
+    if (status == DP_OK) self->live_parts = self->live_walkers = 0;
     self->busy = false;
     result = loaded(status);
 done:
@@ -241,6 +243,10 @@ PyObject* dp_py_push(PyObject* object, PyObject* args)
     if (!PyArg_ParseTuple(args, "dOOOOO:push", &time, &o_present, &o_pose, &o_touching, &o_force,
                           &o_point))
         return NULL;
+    if (self->live_parts == 0) {
+        PyErr_SetString(PyExc_ValueError, "push: nobody is followed live: call load_live first");
+        return NULL;
+    }
     DpBuffers      buffers = {.count = 0};
     const int      P = self->live_parts;
     const uint8_t* present = NULL;

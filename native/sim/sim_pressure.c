@@ -36,18 +36,13 @@ void dp_sim_pressure(const DpSim* sim, long i0, long j0, int nx, int ny, float* 
     }
 }
 
-static long tile_of(long cell)
-{
-    return cell >= 0 ? cell / DP_TILE : -((-cell - 1) / DP_TILE) - 1;
-}
-
 void dp_sim_soles(const DpSim* sim, DpTileVisit visit, void* context)
 {
     for (int l = 0; sim->pressing && l < sim->cast.limbs; ++l) {
         const DpCellRect at = sim->pressing[l].at;
         if (dp_cells_empty(at) || sim->pressing[l].waits) continue;
-        const long tx1 = tile_of(at.i1 - 1), ty1 = tile_of(at.j1 - 1);
-        for (long ty = tile_of(at.j0); ty <= ty1; ++ty)
-            for (long tx = tile_of(at.i0); tx <= tx1; ++tx) visit(context, tx, ty);
+        const long tx1 = dp_tile_of(at.i1 - 1), ty1 = dp_tile_of(at.j1 - 1);
+        for (long ty = dp_tile_of(at.j0); ty <= ty1; ++ty)
+            for (long tx = dp_tile_of(at.i0); tx <= tx1; ++tx) visit(context, tx, ty);
     }
 }

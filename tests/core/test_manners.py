@@ -13,11 +13,14 @@ import pytest
 from scenes import gaits
 
 import desire_path
-from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil
+from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil, place_feet
+from desire_path.arrays import Record
 from desire_path.bake.options import BakeOutput
 from desire_path.errors import DesirePathError
+from desire_path.ground.layers import Layer
 from desire_path.ground.options import SimulationOptions
 from desire_path.ground.plants import PAPER, Planting
+from desire_path.ground.spray import Grains, Spray
 from desire_path.ground.trail import Trail
 from desire_path.loads import walker
 from desire_path.motion import tracks
@@ -28,6 +31,14 @@ from desire_path.placement import passes
 @pytest.fixture(scope="module")
 def gait():
     return gaits.strides(3.0)[0]
+
+
+@pytest.fixture(scope="module")
+def walked(gait):
+    sim = Simulation(Ground.flat(), "mud", cell_size=0.03)
+    sim.load(gait, walker.loads(gait))
+    sim.run(30)
+    return sim
 
 
 @pytest.mark.parametrize("table", [SOILS, KINDS, PAPER])
@@ -206,6 +217,69 @@ def test_arrays_of_a_record_are_read_only(kind, again, gait):
     assert held and not any(array.flags.writeable for array in held)
     with pytest.raises(ValueError, match="read-only"):
         held[0].fill(0)
+
+
+def test_every_frozen_class_with_arrays_is_a_record():
+    """So == compares values and does not raise."""
+    for module in modules():
+        for name, each in vars(module).items():
+            own = inspect.isclass(each) and each.__module__ == module.__name__ and is_dataclass(each)
+            if not own or name.startswith("_") or not each.__dataclass_params__.frozen:
+                continue
+            if any("ndarray" in str(field.type) for field in fields(each)):
+                assert issubclass(each, Record), f"{module.__name__}.{name}"
+                assert not each.__dataclass_params__.eq, name
+
+
+def test_layers_differ_by_how_much_of_them_there_is():
+    make = lambda share: Layer("mud", 0.03, np.full(4, share))
+    assert make(0.5) == make(0.5) and make(0.5) != make(0.25) and make(1.0) != Layer("mud", 0.03)
+    assert not make(0.5).share.flags.writeable and "\n" not in repr(make(0.5))
+
+
+def test_a_record_of_no_words_of_its_own_is_shown_short():
+    make = lambda x: Grains(*(np.full((3, 3), x, float), np.ones((3, 3)), np.zeros(3, int), np.arange(3)))
+    assert repr(make(1)) == "Grains(position (3, 3), velocity (3, 3), soil (3,), name (3,))"
+    assert make(1) == make(1) and make(1) != make(2) and hash(make(1)) == hash(make(1))
+    with pytest.raises(ValueError, match="read-only"):
+        make(1).position[0] = 2.0
+
+
+FAILS = {  # what is told of a call that cannot be: the argument, and why
+    "layers": (lambda sim, gait: Ground.flat().layered(*[Layer("mud", 0.03)] * 4), "4 layers .* at most 3"),
+    "layer": (lambda sim, gait: Layer("mud", 0.0), "A layer 0.0 m thick .* more than 0"),
+    "layer soil": (lambda sim, gait: Layer("mist", 0.1), "mist"),
+    "spray": (lambda sim, gait: Spray(particle_size=-1.0), "particle_size"),
+    "spray speeds": (lambda sim, gait: Spray(slow_speed=9.0, fast_speed=2.0), "slow_speed of 9 .* fast_speed, 2"),
+    "spray name": (lambda sim, gait: Simulation(Ground.flat(), options=SimulationOptions(spray="rain")), "rain"),
+    "field": (lambda sim, gait: sim.read("height", 0, 0, 2, 2), "no field 'height'"),
+    "cell": (lambda sim, gait: Simulation(Ground.flat(), cell_size=0.0), "cell"),
+    "sample": (lambda sim, gait: sim.push(0.0, np.zeros((4, 7)), [1] * 4, np.zeros((4, 3)), np.zeros((4, 3))), "live"),
+    "loads": (lambda sim, gait: sim.load(gait, replace(walker.loads(gait), force=np.full((4, 2, 3), np.nan))), "force"),
+    "state": (lambda sim, gait: sim.restore(b"no state"), "state"),
+    "place": (lambda sim, gait: place_feet(gait, sim, walkers=[9]), "9"),
+    "rest": (lambda sim, gait: sim.rest_plants(-1.0), "-1.0 seconds"),
+    "stand": (lambda sim, gait: sim.plants_positions(7), "no stand 7"),
+    "rectangle": (lambda sim, gait: sim.read("heap", (1, 0, 0, 1)), "rectangle"),
+}
+
+
+@pytest.mark.parametrize("call", FAILS)
+def test_what_fails_is_named_and_leaves_all_as_it_was(call, gait, walked):
+    """The simulation goes on, to the bit, as if nobody had asked."""
+    fails, words = FAILS[call]
+    before = bytes(walked.state())
+    with pytest.raises((ValueError, DesirePathError), match=words):
+        fails(walked, gait)
+    assert bytes(walked.state()) == before
+
+
+def test_a_walk_goes_on_after_what_failed(gait, walked):
+    alone = Simulation(Ground.flat(), "mud", cell_size=0.03)
+    alone.load(gait, walker.loads(gait))
+    alone.run(60)
+    walked.run(60)
+    assert bytes(alone.state()) == bytes(walked.state())
 
 
 def test_a_record_takes_arrays_without_a_copy_and_leaves_their_giver_free(gait):

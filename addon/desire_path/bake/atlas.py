@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..ground import maps
 from ..ground.sim import TILE
@@ -23,8 +24,8 @@ PAGE, EDGE = 60, 2  # cells of a page, and those of its neighbours beyond each s
 TABLE = "pages.exr"  # beside the frames: R, G column and row of the page in the pictures, B 1 where there is one
 
 
-@dataclass(frozen=True)
-class Atlas:
+@dataclass(frozen=True, eq=False, repr=False)
+class Atlas(Record):
     """The pages of a sparse picture, `columns` of them in a row, rows from its lower side."""
 
     wide: int  # pages the whole rectangle could have along x

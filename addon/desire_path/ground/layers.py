@@ -16,6 +16,7 @@ from dataclasses import asdict, dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import Record, read_only
 from ..errors import DesirePathError
 from .soil import NUMBERS, Soil, as_soil
 from .soil_keys import AnySoil, SoilKeys
@@ -25,8 +26,8 @@ STEPS = 16  # in which a thickness that differs from place to place is told, few
 KINDS = 255  # of ground that the core tells apart
 
 
-@dataclass(frozen=True)
-class Layer:
+@dataclass(frozen=True, eq=False)
+class Layer(Record):
     """One soil that lies on the ground. soil: a Soil, a preset's name or a .json file; thickness: of it [m].
 
     share: how much of the thickness there is at each vertex or sample of the ground, 0..1; None: all of it everywhere
@@ -34,7 +35,7 @@ class Layer:
 
     soil: Soil
     thickness: float
-    share: np.ndarray | None = field(default=None, compare=False, repr=False)
+    share: np.ndarray | None = field(default=None, repr=False)
 
     def __init__(self, soil: str | Soil, thickness: float, share: ArrayLike | None = None) -> None:
         try:
@@ -54,7 +55,7 @@ def _checked_share(share: ArrayLike) -> np.ndarray:
     found = np.ascontiguousarray(share, np.float32).reshape(-1)
     if not ((found >= 0.0) & (found <= 1.0)).all():
         raise DesirePathError("The share of a layer is not between 0 and 1 everywhere: give 0 where it does not lie.")
-    return found
+    return read_only(found)
 
 
 def read(text: str) -> Layer:
@@ -82,8 +83,8 @@ def checked(layers: Sequence[Layer], native: tuple) -> tuple[Layer, ...]:
     return tuple(layers)
 
 
-@dataclass(frozen=True)
-class Lain:
+@dataclass(frozen=True, eq=False, repr=False)
+class Lain(Record):
     """What a ground is made of, as the core takes it: kinds of ground, of which each cell is one."""
 
     native: tuple  # Ground.native, whose weights are those of the kinds

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..arrays import Record
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
@@ -58,8 +59,8 @@ def channel(name: str) -> str:
     return name if len(name) < 2 or "." in name else name + LAYER
 
 
-@dataclass(frozen=True)
-class Picture:
+@dataclass(frozen=True, eq=False, repr=False)
+class Picture(Record):
     """What a file holds: planes by name, float32 (ny, nx); notes by name, text or number."""
 
     planes: dict[str, np.ndarray]

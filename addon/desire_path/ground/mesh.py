@@ -14,14 +14,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Record
 from ..core import _native
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-@dataclass(frozen=True)
-class Near:
+@dataclass(frozen=True, eq=False, repr=False)
+class Near(Record):
     """The triangles near a walk, and the points they need."""
 
     low: tuple[float, float, float]  # of all points of the mesh, in its own space

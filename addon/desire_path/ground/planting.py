@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import read_only
+from ..arrays import Record, read_only
 from ..bounds import PLANT_BYTES, Limits
 from ..core import _native
 from ..errors import DesirePathError
@@ -21,8 +21,8 @@ SQUARE = 2.0  # side of the squares in which ground is planted [m]; the same see
 MAX_PLANTS = 4_000_000  # of one planting
 
 
-@dataclass(frozen=True, eq=False)
-class Planting:
+@dataclass(frozen=True, eq=False, repr=False)
+class Planting(Record):
     """Plants of one kind on a ground: by density and seed, thinned by weight, or roots given outright.
 
     kind: a Kind, or a name in KINDS. density [1/m^2] > 0: None = the kind's own. seed: whole number >= 0; the same

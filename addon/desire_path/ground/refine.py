@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..core import Begun, _native, begun
 from ..errors import DesirePathError
 
@@ -21,8 +22,8 @@ MAX_COARSE = 8  # edges within the trail are no longer than this [cells]
 MAX_TRIANGLES = 20_000_000
 
 
-@dataclass(frozen=True)
-class Wishes:
+@dataclass(frozen=True, eq=False, repr=False)
+class Wishes(Record):
     """How long edges may be in squares of the world."""
 
     corners: np.ndarray  # least x and y of each, float64 (w, 2) [m]
@@ -30,8 +31,8 @@ class Wishes:
     block: float  # edge of the squares [m]
 
 
-@dataclass(frozen=True)
-class Triangles:
+@dataclass(frozen=True, eq=False, repr=False)
+class Triangles(Record):
     """A mesh cut into triangles."""
 
     points: np.ndarray  # in the world, float64 (n, 3) [m]
@@ -41,8 +42,8 @@ class Triangles:
     starts: np.ndarray  # first corner of each face, and how many corners there are, int32 (f + 1,)
 
 
-@dataclass(frozen=True)
-class Refined:
+@dataclass(frozen=True, eq=False, repr=False)
+class Refined(Record):
     """A mesh whose faces were cut: first the faces that were left, in order, then triangles."""
 
     of: Triangles

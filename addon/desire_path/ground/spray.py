@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..arrays import Record, read_only
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
@@ -127,14 +128,18 @@ def check_soles(spray: Spray, soles: Iterable[Any], names: Iterable[str]) -> Non
 # ---- what is in the air --------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Grains:
+@dataclass(frozen=True, eq=False, repr=False)
+class Grains(Record):
     """What flies at one moment, each as much as another."""
 
     position: np.ndarray  # of their middles, world frame [m] (n, 3)
     velocity: np.ndarray  # [m/s] (n, 3)
     soil: np.ndarray  # number of the soil they are of (n,)
     name: np.ndarray  # a number of its own each, in the order in which they came off (n,)
+
+    def __post_init__(self) -> None:
+        for name in ("position", "velocity", "soil", "name"):
+            object.__setattr__(self, name, read_only(np.asarray(getattr(self, name))))
 
     def __len__(self) -> int:
         return len(self.name)
@@ -147,9 +152,9 @@ class Grains:
 def grains_of(core: Any) -> Grains:
     """What flies in a simulation of the core."""
     count = core.grains()
-    found = Grains(np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count, np.int32), np.zeros(count, np.int32))
-    core.read_grains(found.position, found.velocity, found.soil, found.name)
-    return found
+    found = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count, np.int32), np.zeros(count, np.int32)
+    core.read_grains(*found)
+    return Grains(*found)
 
 
 # ---- files ---------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arrays import Record
 from .kinds import Kind
 
 GAUSS = tuple((0.5 + 0.5 * x, 0.5 * w) for x, w in ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9)))
@@ -122,8 +123,8 @@ LOOKS = {
 _PLAIN = "meadow"  # the blades of kinds that are nobody's
 
 
-@dataclass(frozen=True)
-class Tuft:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tuft(Record):
     """One plant's mesh and the shape of its stems, a row per vertex."""
 
     vertices: np.ndarray  # (n, 3) f4 [m], root at 0, bent as it grows

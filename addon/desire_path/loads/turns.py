@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ..arrays import Record
 from ..core import side_by_side
 from ..motion import freeze, tracks
 from ..motion import size as sizes
@@ -38,8 +39,8 @@ def _spans(gait: Gait) -> Iterator[tuple[np.ndarray, int, int]]:
                 yield there, first, after
 
 
-@dataclass(frozen=True)
-class Turn:
+@dataclass(frozen=True, eq=False, repr=False)
+class Turn(Record):
     """Walkers of one size between two cuts, without the holds that interrupt them."""
 
     gait: Gait  # their recording

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..keywords import fields_of
 from ..loads import walker as walks
@@ -50,8 +51,8 @@ class BalanceOptions:
         return self
 
 
-@dataclass(frozen=True, eq=False)
-class Lean:
+@dataclass(frozen=True, eq=False, repr=False)
+class Lean(Record):
     """How a walker leans over time."""
 
     time: np.ndarray  # (T,) [s]

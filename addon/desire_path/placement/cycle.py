@@ -14,6 +14,7 @@ from warnings import warn
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..loads import walker
 from ..motion import rotation
@@ -97,8 +98,8 @@ def _belt(gait: Gait, w: int) -> np.ndarray | None:
 # ---- the cycle ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Cycle:
+@dataclass(frozen=True, eq=False, repr=False)
+class Cycle(Record):
     """One walker's motion that repeats: N samples, over which it comes `length` metres ahead.
 
     Arrays hold what is left when s ahead grows evenly, so that they repeat exactly.

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..loads.below import GroundHeights
 from ..motion import rotation
@@ -58,8 +59,8 @@ class Marks:
     seed: int = 0  # of that
 
 
-@dataclass(frozen=True, eq=False)
-class Laid:
+@dataclass(frozen=True, eq=False, repr=False)
+class Laid(Record):
     """Marks of a stamp on the ground, in the order in which they are pressed."""
 
     stamp: Stamp

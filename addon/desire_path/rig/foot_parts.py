@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..arrays import Record
 from ..motion import rotation, stays
 from ..motion.gait import BALL, HEEL, TIP, Sole
 from . import rig_names, sole
@@ -22,8 +23,8 @@ from .sole import Faces
 Mark: TypeAlias = tuple[int, int, tuple[float, float, float]]  # part 0 or 1, role, where [m]
 
 
-@dataclass(frozen=True)
-class RestPose:
+@dataclass(frozen=True, eq=False, repr=False)
+class RestPose(Record):
     """A character at rest, by which soles are laid under its feet."""
 
     skeleton: Skeleton

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..motion import rotation
 
 
-@dataclass(frozen=True)
-class Skeleton:
+@dataclass(frozen=True, eq=False, repr=False)
+class Skeleton(Record):
     """An armature at rest."""
 
     names: tuple[str, ...]
@@ -21,8 +22,8 @@ class Skeleton:
     mirrored: bool = False  # its left is on its right, by a negative scale
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(Record):
     """Where bones were over time."""
 
     time: np.ndarray  # (T,) [s]
@@ -30,8 +31,8 @@ class Motion:
     matrix: np.ndarray  # bone to world, rotation free of scale (T, B', 4, 4) [m]
 
 
-@dataclass(frozen=True)
-class Skin:
+@dataclass(frozen=True, eq=False, repr=False)
+class Skin(Record):
     """The mesh that is bound to the bones, at rest."""
 
     vertices: np.ndarray  # rest pose, in the skeleton's rest space (V, 3) [m]

@@ -12,6 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
+from ..arrays import Record
 from ..motion import rotation
 from ..motion import size as sizes
 from ..motion.gait import Gait
@@ -33,8 +34,8 @@ class Hills(Protocol):
     def normal(self, xy: np.ndarray, radius: float) -> np.ndarray: ...
 
 
-@dataclass(frozen=True)
-class Slope:
+@dataclass(frozen=True, eq=False, repr=False)
+class Slope(Record):
     """Ground below one foot over time."""
 
     turn: np.ndarray  # level to slope (T, 3, 3)

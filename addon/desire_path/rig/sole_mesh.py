@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 from ..errors import DesirePathError
 from ..motion.gait import Sole
 from . import sole
@@ -20,8 +21,8 @@ ASIDE = 0.2  # one that lies at a foot has its middle this near to the ankle's l
 MIN_PART = 0.05  # heel and toe part each get this share of the length at least
 
 
-@dataclass(frozen=True)
-class Tread:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tread(Record):
     """A mesh that is the sole of every foot."""
 
     vertices: np.ndarray  # in the skeleton's rest space (V, 3) [m]
@@ -29,8 +30,8 @@ class Tread:
     name: str = "The sole"
 
 
-@dataclass(frozen=True)
-class Laid:
+@dataclass(frozen=True, eq=False, repr=False)
+class Laid(Record):
     """A tread under one foot: x forward, y left; z up from the ankle if it lies at a foot, else from
     its own lowest place."""
 

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Record
 
-@dataclass(frozen=True)
-class Curve:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Curve(Record):
     """A line of a figure: a value y at each x, both (n,), in the units of its axes."""
 
     label: str

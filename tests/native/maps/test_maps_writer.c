@@ -81,6 +81,34 @@ TEST(a_flood_of_tiles_is_one_file)
     dp_frames_destroy(frames);
 }
 
+// what is given faster than it is written waits its turn: no more than four pictures are held at once
+TEST(no_more_waits_than_memory_bears)
+{
+    enum
+    {
+        MANY = 60,
+        SIDES = 3
+    };
+    DpFrames*    frames;
+    DpWriter*    writer;
+    const char*  failed;
+    const size_t picture = (size_t)SIDES * SIDES * SIDE * SIDE * 4 * sizeof(float);
+    CHECK(dp_frames_create(&frames, SIDES, SIDES, RGBA, 4, NULL, 0) == DP_OK);
+    CHECK(dp_writer_create(&writer, 1) == DP_OK);
+    dp_bytes_peak_reset();
+    const size_t before = dp_bytes_live();
+    for (int k = 0; k < MANY; ++k) {
+        DpTiles* tiles = dp_writer_tiles(writer, frames);
+        for (int n = 0; n < SIDES * SIDES; ++n) paint(dp_tiles_add(tiles, n % SIDES, n / SIDES), k);
+        CHECK(dp_writer_give(writer, tiles, NULL, k) == DP_OK);
+    }
+    CHECK(dp_writer_outcome(writer, true, &failed) == DP_OK);
+    // four, the one that is filled meanwhile, what a growing list takes, and what is packed
+    CHECK(dp_bytes_peak() - before < 12 * picture);
+    dp_writer_destroy(writer);
+    dp_frames_destroy(frames);
+}
+
 TEST(nothing_is_written_after_a_failure_until_it_was_told)
 {
     DpFrames*   frames;
@@ -119,6 +147,7 @@ int main(void)
 {
     RUN(the_same_files_in_the_background);
     RUN(a_flood_of_tiles_is_one_file);
+    RUN(no_more_waits_than_memory_bears);
     RUN(nothing_is_written_after_a_failure_until_it_was_told);
     world_end();
     return check_done();

@@ -185,6 +185,24 @@ TEST(a_print_is_left_where_its_limb_stands_elsewhere)
     stand_drop(&stand);
 }
 
+// who steps beside a print that still slides keeps it; a stance on ground that rests begins with none
+TEST(a_stance_beside_a_sliding_print_keeps_it)
+{
+    const DpSoil soil = flowing(1.0);
+    for (int flows = 0; flows < 2; ++flows) {
+        stand_make(&stand, 1);
+        stand_on(&stand, 0, 5, 50, 0.1, 0.0, 150.0);
+        stand_load(&stand, &soil, dp_sim_options_default());
+        Limb*            limb = &stand.sim->limb[0];
+        const DpCellRect print = dp_cells(0, -5, 8, 8);
+        limb->trodden = print, limb->flows = flows;
+        CHECK(dp_step_plan(stand.sim, 4) == DP_OK && limb->begins);
+        CHECK(dp_cells_empty(limb->trodden) == !flows && stand.sim->slides == 0);
+        if (flows) CHECK(limb->trodden.i0 == print.i0 && limb->trodden.j1 == print.j1);
+        stand_drop(&stand);
+    }
+}
+
 // prints that nobody stands on slide by themselves, but for one that a sole holds; at the end all do
 TEST(prints_that_were_left_slide_by_themselves)
 {
@@ -226,6 +244,7 @@ int main(void)
     RUN(walls_that_fall_are_counted);
     RUN(slow_soil_slides_on);
     RUN(a_print_is_left_where_its_limb_stands_elsewhere);
+    RUN(a_stance_beside_a_sliding_print_keeps_it);
     RUN(prints_that_were_left_slide_by_themselves);
     return check_done();
 }

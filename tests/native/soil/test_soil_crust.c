@@ -73,13 +73,16 @@ TEST(beside_broken_pieces_it_carries_half_as_much)
 {
     const DpSoil soil = crusted();
     const double most = 3e5 / dp_soil_crust_stress(&soil, 1.0, 0.01, 2e5 / 0.3, true);
-    for (int far = 0; far < 2; ++far) {
-        Ground ground = ground_with_crust();
+    for (int n = 0; n < 4; ++n) {
+        const bool far = n % 2, west = n / 2;
+        Ground     ground = ground_with_crust();
         for (int k = 0; k < NX * NY; ++k) plate[k] = k % NX < NX / 2 ? 7u : 9u;
-        ground.compression[18 * NX + (far ? 45 : 35)] = 1e-3f;  // beside the sole, or under it
+        const int at = far ? 45 : 35;  // beside the sole, or under it
+        ground.compression[18 * NX + (west ? NX - 1 - at : at)] = 1e-3f;
         CHECK_CLOSE(press(&ground, 0.999 * most).area, 0.01, 1e-9);
         CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 0.999 * most * 0.25, 1e-5);
-        for (int j = 15; j < 25; ++j) CHECK(ground.imprint.ring[j * NX + 35] != 0);
+        for (int j = 15; j < 25; ++j)
+            CHECK(ground.imprint.ring[j * NX + (west ? NX - 36 : 35)] != 0);
         CHECK(press(&ground, 1.001 * most).firm > 0.0);
         ground_free(&ground);
     }

@@ -271,7 +271,7 @@ TEST(rows_are_read_as_the_patch_has_them)
     const float   at[4] = {1.5f, NAN, 2.0f, 1.0f}, pressed[4] = {0.1f, 0.0f, 0.0f, 0.2f};
     const float   loose[4] = {0.02f, 0.0f, 0.03f, 0.0f}, slope[4] = {0.5f, 0.5f, 0.5f, 1.0f};
     const float   wall[4] = {2.0f, 2.0f, 2.0f, INFINITY};
-    const int32_t ring[4] = {-1, -1, 0, 3};
+    const int32_t ring[4] = {DP_RING_FAR, DP_RING_FAR, 0, 3};
     const Row     row = {firm, height, heap, fall, slack, sum};
     const Walls   walls = {base, steep, share};
     dp_slide_fill(&row, at, pressed, loose, slope, ring, 4, 0.01, 1.0, 0.002);
