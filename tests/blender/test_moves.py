@@ -61,6 +61,24 @@ def test_frames_hold_all_of_a_clip_that_ends_between_two():
     assert moves.frame_range(bpy.context.scene, obj) == (1, 11)  # it ends at 10.5
 
 
+def test_a_clip_between_frames_presses_what_it_does_on_whole_ones(folder):
+    """60 keys a second in 24 frames, from frame 1 on and from 1.6: what is shown before and after is no part of it."""
+    pressed = []
+    for number, shift in enumerate((0.0, 0.6)):
+        ground, walker = strip(folder / str(number))
+        people.walk(walker, frames=60, rate=60, period=60)
+        for curve in compat.curves_played(walker.animation_data):
+            for key in curve.keyframe_points:
+                for at in (key.co, key.handle_left, key.handle_right):
+                    at.x = 1.0 + (at.x - 1.0) * 0.4 + shift
+            curve.update()
+        assert sample.gaits(bpy.context.scene, [walker], 1, 26).time[-1] == 25 / 24
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        pressed.append(json.loads((folder / str(number) / "bake" / "report.json").read_text())["pressed_m3"])
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert abs(pressed[1] / pressed[0] - 1.0) < 0.04, pressed
+
+
 def test_strips_count_where_they_lie_and_are_heard():
     obj = still()
     strip_of(obj, 11)

@@ -72,6 +72,18 @@ def jittering(motion, size, seed=1):
     return replace(motion, matrix=matrix)
 
 
+def test_a_clip_that_begins_or_ends_with_a_pose_held_for_a_sample_presses_as_it_does_without():
+    skeleton, motion = walk()
+    alone, _ = prints(gait_of(skeleton, motion))
+    for at in (0, len(motion.time) - 1):
+        gait = gait_of(skeleton, held(motion, at, 1.0 / RATE))
+        assert freeze.holds(gait) == [((0, 1),) if at == 0 else ((at, at + 1),)]
+        pressed, _ = prints(gait)
+        assert abs(pressed - alone).max() < 1e-3
+    inside = gait_of(skeleton, held(motion, len(motion.time) // 2, 1.0 / RATE))
+    assert freeze.holds(inside) == [()]  # there it may be slow motion
+
+
 @pytest.mark.parametrize("noise", [5e-5, 1e-4, 3e-4])
 def test_a_held_pose_may_jitter(noise):
     skeleton, motion = walk()

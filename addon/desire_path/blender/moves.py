@@ -62,6 +62,17 @@ def frame_range(scene, obj):
     return scene.frame_start, scene.frame_end
 
 
+def ends(scene, walkers):
+    """Frames at which keys of walkers begin and end between two: before and after them a pose is held."""
+    found = set()
+    for each in walkers:
+        movers = _Movers(each)
+        spans = [(first * clock.stretch(scene), last * clock.stretch(scene)) for first, last in movers.spans]
+        if spans and not movers.goes_on:
+            found |= {min(span[0] for span in spans), max(span[1] for span in spans)}
+    return sorted(found)
+
+
 def moves(obj):
     """Whether an object may move at all."""
     found = _Movers(obj)

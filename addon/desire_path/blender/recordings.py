@@ -50,24 +50,25 @@ def within(store, steps):
         steps.close()
 
 
-def record(scene, armature, frame_start, frame_end, samples=None):
+def record(scene, armature, frame_start, frame_end, samples=None, ends=()):
     """sample.record() without a land, or what it was."""
     if _kept is None:
-        return sample.record(scene, armature, frame_start, frame_end, samples)
+        return sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
     samples = samples or sample.samples_of(scene, [armature])
     try:
-        key = (frame_start, frame_end, samples, *_depends(scene, armature))
+        key = (frame_start, frame_end, samples, tuple(ends), *_depends(scene, armature))
     except (DesirePathError, AttributeError):  # who cannot be recorded is told so below
-        return sample.record(scene, armature, frame_start, frame_end, samples)
+        return sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
     if key not in _kept:
-        _kept[key] = sample.record(scene, armature, frame_start, frame_end, samples)
+        _kept[key] = sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
     return _kept[key]
 
 
 def gaits(scene, walkers, frame_start, frame_end):
     """sample.gaits() without a land, of what is kept."""
     samples = sample.samples_of(scene, walkers)
-    return Gait.join([record(scene, each, frame_start, frame_end, samples) for each in walkers])
+    ends = moves.ends(scene, walkers)
+    return Gait.join([record(scene, each, frame_start, frame_end, samples, ends) for each in walkers])
 
 
 def _depends(scene, armature):

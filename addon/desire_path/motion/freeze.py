@@ -56,7 +56,7 @@ def stops(
         return ()
     found = _exact(time, com, poses, size)
     if rests:
-        return tuple(found)
+        return tuple(each for each in found if time[each[1]] - time[each[0]] > stays.HELD * np.sqrt(size) - 1e-9)
     found = [each for each in found if _is_moving(time, com, *each, size)]
     jitters = [each for each in _jittery(time, com, poses, size) if _is_moving(time, com, *each, size)]
     apart = [(a, b) for a, b in jitters if not any(first < b and a < last for first, last in found)]
@@ -75,7 +75,8 @@ def _exact(
         same &= abs(np.diff(turn.reshape(len(time), -1), axis=0)).max(axis=1) < SAME
     found = []
     for first, last in _runs(same):
-        if time[last] - time[first] < stays.HELD * np.sqrt(size) - 1e-9:
+        inside = first > 0 and last < len(time) - 1  # at the ends of a clip any is one, however short
+        if inside and time[last] - time[first] < stays.HELD * np.sqrt(size) - 1e-9:
             continue
         if max(np.ptp(at[first : last + 1], axis=0).max() for at, _ in poses) < STRAY * size:
             found.append((first, last))
