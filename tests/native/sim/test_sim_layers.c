@@ -15,7 +15,8 @@ static DpTerrain* layered(void)
     int     start[3] = {0, 3, 5};
     for (int n = 0; n < 5; ++n) {
         const int k = n < 3 ? n : n - 3;
-        layer[n] = (DpLayer){.soil = dp_soil_default(), .thickness = thick[k]};
+        layer[n] =
+            (DpLayer){.soil = dp_soil_default(), .thickness = thick[k], .name = k, .place = k};
         layer[n].soil.young_modulus = (float)stiff[k];
         layer[n].soil.poisson_ratio = 0.1f;
         if (n == 0 || n == 3) soil[n / 3] = layer[n].soil;
@@ -49,7 +50,7 @@ TEST(each_layer_is_thinner_by_what_it_has_yielded)
     CHECK(dp_terrain_read(stand.terrain, DP_FIELD_KIND, 0, 0, SIDE, SIDE, kind) == DP_OK);
     int pressed_of[2] = {0, 0};
     for (int layer = 0; layer < 4; ++layer) {
-        CHECK(dp_sim_layer(stand.sim, layer, &at, left) == DP_OK);
+        CHECK(dp_sim_layers(stand.sim, DP_FIELD_LAYER + layer, &at, left) == DP_OK);
         for (int n = 0; n < SIDE * SIDE; ++n) {
             const int of =
                 kind[n] > 0.5f ? 2 : 3;  // layers of the kind, the last of them the ground below
@@ -73,12 +74,12 @@ TEST(a_window_reads_what_all_of_it_does)
     CHECK(dp_sim_run(stand.sim, 50) == DP_OK);
     static float     all[SIDE * SIDE], part[7 * 11];
     const DpCellRect at = dp_cells(0, 0, SIDE, SIDE), some = dp_cells(14, 17, 7, 11);
-    CHECK(dp_sim_layer(stand.sim, 0, &at, all) == DP_OK);
-    CHECK(dp_sim_layer(stand.sim, 0, &some, part) == DP_OK);
+    CHECK(dp_sim_layers(stand.sim, DP_FIELD_LAYER, &at, all) == DP_OK);
+    CHECK(dp_sim_layers(stand.sim, DP_FIELD_LAYER, &some, part) == DP_OK);
     for (int j = 0; j < 11; ++j)
         for (int i = 0; i < 7; ++i) CHECK(part[j * 7 + i] == all[(j + 17) * SIDE + i + 14]);
     dp_alloc_fail_after(0);
-    CHECK(dp_sim_layer(stand.sim, 0, &some, part) == DP_NO_MEMORY);
+    CHECK(dp_sim_layers(stand.sim, DP_FIELD_LAYER, &some, part) == DP_NO_MEMORY);
     dp_alloc_fail_after(-1);
     stand_drop(&stand);
 }
@@ -88,13 +89,13 @@ TEST(there_are_as_many_as_the_kind_that_has_most)
     const DpSoil soil = dp_soil_default();
     stand_make(&stand, 1);
     stand_load_on(&stand, layered(), dp_sim_options_default());
-    const bool want[5] = {false, true, true, false, false};
-    for (int layer = -1; layer < 4; ++layer)
-        CHECK(dp_sim_has_layer(stand.sim, layer) == want[layer + 1]);
+    const bool want[4] = {true, true, false, false};
+    for (int layer = 0; layer < 4; ++layer)
+        CHECK(dp_sim_is_of_layers(stand.sim, DP_FIELD_LAYER + layer) == want[layer]);
     stand_drop(&stand);
     stand_make(&stand, 1);
     stand_load(&stand, &soil, dp_sim_options_default());
-    CHECK(!dp_sim_has_layer(stand.sim, 0));  // one soil
+    CHECK(!dp_sim_is_of_layers(stand.sim, DP_FIELD_LAYER));  // one soil
     stand_drop(&stand);
 }
 
