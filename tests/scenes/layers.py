@@ -1,7 +1,7 @@
 """layers.py - soils that lie on others, and soil that wheels and boots carry on, under a low sun.
 
     blender -b --factory-startup --python-exit-code 1 -P tests/scenes/layers.py -- FOLDER
-        [--width 400 --height 225 --samples 12 --scenes road,tread,snow]
+        [--width 400 --height 225 --samples 48 --scenes road,tread,snow]
 
 Writes FOLDER/SCENE.png: a road onto which two cars carry mud from both its sides, the tread of a tractor on a hard
 yard, and boots that press through thin snow down to the earth. All of it by the operators an animator presses.
@@ -103,8 +103,8 @@ def make(name):
     lain = VIEWS[name]
     scene = tracks.scene_of(lain.view, lambda ground: lay(ground, lain))
     tracks.light_and_camera(scene, lain.view)
-    scene.cycles.use_denoising = True
+    scene.cycles.use_denoising = False
 
 
 if __name__ == "__main__":
-    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 12))
+    shots.take(__doc__, "--scenes", VIEWS, make, (400, 225, 48))

@@ -23,7 +23,8 @@ from ..errors import DesirePathError
 from ..files import atomic_file, disk
 from .kinds import KINDS, Kind
 from .planting import Planting
-from .sim import Simulation, Stand
+from .sim import Simulation
+from .standing import Stand
 
 _HELD = 1  # rows in the ground
 

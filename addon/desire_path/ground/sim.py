@@ -7,7 +7,6 @@ float32 (grids). Nothing here knows Blender.
 from __future__ import annotations
 
 import contextlib
-import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -31,6 +30,7 @@ from .options import HEAPS, LAWS, SimulationOptions
 from .planting import Plants, as_plantings, seed_of
 from .soil_keys import AnySoil, settle_times, table
 from .spray import Grains, Spray, grains_of
+from .standing import Standing
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -57,10 +57,9 @@ TILE = 64  # cells along one side of a tile of ground and of a playback frame
 LOAD_MODELS = ("inertia", "impulse")
 Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
 Pages = tuple[int, int, np.ndarray]  # of a sparse picture: columns, rows, x and y of each
-Stand = tuple[int, int, int]  # its number, that of its planting, plants
 
 
-class Simulation:
+class Simulation(Standing):
     """Ground that walkers press.
 
     ground: Ground; soils: a preset's name, a Soil, SoilKeys where it changes over time, or a list (painted ground
@@ -94,7 +93,7 @@ class Simulation:
         self.plantings = as_plantings(plants)
         self._areas = areas or [None] * len(self.plantings)
         self.warnings: list[str] = []  # sentences about what could not be taken as it was given
-        self.stands: list[Stand] = []  # (stand, number of the planting, plants), in the order they were planted
+        self.stands = []  # (stand, number of the planting, plants), in the order they were planted
         self._planted: list[set[tuple[int, int]]] = [set() for _ in self.plantings]  # squares
         now, times = table(self.soils)
         try:
@@ -322,57 +321,6 @@ class Simulation:
     def load_state(self, path: str | os.PathLike[str]) -> None:
         """restore() from a file that save_state() wrote."""
         state_file.restore(self._core, state_file.read(path), os.fspath(path))
-
-    def rest_plants(self, seconds: float) -> None:
-        """Time passes without walkers [s]: bent stems recover, broken ones grow again."""
-        if not (math.isfinite(seconds) and 0 <= seconds < 1e12):
-            raise DesirePathError(f"Plants cannot rest for {seconds} seconds: give 0 or more.")
-        if self.plantings:
-            self._core.rest_plants(float(seconds))
-
-    def plants_count(self) -> int:
-        """How many plants stand on the ground so far."""
-        return sum(count for _, _, count in self.stands)
-
-    def plants_shape(self, stand: int) -> tuple[int, int, int, int, int]:
-        """(rows, stems, stems of a sheet, particles, bends) of a plant of a stand in `stands`."""
-        return _native.plants_shape(self.plantings[self._stand(stand)[1]].kind.numbers())
-
-    def plants_positions(self, stand: int) -> np.ndarray:
-        """Particles of all plants of a stand, float32 (n, particles, 3) [m]; particle = stem * rows + row."""
-        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
-        self._core.read_plants(stand, 0, out, None, None)
-        return out
-
-    def lay_plants(self) -> None:
-        """Remember from now on how soles lay the stems, so that plants_shown() tells more than plants_positions()."""
-        if self.plantings:
-            self._core.lay_plants()
-
-    def plants_shown(self, stand: int) -> np.ndarray:
-        """Particles of all plants of a stand as they are to be shown, float32 (n, particles, 3) [m]: a stem that was
-        trodden swings up when the foot has left, but is down for as long as the grass of its cell lies (`crushed`)."""
-        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[3], 3), np.float32)
-        self._core.read_shown(stand, 0, out)
-        return out
-
-    def plants_strength(self, stand: int) -> np.ndarray:
-        """eps_b of every bend, float64 (n, bends), TRAIL (6); 0 = broken."""
-        out = np.zeros((self._stand(stand)[2], self.plants_shape(stand)[4]))
-        self._core.read_plants(stand, 0, None, out, None)
-        return out
-
-    def plants_alpha(self, stand: int) -> np.ndarray:
-        """alpha_k of every plant, float64 (n,), TRAIL (7): its share of bends with nothing broken below."""
-        out = np.zeros(self._stand(stand)[2])
-        self._core.read_plants(stand, 0, None, None, out)
-        return out
-
-    def _stand(self, name: int) -> Stand:
-        for stand in self.stands:
-            if stand[0] == name:
-                return stand
-        raise DesirePathError(f"There is no stand {name}: choose one of those in `stands`.")
 
     def report(self) -> dict[str, Any]:
         """Contacts, depths [m] and volumes [m^3] so far, as a dict."""
