@@ -18,7 +18,7 @@ from desire_path.ground import maps
 def counted(*selected, fresh=False):
     """(the recordings that Walk It makes, the summary of its ground); fresh: none of them is kept"""
     made, real, kept = [], sample.record, recordings._kept
-    sample.record = lambda *asked: made.append((asked[2:4], len(asked) > 5)) or real(*asked)
+    sample.record = lambda *asked, **more: made.append((asked[2:4], len(asked) > 5)) or real(*asked, **more)
     keys = recordings._depends
     if fresh:
         recordings._depends = lambda *_: (object(),)

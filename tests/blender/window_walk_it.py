@@ -52,7 +52,7 @@ def story(hands):
     yield from hands.click(hands.place((0.8, -0.8, 0.0)), shift=True)
     assert bpy.context.object == object_of("Plane") and object_of("Rig").select_get()
     made, baked, record, finish = [], [], sample.record, bake_job.Job.finish
-    sample.record = lambda *asked: made.append(asked[1:4]) or record(*asked)
+    sample.record = lambda *asked, **more: made.append(asked[1:4]) or record(*asked, **more)
     bake_job.Job.finish = lambda job: baked.append(made[:]) or finish(job)
     yield from first_minute.walk_it(hands)
     yield from first_minute.pressed(hands)
