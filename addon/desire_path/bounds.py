@@ -33,9 +33,10 @@ ADVICE = {  # name: (unit, what to do)
     "seconds": ("seconds of walking", "let it end earlier"),
     "cells": ("cells in a picture", "choose a larger cell size or a shorter walk"),
     "plants": ("plants", "choose a lower density, or plant a rectangle"),
-    "memory": ("GB of memory", "choose a larger cell size, fewer frames or fewer plants"),
-    "disk": ("GB on the disk", "choose a larger cell size or fewer frames, or make room"),
+    "memory": ("of memory", "choose a larger cell size, fewer frames or fewer plants"),
+    "disk": ("on the disk", "choose a larger cell size or fewer frames, or make room"),
 }
+SIZES = {"GB": 1e9, "MB": 1e6, "kB": 1e3}  # [bytes]
 
 
 @dataclass(frozen=True)
@@ -87,11 +88,13 @@ class Limits:
         if amount <= most:
             return
         unit, advice = ADVICE[name]
-        size = 1e9 if name in ("memory", "disk") else 1.0
         has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
+        taken, there = _number(amount), _number(most)
+        if name in ("memory", "disk"):
+            (taken, word), there = _bytes(amount), " ".join(_bytes(most))
+            unit = f"{word} {unit}"
         raise DesirePathError(
-            f"This would take {about}{_number(amount / size)} {unit}, and {_number(most / size)} "
-            f"{has}: {advice}, or raise the limit of {name}."
+            f"This would take {about}{taken} {unit}, and {there} {has}: {advice}, or raise the limit of {name}."
         )
 
 
@@ -99,6 +102,12 @@ def _number(value: float) -> str:
     if not value < 1e15:
         return f"{value:.3g}"
     return f"{value:,.0f}" if value >= 100 or value == int(value) else f"{value:.3g}"
+
+
+def _bytes(value: float) -> tuple[str, str]:
+    """A size as it is read, and its unit."""
+    unit = next((name for name, size in SIZES.items() if value >= 0.1 * size), "kB")
+    return _number(value / SIZES[unit]), unit
 
 
 def _free(name: str, folder: str) -> float:

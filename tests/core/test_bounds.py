@@ -55,7 +55,7 @@ def test_a_walk_without_end_is_refused_before_its_samples_are_made(tmp_path):
     text = refused(tmp_path / "bake", striding(1e7), frame_end=20)
     assert "10,000,000 seconds of walking, and 86,400 are the limit" in text
     text = refused(tmp_path / "bake", striding(1e7), frame_end=20, limits=Limits(seconds=1e12, memory=8e9))
-    assert "GB of memory, and 8 are the limit" in text
+    assert "GB of memory, and 8 GB are the limit" in text
     with pytest.raises(DesirePathError, match="GB of memory"):
         striding(1e10).resample(240.0)
 
@@ -92,22 +92,22 @@ def test_a_picture_that_is_too_large_is_refused(tmp_path):
     text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(cells=1000))
     assert "cells in a picture" in text and "1,000 are the limit" in text
     text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(memory=1e8))
-    assert "GB of memory, and 0.1 are the limit" in text
+    assert "GB of memory, and 0.1 GB are the limit" in text
 
 
 def test_the_disk_counts(tmp_path, monkeypatch):
     text = refused(tmp_path / "bake", limits=Limits(disk=1e4))
-    assert "GB on the disk, and 1e-05 are the limit" in text
+    assert "kB on the disk, and 10 kB are the limit" in text
     monkeypatch.setattr(bounds.shutil, "disk_usage", lambda folder: type("usage", (), {"free": 20_000})())
     text = refused(tmp_path / "bake")
-    assert "on the disk, and 2e-05 are free" in text and "make room" in text
+    assert "on the disk, and 20 kB are free" in text and "make room" in text
     baked(tmp_path / "bake", limits=Limits(disk=1e9))
 
 
 def test_memory_that_is_not_there_counts(tmp_path, monkeypatch):
     assert 1e6 < disk.memory_free() < 1e15
     monkeypatch.setattr(disk, "memory_free", lambda: 1e5)
-    assert "memory, and 0.0001 are free" in refused(tmp_path / "bake")
+    assert "memory, and 0.1 MB are free" in refused(tmp_path / "bake")
 
 
 def test_plants_count(tmp_path):
@@ -117,7 +117,7 @@ def test_plants_count(tmp_path):
     text = refused(tmp_path / "bake", plants=[Planting("lawn", 100_000.0)], limits=Limits(plants=1e9, memory=1e6))
     assert "GB of memory" in text
     text = refused(tmp_path / "bake", plants=[Planting("lawn", 3000.0)], plant_mesh=True, limits=Limits(disk=5e6))
-    assert "GB on the disk" in text
+    assert "GB on the disk, and 5 MB are" in text
 
 
 @pytest.mark.parametrize("cell", [0.005, 0.02])
