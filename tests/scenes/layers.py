@@ -51,7 +51,7 @@ VIEWS = {
             cell=0.015,
             wave=0.01,
             sun=20.0,
-            stops=0.9,
+            stops=1.7,
         ),
         "mud",
         0.06,
