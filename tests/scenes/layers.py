@@ -78,7 +78,7 @@ VIEWS = {
     "snow": Lain(
         tracks.View("packed-earth", tracks.RIDE, (2.2, 1.4), (0.2, -1.2, 0.62), (0.05, -0.02, 0.0), sun=16.0),
         "powder-snow",
-        0.006,
+        0.0025,
     ),
 }
 
