@@ -166,7 +166,7 @@ def test_what_cannot_be_done_is_said(planned, crowd, tmp_path, capsys):
 
 
 def test_soil_that_goes_too_far_is_told(crowd, tmp_path, monkeypatch):
-    monkeypatch.setattr(plan, "margin", lambda *_: 0.0)
+    monkeypatch.setattr(plan, "margin", lambda *_: -0.07)  # a step that is taken to change less than its sole
     plan.plan(bake(crowd, tmp_path / "bake"), tmp_path / "job", (1, 1), 1)
     assert "plan the job anew with --margin 1" in refused(task.run, Job(tmp_path / "job"), 0, 0)
 
