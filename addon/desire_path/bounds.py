@@ -33,10 +33,14 @@ ADVICE = {  # name: (unit, what to do)
     "seconds": ("seconds of walking", "let it end earlier"),
     "cells": ("cells in a picture", "choose a larger cell size or a shorter walk"),
     "plants": ("plants", "choose a lower density, or plant a rectangle"),
-    "memory": ("of memory", "choose a larger cell size, fewer frames or fewer plants"),
-    "disk": ("on the disk", "choose a larger cell size or fewer frames, or make room"),
+    "memory": ("GB of memory", "choose a larger cell size, fewer frames or fewer plants"),
+    "disk": ("GB on the disk", "choose a larger cell size or fewer frames, or make room"),
 }
 SIZES = {"GB": 1e9, "MB": 1e6, "kB": 1e3}  # [bytes]
+SMALL = {  # what is told in smaller units, by these
+    "memory": {"MB": "MB of memory", "kB": "kB of memory"},
+    "disk": {"MB": "MB on the disk", "kB": "kB on the disk"},
+}
 
 
 @dataclass(frozen=True)
@@ -90,9 +94,9 @@ class Limits:
         unit, advice = ADVICE[name]
         has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
         taken, there = _number(amount), _number(most)
-        if name in ("memory", "disk"):
+        if name in SMALL:
             (taken, word), there = _bytes(amount), " ".join(_bytes(most))
-            unit = f"{word} {unit}"
+            unit = SMALL[name].get(word, unit)
         raise DesirePathError(
             f"This would take {about}{taken} {unit}, and {there} {has}: {advice}, or raise the limit of {name}."
         )

@@ -64,7 +64,8 @@ def test_who_does_not_lift_his_feet_ploughs_a_furrow(walk):
     deep, clear = (each.max(axis=1 - along) for each in (drags, lifted))
     inside = np.flatnonzero(clear > 0.15)
     between = slice(inside[0], inside[-1])
-    assert deep[between].min() > 0.08 and clear[between].min() < 0.03
+    # what is ploughed up while the other foot stands is laid beside that, into the furrow, too
+    assert deep[between].min() > 0.045 and clear[between].min() < 0.03
 
 
 def test_nothing_is_lost(waded):
