@@ -1,21 +1,8 @@
 // ground that is no spring: snow that packs, and ground that was measured
 #include "check.h"
 #include "ground.h"
+#include "law.h"
 #include "soil/soil_law.h"
-
-static DpSoil snow(float density)
-{
-    DpSoil soil = dp_soil_default();
-    soil.snow_density = density;
-    return soil;
-}
-
-static DpSoil measured(float cohesion, float friction, float power)
-{
-    DpSoil soil = dp_soil_default();
-    soil.bekker_cohesion = cohesion, soil.bekker_friction = friction, soil.bekker_power = power;
-    return soil;
-}
 
 TEST(what_it_presses_back_with_grows_and_the_depth_is_its_inverse)
 {

@@ -1,21 +1,8 @@
 // tests of soil_law_press.c: a sole sinks until what it stands on carries the load. MODEL 6.2, MODEL 6.14
 #include "check.h"
 #include "ground.h"
+#include "law.h"
 #include "soil/soil_law.h"
-
-static DpSoil snow(float density)
-{
-    DpSoil soil = dp_soil_default();
-    soil.snow_density = density;
-    return soil;
-}
-
-static DpSoil measured(float cohesion, float friction, float power)
-{
-    DpSoil soil = dp_soil_default();
-    soil.bekker_cohesion = cohesion, soil.bekker_friction = friction, soil.bekker_power = power;
-    return soil;
-}
 
 TEST(a_sole_goes_as_deep_as_the_law_says_and_no_deeper_than_the_layer)
 {
