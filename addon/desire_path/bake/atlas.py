@@ -20,7 +20,7 @@ from ..errors import DesirePathError
 from ..ground import maps
 from ..ground.sim import TILE
 
-PAGE, EDGE = 60, 2  # cells of a page, and those of its neighbours beyond each side
+PAGE, EDGE = 60, 2  # cells of a page, and those of its neighbours beyond each side; native/sim/sim_film.h has the same
 TABLE = "pages.exr"  # beside the frames: R, G column and row of the page in the pictures, B 1 where there is one
 
 
