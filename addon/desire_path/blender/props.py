@@ -142,7 +142,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     )
     refine_length: units.length(
         "refine_size",
-        "Shortest Edge",
+        "Edges",
         "Shortest edge of the refined copy; 0 = the cell size",
         min=0.0,
         soft_max=0.1,

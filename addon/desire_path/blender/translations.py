@@ -212,7 +212,7 @@ GERMAN = {
         "Select a ground mesh or a walker": "Einen Boden oder Läufer wählen",
         "Shank": "Unterschenkel",
         "Shear [m]": "Scherweg [m]",
-        "Shortest Edge": "Kürzeste Kante",
+        "Edges": "Kanten",
         "Shown By": "Gezeigt von",
         "Slides In [s]": "Rutscht nach in [s]",
         "Slip": "Rutschen",
