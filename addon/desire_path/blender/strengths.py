@@ -57,14 +57,18 @@ def declared(tree):
 
 
 def rise(wire, entry, change, compression):
-    """The field of how far the ground is shown above its first height: exactly its change where all inputs are 1.
+    """The field of how far the ground is shown above its first height: its change, and nothing worked out, where all
+    inputs are 1.
 
     entry: the node of the tree's inputs; change, compression: fields [m]
     """
     prints, rims = (entry.outputs[each.name] for each in INPUTS[:2])
     heap = wire.math("MAXIMUM", wire.math("ADD", change, compression), 0.0)
     more = wire.math("MULTIPLY", heap, wire.math("SUBTRACT", rims, prints))
-    return wire.math("ADD", wire.math("MULTIPLY", change, prints), more)
+    scaled = wire.math("ADD", wire.math("MULTIPLY", change, prints), more)
+    off = (wire.math("ABSOLUTE", wire.math("SUBTRACT", each, 1.0)) for each in (prints, rims))
+    other = wire.math("GREATER_THAN", wire.math("MAXIMUM", *off), 0.0)
+    return wire.switch("FLOAT", other, change, scaled)
 
 
 def of_prints(wire, entry, field):
@@ -82,10 +86,7 @@ def painted(wire, entry, geometry, change, compression):
         Selection=wire.math("GREATER_THAN", trodden, TRODDEN),
         **{"Material Index": index},
     )
-    switch = wire.add("GeometryNodeSwitch", {"input_type": "GEOMETRY"}, Switch=wire.math("GREATER_THAN", index, -0.5))
-    for name, value in (("False", geometry), ("True", other.outputs[0])):
-        wire.tree.links.new(value, compat.socket(switch.inputs, name))
-    return compat.socket(switch.outputs, "Output")
+    return wire.switch("GEOMETRY", wire.math("GREATER_THAN", index, -0.5), geometry, other.outputs[0])
 
 
 def values(modifier):

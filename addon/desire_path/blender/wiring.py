@@ -69,6 +69,13 @@ class Wiring:
             Value=value,
         ).outputs[0]
 
+    def switch(self, kind, condition, no, yes):
+        """`yes` where a condition holds, else `no`; if it is a plain number, the other of the two is not worked out."""
+        node = self.add("GeometryNodeSwitch", {"input_type": kind}, Switch=condition)
+        for name, value in (("False", no), ("True", yes)):
+            self.tree.links.new(value, compat.socket(node.inputs, name))
+        return compat.socket(node.outputs, "Output")
+
     def xyz(self, x=0.0, y=0.0, z=0.0):
         return self.add("ShaderNodeCombineXYZ", X=x, Y=y, Z=z).outputs[0]
 
