@@ -20,6 +20,7 @@ from . import (
     op_place,
     op_plants,
     op_press,
+    op_slow,
     op_track,
     op_walk_it,
     op_walkers,
@@ -41,6 +42,7 @@ _CLASSES = (
     + op_forces.CLASSES
     + op_place.CLASSES
     + op_balance.CLASSES
+    + op_slow.CLASSES
     + op_plants.CLASSES
     + op_walk_it.CLASSES
     + op_press.CLASSES

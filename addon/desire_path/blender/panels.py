@@ -264,6 +264,9 @@ def draw_walker(layout, context, obj):
         row = feet.row(align=True)
         row.operator("object.desire_path_balance", icon="MOD_SIMPLEDEFORM").remove = False
         row.operator("object.desire_path_balance", text="", icon="X").remove = True
+        row = feet.row(align=True)
+        row.operator("object.desire_path_slow_down", icon="PREVIEW_RANGE").remove = False
+        row.operator("object.desire_path_slow_down", text="", icon="X").remove = True
         column = _column(layout)
         column.prop(settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")

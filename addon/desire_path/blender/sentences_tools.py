@@ -74,6 +74,33 @@ GERMAN = {
     ),
     "'{}' plays '{}', leaning by {} to {} degrees.": "'{}' spielt '{}' und neigt sich um {} bis {} Grad.",
     # ---- placement/balance.py
+    # ---- blender/op_slow.py
+    "How deep '{}' sinks is not known. {}": "Wie tief '{}' einsinkt, ist nicht bekannt. {}",
+    "'{}' is slowed down already: take that off, bake, and press Slow Down again.": (
+        "'{}' ist schon verlangsamt: das abnehmen, backen und noch einmal Verlangsamen drücken."
+    ),
+    "'{}' plays no action: Slow Down sets the time of one action. Give it that, by Object > Animation > Bake Action "
+    "with Visual Keying.": (
+        "'{}' spielt keine Action: Verlangsamen stellt die Zeit einer einzigen Action. Sie entsteht durch Object > "
+        "Animation > Bake Action mit Visual Keying."
+    ),
+    "'{}' plays strips of the NLA editor: Slow Down sets the time of one action. Give it that, by Object > Animation "
+    "> Bake Action with Visual Keying.": (
+        "'{}' spielt Strips des NLA-Editors: Verlangsamen stellt die Zeit einer einzigen Action. Sie entsteht durch "
+        "Object > Animation > Bake Action mit Visual Keying."
+    ),
+    "There is no bake yet: press Bake Trail.": "Noch ist nichts gebacken: Spur backen drücken.",
+    "'{}' hardly sinks: at equal effort it walks as fast as on firm ground. Nothing was changed.": (
+        "'{}' sinkt kaum ein: mit gleicher Mühe geht es so schnell wie auf festem Boden. Nichts wurde geändert."
+    ),
+    "'{}' is not slowed down: there is nothing to take off.": (
+        "'{}' ist nicht verlangsamt: es gibt nichts abzunehmen."
+    ),
+    "Walking costs '{}' {} times as much as on firm ground: at equal effort it takes {} times as long, up to frame "
+    "{}.": (
+        "Gehen kostet '{}' {}-mal so viel wie auf festem Boden: mit gleicher Mühe dauert es {}-mal so lang, bis Bild "
+        "{}."
+    ),
     # ---- blender/op_plants.py
     "{} plants of {} grow on '{}'.": "{0} Pflanzen der Art {1} wachsen auf '{2}'.",
     "The {} on '{}' is shown already, by '{}'.": "{} auf '{}' wird schon gezeigt, von '{}'.",

@@ -68,6 +68,7 @@ GERMAN = {
         "Show Grass": "Gras zeigen",
         "Show in File Browser": "Im Dateibrowser zeigen",
         "Sink into Prints": "In Abdrücke sinken",
+        "Slow Down": "Verlangsamen",
         "Tables": "Tabellen",
         "Undo Stroke": "Strich zurücknehmen",
         "Update Plants": "Pflanzen erneuern",

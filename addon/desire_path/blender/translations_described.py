@@ -98,6 +98,17 @@ GERMAN = {
         "Den Körper des aktiven Skeletts sich in Hänge neigen und auf nachgebendem Boden schwingen lassen, während die "
         "Füße bleiben, wo sie sind. Legt eine neue Action an; die alte bleibt"
     ),
+    "Let the active armature walk as slowly as its prints are deep, at the effort of firm ground. Its keys stay: a "
+    "strip of the NLA editor plays them, by a curve of time to work on": (
+        "Das aktive Skelett so langsam gehen lassen, wie seine Abdrücke tief sind, mit der Mühe festen Bodens. Seine "
+        "Keyframes bleiben: ein Strip des NLA-Editors spielt sie, nach einer Kurve der Zeit, die sich bearbeiten lässt"
+    ),
+    "Loose sand, which costs 2.1 times the effort however shallow prints are": (
+        "Loser Sand, der 2,1-mal so viel Mühe kostet, wie flach die Abdrücke auch sind"
+    ),
+    "Only the depth of prints costs effort": "Nur die Tiefe der Abdrücke kostet Mühe",
+    "Play the action again at its own time": "Die Action wieder in ihrer eigenen Zeit spielen",
+    "What walking costs where prints are shallow": "Was Gehen kostet, wo Abdrücke flach sind",
     "By which share of the slope under its feet the body leans": (
         "Um welchen Anteil der Neigung unter seinen Füßen sich der Körper neigt"
     ),
