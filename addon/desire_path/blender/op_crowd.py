@@ -6,7 +6,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from . import messages
 from .late import crowd
 from .ops import Refusal, active
-from .panels import _Physics, _Sidebar
+from .panels import in_both
 
 COVERS = (
     ("meadow", "Meadow", "Grass that wears, and draws walkers where it is worn"),
@@ -65,12 +65,4 @@ class _Crowd:
         row.operator("object.desire_path_crowd_add", icon="OUTLINER_OB_CURVE")
 
 
-class PHYSICS_PT_desire_path_crowd(_Physics, _Crowd, bpy.types.Panel):
-    pass
-
-
-class VIEW3D_PT_desire_path_crowd(_Sidebar, _Crowd, bpy.types.Panel):
-    pass
-
-
-CLASSES = (OBJECT_OT_desire_path_crowd_add, PHYSICS_PT_desire_path_crowd, VIEW3D_PT_desire_path_crowd)
+CLASSES = (OBJECT_OT_desire_path_crowd_add, *in_both(_Crowd, "_crowd"))

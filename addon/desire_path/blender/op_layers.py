@@ -7,7 +7,7 @@ from ..errors import DesirePathError
 from . import soils
 from .late import layers
 from .ops import Refusal, active
-from .panels import _column, _Ground, _Physics, _Sidebar
+from .panels import _column, _Ground, in_both
 
 UP, DOWN = "UP", "DOWN"
 
@@ -124,19 +124,10 @@ class _Layers(_Ground):
         draw(self.layout, context.object)
 
 
-class PHYSICS_PT_desire_path_layers(_Physics, _Layers, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_layers(_Sidebar, _Layers, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
 CLASSES = (
     OBJECT_OT_desire_path_layer_add,
     OBJECT_OT_desire_path_layer_remove,
     OBJECT_OT_desire_path_layer_move,
     OBJECT_UL_desire_path_layers,
-    PHYSICS_PT_desire_path_layers,
-    VIEW3D_PT_desire_path_layers,
+    *in_both(_Layers, "_layers", ""),
 )

@@ -272,16 +272,25 @@ def draw_walker(layout, context, obj):
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
-class _Physics:
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "physics"
+_PLACES = {  # where each panel stands
+    "PHYSICS": {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "physics"},
+    "VIEW3D": {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Desire Path"},
+}
 
 
-class _Sidebar:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Desire Path"
+def in_both(panel, name="", parent=None):
+    """Two classes of a panel, one for each place: <place>_PT_desire_path<name>, below <place>_PT_desire_path<parent>.
+
+    panel: a class with label, poll() and draw(); parent: None where it is below none
+    """
+    return tuple(_at(place, panel, name, parent) for place in _PLACES)
+
+
+def _at(place, panel, name, parent):
+    base = f"{place}_PT_desire_path"
+    below = {} if parent is None else {"bl_parent_id": base + parent}
+    fields = {**_PLACES[place], **below, "__module__": panel.__module__}
+    return type(base + name, (panel, bpy.types.Panel), fields)
 
 
 class _Main:
@@ -340,66 +349,12 @@ class _Output(_Ground):
         draw_output(self.layout, context.object)
 
 
-class PHYSICS_PT_desire_path(_Physics, _Main, bpy.types.Panel):
-    pass
-
-
-class PHYSICS_PT_desire_path_soil(_Physics, _Soil, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class PHYSICS_PT_desire_path_numbers(_Physics, _Numbers, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path_soil"
-
-
-class PHYSICS_PT_desire_path_painted(_Physics, _Painted, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class PHYSICS_PT_desire_path_plants(_Physics, _Plants, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class PHYSICS_PT_desire_path_output(_Physics, _Output, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path(_Sidebar, _Main, bpy.types.Panel):
-    pass
-
-
-class VIEW3D_PT_desire_path_soil(_Sidebar, _Soil, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_numbers(_Sidebar, _Numbers, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path_soil"
-
-
-class VIEW3D_PT_desire_path_painted(_Sidebar, _Painted, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_plants(_Sidebar, _Plants, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_output(_Sidebar, _Output, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
 CLASSES = (
     *panel_lists.CLASSES,
-    PHYSICS_PT_desire_path,
-    PHYSICS_PT_desire_path_soil,
-    PHYSICS_PT_desire_path_numbers,
-    PHYSICS_PT_desire_path_painted,
-    PHYSICS_PT_desire_path_plants,
-    PHYSICS_PT_desire_path_output,
-    VIEW3D_PT_desire_path,
-    VIEW3D_PT_desire_path_soil,
-    VIEW3D_PT_desire_path_numbers,
-    VIEW3D_PT_desire_path_painted,
-    VIEW3D_PT_desire_path_plants,
-    VIEW3D_PT_desire_path_output,
+    *in_both(_Main),
+    *in_both(_Soil, "_soil", ""),
+    *in_both(_Numbers, "_numbers", "_soil"),
+    *in_both(_Painted, "_painted", ""),
+    *in_both(_Plants, "_plants", ""),
+    *in_both(_Output, "_output", ""),
 )

@@ -1,8 +1,6 @@
 """panels_track.py - what leaves a track along a curve, and the buttons that press it."""
 
-import bpy
-
-from .panels import _column, _Physics, _Sidebar
+from .panels import _column, in_both
 
 STAMPED = ("spacing", "width", "first", "size", "scatter")
 
@@ -63,12 +61,4 @@ class _Track:
         draw(self.layout, context.object)
 
 
-class PHYSICS_PT_desire_path_track(_Physics, _Track, bpy.types.Panel):
-    pass
-
-
-class VIEW3D_PT_desire_path_track(_Sidebar, _Track, bpy.types.Panel):
-    pass
-
-
-CLASSES = (PHYSICS_PT_desire_path_track, VIEW3D_PT_desire_path_track)
+CLASSES = in_both(_Track, "_track")

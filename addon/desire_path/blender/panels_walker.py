@@ -1,10 +1,8 @@
 """panels_walker.py - what an armature is taken for, bone by bone, and what its forces are."""
 
-import bpy
-
 from . import op_forces
 from .late import json, report
-from .panels import _column, _letters, _lines, _Physics, _Sidebar
+from .panels import _column, _letters, _lines, in_both
 
 
 def draw_rig(layout, obj):
@@ -76,25 +74,4 @@ class _Forces(_Rig):
         draw_forces(self.layout, context, context.object)
 
 
-class PHYSICS_PT_desire_path_rig(_Physics, _Rig, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class PHYSICS_PT_desire_path_forces(_Physics, _Forces, bpy.types.Panel):
-    bl_parent_id = "PHYSICS_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_rig(_Sidebar, _Rig, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
-class VIEW3D_PT_desire_path_forces(_Sidebar, _Forces, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_desire_path"
-
-
-CLASSES = (
-    PHYSICS_PT_desire_path_rig,
-    PHYSICS_PT_desire_path_forces,
-    VIEW3D_PT_desire_path_rig,
-    VIEW3D_PT_desire_path_forces,
-)
+CLASSES = (*in_both(_Rig, "_rig", ""), *in_both(_Forces, "_forces", ""))
