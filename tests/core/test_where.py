@@ -144,6 +144,11 @@ def test_rooms_hold(tmp_path):
         ("addon/desire_path/rig/a.py", "def f():\n    import math\n", "a.py:2: import at the top"),
         ("addon/desire_path/rig/a.py", 'b = lazy.module("..bake.bake", __package__)\n', "may not come late"),
         ("addon/desire_path/rig/a.py", 'b = lazy.module("bpy")\n', "stays free of bpy"),
+        ("addon/desire_path/rig/a.py", 'b = lazy.module("threading")\n', "threading stays out"),
+        ("addon/desire_path/rig/a.py", "import asyncio\n", "asyncio stays out"),
+        ("addon/desire_path/rig/a.py", "from importlib import import_module\n", "importlib stays out"),
+        ("native/soil/a.c", "int stray(void)\n{\n    return 1;\n}\n", "stray is given to other files"),
+        ("native/soil/a.c", "const float STRAY[2] = {1, 2};\n", "STRAY is given to other files"),
         ("addon/desire_path/rig/a.py", "def f(told):\n    pass\n", "'told' names much"),
         ("native/soil/a.c", "static int way;  // made\n", "'way' names much: say what it is, as velocity"),
     ],
@@ -192,6 +197,14 @@ def test_names_that_files_share_begin_with_dp(tmp_path, text, code):
         (
             {"rig/a.py": "from ..bake import b\n", "bake/b.py": "", "bake/c.py": "from ..rig import d\n"},
             "rooms bake, rig",
+        ),
+        (
+            {
+                "blender/a.py": "from .late import b\n",
+                "blender/b.py": "from . import a\n",
+                "blender/late.py": 'b = lazy.module(".b", __package__)\n',
+            },
+            "blender/a.py, addon/desire_path/blender/b.py",
         ),
     ],
 )

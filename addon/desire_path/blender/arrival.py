@@ -7,6 +7,7 @@ Blender tells of that (4.5 and 5.2 do); elsewhere a ground of another file is me
 import bpy
 from bpy.app.handlers import persistent
 
+from . import ops
 from .late import handlers
 
 _begun = False
@@ -60,6 +61,7 @@ def _handlers():
 
 
 def register():
+    ops.before.insert(0, begin)  # whoever presses a button may make the first ground
     for each, ours in _handlers():
         each.append(ours)
     if hasattr(bpy.data, "objects"):  # not while Blender itself starts
@@ -68,5 +70,6 @@ def register():
 
 def unregister():
     end()
+    ops.before.remove(begin)
     for each, ours in _handlers():
         each.remove(ours)

@@ -3,18 +3,16 @@
 import bpy
 
 from ..errors import DesirePathError
-from . import arrival
 from .late import playback
 from .messages import tell
 from .translations import say
 
-before = []  # called before an operator of ours does its work
+before = []  # called before an operator of ours does its work; arrival.py is the first
 
 
 def begins():
     """An operator of ours begins its work."""
-    arrival.begin()
-    for each in before:
+    for each in before:  # those that come by the first are called, too
         each()
 
 
