@@ -1,12 +1,15 @@
 """What the pages for newcomers say is there: sections that code refers to, tests that hold what must hold, paths."""
 
 import re
+import shlex
+import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from desire_path import KINDS, SOILS
+from desire_path import KINDS, SOILS, commands
 
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = ROOT / "native" / "model.md"
@@ -167,3 +170,25 @@ def test_the_picture_of_the_rooms_holds_all_of_them():
     assert {"soil", "sim", "ground", "blender"} <= rooms
     missing = {room for room in rooms if not re.search(rf"\b{room}\b", picture)}
     assert not missing, "rooms that native/README.md does not show"
+
+
+README = (ROOT / "README.md").read_text("utf-8")
+
+
+def square(x):
+    """Vertices and triangles of a square of ground, 4 m wide, from x on."""
+    return np.array([(x, -2, 0), (x + 4, -2, 0), (x + 4, 2, 0), (x, 2, 0)], float), [(0, 1, 2), (0, 2, 3)]
+
+
+@pytest.mark.parametrize("script", re.findall(r"```python\n(from desire_path.*?)```", README, re.DOTALL))
+def test_scripts_of_the_readme_run(script, tmp_path, monkeypatch):
+    shutil.copy(ROOT / "addon" / "desire_path" / "walks" / "walk.npz", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    exec(script, {"west": square(-4.0), "east": square(0.0)})
+
+
+def test_commands_of_the_readme_are_understood():
+    lines = re.findall(r"^    python -m desire_path (.*?)(?: +#.*)?$", README, re.MULTILINE)
+    assert len(lines) > 10
+    for line in lines:
+        commands._parser().parse_args(shlex.split(line))
