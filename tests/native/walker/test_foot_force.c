@@ -11,79 +11,6 @@ static void run(Scene* s, int times, int limbs, int points, const uint8_t* on,
                         point) == DP_OK);
 }
 
-TEST(share_is_the_projection)
-{
-    const DpVec3 left = {0.0, 0.1, 0.0}, right = {0.0, -0.1, 0.0};
-    CHECK_NEAR(dp_foot_share((DpVec3){3.0, 0.1, 1.0}, left, right), 0.0, 1e-12);  // SOFT22 (5)
-    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.1, 1.0}, left, right), 1.0, 1e-12);
-    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.05, 1.0}, left, right), 0.75, 1e-12);
-    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.5, 1.0}, left, right), 1.0, 1e-12);
-    CHECK_NEAR(dp_foot_share(left, right, right), 0.5, 1e-12);
-}
-
-// `limbs` feet at given places, a body at rest over (x, y)
-static void stand(int limbs, const double (*feet)[2], double x, double y, int model, double* fz,
-                  double* balance_x, double* balance_y)
-{
-    enum
-    {
-        N = 60
-    };
-    Scene s = scene_make(N, RATE, limbs, 1);
-    for (int t = 0; t < N; ++t) {
-        scene_com(&s, t, x, y, 1.0);
-        for (int p = 0; p < limbs; ++p) scene_put(&s, N, p, t, feet[p][0], feet[p][1], 0.0);
-    }
-    uint8_t on[8 * N];
-    memset(on, 1, sizeof on);
-    double        force[3 * 8 * N], point[3 * 8 * N];
-    DpLoadOptions options = dp_load_options_default();
-    options.model = (DpLoadModel)model;
-    run(&s, N, limbs, 1, on, options, force, point);
-    double total = 0.0;
-    *balance_x = *balance_y = 0.0;
-    for (int p = 0; p < limbs; ++p) {
-        fz[p] = -force[3 * (p * N + N / 2) + 2] / (s.mass * DP_GRAVITY);
-        CHECK(fz[p] >= -1e-12);
-        total += fz[p];
-        *balance_x += fz[p] * feet[p][0];
-        *balance_y += fz[p] * feet[p][1];
-    }
-    CHECK_NEAR(total, 1.0, 1e-9);
-    scene_free(&s);
-}
-
-TEST(two_feet_at_rest_balance)
-{
-    const double feet[2][2] = {{0.0, 0.15}, {0.0, -0.15}};
-    double       fz[2], bx, by;
-    for (int model = 0; model < 2; ++model) {
-        stand(2, feet, 0.0, 0.0, model, fz, &bx, &by);
-        CHECK_NEAR(fz[0], 0.5, 1e-6);
-        stand(2, feet, 0.0, 0.075, model, fz, &bx, &by);
-        CHECK_NEAR(fz[0], 0.75, 1e-6);
-        CHECK_NEAR(by, 0.075, 1e-6);
-    }
-}
-
-TEST(four_feet_at_rest_balance)
-{
-    const double feet[4][2] = {{0.4, 0.15}, {0.4, -0.15}, {-0.4, 0.12}, {-0.4, -0.12}};
-    double       fz[4], bx, by;
-    stand(4, feet, 0.1, 0.03, DP_LOAD_INERTIA, fz, &bx, &by);
-    CHECK_NEAR(bx, 0.1, 1e-4);
-    CHECK_NEAR(by, 0.03, 1e-4);
-    for (int p = 0; p < 4; ++p) CHECK(fz[p] > 0.05);
-}
-
-TEST(one_foot_carries_all)
-{
-    const double feet[1][2] = {{0.3, 0.1}};
-    double       fz[1], bx, by;
-    stand(1, feet, 0.0, 0.0, DP_LOAD_INERTIA, fz, &bx, &by);
-    CHECK_NEAR(fz[0], 1.0, 1e-9);
-}
-
 // a body that bobs: F = m (g - a) at every sample, braking and pushing with it
 TEST(newton_holds_for_a_bobbing_body)
 {
@@ -398,10 +325,6 @@ TEST(who_speeds_up_weighs_behind)
 
 int main(void)
 {
-    RUN(share_is_the_projection);
-    RUN(two_feet_at_rest_balance);
-    RUN(four_feet_at_rest_balance);
-    RUN(one_foot_carries_all);
     RUN(newton_holds_for_a_bobbing_body);
     RUN(jump_weighs_right);
     RUN(ramps_ease_from_foot_to_foot);

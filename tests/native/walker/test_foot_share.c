@@ -1,8 +1,10 @@
 // Who carries how much: ramps, and the place over which the weight must be. MODEL 4.3, SOFT22 (5)
 #include "base/vec.h"
 #include "check.h"
+#include "scene.h"
 #include "walker/walker_inside.h"
 
+#define RATE 120.0
 #define SPAN 0.3  // support_span [m]
 
 static double sum_of(const double* share, int count)
@@ -90,11 +92,89 @@ TEST(ramps_are_the_same_backwards)
     }
 }
 
+TEST(share_is_the_projection)
+{
+    const DpVec3 left = {0.0, 0.1, 0.0}, right = {0.0, -0.1, 0.0};
+    CHECK_NEAR(dp_foot_share((DpVec3){3.0, 0.1, 1.0}, left, right), 0.0, 1e-12);  // SOFT22 (5)
+    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.1, 1.0}, left, right), 1.0, 1e-12);
+    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.05, 1.0}, left, right), 0.75, 1e-12);
+    CHECK_NEAR(dp_foot_share((DpVec3){0.0, -0.5, 1.0}, left, right), 1.0, 1e-12);
+    CHECK_NEAR(dp_foot_share(left, right, right), 0.5, 1e-12);
+}
+
+// `limbs` feet at given places, a body at rest over (x, y)
+static void stand(int limbs, const double (*feet)[2], double x, double y, int model, double* fz,
+                  double* balance_x, double* balance_y)
+{
+    enum
+    {
+        N = 60
+    };
+    Scene s = scene_make(N, RATE, limbs, 1);
+    for (int t = 0; t < N; ++t) {
+        scene_com(&s, t, x, y, 1.0);
+        for (int p = 0; p < limbs; ++p) scene_put(&s, N, p, t, feet[p][0], feet[p][1], 0.0);
+    }
+    uint8_t on[8 * N];
+    memset(on, 1, sizeof on);
+    double        force[3 * 8 * N], point[3 * 8 * N];
+    DpLoadOptions options = dp_load_options_default();
+    options.model = (DpLoadModel)model;
+    CHECK(dp_foot_force(scene_gait(&s, N, limbs, 1), on, s.ground, &options, force, point) ==
+          DP_OK);
+    double total = 0.0;
+    *balance_x = *balance_y = 0.0;
+    for (int p = 0; p < limbs; ++p) {
+        fz[p] = -force[3 * (p * N + N / 2) + 2] / (s.mass * DP_GRAVITY);
+        CHECK(fz[p] >= -1e-12);
+        total += fz[p];
+        *balance_x += fz[p] * feet[p][0];
+        *balance_y += fz[p] * feet[p][1];
+    }
+    CHECK_NEAR(total, 1.0, 1e-9);
+    scene_free(&s);
+}
+
+TEST(two_feet_at_rest_balance)
+{
+    const double feet[2][2] = {{0.0, 0.15}, {0.0, -0.15}};
+    double       fz[2], bx, by;
+    for (int model = 0; model < 2; ++model) {
+        stand(2, feet, 0.0, 0.0, model, fz, &bx, &by);
+        CHECK_NEAR(fz[0], 0.5, 1e-6);
+        stand(2, feet, 0.0, 0.075, model, fz, &bx, &by);
+        CHECK_NEAR(fz[0], 0.75, 1e-6);
+        CHECK_NEAR(by, 0.075, 1e-6);
+    }
+}
+
+TEST(four_feet_at_rest_balance)
+{
+    const double feet[4][2] = {{0.4, 0.15}, {0.4, -0.15}, {-0.4, 0.12}, {-0.4, -0.12}};
+    double       fz[4], bx, by;
+    stand(4, feet, 0.1, 0.03, DP_LOAD_INERTIA, fz, &bx, &by);
+    CHECK_NEAR(bx, 0.1, 1e-4);
+    CHECK_NEAR(by, 0.03, 1e-4);
+    for (int p = 0; p < 4; ++p) CHECK(fz[p] > 0.05);
+}
+
+TEST(one_foot_carries_all)
+{
+    const double feet[1][2] = {{0.3, 0.1}};
+    double       fz[1], bx, by;
+    stand(1, feet, 0.0, 0.0, DP_LOAD_INERTIA, fz, &bx, &by);
+    CHECK_NEAR(fz[0], 1.0, 1e-9);
+}
+
 int main(void)
 {
     RUN(two_supports_are_the_closed_form);
     RUN(whom_the_ramps_give_nothing_gets_nothing);
     RUN(three_supports_meet_the_target);
     RUN(ramps_are_the_same_backwards);
+    RUN(share_is_the_projection);
+    RUN(two_feet_at_rest_balance);
+    RUN(four_feet_at_rest_balance);
+    RUN(one_foot_carries_all);
     return check_done();
 }
