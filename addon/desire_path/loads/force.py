@@ -22,7 +22,9 @@ class FootForce(Record):
     """What every part of a recording's feet does to the ground, at the recording's samples."""
 
     time: np.ndarray  # (T,) [s]
-    touching: Array  # 1 where the part touches (P, T) u1
+    # 1 where the part touches (P, T) u1; at the samples beside a cut 0: who touches at one end of an interval does all
+    # the way, and over a cut nobody does
+    touching: Array
     force: Array  # of the part on the ground (P, T, 3) [N]
     point: Array  # centre of pressure, NaN in the air (P, T, 3) [m]
     clearance: np.ndarray  # resting height of each contact point over the ground (K,) [m]

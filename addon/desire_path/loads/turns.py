@@ -168,9 +168,9 @@ def together(gait: Gait, turns: Iterable[tuple[Turn, FootForce | Sunk]]) -> Foot
             span[turn.walkers] += len(turn.samples)
     if sunk and not clearance:
         raise sunk[0]
-    let_go(gait, touching)
     for on, push, centre in zip(*map(tracks.values, (touching, force, point))):
         push[on == 0], centre[on == 0] = 0.0, np.nan
+    let_go(gait, touching)  # the interval up to a cut and that after it have the forces of both of their ends
     return FootForce(
         gait.time,
         touching,

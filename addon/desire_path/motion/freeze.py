@@ -177,7 +177,11 @@ def closed(time: np.ndarray, held: Held) -> np.ndarray:
 
 
 def resampled(gait: R, rate: float, held: Sequence[Held]) -> R:
-    """The recording at an even rate, of walkers whose time stands still; held: holds() of it."""
+    """The recording at an even rate, of walkers whose time stands still; held: holds() of it.
+
+    A hold lasts a round number of samples, so that what it interrupts goes on at the pace it had: a step that is part
+    motion and part hold would be a stop.
+    """
     plain = gait.evenly(rate)
     com, pose = plain.com.copy(), plain.pose.copy()
     owner = gait.limb_walker[gait.part_limb]
@@ -186,9 +190,7 @@ def resampled(gait: R, rate: float, held: Sequence[Held]) -> R:
             continue
         own = gait.only([walker])
         went = np.interp(plain.time, gait.time, closed(gait.time, mine)) - gait.time[0]
-        on_samples = abs(went * rate - np.round(went * rate)).max() < 1e-3
-        fine = 1 if on_samples else 8  # holds that are no round number of samples long
-        moves = without(own, mine).evenly(rate * fine)
-        pick = np.minimum(np.round(went * rate * fine).astype(int), len(moves.time) - 1)
+        moves = without(own, mine).evenly(rate)
+        pick = np.minimum(np.round(went * rate).astype(int), len(moves.time) - 1)
         com[walker], pose[owner == walker] = moves.com[0, pick], moves.pose[:, pick]
     return replace(plain, com=com, pose=pose)

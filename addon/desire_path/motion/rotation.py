@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -77,9 +78,13 @@ def frame(forward: np.ndarray, up: ArrayLike) -> np.ndarray:
     return np.stack([x, np.cross(z, x), np.broadcast_to(z, x.shape)], axis=-1)
 
 
-def rate_of(values: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Change a second along the first axis."""
-    return np.gradient(values, time, axis=0) if len(time) > 1 else np.zeros_like(values)
+def rate_of(values: np.ndarray, time: np.ndarray, cut: Sequence[int] = ()) -> np.ndarray:
+    """Change a second along the first axis; over a cut, before the first sample of a new piece, nothing changes."""
+    out = np.zeros(np.shape(values))
+    for first, after in zip([0, *cut], [*cut, len(time)]):
+        if after - first > 1:
+            out[first:after] = np.gradient(values[first:after], time[first:after], axis=0)
+    return out
 
 
 def product(a: ArrayLike, b: ArrayLike) -> np.ndarray:

@@ -1,11 +1,13 @@
 """How long a pose is held tells nothing: what is known of a clip counts stays, not samples.
 
+runs     where a mask begins and ends
 still    samples at which the whole body keeps its pose: one who holds it there, or waits for his turn
 votes    a weight for each sample of a mask, so that each stay in it counts the same
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,14 +36,22 @@ def still(com: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
     return held
 
 
-def votes(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray:
+def runs(mask: np.ndarray, cut: Sequence[int] = ()) -> list[tuple[int, int]]:
+    """(first, after) of every run of samples in a mask (T,); one ends before a cut, where a new piece begins."""
+    found = list[tuple[int, int]]()
+    for start, end in zip([0, *cut], [*cut, len(mask)]):
+        edge = start + np.flatnonzero(np.diff(np.concatenate([[0], mask[start:end].astype("i1"), [0]])))
+        found += zip(edge[::2].tolist(), edge[1::2].tolist())
+    return found
+
+
+def votes(mask: np.ndarray, time: np.ndarray, size: float = 1.0, cut: Sequence[int] = ()) -> np.ndarray:
     """Weights (T,) [s] of the samples in a mask (T,): every run of them sums to its length, to VOTE at most."""
     weight = np.zeros(len(mask))
     if len(time) < 2:
         return mask * 1.0
     step = (time[-1] - time[0]) / (len(time) - 1)
-    edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
-    for first, after in zip(edge[::2], edge[1::2]):
+    for first, after in runs(mask, cut):
         weight[first:after] = min(step, VOTE * np.sqrt(size) / (after - first))
     return weight
 
@@ -50,8 +60,7 @@ def thinned(mask: np.ndarray, time: np.ndarray, size: float = 1.0) -> np.ndarray
     """The mask (T,) with VOTE of every stay in it, spread over its length: samples that count the same."""
     max_samples = max(2, round(VOTE * np.sqrt(size) * (len(time) - 1) / max(time[-1] - time[0], 1e-9)))
     few = np.zeros(len(mask), bool)
-    edge = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype("i1"), [0]])))
-    for first, after in zip(edge[::2], edge[1::2]):
+    for first, after in runs(mask):
         few[np.linspace(first, after - 1, min(after - first, max_samples)).round().astype(int)] = True
     return few
 

@@ -207,7 +207,7 @@ def gait_from_bones(
         bones = SampledBones(skeleton, motion)
         com = mass_centre(bones, rig, leg)
         warnings += drawn.sentences(name, lasts * frame_rate)
-    bones.tell = ~jumps.alone(len(time), cut)
+    bones.tell, bones.cut = ~jumps.alone(len(time), cut), tuple(cut)
     own_leg = stretched_leg(bones, rig, leg)
     moving, moving_com, bones, again, rests = _moving(skeleton, motion, rig, bones, time, com, cut, own_leg / sizes.LEG)
     shapes = soles.shapes or {}
@@ -342,7 +342,7 @@ def _moving(
             bones.tell[keep],
             SampledBones(skeleton, Motion(time[keep], motion.bones, np.asarray(motion.matrix)[keep])),
         )
-        bones.tell = tell
+        bones.tell, bones.cut = tell, tuple(np.searchsorted(keep, cut).tolist())
     again = np.searchsorted(keep, np.arange(len(time)), side="right") - 1
     return freeze.closed(time, tuple(held))[keep], com[keep], bones, again, rests[keep]
 

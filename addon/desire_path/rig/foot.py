@@ -39,6 +39,7 @@ FLAT_RISE = 0.12  # rises and falls slower [m/s]
 FLAT_TURN = 1.0  # and turns slower [rad/s]
 LOW = 0.10  # it is low within this of its lowest, in shares of the leg
 DOWN = 0.03  # and stands within this
+ENOUGH = 3  # samples of a foot that stands, in one piece of a clip
 HEEL_DOWN = 0.03  # its heel is down when the ankle is no more than this over its usual height over the ball
 
 
@@ -178,23 +179,25 @@ class Foot:
         """
         if len(time) < 3:
             return np.zeros(len(time), bool)
-        tell = self.bones.tell
+        tell, cut = self.bones.tell, self.bones.cut
         if self.held is not None and self.held.any():
             flat = self._flat(time, tell & ~self.held)
-            if stays.votes(flat, time, self.size).sum() >= stays.VOTE * np.sqrt(self.size):
+            if stays.votes(flat, time, self.size, cut).sum() >= stays.VOTE * np.sqrt(self.size):
                 return flat
         return self._flat(time, tell)
 
     def _flat(self, time: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """flat() of the samples in a mask.
 
-        A runner's foot is hardly ever still: where nothing is found, up to four times as much goes.
+        A runner's foot is hardly ever still: where too little is found, up to four times as much goes. How often a walk
+        is repeated tells nothing.
         """
+        cut = self.bones.cut
         ankle, ball, _ = self.joints()
         pace = np.sqrt(self.size)
-        v_ankle, v_ball = rotation.rate_of(ankle, time) / pace, rotation.rate_of(ball, time) / pace
+        v_ankle, v_ball = rotation.rate_of(ankle, time, cut) / pace, rotation.rate_of(ball, time, cut) / pace
         turn = self.bones.turn(self.slots.foot)
-        spin = np.linalg.norm(rotation.rate_of(turn, time), axis=(1, 2)) / np.sqrt(2.0) * pace
+        spin = np.linalg.norm(rotation.rate_of(turn, time, cut), axis=(1, 2)) / np.sqrt(2.0) * pace
         speed = np.maximum(np.linalg.norm(v_ankle, axis=1), np.linalg.norm(v_ball, axis=1))
         rise = np.maximum(abs(v_ankle[:, 2]), abs(v_ball[:, 2]))
         low = self._height(seen) < LOW * self.leg
@@ -205,9 +208,9 @@ class Foot:
             if more > 1.0:
                 flat &= low
             if flat.any():  # of those, the ones with the heel down
-                usual = stays.median(over_ball, stays.votes(flat, time, self.size))
+                usual = stays.median(over_ball, stays.votes(flat, time, self.size, cut))
                 flat &= over_ball < usual + HEEL_DOWN * self.leg
-            if flat.sum() >= 3:
+            if max(np.add.reduceat(flat, [0, *cut], dtype=int)) >= ENOUGH:
                 return np.asarray(flat)
         return np.zeros(len(time), bool)
 
@@ -229,7 +232,7 @@ class Foot:
         self, time: np.ndarray, up_rest: np.ndarray, ahead_rest: np.ndarray, skinned: bool
     ) -> tuple[FootShape, np.ndarray]:
         """Joints in the flat foot, from the clip itself, else from the rest pose."""
-        flat = self.flat(time)
+        flat, cut = self.flat(time), self.bones.cut
         if self.known is not None and not skinned:
             return replace(self.known), flat
         if skinned or not flat.any():
@@ -240,7 +243,7 @@ class Foot:
             up, weight = up_rest, np.ones(1)
             ahead: np.ndarray | None = ahead_rest
         else:
-            weight = stays.votes(flat, time, self.size)[flat]
+            weight = stays.votes(flat, time, self.size, cut)[flat]
             ankle, ball, tip = (j[flat] for j in self.joints())
             foot_turn = self.bones.turn(self.slots.foot)[flat]
             toe_turn = self.bones.turn(self.toe)[flat] if self.toe else None

@@ -81,7 +81,7 @@ def parts(
     else:
         under = heel_at + heel_turn @ ball_in_foot
         rest_height = (
-            stays.median(under[:, 2], stays.votes(flat, time, foot.size))
+            stays.median(under[:, 2], stays.votes(flat, time, foot.size, bones.cut))
             if flat.any()
             else np.quantile(under[bones.tell, 2], 0.05)
         )

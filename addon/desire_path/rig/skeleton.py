@@ -51,6 +51,7 @@ class SampledBones:
         self.matrix = np.asarray(motion.matrix, float)
         self.turns: dict[str, np.ndarray] = {}
         self.tell = np.ones(len(self.matrix), bool)  # samples from which contacts can be judged (T,)
+        self.cut: tuple[int, ...] = ()  # samples at which a new piece begins, over which nothing moves
 
     def point(self, name: str, along: float = 0.0) -> np.ndarray:
         """A point on a bone's axis, from its head 0 to its tail 1, over time (T, 3) [m]."""
