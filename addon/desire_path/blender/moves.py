@@ -12,7 +12,7 @@ import re
 
 import bpy
 
-from . import auto, clock, compat, playback, playback_tree
+from . import auto, clock, compat, playback, playback_tree, seams
 
 # modifiers that change a mesh with time, and nodes that do
 BY_TIME = {
@@ -62,15 +62,17 @@ def frame_range(scene, obj):
     return scene.frame_start, scene.frame_end
 
 
-def ends(scene, walkers):
-    """Frames at which keys of walkers begin and end between two: before and after them a pose is held."""
-    found = set()
+def besides(scene, walkers):
+    """Where walkers are looked at besides whole frames: keys begin and end between two, or another take begins."""
+    ends, found = set(), list[float]()
+    slow = clock.stretch(scene)
     for each in walkers:
-        movers = _Movers(each)
-        spans = [(first * clock.stretch(scene), last * clock.stretch(scene)) for first, last in movers.spans]
+        movers = _Movers(each, (scene.frame_start / slow, scene.frame_end / slow))
+        spans = [(first * slow, last * slow) for first, last in movers.spans]
         if spans and not movers.goes_on:
-            found |= {min(span[0] for span in spans), max(span[1] for span in spans)}
-    return sorted(found)
+            ends |= {min(span[0] for span in spans), max(span[1] for span in spans)}
+        found += [seam * slow for seam in movers.seams]
+    return seams.Besides(tuple(sorted(ends)), tuple(seams.spread(found, clock.frame_rate(scene))))
 
 
 def moves(obj):
@@ -154,11 +156,11 @@ class _Movers:
     """Everything that moves an object.
 
     spans: first and last frame of keys and strips, in the animation's time; goes_on: does anything else move it?
-    seen: all datablocks that take part in it
+    seams: where it may go on elsewhere at once, of cycles those in `within`; seen: all datablocks that take part in it
     """
 
-    def __init__(self, obj):
-        self.spans, self.goes_on, self.tied = [], False, []
+    def __init__(self, obj, within=(0.0, 0.0)):
+        self.spans, self.goes_on, self.tied, self.seams, self.within = [], False, [], [], within
         own = _chain(obj)
         for each in own:
             self._look(each)
@@ -210,7 +212,9 @@ class _Movers:
         solo = [track for track in tracks if track.is_solo]
         for track in solo or tracks:
             if not track.mute or solo:
-                self.spans += [(strip.frame_start, strip.frame_end) for strip in track.strips if not strip.mute]
+                heard = [strip for strip in track.strips if not strip.mute]
+                self.spans += [(strip.frame_start, strip.frame_end) for strip in heard]
+                self.seams += [seam for strip in heard for seam in seams.of_strip(strip)]
         if animation.use_tweak_mode:
             self.goes_on = True  # a strip's action is edited, which may have outgrown its strip
         elif animation.action is not None and not solo:
@@ -237,6 +241,7 @@ class _Movers:
                 tuple(curve.range()) for curve in curves if len(curve.keyframe_points) or len(curve.sampled_points)
             ]
         self.goes_on |= any(_goes_on(curve) for curve in curves)
+        self.seams += [seam for curve in curves for seam in seams.of_curve(curve, *self.within)]
 
     def _driver(self, driver):
         names = {variable.name for variable in driver.variables}

@@ -240,7 +240,7 @@ class OBJECT_OT_desire_path_record(Refusal, bpy.types.Operator):
             first, last = moves.frames(scene, ground, walkers(scene, ground))
         else:
             first, last = moves.frame_range(scene, obj)
-        gait = sample.record(scene, obj, first, last, ends=moves.ends(scene, [obj]))
+        gait = sample.gaits(scene, [obj], first, last)
         gait = bodies.laws([obj], gait, lambda: _land(scene, obj, gait, first))
         path = bpy.path.abspath(self.filepath)
         gait.save(path)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..motion.gait import Gait
-from . import axes, clock, compat, moves, sample, worn
+from . import axes, clock, compat, moves, sample, seams, worn
 
 _kept = None  # recordings by key, while there is one to keep them
 
@@ -50,25 +50,26 @@ def within(store, steps):
         steps.close()
 
 
-def record(scene, armature, frame_start, frame_end, samples=None, ends=()):
+def record(scene, armature, frame_start, frame_end, samples=None, besides=seams.NOTHING):
     """sample.record() without a land, or what it was."""
     if _kept is None:
-        return sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
+        return sample.record(scene, armature, frame_start, frame_end, samples, besides=besides)
     samples = samples or sample.samples_of(scene, [armature])
     try:
-        key = (frame_start, frame_end, samples, tuple(ends), *_depends(scene, armature))
+        key = (frame_start, frame_end, samples, besides, *_depends(scene, armature))
     except (DesirePathError, AttributeError):  # who cannot be recorded is told so below
-        return sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
+        return sample.record(scene, armature, frame_start, frame_end, samples, besides=besides)
     if key not in _kept:
-        _kept[key] = sample.record(scene, armature, frame_start, frame_end, samples, ends=ends)
+        _kept[key] = sample.record(scene, armature, frame_start, frame_end, samples, besides=besides)
     return _kept[key]
 
 
 def gaits(scene, walkers, frame_start, frame_end):
     """sample.gaits() without a land, of what is kept."""
     samples = sample.samples_of(scene, walkers)
-    ends = moves.ends(scene, walkers)
-    return Gait.join([record(scene, each, frame_start, frame_end, samples, ends) for each in walkers])
+    besides = moves.besides(scene, walkers)
+    found = [record(scene, each, frame_start, frame_end, samples, besides) for each in walkers]
+    return Gait.join(seams.closed(found, besides))
 
 
 def _depends(scene, armature):

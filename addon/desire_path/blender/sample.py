@@ -17,12 +17,11 @@ from ..errors import DesirePathError
 from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
-from . import axes, clock, compat, moves, physics, playback, ride, soil_keys
+from . import axes, clock, compat, moves, physics, playback, ride, seams, soil_keys
 from .private import evaluated, looked_at, off_in_renders, private_scene
 from .worn import hanging, owners, skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
-NEAR = 0.02  # of a sample: so near to one nothing is looked at besides
 USUAL_MASS = 75.0  # of who carves and has none, which nobody asks for [kg]
 STIFF = 0.01  # a rigid body may change by so much of its size
 PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShape of each foot bone
@@ -225,16 +224,11 @@ def samples_of(scene, walkers):
     return max(each.desire_path.subframes for each in walkers) * math.ceil(1.0 / clock.stretch(scene) - 1e-6)
 
 
-def _apart(number):
-    """Whether a place among samples lies between two."""
-    return abs(number - round(number)) > NEAR
-
-
-def record(scene, armature, frame_start, frame_end, samples=None, land=None, ends=()):
+def record(scene, armature, frame_start, frame_end, samples=None, land=None, besides=seams.NOTHING):
     """What one armature did from frame to frame, as a Gait of one walker.
 
     land: a Simulation of its ground, for feet that lie on slopes
-    ends: frames, no whole ones, at which it is looked at besides
+    besides: frames at which it is looked at besides
     """
     if armature is None or armature.type not in {"ARMATURE", "MESH"}:
         raise DesirePathError("There is nobody to record: select the armature that walks, or a mesh that moves.")
@@ -244,8 +238,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None, end
     poses(armature)
     samples = samples or samples_of(scene, [armature])
     scale, rate = axes.unit_scale(scene), clock.frame_rate(scene)
-    frames = [frame_start + k / samples for k in range((frame_end - frame_start) * samples + 1)]
-    frames = sorted(frames + [at for at in ends if frame_start < at < frame_end and _apart(at * samples)])
+    frames = besides.frames(frame_start, frame_end, samples)
     if armature.type == "MESH":
         gait = _solid(scene, armature, frames, samples, rate, scale)
         if len(set(off_in_renders(scene, armature, frames))) > 1:
@@ -396,5 +389,6 @@ def _solid_weight(obj, vertices, faces):
 def gaits(scene, walkers, frame_start, frame_end, land=None):
     """All walkers of a ground as one recording; land: a Simulation of it, for feet that lie on slopes."""
     samples = samples_of(scene, walkers)
-    ends = moves.ends(scene, walkers)
-    return Gait.join([record(scene, each, frame_start, frame_end, samples, land, ends) for each in walkers])
+    besides = moves.besides(scene, walkers)
+    found = [record(scene, each, frame_start, frame_end, samples, land, besides) for each in walkers]
+    return Gait.join(seams.closed(found, besides))

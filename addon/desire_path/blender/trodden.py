@@ -177,8 +177,8 @@ def _frames(chosen, crew):
 def _track(scene, walker, home, all_walkers):
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
-        samples, ends = sample.samples_of(scene, all_walkers), moves.ends(scene, all_walkers)
-        gait = recordings.record(scene, walker, first, last, samples, ends)
+        samples, besides = sample.samples_of(scene, all_walkers), moves.besides(scene, all_walkers)
+        gait = recordings.record(scene, walker, first, last, samples, besides)
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))
         line = paths.waypoints(scene, walker.desire_path.path, first)
