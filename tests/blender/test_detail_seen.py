@@ -5,7 +5,7 @@ import numpy as np
 from scenes import meshes
 from test_refined import baked, copy_of, plane, seen, shortest
 
-from desire_path.blender import compat, playback_tree
+from desire_path.blender import compat, materials, playback_tree
 
 
 def test_details_are_shown_where_feet_went_and_nowhere_else(folder):
@@ -65,6 +65,10 @@ def test_walls_of_deep_prints_are_rough_and_cut_finer(folder):
     rough = compat.float_attribute(copy, playback_tree.WALL)[0]
     assert not aside[depth < low].any() and (depth > high).sum() > 1000
     assert 0.5 * rough < aside[depth > high].mean() < 3.0 * rough
+    up = np.zeros(3 * len(depth), np.float32)
+    fine.vertices.foreach_get("normal", up)
+    level = (depth > high) & (up[2::3] > 0.97)  # nothing is moved along the surface, where it would fold
+    assert level.sum() > 100 and aside[level].mean() < 0.4 * rough
     finer = shortest(copy)
     bpy.context.scene.frame_set(0)
     assert np.array_equal(compat.positions(seen(ground)), compat.positions(copy))
@@ -74,6 +78,25 @@ def test_walls_of_deep_prints_are_rough_and_cut_finer(folder):
     bpy.ops.object.desire_path_bake()
     sand = copy_of(ground).data
     assert not compat.float_attribute(sand, playback_tree.WALL).any() and finer < 0.6 * shortest(sand)
+
+
+def test_edges_of_deep_prints_stray_at_their_rim_alone(folder):
+    ground = baked(folder, plane(), cell=0.01, soil="deep-snow", detail_size=0.008)
+    away, pressed = strays(ground)
+    lumpy, fray = playback_tree.CUT[1], materials.detail_of(ground.desire_path).fray
+    assert (pressed > 8.0 * lumpy).sum() > 1000 and not away[pressed > 8.0 * lumpy].any()  # or walls would be fluted
+    assert 0.7 * fray < away[pressed == 0.0].std() < 1.3 * fray
+    ground.desire_path.soil = "dry-sand"  # no wall of it is rough: its edges stray all the way down
+    meshes.activate(ground)
+    bpy.ops.object.desire_path_bake()
+    away, pressed = strays(ground)
+    assert away[pressed > 0.5 * lumpy].std() > 0.7 * materials.detail_of(ground.desire_path).fray
+
+
+def strays(ground):
+    """How far edges are seen aside, along x [m], and how deep the ground is pressed there [m]."""
+    away = compat.vectors(copy_of(ground).data, playback_tree.STRAY)[:, 0]
+    return away, compat.colour_attribute(seen(ground), playback_tree.ATTRIBUTE)[:, 2]
 
 
 def test_water_fills_prints_up_to_its_level(folder):

@@ -27,7 +27,7 @@ CELL, DETAIL = 2.0, 0.002  # [mm], [m]
 DRIFT = 5.0  # cells of snow, which shows no grooves but walls [mm]
 LUG = 0.005  # how high the lugs of the sole stand [m]
 LENGTH = 0.31  # of the sole [m]
-STEPS = (140, 330)  # frames of the clip, at 120 a second
+STEPS = (140, 400)  # frames of the clip, at 120 a second: the foot that is looked for has left its print by then
 # what a soil's name says: height of waves [m], the sun above the horizon and round it [degrees], exposure [stops]
 LIGHT = {
     "snow": (0.006, 24.0, 44.0, 0.15),

@@ -16,7 +16,7 @@ from . import compat, playback_tree, wiring
 
 TAG = "desire_path_look"  # custom property on node groups and materials that are ours: what they are made for
 SHARE = "desire_path_share_{}"  # float attribute of a painted soil, sum of all at most 1
-VERSION = 3  # of the groups: an old one in a file is left to its users
+VERSION = 4  # of the groups: an old one in a file is left to its users
 FRAYED = 34.0  # lumps in a metre at the border of two soils
 OUTPUTS = {
     "Color": "NodeSocketColor",
@@ -125,7 +125,7 @@ def _mud(n, spot):
     colour = n.mix(n.between(wide, 0.4, 0.68, 0.0, 0.5), colour, (0.062, 0.039, 0.023, 1.0))
     wet = n.math("MAXIMUM", spot.wet, n.math("MULTIPLY", pressed, n.between(lumps, 0.25, 0.55, 0.7, 1.0)))
     wet = n.math("MAXIMUM", wet, n.between(wide, 0.5, 0.68, 0.0, 0.6))
-    colour, rough, specular = _wetted(n, wet, colour, 0.62, 0.3, 0.17)
+    colour, rough, specular = _wetted(n, wet, colour, 0.62, 0.3, 0.27)
     flat = n.math("MULTIPLY_ADD", pressed, -0.86, 1.0)
     height = n.sum(
         (n.math("MULTIPLY", flat, 0.0065), lumps),
@@ -139,7 +139,7 @@ def _earth(n, spot):
     """Crumbs of dark earth, trodden flat and darker where feet went."""
     clods, crumbs = n.crumbs(spot.at, 42.0), n.crumbs(spot.at, 130.0)
     lumps, grain = n.noise(spot.at, 30.0, 4.0, 0.6), n.noise(spot.at, 420.0, 3.0, 0.65)
-    wide, pressed, loose = n.noise(spot.at, 1.7, 2.0), _pressed(n, spot, 0.008), _loose(n, spot)
+    wide, pressed, loose = n.noise(spot.at, 1.7, 2.0), _pressed(n, spot, 0.005), _loose(n, spot)
     colour = n.mix(n.between(grain, 0.3, 0.7), (0.150, 0.108, 0.070, 1.0), (0.262, 0.196, 0.132, 1.0))
     colour = n.mix(n.between(lumps, 0.35, 0.65, 0.45, 0.0), colour, (0.120, 0.084, 0.053, 1.0))
     colour = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.4), colour, (0.150, 0.112, 0.074, 1.0))
@@ -326,9 +326,9 @@ def _trodden(n, recipe, spot, values):
 
 
 def _flooded(n, values):
-    """Where water stands it is dark, smooth and level."""
+    """Where water stands it is turbid, smooth and level."""
     water = n.between(_attribute(n, playback_tree.WATER, 2), 0.0, playback_tree.SHALLOW)
-    values["Color"] = n.mix(n.math("MULTIPLY", water, 0.75), values["Color"], (0.022, 0.016, 0.010, 1.0))
+    values["Color"] = n.mix(n.math("MULTIPLY", water, 0.8), values["Color"], (0.060, 0.042, 0.027, 1.0))
     values["Roughness"] = n.blend(water, values["Roughness"], 0.03)
     values["Specular"] = n.blend(water, values["Specular"], 0.5)
     dry = n.math("SUBTRACT", 1.0, water)

@@ -30,7 +30,7 @@ BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
 SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
 DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so far [m]
 SMOOTH = 0.35  # share of it that is left where a sole pressed
-CUT = (0.008, 0.040)  # walls are rough where it was pressed so deep [m]
+CUT = (0.004, 0.020)  # walls are rough where it was pressed so deep [m]
 SHALLOW = 0.002  # water so deep is level [m]
 LEAST = 1e-5  # where less is moved in the end nothing else is seen [m]
 LUMP = 0.022  # how far the lumps of a wall lie apart [m]
@@ -140,7 +140,7 @@ def create(obj, shown, playing, into=None):
         share = strengths.of_prints(wire, given, wire.between(split.outputs[2], *CUT))
         if level is not None:
             share = wire.math("MULTIPLY", share, wire.between(wire.named(WATER), 0.0, SHALLOW, 1.0, 0.0))
-        geometry = _rough(wire, geometry, split.outputs[2], share, np.linalg.norm(world[:3, :3], axis=0) * scale)
+        geometry = _rough(wire, geometry, share, np.linalg.norm(world[:3, :3], axis=0) * scale)
 
     geometry = strengths.painted(wire, given, geometry, split.outputs[0], split.outputs[2])
 
@@ -187,21 +187,24 @@ def _progress(wire, change, compression):
     return wire.math("MAXIMUM", wire.math("MINIMUM", share, 1.0), 0.0)
 
 
-def _rough(wire, geometry, compression, share, metres):
-    """Points of deep prints are moved by noise of the place where they stand, so that walls are lumpy. MODEL 8.3
+def _rough(wire, geometry, share, metres):
+    """Points of deep prints are moved across their surface by noise of the place where they stand, so that walls are
+    lumpy: what is moved along it would fold. MODEL 8.3
 
     share: of it that shows; metres: in a unit of the object along its axes
     """
     here = wire.vector("MULTIPLY", wire.add("GeometryNodeInputPosition").outputs[0], tuple(metres))
     noise = wire.add(
-        "ShaderNodeTexNoise", {"noise_dimensions": "3D"}, Vector=here, Scale=1.0 / LUMP, Detail=2.0, Roughness=0.6
+        "ShaderNodeTexNoise", {"noise_dimensions": "3D"}, Vector=here, Scale=1.0 / LUMP, Detail=1.0, Roughness=0.6
     )
-    away = wire.vector("SUBTRACT", compat.socket(noise.outputs, "Color"), (0.5, 0.5, 0.5))
-    away = wire.vector("MULTIPLY", away, tuple(np.array((1.0, 1.0, EVEN)) / (NOISE * metres)))
+    away = wire.math("SUBTRACT", noise.outputs[0], 0.5)
     high = wire.named(WALL)
-    away = wire.vector("SCALE", away, scale=wire.math("MULTIPLY", high, share))
-    deep = wire.math("GREATER_THAN", wire.math("MULTIPLY", compression, wire.math("SIGN", high)), CUT[0])
-    return wire.add("GeometryNodeSetPosition", Geometry=geometry, Selection=deep, Offset=away).outputs[0]
+    away = wire.math("MULTIPLY", away, wire.math("MULTIPLY", high, share))
+    across = wire.add("GeometryNodeInputNormal").outputs[0]
+    across = wire.vector("MULTIPLY", across, tuple(np.array((1.0, 1.0, EVEN)) / (NOISE * metres)))
+    deep = wire.math("GREATER_THAN", wire.math("MULTIPLY", high, share), 0.0)
+    offset = wire.vector("SCALE", across, scale=away)
+    return wire.add("GeometryNodeSetPosition", Geometry=geometry, Selection=deep, Offset=offset).outputs[0]
 
 
 def _in_place(wire, entry, copy):

@@ -68,7 +68,7 @@ def make(scene, obj, surface, index, planes, standing=(), into=None):
         return None
     carrier, copied = found.carrier, found.carrier.data
     if settings.detail_size:
-        seen.write(carrier, surface, obj, found)
+        seen.write(carrier, surface, obj, found, index, planes)
     seen.water(carrier, obj, found)
     if settings.attributes:
         value = cover.values(carrier, surface, index, planes, standing)

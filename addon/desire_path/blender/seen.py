@@ -5,9 +5,10 @@ soils of the ground, shares of those that are painted --> attributes of the copy
 
 import numpy as np
 
-from ..ground.detail import details
-from . import axes, compat, materials, playback_tree, soils
+from ..ground.detail import SHOWN, details
+from . import axes, compat, cover, materials, playback_tree, soils
 
+STRAYS = slice(SHOWN.index("stray_x"), SHOWN.index("stray_y") + 1)
 STEEP = 2.0  # slope of walls that are cut finer than the rest
 
 
@@ -42,18 +43,28 @@ def water(carrier, obj, cut):
     carrier.data.attributes.new(playback_tree.LEVEL, "FLOAT", "POINT").data.foreach_set("value", level)
 
 
-def write(carrier, surface, obj, cut):
-    """Write what a copy is like below a cell, by its soils."""
-    settings, mesh = obj.desire_path, carrier.data
+def write(carrier, surface, obj, cut, index, planes):
+    """Write what a copy is like below a cell, by its soils. index, planes: as in refined.make"""
+    its, mesh = (obj.desire_path, *obj.desire_path.painted), carrier.data
     at = axes.points(surface.world, compat.positions(mesh), surface.scale)
-    shares = _shares(obj, cut, len(at))
-    shown = sum(
-        share[:, None] * details(at, materials.detail_of(each))
-        for share, each in zip(shares, (settings, *settings.painted))
-        if share.any()
-    )
+    shares, walls = _shares(obj, cut, len(at)), [materials.wall_of(each) for each in its]
+    clean = _lumpy(carrier, surface, index, planes)  # an edge that strayed all the way down would be a row of flutes
+    shown = np.zeros((len(at), len(SHOWN)), np.float32)
+    for share, each, wall in zip(shares, its, walls):
+        if share.any():
+            found = details(at, materials.detail_of(each))
+            found[:, STRAYS] *= 1.0 - clean[:, None] * (wall > 0.0)
+            shown += share[:, None] * found
     for name, values in ((playback_tree.DETAIL, shown[:, :3]), (playback_tree.STRAY, shown[:, 3:])):
         values = np.ascontiguousarray(values, np.float32)
         mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
-    rough = sum(share * materials.wall_of(each) for share, each in zip(shares, (settings, *settings.painted)))
+    rough = sum(share * wall for share, wall in zip(shares, walls))
     mesh.attributes.new(playback_tree.WALL, "FLOAT", "POINT").data.foreach_set("value", rough.astype(np.float32))
+
+
+def _lumpy(carrier, surface, index, planes):
+    """How much of the roughness of walls shows at the points of a copy in the end, 0..1."""
+    pressed = cover.values(carrier, surface, index, {"compression": planes["compression"]}, ())["compression"]
+    low, high = playback_tree.CUT
+    share = np.clip((pressed - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
