@@ -56,7 +56,7 @@ WORDS = {
     "clod_size": ("Clods [m]", "How large the crumbs of its rims are at most, in metres; 0 = as usual for its kind"),
     "adhesion": ("Sticks [m]", "How thick it sticks to a sole or wheel that lifts, in metres; 0 = not at all"),
     "release_pressure": (
-        "Comes Off At [Pa]",
+        "Comes Off [Pa]",
         "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther",
     ),
     "water_depth": (
@@ -75,7 +75,7 @@ FINE = {  # lengths that are often millimetres
     "adhesion",
     "water_depth",
 }
-HARD, SOFT = 7.0, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
+HARD, SOFT = 7.4, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
 LOOSE = math.pi / 2  # walls that stand at this angle do not crumble [rad]
 
@@ -102,7 +102,7 @@ EASY = {
         lambda self: (HARD - math.log10(self.young_modulus)) / (HARD - SOFT),
         _soften,
         "Softness",
-        "0 like a trodden path, 1 like powder: each tenth more, prints half as deep again",
+        "0 like a trodden path, 1 like powder: each tenth more, prints three quarters deeper",
     ),
     "loose_layer": units.length(
         "layer_depth",

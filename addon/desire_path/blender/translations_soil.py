@@ -37,8 +37,8 @@ GERMAN = {
     "How long what slides takes for 10 cm, in seconds; 0 = it comes to rest at once": (
         "Wie lange Rutschendes für 10 cm braucht, in Sekunden; 0 = es kommt sofort zur Ruhe"
     ),
-    "0 like a trodden path, 1 like powder: each tenth more, prints half as deep again": (
-        "0 wie ein Trampelpfad, 1 wie Pulver: mit jedem Zehntel mehr werden Abdrücke um die Hälfte tiefer"
+    "0 like a trodden path, 1 like powder: each tenth more, prints three quarters deeper": (
+        "0 wie ein Trampelpfad, 1 wie Pulver: mit jedem Zehntel mehr werden Abdrücke um drei Viertel tiefer"
     ),
     "How thick the soft soil lies over rigid ground": "Wie dick die weiche Schicht über festem Grund liegt",
     "How much of what is pressed is pushed aside: 0 nothing, 1 all of it": (

@@ -93,13 +93,13 @@ def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear
 # (Janosi and Hanamoto 1961; Wong, Theory of Ground Vehicles); what holds together by more than friction does not slip.
 # Walls, roughness and how it bulges, ours, are for looks: depths and volumes are those of the tables.
 _SOILS = {
-    "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01, wall_angle=40.0, roughness=0.3, grain_size=0.01),
+    "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01, wall_angle=34.0, roughness=0.12, grain_size=0.01),
     "snow": _soil(0.375, 0.05, 38.0, 0.2, 0.01, wall_angle=80.0, roughness=0.4, grain_size=0.012, flow_time=0.3),
     "mud": _soil(0.625, 0.35, 15.0, 0.15, roughness=0.25, grain_size=0.02, heave=0.03, water_depth=0.024),
     "soil": _soil(1.25, 0.35, 30.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01),
     "soft-soil": _soil(1.35, 0.2, 12.5, 0.1),
     "dry-soil": _soil(0.35, 0.35, 7.5, 0.1),
-    "wet-soil": _soil(0.5, 0.3, 12.5, 0.1, rebound=0.25),
+    "wet-soil": _soil(0.5, 0.3, 12.5, 0.1, wall_angle=80.0, roughness=0.3, grain_size=0.015, rebound=0.25),
 }
 # For looks alone: as close-ups of prints show them, and as deep beside the others as people know them.
 _SOILS |= {
@@ -110,7 +110,7 @@ _SOILS |= {
         0.1,
         layer_depth=0.4,
         wall_angle=78.0,
-        roughness=0.2,
+        roughness=0.12,
         grain_size=0.03,
         rebound=0.02,
         flow_time=0.3,
@@ -120,7 +120,7 @@ _SOILS |= {
     ),
     "wet-sand": _soil(3.5, 0.25, 42.0, 0.05, 0.002, wall_angle=76.0, roughness=0.3, grain_size=0.008, rebound=0.08),
     "packed-snow": _soil(5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05),
-    "packed-earth": _soil(8.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.35, grain_size=0.015, rebound=0.12),
+    "packed-earth": _soil(20.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.35, grain_size=0.015, rebound=0.12),
 }
 # Sumner, O'Brien and Hodgins 1999, Table 1, read at second hand (in the review arXiv 2302.08683): inside slope as the
 # wall angle, outside slope as the rest angle, roughness, and compression alpha = 2 nu. Their ground has no stiffness:
