@@ -119,6 +119,7 @@ def draw(layout, obj):
 
 class _Layers(_Ground):
     bl_label = "Layers"
+    bl_order = 2
 
     def draw(self, context):
         draw(self.layout, context.object)

@@ -8,6 +8,9 @@ from .chosen import grounds, walkers
 from .late import bake_job, forward, json, plants, sentences, state
 
 
+BOXED = 3  # letters that a box takes of a line
+
+
 def _column(layout):
     layout.use_property_split = True
     layout.use_property_decorate = False
@@ -59,7 +62,7 @@ def draw_ground(layout, context, obj):
             icon="ARMATURE_DATA" if each.type == "ARMATURE" else "MESH_DATA",
         )
     if not there:
-        box.label(text="None: select one and press Add Walker", icon="INFO")
+        _lines(box, "None: select one and press Add Walker", "INFO", _letters(context) - BOXED)
 
     job = bake_job.running()
     if job is not None:
@@ -168,8 +171,8 @@ def draw_plants(layout, context, obj):
     layout.template_icon_view(each, "pictured", show_labels=True, scale=4.0)
     column = _column(layout)
     column.prop(each, "kind")
-    column.prop(each, "density")
-    column.prop_search(each, "density_group", obj, "vertex_groups")
+    column.prop(each, "density", text="Per m²")
+    column.prop_search(each, "density_group", obj, "vertex_groups", text="Only In")
     column.prop(each, "seed")
     picked = layout.column(align=True)  # a line of its own: its buttons need the panel's width
     picked.label(text="Density Image")
@@ -315,6 +318,7 @@ class _Ground:
 
 class _Soil(_Ground):
     bl_label = "Soil"
+    bl_order = 0
 
     def draw(self, context):
         soil_presets.draw(self.layout, context.object.desire_path, False)
@@ -330,6 +334,7 @@ class _Numbers(_Ground):
 
 class _Painted(_Ground):
     bl_label = "Painted Soils"
+    bl_order = 1
 
     def draw(self, context):
         draw_painted(self.layout, context.object)
@@ -337,6 +342,7 @@ class _Painted(_Ground):
 
 class _Plants(_Ground):
     bl_label = "Plants"
+    bl_order = 3
 
     def draw(self, context):
         draw_plants(self.layout, context, context.object)
@@ -344,6 +350,7 @@ class _Plants(_Ground):
 
 class _Output(_Ground):
     bl_label = "Output and Method"
+    bl_order = 4
 
     def draw(self, context):
         draw_output(self.layout, context.object)
