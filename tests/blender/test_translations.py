@@ -7,7 +7,9 @@ import bpy
 
 import desire_path.blender as addon
 from desire_path.blender import (
+    panels,
     props,
+    sentences,
     soils,
     state,
     translations,
@@ -19,6 +21,8 @@ from desire_path.blender import (
 )
 
 FOLDER = pathlib.Path(addon.__file__).parent
+FITS = {"label": 23, "prop": 14, "prop_search": 14}  # letters in a line of the sidebar: alone, beside a number
+WIDER = {"manual.py"}  # what is drawn in the preferences
 DRAWS = {"label": "*", "prop": "*", "prop_search": "*", "menu": "*", "operator": "Operator"}
 
 
@@ -36,15 +40,24 @@ def of_classes():
                     yield "*", item.name
 
 
-def of_panels():
-    """(context, label) of every text that is written out where panels draw."""
-    for path in sorted(FOLDER.glob("*.py")):
+def of_panels(draws=tuple(DRAWS), but=()):
+    """(context, label) of every text that is written out where panels draw; but: files that are left out."""
+    for path in sorted(each for each in FOLDER.glob("*.py") if each.name not in but):
         for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr in DRAWS:
+            if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr in draws:
                 words = (word.value for word in call.keywords if word.arg == "text")
                 for text in (each for value in words for each in ast.walk(value) if isinstance(each, ast.Constant)):
                     if isinstance(text.value, str) and text.value[:1].isupper():
                         yield DRAWS[call.func.attr], text.value
+
+
+def of_lines():
+    """(context, label) of every text that is written out where panels break lines."""
+    for path in sorted(FOLDER.glob("*.py")):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            lines = isinstance(call, ast.Call) and getattr(call.func, "id", "") == "_lines"
+            if lines and isinstance(call.args[1], ast.Constant):
+                yield "*", call.args[1].value
 
 
 def descriptions():
@@ -97,11 +110,28 @@ def test_every_word_is_in_every_language():
     assert len(labels()) > 100 and len(told) > 120 and len(said) > 15
     wanted = {*labels(), *(("*", text) for text in told | said)}
     for language, table in translations.TABLE.items():
-        missing = sorted(wanted - set(table))
+        lacks = {key for key in of_lines() if sentences.said(language, key[1]) == key[1]}
+        missing = sorted((wanted | lacks) - set(table))
         assert not missing, f"{language} lacks {missing}"
         assert all(text.strip() == text and text for text in table.values())
         same = [text for (_, label), text in table.items() if text == label and len(label) > 20]
         assert not same and all(text.count("{") == label.count("{") for (_, label), text in table.items()), same
+
+
+def test_what_is_written_out_fits_the_sidebar():
+    """Longer labels go through panels._lines, which breaks them."""
+    for kind, letters in FITS.items():
+        for key in of_panels((kind,), WIDER):
+            for text in (key[1], *(table[key] for table in translations.TABLE.values())):
+                assert len(text) <= letters, f"'{text}' has {len(text)} letters, and {kind} room for {letters}"
+
+
+def test_panels_of_a_ground_stand_in_the_order_of_work():
+    for place in ("PHYSICS", "VIEW3D"):
+        parts = [each for each in addon._CLASSES if getattr(each, "bl_parent_id", "") == f"{place}_PT_desire_path"]
+        parts = [each for each in parts if issubclass(each, panels._Ground)]
+        parts.sort(key=lambda each: each.bl_order)
+        assert [each.bl_label for each in parts] == ["Soil", "Painted Soils", "Layers", "Plants", "Output and Method"]
 
 
 def test_no_word_is_told_that_nobody_says():

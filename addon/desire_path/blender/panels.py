@@ -7,7 +7,6 @@ from . import arrival, panel_lists, soil_presets, soils
 from .chosen import grounds, walkers
 from .late import bake_job, forward, json, plants, sentences, state
 
-
 BOXED = 3  # letters that a box takes of a line
 
 
@@ -27,7 +26,7 @@ def draw(layout, context):
     if obj is not None and (obj.desire_path.is_ground or obj.desire_path.is_walker):
         arrival.begin()  # it may have come from another file
     if obj is None or obj.type not in {"MESH", "ARMATURE"}:
-        layout.label(text="Select a ground mesh or a walker", icon="INFO")
+        _lines(layout, "Select a ground mesh or a walker", "INFO", _letters(context))
     elif obj.type == "MESH" and not obj.desire_path.is_walker:
         draw_ground(layout, context, obj)
     else:
@@ -135,7 +134,8 @@ def _lines(layout, text, icon, width):
     """A sentence over several lines, since labels do not wrap, in the language of the interface."""
     column = layout.column(align=True)
     line = ""
-    for word in sentences.translated(text).split():
+    label = bpy.app.translations.pgettext_iface(text)
+    for word in (label if label != text else sentences.translated(text)).split():
         if line and len(line) + 1 + len(word) > width:
             column.label(text=line, icon=icon)
             line, icon = word, "BLANK1"
@@ -230,9 +230,8 @@ def draw_walker(layout, context, obj):
     column.prop(settings, "ground")
     column.prop(settings, "weight")
     if not settings.mass:
-        column.label(
-            text=weight(settings).capitalize() if settings.estimated_mass else "Estimated when recorded", icon="INFO"
-        )
+        known = weight(settings).capitalize() if settings.estimated_mass else "Estimated when recorded"
+        _lines(column, known, "INFO", _letters(context))
     legged = obj.type == "ARMATURE"
     if legged:
         column.prop(settings, "sole")
