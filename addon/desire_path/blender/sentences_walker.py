@@ -45,9 +45,9 @@ GERMAN = {
         "dieser Geschwindigkeit vorwärts bewegen."
     ),
     "{} of {} steps of {} land beside the ground or reach over its edge, and leave no print there: make the "
-    "ground larger, or move it under the walk.": (
+    "ground larger, or move it under the walk, which takes up {} x {} m.": (
         "{} von {} Schritten von {} landen neben dem Boden oder ragen über seinen Rand, und hinterlassen dort "
-        "keinen Abdruck: den Boden größer machen, oder unter den Gang schieben."
+        "keinen Abdruck: den Boden größer machen, oder unter den Gang schieben, der {} x {} m einnimmt."
     ),
     "{} never touches the ground: check its feet, its scale and the frame range.": (
         "{} berührt den Boden nie: Füße, Größe und Bilder prüfen."

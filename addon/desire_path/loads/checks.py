@@ -73,10 +73,10 @@ def slides(gait: Gait, places: np.ndarray, touching: np.ndarray, size: float) ->
     return warnings
 
 
-def off(gait: Gait, touching: np.ndarray, beside: np.ndarray) -> list[str]:
-    """A sentence for each walker that steps beside the ground: how often.
+def off(gait: Gait, places: np.ndarray, touching: np.ndarray, beside: np.ndarray) -> list[str]:
+    """A sentence for each walker that steps beside the ground: how often, and how much ground its steps need.
 
-    beside: where the whole limb of a part is beside the ground (P, T)
+    places: of the points (C, T, 3) [m]; beside: where the whole limb of a part is beside the ground (P, T)
     """
     warnings = []
     for w, name in enumerate(gait.walker_name):
@@ -88,9 +88,11 @@ def off(gait: Gait, touching: np.ndarray, beside: np.ndarray) -> list[str]:
             steps += len(edges) // 2
             away += sum(bool(out[a:b].any()) for a, b in zip(edges[::2], edges[1::2]))
         if away:
+            own = (gait.limb_walker[gait.part_limb[gait.point_part]] == w)[:, None]
+            x, y = np.ptp(places[own & (touching[gait.point_part] != 0)][:, :2], axis=0)
             warnings.append(
                 f"{away} of {steps} steps of {name} land beside the ground or reach over its edge, and leave no print "
-                "there: make the ground larger, or move it under the walk."
+                f"there: make the ground larger, or move it under the walk, which takes up {x:.1f} x {y:.1f} m."
             )
     return warnings
 

@@ -206,7 +206,7 @@ def _loads_of(
     places = point_places(even)
     sinks(even, below)
     warnings = hovers(even, touching, clearance, size) + slides(even, places, touching, size) + warnings
-    warnings += off(even, touching, beside)
+    warnings += off(even, places, touching, beside)
     touching[beside], force[beside], point[beside] = 0, 0.0, np.nan
     over = places[..., 2] - below - clearance[:, None]
     warnings += elsewhere(even, over, touching, max(OFF_GROUND * gait.leg[0], 2.0 * cell), size)
