@@ -62,7 +62,7 @@ def taken(scene, company, folders, **more):
         ):
             gait = ground.walked(scene, walkers, gait, _land(found, gait, cell), first, last)
     gait = bodies.laws(walkers, gait, lambda: _land(found, gait, cell))
-    keys = soil_keys.uncounted(grounds, walkers, on_paths)
+    keys = soil_keys.uncounted(grounds, on_paths)
     gait = replace(gait, warnings=(*gait.warnings, *sole.few_faces(gait, cell), *keys))
     origin = next((each.origin for each in found.values() if each.origin != (0.0, 0.0)), (0.0, 0.0))
     if len(found) > 1 and any(ground.smooth(each.vertices, cell, origin) for each in found.values()):
@@ -71,7 +71,7 @@ def taken(scene, company, folders, **more):
     parcels = []
     for each, (path, owner) in zip(grounds, folders):
         grown = plants.plantings(scene, each)
-        own = ground.soils(each) if on_paths else soil_keys.of_ground(scene, each, first, end)
+        own = soil_keys.of_ground(scene, each, first, first if on_paths else end)
         layered.check_keys(each, own)
         parcels.append(
             Parcel(

@@ -5,18 +5,18 @@ import numpy as np
 from ..errors import DesirePathError
 from ..ground.layers import Layer, checked
 from ..ground.soil_keys import SoilKeys
-from . import axes, soils
+from . import soil_keys
 
 
 def of_ground(obj):
     """(Layer, vertex group, empty = it lies everywhere) from the top down; a sentence where they cannot lie there."""
-    found = []
-    for each in obj.desire_path.layers:
+    found, layers = [], obj.desire_path.layers
+    for each, (soil, thickness) in zip(layers, soil_keys.laid(obj) if layers else ()):
         if each.group and each.group not in obj.vertex_groups:
             raise DesirePathError(
                 f"'{obj.name}' has no vertex group '{each.group}' by which a layer lies: choose another group, or none."
             )
-        found.append((Layer(soils.soil_of(each), axes.typed(each.thickness)), each.group))
+        found.append((Layer(soil, thickness), each.group))
     for (one, _), (other, _) in zip(found, found[1:]):
         if one.soil == other.soil:
             raise DesirePathError(

@@ -220,7 +220,8 @@ class _Movers:
         elif animation.action is not None and not solo:
             self._action(animation)
         for curve in animation.drivers:
-            if not curve.mute and not playback.animates_ours(animation.id_data, curve.data_path):
+            ours = curve.data_path.startswith("desire_path.")  # a soil's number, a mass
+            if not (curve.mute or ours or playback.animates_ours(animation.id_data, curve.data_path)):
                 self._driver(curve.driver)
 
     def _action(self, animation):

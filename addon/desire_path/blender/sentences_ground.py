@@ -374,8 +374,8 @@ GERMAN = {
     "The soil of '{}' has keys, which ground in layers does not take: remove the keys, or the layers.": (
         "Die Bodenart von '{}' hat Keys, die Boden in Schichten nicht nimmt: die Keys entfernen, oder die Schichten."
     ),
-    "The keys on the layers of '{}' do not count: they are as now.": (
-        "Die Keys auf den Schichten von '{}' zählen nicht: sie sind wie jetzt."
+    "The keys on the layers of '{}' do not count: they are as at frame {}.": (
+        "Die Keys auf den Schichten von '{}' zählen nicht: sie sind wie in Bild {}."
     ),
     "'{}' has {} layers, which is the most: remove one first.": (
         "'{}' hat {} Schichten, mehr gehen nicht: zuerst eine entfernen."

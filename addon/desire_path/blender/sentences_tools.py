@@ -353,17 +353,12 @@ GERMAN = {
     "{} of the last bake is gone: bake again.": "{} des letzten Backens fehlt: noch einmal backen.",
     "{} of the last bake are gone: bake again.": "{} des letzten Backens fehlen: noch einmal backen.",
     # ---- blender/soil_keys.py
-    "The keys on the soils of '{}' do not count where a frame is a pass: they are as now.": (
-        "Die Keyframes auf den Bodenarten von '{}' zählen nicht, wo ein Bild ein Durchgang ist: sie sind, wie sie "
-        "jetzt sind."
+    "The keys on the soils of '{}' do not count where a frame is a pass: they are as at frame {}.": (
+        "Die Keyframes auf den Bodenarten von '{}' zählen nicht, wo ein Bild ein Durchgang ist: sie sind wie in Bild "
+        "{}."
     ),
     "The keys on the soil of '{}' do not count while a soil file is set: clear it.": (
         "Die Keyframes auf der Bodenart von '{}' zählen nicht, solange eine Bodendatei gesetzt ist: sie leeren."
-    ),
-    "'{}' has a driver or a strip of the NLA editor on {}, which counts as it is now: key it in the object's own "
-    "action instead.": (
-        "'{}' hat einen Treiber oder einen Streifen des NLA-Editors auf {}, was zählt, wie es jetzt ist: es "
-        "stattdessen in der eigenen Aktion des Objekts mit Keyframes versehen."
     ),
     # ---- blender/soil_presets.py
     "'{}' cannot name a soil: use letters, digits, spaces, - and _.": (

@@ -1,9 +1,7 @@
 """soil_keys.py - keys on the numbers of a ground's soils, and on the mass of a walker, as a bake takes them.
 
-    F-curves of the object's action --every frame--> SoilKeys, or a Soil where nothing changes; keys of a mass
-
-Drivers and strips of the NLA editor are not looked at: what they lead counts as it is when the bake begins, and
-uncounted() says so.
+F-curves of the object's action ------------------,--every frame--> SoilKeys, or a Soil where nothing changes;
+drivers, strips --a copy in a scene of its own--'                   keys of a mass
 """
 
 from dataclasses import replace
@@ -13,7 +11,7 @@ import bpy
 
 from ..ground.soil import NUMBERS
 from ..ground.soil_keys import SoilKeys
-from . import axes, clock, compat, soils
+from . import axes, clock, compat, private, soils
 
 ROOT = "desire_path."
 OWN, PAINTED = ROOT + "soil_numbers.", ROOT + "painted[{}].soil_numbers."
@@ -53,25 +51,62 @@ def _thin(times, values):
     return [(times[k], values[k]) for k in kept]
 
 
-def _sampled(curve, name, frames):
-    """Numbers by name of a curve, at each frame, within their ranges."""
+def _within(name, values):
+    """Numbers by name, at each frame, within their ranges, of what a property of a soil comes to."""
     found = {}
-    for frame in frames:
-        for number, value in _numbers(name, curve.evaluate(frame)).items():
+    for each in values:
+        for number, value in _numbers(name, each).items():
             low, high = NUMBERS[number].low, NUMBERS[number].high
             found.setdefault(number, []).append(min(max(axes.typed(value), low), high))
     return found
 
 
-def _soil(scene, obj, settings, path, first, last):
+def led(obj):
+    """Paths of properties of ours that drivers or strips of the NLA editor lead, which keys alone do not tell."""
+    animation = obj.animation_data
+    if animation is None:
+        return set()
+    found = {each.data_path for each in animation.drivers if not each.mute}
+    tracks = animation.nla_tracks if animation.use_nla else ()
+    for strip in (strip for track in tracks for strip in track.strips):
+        found |= {each.data_path for each in compat.strip_curves(strip)}
+    return {path for path in found if _is_ours(path)}
+
+
+def _moving(scene, obj, first, last):
+    """What properties of ours that are keyed, driven or in strips come to at each frame, by path."""
+    frames, _ = _frames(scene, first, last)
+    paths = led(obj)
+    if not paths:
+        curves = _curves(obj, ROOT)
+        return {ROOT + rest: [curve.evaluate(at) for at in frames] for rest, curve in curves.items()}
+    paths |= {ROOT + rest for rest in _curves(obj, ROOT)}
+    found = {path: [] for path in paths}
+    copy = obj.copy()
+    try:
+        copy.parent = None  # what moves and shapes it costs time and does not matter
+        copy.modifiers.clear()
+        copy.constraints.clear()
+        with private.private_scene(scene, copy) as own:
+            for frame in range(first, last + 1):
+                now = private.evaluated(own, copy, frame)
+                for path, values in found.items():
+                    values.append(now.path_resolve(path))
+    finally:
+        bpy.data.objects.remove(copy)
+    return found
+
+
+def _soil(scene, moving, settings, path, first, last):
     soil = soils.soil_of(settings)
     if settings.soil_file:
         return soil
-    frames, times = _frames(scene, first, last)
+    _, times = _frames(scene, first, last)
     keys = {}
-    for name, curve in _curves(obj, path).items():
-        for number, values in _sampled(curve, name, frames).items():
-            keys[number] = _thin(times, values)
+    for each, values in moving.items():
+        if each.startswith(path):
+            for number, sampled in _within(each[len(path) :], values).items():
+                keys[number] = _thin(times, sampled)
     moving = {name: pairs for name, pairs in keys.items() if len({value for _, value in pairs}) > 1}
     # whatever frame is shown now: it begins as it is keyed
     soil = soils.with_numbers(settings, soil, {name: pairs[0][1] for name, pairs in keys.items()})
@@ -80,70 +115,79 @@ def _soil(scene, obj, settings, path, first, last):
 
 def of_ground(scene, obj, first, last):
     """The soils of a ground from scene frame to frame: its own, then the painted ones."""
-    settings = obj.desire_path
+    settings, moving = obj.desire_path, _moving(scene, obj, first, last)
     each = [(settings, OWN), *((painted, PAINTED.format(k)) for k, painted in enumerate(settings.painted))]
-    return [_soil(scene, obj, one, path, first, last) for one, path in each]
+    return [_soil(scene, moving, one, path, first, last) for one, path in each]
+
+
+def laid(obj):
+    """(soil, thickness [m]) of each layer of a ground, as it is at the first frame of its bake."""
+    settings, first = obj.desire_path, obj.desire_path.frame_start
+    is_moved = any(path.startswith(LAID) for path in _paths(obj))
+    scene = bpy.context.scene
+    moving = _moving(scene, obj, first, first) if is_moved else {}
+    found = []
+    for k, each in enumerate(settings.layers):
+        path = f"{LAID}{k}]."
+        soil = _soil(scene, moving, each, path + "soil_numbers.", first, first)
+        found.append((soil, axes.typed(moving.get(path + "thickness", [each.thickness])[0])))
+    return found
+
+
+def _paths(obj):
+    """Of all properties of ours that are keyed, driven or in strips."""
+    return led(obj) | {ROOT + rest for rest in _curves(obj, ROOT)}
 
 
 def keyed(obj):
-    """Whether an object has keys of its own on anything of ours."""
-    return bool(_curves(obj, ROOT))
+    """Whether anything moves properties of ours."""
+    return bool(_paths(obj))
 
 
 def names(obj):
-    """The numbers of soils that have keys."""
-    paths = [OWN, *(PAINTED.format(k) for k in range(len(obj.desire_path.painted)))]
-    return {number for path in paths for name in _curves(obj, path) for number in _numbers(name, 0.5)}
+    """The numbers of soils that keys, drivers or strips lead, and whether they lead how thick layers lie."""
+    found = {path.rpartition(".")[2] for path in _paths(obj) if ".soil_numbers." in path}
+    thick = {"thickness" for path in _paths(obj) if path.startswith(LAID) and path.endswith(".thickness")}
+    return {number for name in found for number in _numbers(name, 0.5)} | thick
 
 
 def weighed(scene, gait, obj, last):
-    """A recording of one walker, from its first frame to a last one, with the keys on its mass."""
-    found = _curves(obj, ROOT)
+    """A recording of one walker, from its first frame to a last one, with what keys, drivers and strips make of its
+    mass."""
+    if not any(path[len(ROOT) :] in MASSES for path in _paths(obj)):
+        return gait
+    moving = _moving(scene, obj, gait.frame_start, last)
+    _, times = _frames(scene, gait.frame_start, last)
     for name, into in MASSES.items():
-        if name in found:
-            frames, times = _frames(scene, gait.frame_start, last)
-            keys = _thin(times, [axes.typed(into(found[name].evaluate(frame))) for frame in frames])
+        if ROOT + name in moving:
+            keys = _thin(times, [axes.typed(into(value)) for value in moving[ROOT + name]])
             steady = len({kilograms for _, kilograms in keys}) == 1
             return replace(gait, mass=[keys[0][1]], mass_keys=() if steady else (keys,)).check()
     return gait
 
 
-def uncounted(grounds, walkers, on_paths):
+def uncounted(grounds, on_paths):
     """Sentences about keys that do not count. on_paths: whether a frame is a pass"""
-    sentences = []
     if on_paths:
         return [
-            f"The keys on the soils of '{each.name}' do not count where a frame is a pass: they are as now."
+            f"The keys on the soils of '{each.name}' do not count where a frame is a pass: they are as at frame "
+            f"{each.desire_path.frame_start}."
             for each in grounds
             if names(each)
         ]
+    sentences = []
     for each in grounds:
-        if each.desire_path.soil_file and _curves(each, OWN):
+        paths = _paths(each)
+        if each.desire_path.soil_file and any(path.startswith(OWN) for path in paths):
             sentences.append(f"The keys on the soil of '{each.name}' do not count while a soil file is set: clear it.")
-        if _curves(each, LAID):
-            sentences.append(f"The keys on the layers of '{each.name}' do not count: they are as now.")
-    for each in {*grounds, *walkers}:
-        animation = each.animation_data
-        if animation is None:
-            continue
-        strips = any(len(track.strips) for track in animation.nla_tracks if not track.mute)
-        led = [curve.data_path for curve in animation.drivers if _is_ours(curve.data_path)]
-        if strips:
-            led += [
-                curve.data_path
-                for track in animation.nla_tracks
-                for strip in track.strips
-                for curve in compat.strip_curves(strip)
-                if _is_ours(curve.data_path)
-            ]
-        if led:
-            name = led[0].rpartition(".")[2]
+        if any(path.startswith(LAID) for path in paths):
             sentences.append(
-                f"'{each.name}' has a driver or a strip of the NLA editor on {name}, which counts as it is now: "
-                "key it in the object's own action instead."
+                f"The keys on the layers of '{each.name}' do not count: they are as at frame "
+                f"{each.desire_path.frame_start}."
             )
     return sorted(sentences)
 
 
 def _is_ours(path):
-    return path.startswith(ROOT) and (".soil_numbers." in path or path[len(ROOT) :] in MASSES)
+    name = path[len(ROOT) :]
+    return path.startswith(ROOT) and (".soil_numbers." in path or path.startswith(LAID) or name in MASSES)
