@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from scenes import meshes, people
 
-from desire_path.blender import axes, moves, sample
+from desire_path.blender import axes, compat, moves, private, sample
 from desire_path.errors import DesirePathError
 from desire_path.rig import rigs
 
@@ -38,7 +38,7 @@ def direct(obj, names, frames, subframe=0.0):
 
 
 def privately(obj, names, frames):
-    with sample.private_scene(bpy.context.scene, obj) as own:
+    with private.private_scene(bpy.context.scene, obj) as own:
         return sample.motion(own, obj, names, frames, 24.0, 1.0)
 
 
@@ -302,3 +302,31 @@ def test_without_a_unit_system_a_unit_is_a_metre():
         scene.unit_settings.system = system
         found = sample.record(scene, obj, 1, 8)
         np.testing.assert_allclose(found.com, size * plain.com, rtol=1e-6, atol=1e-9)
+
+
+def test_who_follows_a_property_of_the_scene_is_recorded_as_it_moves():
+    """A driver that asks for the scene's frame or for a property of it that is keyed goes as one that knows frames."""
+    scene = bpy.context.scene
+    obj = people.walk(people.biped(), frames=24)
+    carrier = meshes.link(bpy.data.objects.new("Carrier", None))
+    obj.parent = carrier
+    driver = carrier.driver_add("location", 0).driver
+    driver.expression = "0.02 * (frame - 1)"
+    wanted = sample.gaits(scene, [obj], 1, 24)
+    scene["slide"] = 0.0
+    for frame, value in ((1, 0.0), (24, 23.0)):
+        scene["slide"] = value
+        scene.keyframe_insert('["slide"]', frame=frame)
+    for curve in compat.curves_played(scene.animation_data):
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+    variable = driver.variables.new()
+    variable.name = "x"
+    target = variable.targets[0]
+    target.id_type, target.id = "SCENE", scene
+    for path, expression in (("frame_current", "0.02 * (x - 1)"), ('["slide"]', "0.02 * x")):
+        target.data_path, driver.expression = path, expression
+        scene.frame_set(9)
+        found = sample.gaits(scene, [obj], 1, 24)
+        assert abs(np.asarray(found.pose) - np.asarray(wanted.pose)).max() < 1e-4, path
+        assert scene.frame_current == 9 and abs(carrier.matrix_world.translation.x - 0.16) < 1e-6

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..motion import rotation
 from ..rig import leg
-from . import compat, posing, sample
+from . import compat, posing, private, sample
 
 SHIFT, TURN = 0.02, np.radians(4.0)  # a nudge, in leg lengths and [rad]
 SAME = 0.15  # what is led goes where it should but for this share of the nudge
@@ -82,7 +82,7 @@ def trial(scene, armature):
     copied = action.copy() if action is not None else bpy.data.actions.new("desire_path trial")
     try:
         compat.use_action(animation, copied, None)
-        with sample.still(armature), sample.private_scene(scene, armature) as own:
+        with sample.still(armature), private.private_scene(scene, armature) as own:
             yield own, compat.curves(animation, armature)
     finally:
         compat.use_action(animation, action, slot)

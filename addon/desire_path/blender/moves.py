@@ -12,7 +12,7 @@ import re
 
 import bpy
 
-from . import auto, clock, compat, playback, playback_tree, seams
+from . import auto, clock, compat, playback, playback_tree, private, seams
 
 # modifiers that change a mesh with time, and nodes that do
 BY_TIME = {
@@ -79,6 +79,13 @@ def moves(obj):
     """Whether an object may move at all."""
     found = _Movers(obj)
     return bool(found.spans or found.goes_on)
+
+
+def scene_of(scene, obj):
+    """Where an object is seen to move as it does: a scene of its own, or `scene` itself where that leads it."""
+    if _Movers(obj).asks_scene and obj.name in scene.view_layers[0].objects:
+        return private.shown_scene(scene)
+    return private.private_scene(scene, obj)
 
 
 def movers(obj):
@@ -156,11 +163,13 @@ class _Movers:
     """Everything that moves an object.
 
     spans: first and last frame of keys and strips, in the animation's time; goes_on: does anything else move it?
+    asks_scene: do properties of a scene move it?
     seams: where it may go on elsewhere at once, of cycles those in `within`; seen: all datablocks that take part in it
     """
 
     def __init__(self, obj, within=(0.0, 0.0)):
         self.spans, self.goes_on, self.tied, self.seams, self.within = [], False, [], [], within
+        self.asks_scene = False
         own = _chain(obj)
         for each in own:
             self._look(each)
@@ -251,9 +260,10 @@ class _Movers:
             self.goes_on |= any(word not in names and word not in TIMELESS for word in words)
         for variable in driver.variables:
             self.goes_on |= variable.type == "CONTEXT_PROP"
+            self.asks_scene |= variable.type == "CONTEXT_PROP"
             for target in variable.targets if variable.type != "CONTEXT_PROP" else ():
                 if isinstance(target.id, bpy.types.Scene):
-                    self.goes_on = True
+                    self.goes_on = self.asks_scene = True
                 elif target.id is not None:
                     self.tied.append(target.id)
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DesirePathError
 from ..motion.scatter import Scatter
 from ..placement.passes import in_turn
-from . import axes, clock, ground, sample
+from . import axes, clock, ground, private, sample
 
 BESIDE = 1.0  # ground this far beside the path is read, and five times the scatter [m]
 
@@ -32,7 +32,7 @@ def waypoints(scene, obj, frame=None):
         try:
             for each in copies:
                 each.hide_viewport = False
-            with sample.private_scene(scene, *copies) as own:
+            with private.private_scene(scene, *copies) as own:
                 places = [sample.evaluated(own, each, frame).matrix_world.translation[:] for each in copies]
         finally:
             for each in copies:
@@ -50,7 +50,7 @@ def waypoints(scene, obj, frame=None):
             data.bevel_object = None
             if data.dimensions == "2D":
                 data.fill_mode = "NONE"
-        with sample.private_scene(scene, copy) as own:
+        with private.private_scene(scene, copy) as own:
             found = sample.evaluated(own, copy, frame)
             world = axes.matrix(found.matrix_world, obj.name)
             mesh = found.to_mesh()

@@ -7,7 +7,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..errors import DesirePathError
-from . import axes, ride, sample
+from . import axes, moves, ride, sample
 
 LOCKED = 1e-4  # a locked channel may change by rounding only
 ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -32,7 +32,7 @@ def look(scene, armature, names, frames):
     world, pose = [], {name: [] for name in names}
     with (
         sample.still(armature),
-        sample.private_scene(scene, armature) as own,
+        moves.scene_of(scene, armature) as own,
         ride.on(own, armature.desire_path.ground, frames[0]) as carry,
     ):
         for frame in frames:

@@ -28,6 +28,17 @@ def private_scene(scene, *objects):
 
 
 @contextmanager
+def shown_scene(scene):
+    """The scene itself, which shows the same frame again afterwards: what follows its own properties (its frame's
+    number, a property that is keyed) does so nowhere else."""
+    frame, between = scene.frame_current, scene.frame_subframe
+    try:
+        yield scene
+    finally:
+        scene.frame_set(frame, subframe=between)
+
+
+@contextmanager
 def looked_at(*objects):
     """Objects that are disabled in viewports are looked at all the same: renders show them."""
     hidden = [each for each in objects if each.hide_viewport]

@@ -33,7 +33,7 @@ class Ride:
 
     def notes(self, centre, frames, rate, scale):
         """Sentences about what riding leaves out. centre: of the walker as seen from the ground (T, 3) [m]; frames
-        (T,), even, of which there are `rate` in a second; scale: metres in a unit [m]."""
+        (T,), of which there are `rate` in a second; scale: metres in a unit [m]."""
         back = np.array(self.back)
         if (
             np.abs(back - np.eye(4)).max(axis=(0, 1)) < 1e-6 * np.array((1, 1, 1, max(1.0, np.abs(self.first).max())))
@@ -50,6 +50,9 @@ class Ride:
         size = np.cbrt(np.abs(np.linalg.det(back[:, :3, :3])))
         if abs(size - 1.0).max() > 0.01:
             out.append(f"'{self.name}' changes its size under the walk: key its location and rotation only.")
+        steps = (np.array(frames) - frames[0]) / np.median(np.diff(frames))
+        even = abs(steps - np.round(steps)) < 1e-3  # not what was looked at besides
+        back, centre, frames = back[even], centre[even], np.array(frames)[even]
         if len(back) > 2:
             there, at = np.linalg.inv(back), np.c_[centre / scale, np.ones(len(centre))][1:-1]
             before, here, after = (np.einsum("tij,tj->ti", each, at) for each in (there[:-2], there[1:-1], there[2:]))

@@ -18,7 +18,7 @@ from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
 from . import axes, clock, compat, moves, physics, playback, ride, seams, soil_keys
-from .private import evaluated, looked_at, off_in_renders, private_scene
+from .private import evaluated, looked_at, off_in_renders
 from .worn import hanging, owners, skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
@@ -248,7 +248,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None, bes
     with (
         looked_at(armature),
         still(armature),
-        private_scene(scene, armature) as own,
+        moves.scene_of(scene, armature) as own,
         ride.on(own, settings.ground, frame_start) as carry,
     ):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
@@ -317,7 +317,7 @@ def _solid(scene, obj, frames, samples, rate, scale):
     with (
         looked_at(obj),
         still(obj),
-        private_scene(scene, obj) as own,
+        moves.scene_of(scene, obj) as own,
         ride.on(own, obj.desire_path.ground, frames[0]) as carry,
     ):
         (first, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
