@@ -18,7 +18,8 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
 from scenes.hands import Hands, tell, until  # noqa: E402
 
 CHARACTER = ROOT / "tests" / "scenes" / "characters" / "human_mixamo_names_inplace.glb"
-TAB = 178  # of the pixels of the sidebar, from above: the middle of our tab, below Item, Tool and View
+TABS = {"de_DE": 265}  # of the pixels of the sidebar, from above: the middle of our tab, below Item, Tool and View
+TAB = 178  # the same in English
 
 
 def setting(hands, plane):
@@ -59,7 +60,8 @@ def sidebar(hands):
     yield from hands.key("N", (region.x + 0.3 * region.width, region.y + 0.5 * region.height))
     yield 1.0
     side = hands.region("VIEW_3D", "UI")
-    yield from hands.click((side.x + side.width - 12, side.y + side.height - TAB))
+    down = TABS.get(bpy.context.preferences.view.language, TAB)
+    yield from hands.click((side.x + side.width - 12, side.y + side.height - down))
 
 
 def story(hands):

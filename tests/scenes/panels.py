@@ -5,6 +5,7 @@
 
 Writes FOLDER/SUBJECT_PLACE.png: a plain mesh, a ground, a walker, a track of a wheel, one of a stamp; in the sidebar
 and in Properties; panels with these labels (all: every one) are open, the others as they are at first.
+What a ground and a walker show in English and German is kept in pictures/panels.jpg.
 """
 
 import pathlib
@@ -100,6 +101,8 @@ def main():
     if len(words) > 2:
         bpy.context.preferences.view.language = words[2]
         bpy.context.preferences.view.use_translate_interface = True
+        bpy.context.preferences.view.use_translate_tooltips = True
+        bpy.context.preferences.view.use_translate_new_dataname = False  # objects are looked for by their names
     desire_path.register()
     tell(story(Hands(pathlib.Path(words[0]))))
 

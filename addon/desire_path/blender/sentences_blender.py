@@ -107,12 +107,11 @@ GERMAN = {
         "wem das Objekt oder seine Knochen folgen, durch Keyframes oder entlang einer Kurve."
     ),
     "'{}' walks in place and is carried ahead at {} m/s{}: action '{}'; Carried switches it off.": (
-        "'{}' geht auf der Stelle und wird mit {} m/s vorwärts getragen{}: Aktion '{}'; Vorwärts getragen "
-        "schaltet es aus."
+        "'{}' geht auf der Stelle und wird mit {} m/s vorwärts getragen{}: Aktion '{}'; Getragen schaltet es aus."
     ),
     "'{}' walks in place and is carried along the curve at {} m/s{}: action '{}'; Carried switches it off.": (
-        "'{}' geht auf der Stelle und wird mit {} m/s entlang der Kurve getragen{}: Aktion '{}'; Vorwärts "
-        "getragen schaltet es aus."
+        "'{}' geht auf der Stelle und wird mit {} m/s entlang der Kurve getragen{}: Aktion '{}'; "
+        "Getragen schaltet es aus."
     ),
     # ---- blender/forward_curve.py
     "The curve has no length seen from above: give it two or more points apart.": (

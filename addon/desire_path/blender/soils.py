@@ -56,7 +56,7 @@ WORDS = {
     "clod_size": ("Clods [m]", "How large the crumbs of its rims are at most, in metres; 0 = as usual for its kind"),
     "adhesion": ("Sticks [m]", "How thick it sticks to a sole or wheel that lifts, in metres; 0 = not at all"),
     "release_pressure": (
-        "Comes Off [Pa]",
+        "Off At [Pa]",
         "Pressure under which most of what sticks comes off on other ground, in pascal: more carries it farther",
     ),
     "water_depth": (
