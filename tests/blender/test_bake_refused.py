@@ -15,6 +15,7 @@ from test_playback import shown
 
 from desire_path.bake import bake
 from desire_path.blender import op_bake, playback
+from desire_path.files import atomic_file
 from desire_path.ground import sim
 
 # ---- what is wrong is said in a sentence ------------------------------------------------------------
@@ -251,3 +252,26 @@ def test_lost_and_foreign_files_are_said(folder):
     meshes.activate(ground)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert not ground.desire_path.missing
+
+
+def test_full_disk_after_the_last_frame_is_said_and_leaves_what_was(folder):
+    """The frames are there, their report cannot be written: nothing plays that is half, and the state is as before."""
+    ground, _ = scene(folder, frames=12)
+    real = atomic_file.file
+
+    def full(path, *more, **options):
+        if str(path).endswith("report.json"):
+            raise OSError(28, "No space left on device", str(path))
+        return real(path, *more, **options)
+
+    for state in ("NONE", "OUTDATED"):
+        atomic_file.file = full
+        try:
+            refused(bpy.ops.object.desire_path_bake, "report", "No space left", "room")
+        finally:
+            atomic_file.file = real
+        assert ground.desire_path.bake_state == state
+        assert (playback.modifier(ground) is None) == (state == "NONE")
+        assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+        assert ground.desire_path.bake_state == "FRESH"
+        ground.desire_path.soil = "mud"

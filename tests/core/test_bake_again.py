@@ -11,7 +11,8 @@ from desire_path.bake import bake as bakes
 from desire_path.bake.bake import Bake, read_index
 from desire_path.bake.options import BakeOptions, BakeOutput
 from desire_path.errors import DesirePathError
-from desire_path.ground import maps
+from desire_path.files import atomic_file
+from desire_path.ground import maps, sim
 from desire_path.ground.sim import Ground
 from tests.core.test_bake import baked, content, sentence, standing
 
@@ -189,3 +190,50 @@ def test_frames_beyond_the_recording_are_refused(tmp_path):
             )
     _, frames = baked(tmp_path / "more", frame_start=-5, frame_end=last + 5)
     assert frames == list(range(-5, last + 6))
+
+
+@pytest.mark.parametrize("fails", ["maps_final.exr", "maps_start.exr", "trail_sums.txt", "report.json", "index.json"])
+def test_a_disk_that_is_full_after_the_last_frame_shows_nothing_half(tmp_path, monkeypatch, fails):
+    """All frames are there, and what belongs to them cannot be written: what was shown before is, and the next bake
+    goes on from there."""
+    whole, folder = tmp_path / "whole", tmp_path / "bake"
+    baked(whole)
+    good = content(whole)
+    opened, write_maps, write = atomic_file.file, sim.Film.write_maps, maps.write
+
+    def full(path):
+        if os.path.basename(path) == fails and len(os.listdir(os.path.join(folder, "bake.new", "frames"))) > 50:
+            raise OSError(28, "No space left on device", str(path))
+
+    def no_file(path, *more, **options):
+        full(path)
+        return opened(path, *more, **options)
+
+    def no_maps(self, path, *more):
+        full(path)
+        return write_maps(self, path, *more)
+
+    def no_map(path, *more):
+        full(path)
+        return write(path, *more)
+
+    for before in (False, True):
+        if before:
+            baked(folder, threads=2, cell_size=0.02)  # another bake is shown
+            shown = content(folder)
+        with monkeypatch.context() as patch:
+            patch.setattr(atomic_file, "file", no_file)
+            patch.setattr(sim.Film, "write_maps", no_maps)
+            patch.setattr(maps, "write", no_map)
+            with pytest.raises(DesirePathError, match="No space left on device") as problem:
+                baked(folder)
+        assert "make room" in sentence(problem)
+        if before:
+            assert content(folder) == shown and read_index(folder).complete
+        else:
+            assert os.listdir(folder) == ["bake.new"]
+            index = read_index(folder)
+            assert not index.complete and not index.missing
+        baked(folder)
+        assert content(folder) == good and read_index(folder).complete
+        shutil.rmtree(folder)

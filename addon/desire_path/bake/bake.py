@@ -152,10 +152,12 @@ class Bake(Plan):
         sims, states = self._restored()
         seconds["loads"] = time.perf_counter() - seconds["total"]
         seconds["step"] = seconds["write"] = 0.0
+        ends = False
         try:
             for share in self.shares:
                 share.begin(states.frame, states.names(share))
             yield from self._frames(sims, states, seconds)
+            ends = True
             self._end(sims, states, seconds)
         except BaseException:
             for sim in sims:
@@ -163,7 +165,7 @@ class Bake(Plan):
                     sim.flush()
             self.report = None
             for share in self.shares:
-                share.stop()
+                share.stop(ends)
             raise
         try:
             states.drop()

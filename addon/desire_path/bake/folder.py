@@ -52,7 +52,7 @@ class FrameIndex:
     frame_end: int  # scene frame of the last file when the bake is whole
     frame_rate: float  # [1/s]
     frames: int  # files that are there and whole, counted from trail_0001.exr on
-    complete: bool
+    complete: bool  # all frames are there, and the bake came to its end
     lean: bool = False  # with lean_0000.exr .., how the grass lies
     grain_size: float = 0.0  # > 0: with spray_0000.exr .., what flies: grains so wide [m]
     owner: str = ""  # id of the ground the bake belongs to; empty = nobody's
@@ -282,7 +282,7 @@ def _index(frames: str, data: Mapping[str, Any], just_baked: bool) -> FrameIndex
         last,
         rate,
         there,
-        there == count,
+        there == count and data.get("complete", True) is True,
         lean,
         size,
         owner if isinstance(owner, str) else "",

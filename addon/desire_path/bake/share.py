@@ -264,11 +264,14 @@ class Share:
         self._close()
         self.out.ready()
 
-    def stop(self) -> None:
-        """The bake was stopped: what there is of it is shown, unless a whole bake is."""
+    def stop(self, ends: bool = False) -> None:
+        """The bake was stopped: what there is of it is shown, unless a whole bake is.
+
+        ends: all frames were there, and what belongs to them failed: nothing is shown, and the next bake goes on
+        """
         self._close()
         self.report = self.final = None
-        if not self.begun:
+        if not self.begun or ends:
             return
         if len(self.plan.parcels) == 1 or self.is_pressed():
             self.out.publish_stopped()

@@ -190,7 +190,9 @@ class Job:
             obj = bpy.data.objects.get(share.parcel.name)
             if obj is not None:
                 try:
-                    if not plays_on(obj, read_index(folder(obj))):
+                    index = read_index(folder(obj))
+                    ended = not index.complete and not index.missing  # what belongs to its frames could not be written
+                    if not ended and not plays_on(obj, index):
                         play(bpy.data.scenes[self.scene_name], obj, self.surfaces[obj.name])
                 except DesirePathError:
                     pass  # nothing was written

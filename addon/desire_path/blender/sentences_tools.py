@@ -342,6 +342,10 @@ GERMAN = {
         "Kilogramm geben."
     ),
     # ---- blender/show.py
+    "The last bake was stopped when its frames {} to {} were there, before its maps were: bake again to go on.": (
+        "Das letzte Backen wurde angehalten, als seine Bilder {} bis {} da waren, aber noch keine Karten: noch einmal "
+        "backen, damit es weitergeht."
+    ),
     "The last bake was stopped before its first frame, or has lost it since: bake again.": (
         "Das letzte Backen wurde vor dem ersten Bild angehalten oder hat es seither verloren: noch einmal backen."
     ),

@@ -144,6 +144,11 @@ def missing(index):
     if not index.frames:
         return "The last bake was stopped before its first frame, or has lost it since: bake again."
     last = index.frame_start + index.frames - 1
+    if not index.missing:
+        return (
+            f"The last bake was stopped when its frames {index.frame_start} to {last} were there, before its maps "
+            "were: bake again to go on."
+        )
     return (
         f"The last bake was stopped, or lost files since: frames {index.frame_start} to {last} play, "
         f"{last + 1} to {index.frame_end} are missing or damaged; bake again to go on."
