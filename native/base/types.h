@@ -137,6 +137,15 @@ typedef struct DpSoilPatch
     const int* coat_of_soil;  // coat of each soil, -1 = it does not stick (soil_count)
 } DpSoilPatch;
 
+// How far what is over the ground at (x, y, z) has gone along it since the step before, to first order:
+// at + by_x (x - x_m) + by_y (y - y_m) + by_z z, (x_m, y_m) the middle of the patch.
+typedef struct DpSlide
+{
+    double at[2];                      // along x and y [m]
+    double by_x[2], by_y[2], by_z[2];  // [m per m]
+    double owed;  // what it has slid over and not cut yet, since columns are covered by leaps [m^3]
+} DpSlide;
+
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.
 // Grids have the patch's shape and row. imprint/imprint.h fills it, soil/soil.h reads it.
 typedef struct DpImprint
@@ -147,6 +156,9 @@ typedef struct DpImprint
                       // DP_RING_HELD: another sole stands there
 
     const float* met;  // heap - compression as this contact met them; NULL = as they are [m]
+
+    DpSlide* slide;  // how the sole slides, MODEL 6.18; NULL: it does not
+    float*   goal;   // room, where it slides: how deep a column is pressed, by its cover [m]
 
     int i0, i1, j0, j1;  // columns with cover > 0: i0 <= i < i1, j0 <= j < j1; empty if i0 >= i1
 } DpImprint;

@@ -240,7 +240,7 @@ static PyObject* soil_accumulate(PyObject* module, PyObject* arguments)
     if (law != DP_HEAP_REST && law != DP_HEAP_PAPER)
         return PyErr_Format(PyExc_ValueError, "law: expected 0 (rest) or 1 (paper), got %d", law);
     options.law = (DpHeapLaw)law;
-    options.outward = false;
+    options.cut = (DpVec3){0.0, 0.0, 0.0};
     if (open_call(&call, patch, imprint, foot) == 0) {
         DpStatus status;
         Py_BEGIN_ALLOW_THREADS

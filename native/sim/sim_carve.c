@@ -85,19 +85,6 @@ static int sweep(const DpSim* sim, const Limb* limb, int sample, WorkerScratch* 
     return count;
 }
 
-// How a part has moved in an interval: what is at p now was at  from + turn (p - to).
-typedef struct Moved
-{
-    DpQuat turn;
-    DpVec3 from, to;
-} Moved;
-
-static Moved moved(const DpSim* sim, int part, int sample)
-{
-    const DpPose a = dp_limb_pose(sim, part, sample, 0.0), b = dp_limb_pose(sim, part, sample, 1.0);
-    return (Moved){dp_quat_product(a.turn, dp_quat_back(b.turn)), a.at, b.at};
-}
-
 // The mean of its parts.
 static DpDescent descent_of(const DpSim* sim, const Limb* limb, int sample,
                             const DpSoilPatch* patch)
@@ -107,7 +94,7 @@ static DpDescent descent_of(const DpSim* sim, const Limb* limb, int sample,
     const double share = 1.0 / limb->part_count;
     DpDescent    descent = {0};
     for (int p = 0; p < limb->part_count; ++p) {
-        const Moved  m = moved(sim, limb->part[p], sample);
+        const Moved  m = dp_limb_moved(sim, limb->part[p], sample, 0.0, 1.0);
         const DpVec3 z = dp_turn(dp_quat_back(m.turn), dp_vec3(0.0, 0.0, 1.0));
         descent.at += share * (z.x * (xm - m.to.x) + z.y * (ym - m.to.y) - z.z * m.to.z + m.from.z);
         descent.along_x += share * z.x;
@@ -122,7 +109,7 @@ static DpVec3 gone(const DpSim* sim, const Limb* limb, int sample, DpVec3 place)
 {
     DpVec3 sum = {0, 0, 0};
     for (int p = 0; p < limb->part_count; ++p) {
-        const Moved  m = moved(sim, limb->part[p], sample);
+        const Moved  m = dp_limb_moved(sim, limb->part[p], sample, 0.0, 1.0);
         const DpVec3 was = dp_add(m.from, dp_turn(m.turn, dp_sub(place, m.to)));
         sum = dp_add(sum, dp_scale(dp_sub(place, was), 1.0 / limb->part_count));
     }
@@ -166,14 +153,14 @@ DpStatus dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch
     status = dp_limb_carry(sim, limb, patch, scratch, poses);
     if (status != DP_OK) return status;
 
-    const double      cut = carved.cut_firm + carved.cut_loose;
-    const double      volume = carved.pressed.displaced + cut;
-    const double      ahead = pushes && volume > 0.0 ? cut / volume : 0.0;  // beta of TRAIL (13)
+    const double cut = carved.cut_firm + carved.cut_loose;
+    const double volume = carved.pressed.displaced + cut;
+    const double ahead = pushes && volume > 0.0 ? cut / volume : 0.0;  // beta of TRAIL (13)
+    const DpVec3 cut_ahead =
+        ahead > 0.0 ? dp_scale(displacement, ahead / far) : dp_vec3(0.0, 0.0, 0.0);
     const DpFootForce foot = {
-        ahead > 0.0 ? dp_scale(displacement, ahead / far) : dp_vec3(0.0, 0.0, 0.0),
-        dp_vec3(carved.x, carved.y, box.z0),
-        {0.0, 0.0, 1.0}};
-    return dp_limb_lay(sim, limb, patch, scratch, &foot, volume, 1.0);
+        {0.0, 0.0, 0.0}, dp_vec3(carved.x, carved.y, box.z0), {0.0, 0.0, 1.0}};
+    return dp_limb_lay(sim, limb, patch, scratch, &foot, volume, 1.0, cut_ahead);
 }
 
 static long count_cells(DpCellRect at)

@@ -72,6 +72,7 @@ void dp_sim_destroy(DpSim* sim)
         dp_free(scratch->imprint.bottom);
         dp_free(scratch->imprint.cover);
         dp_free(scratch->imprint.ring);
+        dp_free(scratch->imprint.goal);
         dp_free(scratch->met);
     }
     for (int n = 0; n < MAX_SPECULATED; ++n) dp_lease_destroy(sim->speculation.lease[n]);

@@ -14,10 +14,12 @@ typedef struct Limb
     int          samples;      // a side that every cell under them gets, see dp_imprint_samples
     DpContactLaw law;          // how it presses
     bool         stands;       // in a stance
+    bool         ploughs;      // has cut what was in its way in this stance
     bool         flows;        // has let go, and soil around still slides
     double       heap_height;  // T of the rest heap, from step to step of a stance          [m]
     double       margin;       // of ground around its soles that a step may change        [m]
     double       unlaid;       // displaced volume that found no border cell yet             [m^3]
+    double       owed;         // what its soles slid over in this stance and have not cut [m^3]
     double       sink;         // how far its soles stand below where they were recorded     [m]
     DpVec3       slip;         // how far its soles have slipped along the ground in this stance [m]
     DpVec3       sheared;  // of that, what the soil carries the push with as it is now       [m]
@@ -192,11 +194,19 @@ static inline double dp_sim_interval(const DpSim* sim, int sample)
 // sim_follow.c: nothing is followed any more
 void dp_sim_forget(DpSim* sim);
 
+// How a part has moved: what is at p now was at  from + turn (p - to).
+typedef struct Moved
+{
+    DpQuat turn;
+    DpVec3 from, to;
+} Moved;
+
 // sim_limb.c: where a limb is and what it does at fraction `w` between samples k and k + 1
 bool        dp_limb_there(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_touches(const DpSim* sim, const Limb* limb, int sample);
 bool        dp_limb_held(const DpSim* sim, const Limb* limb, int sample);
 DpPose      dp_limb_pose(const DpSim* sim, int part, int sample, double w);
+Moved       dp_limb_moved(const DpSim* sim, int part, int sample, double w0, double w1);
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w);
 DpCellRect  dp_box_cells(const DpSim* sim, const DpBox* box, double margin);
 DpCellRect  dp_limb_cells(const DpSim* sim, const Limb* limb, int sample, double margin);
@@ -270,7 +280,13 @@ DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch);
 void     dp_limb_bare(WorkerScratch* scratch, const DpSoilPatch* patch);
 DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoilPatch** patch);
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
-                     const DpFootForce* foot, double volume, double threshold);
+                     const DpFootForce* foot, double volume, double threshold, DpVec3 cut);
+
+// sim_plough.c: whether a limb's sole slides while it presses between fractions w0 and w1 of an interval, in which it has
+// slipped, too; and how. What it has cut is counted.
+bool dp_limb_slides(const DpSim* sim, const Limb* limb, const DpSoilPatch* patch, int sample,
+                    double w0, double w1, DpVec3 slipped, DpSlide* slide);
+void dp_plough_count(Limb* limb, const DpPressed* pressed);
 
 #define DP_CARVE_STEPS 128  // poses of a body between two samples, at most
 

@@ -11,6 +11,7 @@ DpStatus dp_limb_fit(WorkerScratch* scratch, const DpSoilPatch* patch)
     const bool   fits = dp_make_room(&imprint->bottom, cells, sizeof *imprint->bottom) &&
                       dp_make_room(&imprint->cover, cells, sizeof *imprint->cover) &&
                       dp_make_room(&imprint->ring, cells, sizeof *imprint->ring) &&
+                      dp_make_room(&imprint->goal, cells, sizeof *imprint->goal) &&
                       dp_make_room(&scratch->met, cells, sizeof *scratch->met);
     return fits ? DP_OK : DP_NO_MEMORY;
 }
@@ -31,10 +32,9 @@ DpStatus dp_limb_lease(DpSim* sim, WorkerScratch* scratch, DpCellRect at, DpSoil
 }
 
 DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
-                     const DpFootForce* foot, double volume, double threshold)
+                     const DpFootForce* foot, double volume, double threshold, DpVec3 cut)
 {
-    const DpHeapOptions heap = {sim->options.heap_law, sim->options.rim_width, threshold,
-                                limb->law == DP_CONTACT_CARVE};
+    const DpHeapOptions heap = {sim->options.heap_law, sim->options.rim_width, threshold, cut};
     volume += limb->unlaid;
     if (volume <= 0.0) return DP_OK;
     dp_imprint_rings(&scratch->imprint, patch, BORDER_RINGS);

@@ -50,6 +50,13 @@ DpPose dp_limb_pose(const DpSim* sim, int part, int sample, double w)
     return pose;
 }
 
+// from fraction w0 to w1 of the interval
+Moved dp_limb_moved(const DpSim* sim, int part, int sample, double w0, double w1)
+{
+    const DpPose a = dp_limb_pose(sim, part, sample, w0), b = dp_limb_pose(sim, part, sample, w1);
+    return (Moved){dp_quat_product(a.turn, dp_quat_back(b.turn)), a.at, b.at};
+}
+
 // The parts of one limb are one sole: their forces add, their centres of pressure are weighed.
 DpFootForce dp_limb_force(const DpSim* sim, const Limb* limb, int sample, double w)
 {

@@ -72,7 +72,8 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
     limb->loosened = limb->rebounded = 0.0;
     limb->begins = presses && !limb->stands;
     if (limb->begins) {
-        limb->heap_height = 0.0;
+        limb->heap_height = limb->owed = 0.0;
+        limb->ploughs = false;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
         limb->margin = carves ? HEAP_MARGIN : least_margin(limb);
         if (!limb->flows) limb->trodden = (DpCellRect){0, 0, 0, 0};  // else it slides on afterwards
@@ -161,16 +162,17 @@ static int make_groups(DpSim* sim)
     return groups;
 }
 
-// Remember the ground under a patch as this stance met it: what the stance has covered all along is
-// known, the rest is met now.
+// Remember the ground under a patch as this stance met it: what the stance has covered all along is known, the rest is met
+// now, by a sole that has pushed soil ahead of itself without what is loose on it.
 static DpStatus meet(DpSim* sim, Limb* limb)
 {
     const DpCellRect at = limb->patch, was = limb->met_at;
     const int        nx = (int)(at.i1 - at.i0), ny = (int)(at.j1 - at.j0);
     float* const     met = dp_alloc((size_t)nx * (size_t)ny, sizeof *met);
     if (!met) return DP_NO_MEMORY;
-    const DpStatus status =
-        dp_terrain_read(sim->terrain, DP_FIELD_HEIGHT_CHANGE, at.i0, at.j0, nx, ny, met);
+    const DpField  field = limb->ploughs ? DP_FIELD_COMPRESSION : DP_FIELD_HEIGHT_CHANGE;
+    const DpStatus status = dp_terrain_read(sim->terrain, field, at.i0, at.j0, nx, ny, met);
+    for (int k = 0; limb->ploughs && k < nx * ny; ++k) met[k] = -met[k];
     const long i0 = at.i0 > was.i0 ? at.i0 : was.i0, i1 = at.i1 < was.i1 ? at.i1 : was.i1;
     for (long j = at.j0; limb->met && j < at.j1; ++j)
         for (long i = i0; i < i1 && j >= was.j0 && j < was.j1; ++i)

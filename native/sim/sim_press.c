@@ -68,11 +68,20 @@ static void slip(Limb* limb, const DpSoil* soil, const DpFootForce* foot, double
     if (dp_length(slipped) <= DP_MAX_SLIP) limb->slip = slipped;
 }
 
-// One sub-step: the sole as it stands at fraction w of the interval presses for dt.
-static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
-                      int sample, double w, double dt)
+// One of so many sub-steps of an interval.
+typedef struct SubStep
 {
-    DpFootForce foot = dp_limb_force(sim, limb, sample, w);
+    int sample, number, count;
+} SubStep;
+
+// One sub-step: the sole as it stands in its middle presses for dt.
+static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch* scratch,
+                      SubStep step, double dt)
+{
+    const int    sample = step.sample;
+    const double w = (step.number + 0.5) / step.count;
+    const DpVec3 before = limb->slip;
+    DpFootForce  foot = dp_limb_force(sim, limb, sample, w);
     if (foot.force.z >= 0.0) return DP_OK;
     foot.normal =
         dp_terrain_normal(sim->terrain, foot.point.x, foot.point.y, sim->options.normal_radius);
@@ -88,8 +97,15 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
                                       limb->part_count, limb->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
+    DpSlide    slide;
+    const bool slides =
+        dp_limb_slides(sim, limb, patch, sample, (double)step.number / step.count,
+                       (step.number + 1.0) / step.count, dp_sub(limb->slip, before), &slide);
     DpPressed pressed;
+    scratch->imprint.slide = slides ? &slide : NULL;
     status = dp_soil_compress(patch, &scratch->imprint, &foot, limb->law, dt, &pressed);
+    scratch->imprint.slide = NULL;
+    if (slides) limb->owed = slide.owed;
     if (status != DP_OK) return status;
     if (pressed.area <= 0.0) {
         limb->off_ground =
@@ -97,6 +113,7 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
         return DP_OK;
     }
     limb->sink = pressed.sink;
+    dp_plough_count(limb, &pressed);
     limb->firm += pressed.firm;
     limb->rebounded -= pressed.elastic;
     limb->loose += pressed.loose;
@@ -106,8 +123,12 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
 
     const DpSoil* soil = soil_under(patch, foot.point);
     const double  half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
-    return dp_limb_lay(sim, limb, patch, scratch, &foot, pressed.displaced,
-                       soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight);
+    const double  volume = pressed.displaced + pressed.cut_firm + pressed.cut_loose;
+    const DpVec3  cut = volume > 0.0 ? dp_vec3(pressed.cut_x / volume, pressed.cut_y / volume, 0.0)
+                                     : dp_vec3(0.0, 0.0, 0.0);
+    return dp_limb_lay(sim, limb, patch, scratch, &foot, volume,
+                       soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight,
+                       cut);
 }
 
 // The steps of a sole in an interval; the last leaves its imprint.
@@ -121,7 +142,7 @@ static DpStatus press_in_turn(DpSim* sim, Limb* limb, DpSoilPatch* patch, Worker
     for (int u = 0; u < substeps && status == DP_OK; ++u) {
         status = dp_pressing_open(&sim->pressing[limb - sim->limb], limb, patch);
         if (status == DP_OK)
-            status = press(sim, limb, patch, scratch, sample, (u + 0.5) / substeps, dt);
+            status = press(sim, limb, patch, scratch, (SubStep){sample, u, substeps}, dt);
     }
     return status;
 }

@@ -14,7 +14,7 @@
 
 #define NAME "sim "
 #define SHOWN "show"  // whether it is remembered how soles laid the stems
-#define VERSION 3  // 2 tells nothing of prints that slide by themselves, 1 nor of walls and springs
+#define VERSION 4     // 3 lacks what soles slid over, 2 prints that slide, 1 walls and springs
 #define SHOWN_VERSION 1
 #define CARRIED "crry"  // what sticks to the limbs, where soil does
 #define CARRIED_VERSION 1
@@ -40,10 +40,10 @@ static void write_vec(DpStateWriter* writer, DpVec3 v)
 static void write_limb(DpStateWriter* writer, const Limb* limb, const Pressing* pressing)
 {
     dp_write_u8(writer, (uint8_t)(limb->stands | limb->spills << 1 | limb->flows << 2 |
-                                  pressing->waits << 3));
+                                  pressing->waits << 3 | limb->ploughs << 4));
     dp_write_f64(writer, limb->heap_height), dp_write_f64(writer, limb->margin);
     dp_write_f64(writer, limb->unlaid), dp_write_f64(writer, limb->sink);
-    dp_write_f64(writer, limb->lowered);
+    dp_write_f64(writer, limb->lowered), dp_write_f64(writer, limb->owed);
     write_vec(writer, limb->slip), write_vec(writer, limb->sheared);
     write_cells(writer, limb->trodden);
     const DpCellRect at = pressing->at, met = limb->met ? limb->met_at : (DpCellRect){0, 0, 0, 0};
@@ -86,7 +86,7 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     double number[8];
     if (!sim || !writer || (sim->motion && dp_motion_is_live(sim->motion))) return DP_BAD_ARGUMENT;
     identity(sim, number);
-    dp_write_chunk(writer, NAME, sim->slides > 0 ? VERSION : 2);
+    dp_write_chunk(writer, NAME, VERSION);
     dp_write_doubles(writer, number, 8);
     dp_write_u64(writer, (uint64_t)sim->cast.walkers),
         dp_write_u64(writer, (uint64_t)sim->cast.parts);
@@ -95,7 +95,7 @@ DpStatus dp_sim_save_state(const DpSim* sim, DpStateWriter* writer)
     write_report(writer, &sim->report);
     dp_write_u64(writer, (uint64_t)sim->cast.limbs);
     for (int l = 0; l < sim->cast.limbs; ++l) write_limb(writer, &sim->limb[l], &sim->pressing[l]);
-    if (sim->slides > 0) dp_write_u64(writer, (uint64_t)sim->slides);
+    dp_write_u64(writer, (uint64_t)sim->slides);
     for (int k = 0; k < sim->slides; ++k) write_cells(writer, sim->slide[k]);
     dp_write_end(writer);
     dp_terrain_save(sim->terrain, writer);
@@ -193,26 +193,25 @@ static float* read_grid(DpStateReader* reader, DpCellRect at, float low, bool* r
     return value;
 }
 
-static void read_limb(DpStateReader* reader, Limb* limb, Pressing* pressing, bool* room)
+static void read_limb(DpStateReader* reader, uint32_t version, Limb* limb, Pressing* p, bool* room)
 {
     const uint8_t flags = dp_read_u8(reader);
-    dp_read_check(reader, flags < 16);
+    dp_read_check(reader, flags < (version > 3 ? 32 : 16));
     limb->stands = flags & 1, limb->spills = flags >> 1 & 1;
-    limb->flows = flags >> 2 & 1, pressing->waits = flags >> 3;
+    limb->flows = flags >> 2 & 1, p->waits = flags >> 3 & 1, limb->ploughs = flags >> 4;
     limb->heap_height = dp_read_number(reader, 0.0, 1e9);
     limb->margin = dp_read_number(reader, 0.0, 1e9);
     limb->unlaid = dp_read_number(reader, 0.0, 1e9);
     limb->sink = dp_read_number(reader, -1e9, 1e9);
     limb->lowered = dp_read_number(reader, -1e9, 1e9);
+    if (version > 3) limb->owed = dp_read_number(reader, 0.0, 1e9);
     limb->slip = read_vec(reader), limb->sheared = read_vec(reader);
-    limb->trodden = read_cells(reader);
-    limb->met_at = read_cells(reader);
+    limb->trodden = read_cells(reader), limb->met_at = read_cells(reader);
     limb->met = read_grid(reader, limb->met_at, -1e9f, room);
-    pressing->at = read_cells(reader);
-    pressing->value = read_grid(reader, pressing->at, 0.0f, room);
-    pressing->i0 = pressing->at.i0, pressing->j0 = pressing->at.j0;
-    if (!pressing->value) pressing->at = (DpCellRect){0, 0, 0, 0};
-    pressing->row = (int)(pressing->at.i1 - pressing->at.i0);
+    p->at = read_cells(reader), p->value = read_grid(reader, p->at, 0.0f, room);
+    p->i0 = p->at.i0, p->j0 = p->at.j0;
+    if (!p->value) p->at = (DpCellRect){0, 0, 0, 0};
+    p->row = (int)(p->at.i1 - p->at.i0);
 }
 
 static DpSimReport read_report(DpStateReader* reader, uint32_t version)
@@ -266,7 +265,7 @@ static DpStatus read_sim(const DpSim* sim, DpStateReader* reader, State* state)
     state->pressing = dp_alloc((size_t)state->limbs + 1, sizeof *state->pressing);
     if (!state->limb || !state->pressing) return DP_NO_MEMORY;
     for (int l = 0; l < state->limbs && room && reader->status == DP_OK; ++l)
-        read_limb(reader, &state->limb[l], &state->pressing[l], &room);
+        read_limb(reader, version, &state->limb[l], &state->pressing[l], &room);
     const DpStatus slides = room && version > 2 ? read_slides(reader, state) : DP_OK;
     if (slides == DP_NO_MEMORY) room = false;
     if (room) dp_read_end(reader);

@@ -38,13 +38,16 @@ typedef enum DpContactLaw
 // What one step of pressing did.
 typedef struct DpPressed
 {
-    double firm;       // V_c, volume pressed out of firm ground                [m^3] >= 0
-    double elastic;    // volume that had come back and is pressed again        [m^3] >= 0
-    double loose;      // V_b, volume pressed out of loose heaps                [m^3] >= 0
-    double displaced;  // 2 nu (V_c + V_b), to be laid down around, SOFT22 (12) [m^3] >= 0
-    double area;       // A_contact, TRAIL (10), over no ground too             [m^2] >= 0
-    double sink;       // s: how far the sole was lowered (> 0) from imprint->bottom [m]
-    double deepest;    // largest compression of a touched cell                 [m]   >= 0
+    double firm;          // V_c, volume pressed out of firm ground                [m^3] >= 0
+    double elastic;       // volume that had come back and is pressed again        [m^3] >= 0
+    double loose;         // V_b, volume pressed out of loose heaps                [m^3] >= 0
+    double displaced;     // 2 nu (V_c + V_b), to be laid down around, SOFT22 (12) [m^3] >= 0
+    double area;          // A_contact, TRAIL (10), over no ground too             [m^2] >= 0
+    double sink;          // s: how far the sole was lowered (> 0) from imprint->bottom [m]
+    double deepest;       // largest compression of a touched cell                 [m]   >= 0
+    double cut_firm;      // of a sole that slides: firm volume that was in its way [m^3] >= 0
+    double cut_loose;     // .. and loose, to be laid down ahead with what was firm [m^3] >= 0
+    double cut_x, cut_y;  // .. both, times the direction in which the sole goes there [m^3]
 } DpPressed;
 
 // What a soil presses back with is E/L0 times its depth, or by its snow_density or Bekker's numbers, MODEL 6.14.
@@ -52,6 +55,7 @@ typedef struct DpPressed
 // Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap
 // and pressure_time of touched cells only. Loose heap is used up before firm ground yields.
 // What of the sole stands over no ground carries its share of the load all the same, and presses nothing.
+// What stands in the way of a sole that slides (imprint->slide) is cut first: MODEL 6.18.
 // With no load, or no ground under the sole: nothing touched, all zero, DP_OK.
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed);
@@ -125,9 +129,9 @@ typedef struct DpHeapOptions
     DpHeapLaw law;
     double    rim_width;  // `paper`: how wide the rim is, at least one cell [m] > 0
     double    threshold;  // F_threshold, TRAIL (13)                      [N] > 0
-    bool
-        outward;  // u_k of TRAIL (11) is away from the touched cells beside the border cell, as what
-                  //   is cut is pushed; else from the centre of pressure
+    DpVec3
+        cut;  // of what is laid, the share that was cut, not displaced, times the way it is pushed:
+              // u_k of TRAIL (11) is away from the touched cells then                  [-] <= 1
 } DpHeapOptions;
 
 // Lay `volume` [m^3] >= 0 around the touched cells. Rings are numbered on entry (dp_imprint_rings,

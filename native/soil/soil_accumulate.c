@@ -10,14 +10,14 @@ double dp_soil_anisotropy(DpVec3 push, double threshold)
     return fmin(dp_length(push) / threshold, 1.0);  // TRAIL (13)
 }
 
-// the sides of the touched cells across the push
+// the sides of the touched cells across the way of what has cut
 static void find_sides(const DpSoilPatch* patch, const DpImprint* imprint, HeapShares* shares)
 {
     shares->left = INFINITY, shares->right = -INFINITY;
     for (int j = imprint->j0; j < imprint->j1; ++j)
         for (int i = imprint->i0; i < imprint->i1; ++i) {
             if (imprint->ring[soil_at(patch, i, j)] != 0) continue;
-            const double across = shares->dir_x * j - shares->dir_y * i;
+            const double across = shares->cut_x * j - shares->cut_y * i;
             shares->left = soil_min(shares->left, across - 0.5);
             shares->right = soil_max(shares->right, across + 0.5);
         }
@@ -66,20 +66,24 @@ DpStatus dp_soil_accumulate(DpSoilPatch* patch, const DpImprint* imprint, const 
 
     const DpVec3 press = dp_scale(foot->normal, dp_dot(foot->force, foot->normal));
     const DpVec3 push = dp_sub(foot->force, press);
-    const DpVec3 dir = dp_unit(push);
+    const DpVec3 dir = dp_unit(push), cut_dir = dp_unit(options->cut);
     HeapShares   shares = {
           .beta = dp_soil_anisotropy(push, options->threshold),
           .dir_x = dir.x,
           .dir_y = dir.y,
           .from_x = (foot->point.x - patch->x0) / patch->cell,
           .from_y = (foot->point.y - patch->y0) / patch->cell,
-          .outward = options->outward ? imprint : NULL,
+          .cut = fmin(dp_length(options->cut), 1.0),
+          .cut_x = cut_dir.x,
+          .cut_y = cut_dir.y,
+          .imprint = imprint,
     };
-    if (!isfinite(shares.beta) || !isfinite(shares.from_x) || !isfinite(shares.from_y))
+    if (!isfinite(shares.beta) || !isfinite(shares.cut) || !isfinite(shares.from_x) ||
+        !isfinite(shares.from_y))
         return DP_BAD_ARGUMENT;
     if (!look_at_border(patch, imprint, &shares)) return DP_NO_GROUND;
     if (volume <= 0.0) return DP_OK;
-    if (shares.outward) find_sides(patch, imprint, &shares);
+    if (shares.cut > 0.0) find_sides(patch, imprint, &shares);
 
     if (options->law == DP_HEAP_PAPER)
         return dp_soil_heap_paper(patch, imprint, &shares, volume, options->rim_width, scratch);

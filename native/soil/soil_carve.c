@@ -17,7 +17,6 @@
 
 #define TOUCHES 5e-4  // a surface that is so close below the underside touches it [m]
 #define NOISE 1e-7    // less than this is not cut, but pressed [m]
-#define CARVE_GRID ldexp(1.5, 52 - 46)  // for sums of heights: steps of 1.4e-14 m, up to 128 m
 
 // depth below h0 to which a cell's column is lowered, of which the body covers the share a [m]
 static double goal_of(double underside, double share)
@@ -39,30 +38,15 @@ static double cut_share(const DpDescent* descent, double x, double y, double z, 
 // lower one column by `over` [m]
 static void lower(DpSoilPatch* patch, size_t p, double over, double cut, DpCarved* carved)
 {
-    const float  c = patch->compression[p], b = patch->heap[p];
-    const double loose = soil_min(over, (double)b);
-    patch->heap[p] = (float)((double)b - loose);
-    patch->compression[p] = (float)((double)c + (over - loose));
-
-    // the ledger counts what the float grids really hold
-    const double out_of_heap = (double)b - (double)patch->heap[p];
-    const double out_of_firm = (double)patch->compression[p] - (double)c;
-    const double elastic = patch->spring ? dp_soil_spring_press(patch, p, (double)c) : 0.0;
-    if (patch->spring && cut > 0.5) patch->spring[p] = 0.0f;  // what was cut off does not spring
-    const double lasting = out_of_firm - elastic;
-    const double nu = dp_law_poisson(patch, p, (double)c, (double)patch->compression[p]);
-    const double loose_cut = soil_on_grid(cut * out_of_heap, CARVE_GRID);
-    const double firm_cut = soil_on_grid(cut * lasting, CARVE_GRID);
+    const double loose = soil_min(over, (double)patch->heap[p]);
+    const Cut    taken = dp_cut_cell(patch, p, loose, over - loose, cut);
     DpPressed*   pressed = &carved->pressed;
-    carved->cut_loose += loose_cut;
-    carved->cut_firm += firm_cut;
-    const double loose_pressed = soil_on_grid(out_of_heap - loose_cut, CARVE_GRID);
-    const double firm_pressed = soil_on_grid(lasting - firm_cut, CARVE_GRID);
-    pressed->loose += loose_pressed;
-    pressed->firm += firm_pressed;
-    pressed->elastic += soil_on_grid(elastic, CARVE_GRID);
-    pressed->displaced +=
-        soil_on_grid(2.0 * nu * firm_pressed, CARVE_GRID) + loose_pressed;  // SOFT22 (12)
+    carved->cut_loose += taken.loose;
+    carved->cut_firm += taken.firm;
+    pressed->loose += taken.loose_pressed;
+    pressed->firm += taken.firm_pressed;
+    pressed->elastic += taken.elastic;
+    pressed->displaced += taken.displaced;
 }
 
 // the pressure of a column under the body, as if it was a spring [Pa]

@@ -57,6 +57,27 @@ typedef struct Target
 } Target;
 void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed);
 
+// soil_cut.c: take loose and firm soil [m] off a column, a share `cut` of it as by a blade, the rest pressed; sums are in
+// [m] of columns
+typedef struct Cut
+{
+    double firm, loose;                                      // cut
+    double firm_pressed, loose_pressed, elastic, displaced;  // DpPressed has what they are
+} Cut;
+Cut dp_cut_cell(DpSoilPatch* patch, size_t p, double loose, double firm, double cut);
+
+// soil_plough.c: a law goes twice over what it presses if the sole slides: first it tells the target of each cell, and what is
+// in the way is cut; then it presses.
+typedef enum Turn
+{
+    TELLS,
+    PRESSES
+} Turn;
+Turn dp_plough_begin(const DpSoilPatch* patch, DpImprint* imprint);
+void dp_plough_press(DpSoilPatch* patch, DpImprint* imprint, size_t p, Target target, Turn turn,
+                     double dt, DpPressed* pressed);
+void dp_plough(DpSoilPatch* patch, const DpImprint* imprint, DpPressed* pressed);
+
 // Begin with a sole: the ground as it would go on where there is none, level with the plane of `normal`.
 void dp_columns_begin(Sole* sole, const DpSoilPatch* patch, const DpImprint* imprint,
                       DpVec3 normal);

@@ -195,11 +195,27 @@ static double min_area(const Sole* sole, const Balance* balance)
     return soil_min(soil_max(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
 }
 
+// press the columns that carry, sunk by s
+static void press_springs(DpSoilPatch* patch, DpImprint* imprint, const Columns* columns, double s,
+                          Turn turn, double dt, DpPressed* pressed)
+{
+    const double area = patch->cell * patch->cell;
+    for (int k = 0; k < columns->count; ++k) {
+        const double t = columns->gap[k] + s, rigid = columns->rigid[k];
+        const double x = spring_length(t, rigid);
+        const size_t p = columns->cell[k];
+        if (x <= 0.0 || p == NOWHERE) continue;
+        const double stress = columns->spring[k] * x / (columns->share[k] * area);
+        const Target target = {soil_min(t, rigid), stress, columns->share[k]};
+        dp_plough_press(patch, imprint, p, target, turn, dt, pressed);
+    }
+}
+
 // `sole`: balance, then press what carries
 static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balance* balance,
                        double dt, DpPressed* pressed)
 {
-    const double area = patch->cell * patch->cell, smallest = min_area(sole, balance);
+    const double smallest = min_area(sole, balance);
     Answer       found;
     double       s = sink_of(sole, balance, &found);
     if (found.area > 0.0 && found.area < smallest) {
@@ -208,21 +224,12 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
     }
     pressed->sink = s;
     pressed->area = found.area;
-    for (dp_columns_rewind(sole); dp_columns_next(sole);)
-        for (int c = 0; c < sole->filled; ++c) {
-            const Columns* columns = &sole->chunk[c];
-            for (int k = 0; k < columns->count; ++k) {
-                const double t = columns->gap[k] + s, rigid = columns->rigid[k];
-                const double x = spring_length(t, rigid);
-                if (x <= 0.0) continue;
-                const size_t p = columns->cell[k];
-                if (p == NOWHERE) continue;
-                const double stress = columns->spring[k] * x / (columns->share[k] * area);
-                imprint->ring[p] = 0;
-                dp_press_cell(patch, p, (Target){soil_min(t, rigid), stress, columns->share[k]}, dt,
-                              pressed);
-            }
-        }
+    for (Turn turn = dp_plough_begin(patch, imprint); turn <= PRESSES; ++turn) {
+        for (dp_columns_rewind(sole); dp_columns_next(sole);)
+            for (int c = 0; c < sole->filled; ++c)
+                press_springs(patch, imprint, &sole->chunk[c], s, turn, dt, pressed);
+        if (turn == TELLS) dp_plough(patch, imprint, pressed);
+    }
 }
 
 // height of the ground under the covered share of a cell over the sole's underside
@@ -240,6 +247,20 @@ static double uniform_depth(const DpSoilPatch* patch, size_t p, double stress, d
     if (dp_law_own(soil) || patch->layers)
         return dp_law_kind_depth(patch, patch->kind[p], width, stress / dp_law_firmness(patch, p));
     return stress * (rigid / SOIL_RIGID) / (double)patch->modulus[p];
+}
+
+// press the columns that touch, which all bear the same stress
+static void press_evenly(DpSoilPatch* patch, DpImprint* imprint, const Columns* columns,
+                         double stress, double width, Turn turn, double dt, DpPressed* pressed)
+{
+    for (int k = 0; k < columns->count; ++k) {
+        const size_t p = columns->cell[k];
+        if (p == NOWHERE || imprint->ring[p] != 0) continue;
+        const double rigid = columns->rigid[k];
+        const double depth = uniform_depth(patch, p, stress, rigid, width);
+        const Target target = {soil_min(depth, rigid), stress, columns->share[k]};
+        dp_plough_press(patch, imprint, p, target, turn, dt, pressed);  // SOFT22 (10)
+    }
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
@@ -265,18 +286,12 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
     area *= patch->cell * patch->cell;
     stress = balance->load / soil_max(area, min_area(sole, balance));  // SOFT22 (9)
 
-    for (dp_columns_rewind(sole); dp_columns_next(sole);)
-        for (int c = 0; c < sole->filled; ++c)
-            for (int k = 0; k < sole->chunk[c].count; ++k) {
-                const Columns* columns = &sole->chunk[c];
-                const size_t   p = columns->cell[k];
-                if (p == NOWHERE || imprint->ring[p] != 0) continue;
-                const double rigid = columns->rigid[k];
-                const double depth = uniform_depth(patch, p, stress, rigid, width);
-                dp_press_cell(patch, p, (Target){soil_min(depth, rigid), stress, columns->share[k]},
-                              dt,
-                              pressed);  // SOFT22 (10)
-            }
+    for (Turn turn = dp_plough_begin(patch, imprint); turn <= PRESSES; ++turn) {
+        for (dp_columns_rewind(sole); dp_columns_next(sole);)
+            for (int c = 0; c < sole->filled; ++c)
+                press_evenly(patch, imprint, &sole->chunk[c], stress, width, turn, dt, pressed);
+        if (turn == TELLS) dp_plough(patch, imprint, pressed);
+    }
     pressed->sink = -highest;
     pressed->area = area;
 }
@@ -313,5 +328,7 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     pressed->elastic *= area;
     pressed->loose *= area;
     pressed->displaced *= area;
+    pressed->cut_firm *= area, pressed->cut_loose *= area;
+    pressed->cut_x *= area, pressed->cut_y *= area;
     return DP_OK;
 }

@@ -167,14 +167,14 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double slope, doub
             const double share = dp_soil_heap_share(shares, patch, i, j);
             if (!(share > 0.0)) continue;
             const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
-            const bool   spills = shares->outward && !shares->even;
+            const bool   spills = shares->cut > 0.0 && !shares->even;
             const double within = spills ? dp_soil_heap_within(shares, i, j) : 0.0;
             heap->apex[count++] = (Apex){.i = i,
                                          .j = j,
                                          .ground = firm,
                                          .root = sqrt(share),
                                          .away = edge_of(patch, imprint, i, j),
-                                         .spills = spills ? shares->beta : 0.0,
+                                         .spills = spills ? shares->cut : 0.0,
                                          .climbs = within * patch->cell * slope};
             sum += share;
             *box = dp_cells_with(*box, i, j);

@@ -19,7 +19,7 @@ static double ahead_of(const HeapShares* shares, int i, int j)
     return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
 }
 
-// the same with u away from the touched cells around a border cell
+// the same for what was cut, with u away from the touched cells around a border cell
 static double outward_of(const HeapShares* shares, const DpSoilPatch* patch, int i, int j)
 {
     int x = 0, y = 0;
@@ -27,17 +27,17 @@ static double outward_of(const HeapShares* shares, const DpSoilPatch* patch, int
         for (int di = -1; di <= 1; ++di) {
             const bool inside =
                 i + di >= 0 && i + di < patch->nx && j + dj >= 0 && j + dj < patch->ny;
-            if (!inside || shares->outward->ring[soil_at(patch, i + di, j + dj)] != 0) continue;
+            if (!inside || shares->imprint->ring[soil_at(patch, i + di, j + dj)] != 0) continue;
             x -= di, y -= dj;
         }
     if (x == 0 && y == 0) return 0.0;
     const double far = sqrt((double)(x * x + y * y));
-    return fmax((shares->dir_x * x + shares->dir_y * y) / far, 0.0);  // TRAIL (11)
+    return fmax((shares->cut_x * x + shares->cut_y * y) / far, 0.0);  // TRAIL (11)
 }
 
 double dp_soil_heap_within(const HeapShares* shares, int i, int j)
 {
-    const double across = shares->dir_x * j - shares->dir_y * i;
+    const double across = shares->cut_x * j - shares->cut_y * i;
     const double within = soil_min(across - shares->left, shares->right - across);
     return soil_on_grid(soil_max(within, 0.0), ldexp(1.5, 52 - 20));
 }
@@ -48,9 +48,9 @@ double dp_soil_heap_share(const HeapShares* shares, const DpSoilPatch* patch, in
     const double coarse = ldexp(1.5, 52 - 30);
     double       share = 1.0;
     if (!shares->even) {
-        const double ahead =
-            shares->outward ? outward_of(shares, patch, i, j) : ahead_of(shares, i, j);
-        share = shares->beta * ahead + (1.0 - shares->beta);  // TRAIL (12)
+        share = shares->beta * ahead_of(shares, i, j) + (1.0 - shares->beta);  // TRAIL (12)
+        if (shares->cut > 0.0)
+            share = shares->cut * outward_of(shares, patch, i, j) + (1.0 - shares->cut) * share;
     }
     if (patch->uneven)
         share *= dp_noise_growth(RIM_SHARE * (double)patch->uneven[soil_at(patch, i, j)]);

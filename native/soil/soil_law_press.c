@@ -128,18 +128,19 @@ void dp_law_press(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double loa
     }
     pressed->sink = s;
     pressed->area = found.area;
-    for (dp_columns_rewind(sole); dp_columns_next(sole);)
-        for (int c = 0; c < sole->filled; ++c)
-            for (int k = 0; k < sole->chunk[c].count; ++k) {
-                const Columns* columns = &sole->chunk[c];
-                const size_t   p = columns->cell[k];
-                const double   depth = columns->gap[k] + s;
-                if (!(depth > 0.0) || p == NOWHERE) continue;
-                const double stress = stress_of(sole, &balance, columns, k, s);
-                imprint->ring[p] = 0;
-                dp_press_cell(
-                    patch, p,
-                    (Target){soil_min(depth, columns->rigid[k]), stress, columns->share[k]}, dt,
-                    pressed);
-            }
+    for (Turn turn = dp_plough_begin(patch, imprint); turn <= PRESSES; ++turn) {
+        for (dp_columns_rewind(sole); dp_columns_next(sole);)
+            for (int c = 0; c < sole->filled; ++c)
+                for (int k = 0; k < sole->chunk[c].count; ++k) {
+                    const Columns* columns = &sole->chunk[c];
+                    const size_t   p = columns->cell[k];
+                    const double   depth = columns->gap[k] + s;
+                    if (!(depth > 0.0) || p == NOWHERE) continue;
+                    const double stress = stress_of(sole, &balance, columns, k, s);
+                    const Target target = {soil_min(depth, columns->rigid[k]), stress,
+                                           columns->share[k]};
+                    dp_plough_press(patch, imprint, p, target, turn, dt, pressed);
+                }
+        if (turn == TELLS) dp_plough(patch, imprint, pressed);
+    }
 }

@@ -112,7 +112,7 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     w.patch.soils = &w.soil;
     DpImprintScratch*   rasters = dp_imprint_scratch_create();
     DpSoilScratch*      scratch = dp_soil_scratch_create();
-    const DpHeapOptions options = {law, 0.04, 0.5 * 75.0 * DP_GRAVITY, false};
+    const DpHeapOptions options = {law, 0.04, 0.5 * 75.0 * DP_GRAVITY, {0.0, 0.0, 0.0}};
     const int           rings = law == DP_HEAP_PAPER ? 2 + (int)(0.04 / cell) : 1;
     Cost                cost = {0};
     double              height = 0.0;

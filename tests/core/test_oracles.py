@@ -35,7 +35,8 @@ FOOT = gaits.box(0.25, 0.11)  # 0.0275 m^2
 
 
 def ledger(report, nu):
-    return 2 * nu * (report["pressed_m3"] + report["pressed_heap_m3"]) - report["pressed_heap_m3"]
+    laid = 2 * nu * (report["pressed_m3"] + report["pressed_heap_m3"])
+    return laid + report["loosened_m3"] - report["pressed_heap_m3"]  # what slides has cut some
 
 
 @pytest.mark.parametrize("law", ["sole", "uniform"])

@@ -50,19 +50,22 @@ TEST(what_finds_no_place_waits)
     DpSoilPatch    patch = patch_of(4, &soil);
     for (int step = 1; step <= 2; ++step) {
         stand_there(scratch, &patch);
-        CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 1e-5, 350.0) == DP_OK);
+        CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 1e-5, 350.0,
+                          dp_vec3(0.0, 0.0, 0.0)) == DP_OK);
         CHECK_NEAR(limb->unlaid, step * 1e-5, 1e-18);
         CHECK_NEAR(limb->laid, 0.0, 0.0);
     }
     patch = patch_of(40, &soil);
     stand_there(scratch, &patch);
-    CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 3e-5, 350.0) == DP_OK);
+    CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 3e-5, 350.0, dp_vec3(0.0, 0.0, 0.0)) ==
+          DP_OK);
     CHECK_NEAR(limb->unlaid, 0.0, 0.0);
     CHECK_CLOSE(limb->laid, 5e-5, 1e-9);
     double lies = 0.0;
     for (int k = 0; k < 40 * 40; ++k) lies += (double)kept[1][k] * CELL * CELL;
     CHECK_CLOSE(lies, 5e-5, 1e-6);
-    CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 0.0, 350.0) == DP_OK);
+    CHECK(dp_limb_lay(s.sim, limb, &patch, scratch, &foot, 0.0, 350.0, dp_vec3(0.0, 0.0, 0.0)) ==
+          DP_OK);
     CHECK_CLOSE(limb->laid, 5e-5, 1e-9);
     stand_drop(&s);
 }

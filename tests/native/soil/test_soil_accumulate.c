@@ -3,8 +3,8 @@
 #include "check.h"
 #include "ground.h"
 
-static const DpHeapOptions rest = {DP_HEAP_REST, 0.04, 367.0, false};
-static const DpHeapOptions paper = {DP_HEAP_PAPER, 0.04, 367.0, false};
+static const DpHeapOptions rest = {DP_HEAP_REST, 0.04, 367.0, {0.0, 0.0, 0.0}};
+static const DpHeapOptions paper = {DP_HEAP_PAPER, 0.04, 367.0, {0.0, 0.0, 0.0}};
 
 static DpSoil sand(double degrees)
 {
@@ -189,7 +189,7 @@ TEST(what_a_face_pushes_is_highest_in_the_middle)
 {
     double mid[2], side[2];
     for (int face = 0; face < 2; ++face) {
-        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, face != 0};
+        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, {face, 0.0, 0.0}};
         Ground              ground = ground_make(120, 80, 0.01, sand(30.0));
         touch(&ground, (BoxSole){.length = 0.20, .width = 0.20}, 6);
         DpFootForce foot = ground_load(700.0);
@@ -211,7 +211,7 @@ TEST(a_face_with_nobody_ahead_lays_evenly)
 {
     float* laid[2];
     for (int push = 0; push < 2; ++push) {
-        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, true};
+        const DpHeapOptions ahead = {DP_HEAP_REST, 0.04, 367.0, {0.0, 0.0, 0.0}};
         Ground              ground = ground_make(60, 60, 0.01, sand(20.0));
         for (int j = 0; j < 60; ++j)
             for (int i = 30; i < 60; ++i) ground.base_height[j * 60 + i] = NAN;
@@ -244,7 +244,7 @@ TEST(paper_falls_off)
     CHECK(row[39] == 0.0f);
     for (int n = 1; n < 5; ++n) {  // the width is what is said, in metres
         memset(ground.heap, 0, 3600 * sizeof(float));
-        const DpHeapOptions wide = {DP_HEAP_PAPER, 0.01 * n, 367.0, false};
+        const DpHeapOptions wide = {DP_HEAP_PAPER, 0.01 * n, 367.0, {0.0, 0.0, 0.0}};
         CHECK(lay(&ground, ground_load(700.0), 1e-4, &wide, &height) == DP_OK);
         CHECK(row[34 + n] > 0.0f && row[35 + n] == 0.0f);
         CHECK_CLOSE(ground_sum(&ground, ground.heap), 1e-4, 1e-6);

@@ -36,16 +36,21 @@ TEST(a_cell_ahead_of_the_push_asks_for_more)
     ground_free(&ground);
 }
 
-TEST(outward_is_away_from_the_touched_cells_around_it)
+// what was cut goes away from the touched cells around a border cell, the rest as without
+TEST(what_was_cut_goes_one_way)
 {
     Ground   ground = ground_make(SIDE, SIDE, 0.01, dp_soil_default());
     unsigned seed = 6;
     for (int turn = 0; turn < 200; ++turn) {
         const double     angle = 2.0 * DP_PI * check_random(&seed);
         const HeapShares s = {.beta = check_random(&seed),
-                              .dir_x = cos(angle),
-                              .dir_y = sin(angle),
-                              .outward = &ground.imprint};
+                              .dir_y = 1.0,
+                              .from_x = 3.0,
+                              .cut = turn % 20 ? check_random(&seed) : 1.0,
+                              .cut_x = cos(angle),
+                              .cut_y = sin(angle),
+                              .imprint = &ground.imprint};
+        const HeapShares cut = {.beta = s.cut, .dir_x = s.cut_x, .dir_y = s.cut_y};
         for (int k = 0; k < SIDE * SIDE; ++k)
             ground.imprint.ring[k] = check_random(&seed) < 0.3 ? 0 : 1;
         const int i = (int)(SIDE * check_random(&seed)), j = (int)(SIDE * check_random(&seed));
@@ -56,7 +61,9 @@ TEST(outward_is_away_from_the_touched_cells_around_it)
                 continue;
             x += i - u, y += j - v;
         }
-        CHECK_NEAR(dp_soil_heap_share(&s, &ground.patch, i, j), want(&s, x, y), 2e-9);
+        const double ahead = want(&cut, x, y) - (1.0 - s.cut);
+        const double rest = (1.0 - s.cut) * want(&s, i - s.from_x, j - s.from_y);
+        CHECK_NEAR(dp_soil_heap_share(&s, &ground.patch, i, j), ahead + rest, 2e-9);
     }
     ground_free(&ground);
 }
@@ -84,7 +91,7 @@ TEST(shares_differ_from_place_to_place_on_rough_ground_only)
 int main(void)
 {
     RUN(a_cell_ahead_of_the_push_asks_for_more);
-    RUN(outward_is_away_from_the_touched_cells_around_it);
+    RUN(what_was_cut_goes_one_way);
     RUN(shares_differ_from_place_to_place_on_rough_ground_only);
     return check_done();
 }

@@ -57,7 +57,7 @@ static double steepest(const Ground* ground)
 static double footfall(Ground* ground, BoxSole sole, double newton, DpHeapLaw law, double* ledger)
 {
     DpSoilScratch*      scratch = dp_soil_scratch_create();
-    const DpHeapOptions options = {law, 0.04, 0.5 * newton, false};
+    const DpHeapOptions options = {law, 0.04, 0.5 * newton, {0.0, 0.0, 0.0}};
     double              height = 0.0, top = 0.0;
     const int           frames = 36;
     for (int f = 0; f < frames; ++f) {

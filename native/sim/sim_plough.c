@@ -1,0 +1,67 @@
+// sim/sim_plough.c - what a sole that slides while it presses pushes ahead. MODEL 6.18
+//
+//   poses of its parts, by what they bear, and slip --> how its points go --(soil_plough.c)--> cut --> laid ahead
+#include "base/vec.h"
+#include "sim/sim_inside.h"
+
+#define STILL 1e-6  // what goes no farther along the ground in a step stands [m]
+
+// what a part bears at fraction `w` of an interval [N]
+static double borne(const DpSim* sim, int part, int sample, double w)
+{
+    double sum = 0.0;
+    for (int end = 0; end < 2; ++end) {
+        DpPartState state;
+        if (dp_motion_part(sim->motion, part, sample + end, &state))
+            sum += (end ? w : 1.0 - w) * fmax(0.0, -state.force.z);
+    }
+    return sum;
+}
+
+static void add(DpSlide* slide, const Moved* m, DpVec3 middle, double share)
+{
+    const DpVec3 at = dp_sub(dp_sub(middle, m->from), dp_turn(m->turn, dp_sub(middle, m->to)));
+    const DpVec3 x = dp_turn(m->turn, dp_vec3(1.0, 0.0, 0.0));
+    const DpVec3 y = dp_turn(m->turn, dp_vec3(0.0, 1.0, 0.0));
+    const DpVec3 z = dp_turn(m->turn, dp_vec3(0.0, 0.0, 1.0));
+    slide->at[0] += share * at.x, slide->at[1] += share * at.y;
+    slide->by_x[0] += share * (1.0 - x.x), slide->by_x[1] -= share * x.y;
+    slide->by_y[0] -= share * y.x, slide->by_y[1] += share * (1.0 - y.y);
+    slide->by_z[0] -= share * z.x, slide->by_z[1] -= share * z.y;
+}
+
+static bool stands(const DpSlide* slide, double wide)
+{
+    double farthest = 0.0;
+    for (int k = 0; k < 2; ++k)
+        farthest += fabs(slide->at[k]) +
+                    (fabs(slide->by_x[k]) + fabs(slide->by_y[k]) + fabs(slide->by_z[k])) * wide;
+    return !(farthest > STILL);
+}
+
+bool dp_limb_slides(const DpSim* sim, const Limb* limb, const DpSoilPatch* patch, int sample,
+                    double w0, double w1, DpVec3 slipped, DpSlide* slide)
+{
+    const double w = 0.5 * (w0 + w1);
+    const DpVec3 middle = dp_vec3(patch->x0 + 0.5 * (double)(patch->nx - 1) * patch->cell,
+                                  patch->y0 + 0.5 * (double)(patch->ny - 1) * patch->cell, 0.0);
+    double       all = 0.0;
+    for (int p = 0; p < limb->part_count; ++p) all += borne(sim, limb->part[p], sample, w);
+    *slide = (DpSlide){.at = {slipped.x, slipped.y}, .owed = limb->owed};
+    if (!(all > 0.0)) return false;
+    for (int p = 0; p < limb->part_count; ++p) {
+        const double share = borne(sim, limb->part[p], sample, w) / all;
+        if (!(share > 0.0)) continue;
+        const Moved m = dp_limb_moved(sim, limb->part[p], sample, w0, w1);
+        add(slide, &m, middle, share);
+    }
+    return !stands(slide, limb->length);
+}
+
+void dp_plough_count(Limb* limb, const DpPressed* pressed)
+{
+    const double cut = pressed->cut_firm + pressed->cut_loose;
+    limb->ploughs = limb->ploughs || cut > 0.0;
+    limb->loosened += pressed->cut_firm;
+    limb->laid -= cut;  // what is laid of it was not displaced
+}
